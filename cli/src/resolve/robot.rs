@@ -1,0 +1,276 @@
+//! The robot with every name bound to what it means: what stage ③ makes and all later stages read.
+//!
+//! Invariant: no file is needed any more to understand it, and nothing in it is undecided.
+
+use std::time::Duration;
+
+use camino::Utf8PathBuf;
+
+/// A robot: its cyclers, what they exchange, and the targets it runs on.
+#[derive(Clone, Debug)]
+pub struct Robot {
+    pub name: String,
+    /// Folder of the generated crate, relative to the workspace root.
+    pub generated: Utf8PathBuf,
+    /// Folder of the parameter files, relative to the workspace root.
+    pub parameters: Utf8PathBuf,
+    pub identities: Vec<String>,
+    /// In manifest order.
+    pub cyclers: Vec<Cycler>,
+    pub targets: Vec<Target>,
+    /// Every declared parameter path, instances expanded, sorted by path.
+    pub parameter_tree: Tree<Reader>,
+    /// Crates that generated code names, sorted by name: node crates, crates of exchanged types.
+    pub crates: Vec<Dependency>,
+    /// Edges whose types could not be resolved fully and are left to rustc.
+    pub left_to_rustc: usize,
+}
+
+/// A crate that the generated crate depends on.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Dependency {
+    /// As written in `use`: the library's name.
+    pub name: String,
+    /// The right side of its line in `[dependencies]`, for example `{ workspace = true }`.
+    pub requirement: String,
+    /// Only behind the feature of these targets.
+    pub targets: Vec<String>,
+}
+
+/// A binary with its hardware.
+#[derive(Clone, Debug)]
+pub struct Target {
+    pub name: String,
+    /// Absolute path of the hardware type, for example `simulated_nao::Hardware`.
+    pub hardware: String,
+    pub triple: Option<String>,
+    pub cpu: Option<String>,
+    pub profile: Option<String>,
+    pub location: Option<String>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CyclerKind {
+    Perception,
+    RealTime,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum OnFailure {
+    #[default]
+    Stop,
+    Restart,
+    Skip,
+    Hold,
+}
+
+/// Nodes that a driver runs again and again.
+#[derive(Clone, Debug)]
+pub struct Cycler {
+    /// UpperCamelCase, as in the manifest.
+    pub name: String,
+    pub kind: CyclerKind,
+    /// In manifest order; at least one.
+    pub instances: Vec<Instance>,
+    /// Setup nodes first, then nodes, both in manifest order.
+    pub nodes: Vec<Node>,
+    /// Every main output of its nodes, sorted by name.
+    pub outputs: Vec<Output>,
+    pub additional_outputs: Tree<Writer>,
+    pub states: Tree<StateUse>,
+    pub on_failure: OnFailure,
+    pub pending_timeout: Duration,
+    pub queue: usize,
+    pub watchdog: Duration,
+    pub history: Duration,
+    pub lockstep_duration: Option<Duration>,
+}
+
+/// One running copy of a cycler.
+#[derive(Clone, Debug)]
+pub struct Instance {
+    /// Cycler name and suffix: `VisionTop`.
+    pub name: String,
+    pub deadline: Option<Duration>,
+    pub scheduling: Scheduling,
+}
+
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Scheduling {
+    /// `fifo`, `round-robin` or nothing for the system's.
+    pub policy: Option<String>,
+    pub priority: Option<u8>,
+    pub cores: Vec<usize>,
+}
+
+#[derive(Clone, Debug)]
+pub struct Node {
+    /// As in the manifest: `vision::ball_detection`; also its module's absolute path.
+    pub path: String,
+    /// Name of the state struct.
+    pub type_name: String,
+    pub setup: bool,
+    pub on_failure: OnFailure,
+    /// Relative to the workspace root.
+    pub file: Utf8PathBuf,
+    /// First sentence of the file's documentation, if any.
+    pub summary: Option<String>,
+    pub creation: Vec<Field<CreationBinding>>,
+    pub cycle: Vec<Field<CycleBinding>>,
+    pub outputs: Vec<Field<OutputBinding>>,
+    /// Whether the node has `restore`.
+    pub restores: bool,
+    pub new_bounds: Vec<Interface>,
+    pub cycle_bounds: Vec<Interface>,
+    pub restore_bounds: Vec<Interface>,
+}
+
+/// A field of one of the three contexts.
+#[derive(Clone, Debug)]
+pub struct Field<B> {
+    pub name: String,
+    pub binding: B,
+    /// Line of the field in the node's file, from 1.
+    pub line: usize,
+    /// Byte range of the field's type in the node's file.
+    pub range: std::ops::Range<usize>,
+}
+
+/// A hardware trait that a node asks for.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Interface {
+    /// Absolute path: `hardware::CameraInterface`.
+    pub path: String,
+    /// Whether a method returns anything but nothing; `None` where the trait was not found.
+    pub reading: Option<bool>,
+}
+
+/// A type as the generated crate names it.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct DataType {
+    /// Absolute, prelude types by bare name: `Vec<types::ball::Ball>`.
+    pub text: String,
+    /// Whether every name in it was resolved to a definition.
+    pub resolved: bool,
+}
+
+/// A path below a value: fields, each perhaps an `Option` that is looked into.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Access {
+    /// First is the output, state or parameter root; never empty.
+    pub segments: Vec<Segment>,
+    /// The written path, with `?` and `$cycler_instance`.
+    pub written: String,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Segment {
+    pub name: String,
+    /// `?` stands behind it.
+    pub optional: bool,
+    /// It was `$cycler_instance`; `name` is then `cycler_instance`.
+    pub instance: bool,
+}
+
+#[derive(Clone, Debug)]
+pub enum CreationBinding {
+    Parameter { access: Access, data: DataType },
+    CyclerState { access: Access, data: DataType, shared: bool },
+    HardwareInterface,
+}
+
+/// What a field of the cycle context is filled with. `data` is the type as written.
+#[derive(Clone, Debug)]
+pub enum CycleBinding {
+    /// This cycle's output of the own cycler.
+    OwnOutput { access: Access, data: DataType, producer: usize, checked: bool },
+    /// As `OwnOutput`; the node is skipped while something on the path is absent.
+    RequiredOwnOutput { access: Access, data: DataType, producer: usize, checked: bool },
+    /// Latest finished database of another instance (or of the own cycler's other instance).
+    OutputOf { instance: InstanceId, access: Access, data: DataType, producer: usize, checked: bool },
+    RequiredOutputOf { instance: InstanceId, access: Access, data: DataType, producer: usize, checked: bool },
+    Latest { instance: InstanceId, access: Access, data: DataType, producer: usize, checked: bool },
+    Previous { access: Access, data: DataType, producer: usize, checked: bool },
+    Historic { access: Access, data: DataType, producer: usize, checked: bool },
+    /// One instance, or all instances of a cycler interleaved (`interleaved`).
+    Perception { instances: Vec<InstanceId>, interleaved: bool, access: Access, data: DataType, producer: usize, checked: bool },
+    Parameter { access: Access, data: DataType },
+    CyclerState { access: Access, data: DataType, shared: bool },
+    CycleTime,
+    AdditionalOutput { access: Access, data: DataType },
+    Procedure { name: String, request: DataType, response: DataType },
+    HardwareInterface,
+    /// A main output written in place.
+    MainOutput { data: DataType },
+}
+
+/// What a field of `MainOutputs` is.
+#[derive(Clone, Debug)]
+pub enum OutputBinding {
+    MainOutput { data: DataType },
+    CaptureTime,
+}
+
+/// An instance by position: cycler in the robot, instance in the cycler.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct InstanceId {
+    pub cycler: usize,
+    pub instance: usize,
+}
+
+/// A main output of a cycler.
+#[derive(Clone, Debug)]
+pub struct Output {
+    pub name: String,
+    pub data: DataType,
+    /// Position in `Cycler::nodes` of the node that writes it.
+    pub producer: usize,
+    pub in_place: bool,
+    /// Another instance reads it (latest or perception), so it lives in the slots.
+    pub shared: bool,
+    /// Some node reads it as historic.
+    pub historic: bool,
+    /// Some node reads it as previous, or its producer holds.
+    pub previous: bool,
+}
+
+/// Declared paths of one tree (parameters, states, additional outputs), sorted by name.
+#[derive(Clone, Debug)]
+pub struct Tree<U> {
+    pub branches: Vec<Branch<U>>,
+}
+
+#[derive(Clone, Debug)]
+pub struct Branch<U> {
+    pub name: String,
+    pub content: Content<U>,
+}
+
+#[derive(Clone, Debug)]
+pub enum Content<U> {
+    /// A declared value, and who uses it (also those who use a field below it).
+    Leaf { data: DataType, users: Vec<U> },
+    Inner(Tree<U>),
+    /// In the parameter tree: the shared shape of one cycler's instances (`$cycler_instance`).
+    Instance { cycler: usize, tree: Tree<U> },
+}
+
+/// Who reads a parameter: a node of a cycler, by path.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Reader {
+    pub cycler: usize,
+    pub node: String,
+}
+
+/// Who writes an additional output.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Writer {
+    pub node: String,
+}
+
+/// Who uses a cycler state, and how.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct StateUse {
+    pub node: String,
+    pub shared: bool,
+}

@@ -1,0 +1,1 @@
+//! hulkgen-framework-macros

@@ -1,0 +1,1 @@
+//! nao_runtime
