@@ -1,1 +1,44 @@
-//! hardware
+//! What the nodes ask of the robot's body: one trait for each thing that hardware can do.
+//!
+//! A hardware crate implements those that its platform has; the generated code asks for the ones
+//! that the nodes name. `read_…` belongs to setup nodes, since a recording keeps what they returned.
+
+use framework::{Result, Timestamp};
+use types::camera::CameraPosition;
+use types::image::YuyvImage;
+use types::leds::Leds;
+use types::motor_commands::MotorCommands;
+use types::sensor_data::SensorData;
+
+/// Reads the sensors of the body.
+pub trait SensorInterface {
+    /// Waits for the next sample of all sensors and says when it was taken.
+    ///
+    /// # Errors
+    /// `Stopped` within 100 ms of a stop; `NoEvent` where the body was silent or sent garbled data:
+    /// ask again.
+    fn read_sensors(&self) -> Result<(Timestamp, SensorData)>;
+}
+
+/// Commands motors and lights.
+pub trait ActuatorInterface {
+    /// Sends one command to all motors and lights; the body takes about 36 ms to follow.
+    ///
+    /// A body that went away meanwhile is no error: the next read notices it. In safe state the
+    /// hardware drops the command.
+    ///
+    /// # Errors
+    /// Where the command cannot be sent at all.
+    fn write_command(&self, motors: &MotorCommands, leds: &Leds) -> Result<()>;
+}
+
+/// Reads the cameras of the head.
+pub trait CameraInterface {
+    /// Waits for the next image of one camera, writes it into `image`, and says when it was taken.
+    ///
+    /// `image` keeps its heap, so that nothing is allocated once it has had its size.
+    ///
+    /// # Errors
+    /// `Stopped` within 100 ms of a stop; `NoEvent` where no image came or it was garbled: ask again.
+    fn read_image(&self, position: CameraPosition, image: &mut YuyvImage) -> Result<Timestamp>;
+}

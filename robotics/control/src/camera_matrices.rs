@@ -1,0 +1,173 @@
+//! Computes for both cameras where they are above the ground, so that pixels become places.
+//!
+//! The ground frame lies on the floor midway between the soles, level, with x along the torso's
+//! heading. While the robot does not stand, the floor could be anywhere: there are no matrices.
+
+use framework::{Input, MainOutput, Parameter, RequiredInput, Result, context};
+use kinematics::cameras::{camera_to_head, optical_to_camera};
+use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+use serde::{Deserialize, Serialize};
+use types::camera::{CameraCalibration, CameraMatrices, CameraMatrix, CameraPosition};
+use types::feet::Side;
+use types::robot_kinematics::RobotKinematics;
+
+/// Keeps nothing between cycles.
+#[derive(Debug, Deserialize, Serialize)]
+pub struct CameraMatricesProvider {}
+
+#[context]
+pub struct CreationContext {}
+
+#[context]
+pub struct CycleContext {
+    support_side: RequiredInput<Option<Side>, "support_side?">,
+    robot_kinematics: Input<RobotKinematics, "robot_kinematics">,
+    orientation: Input<UnitQuaternion<f32>, "orientation">,
+
+    /// How the top camera of this robot sees.
+    top: Parameter<CameraCalibration, "cameras.top">,
+    /// How the bottom camera of this robot sees.
+    bottom: Parameter<CameraCalibration, "cameras.bottom">,
+}
+
+#[context]
+pub struct MainOutputs {
+    /// Of both cameras at the time of this cycle; `None` while the robot does not stand.
+    camera_matrices: MainOutput<Option<CameraMatrices>>,
+}
+
+impl CameraMatricesProvider {
+    /// Nothing to prepare.
+    pub fn new(_context: CreationContext) -> Result<Self> {
+        Ok(Self {})
+    }
+
+    /// From the ground through the supporting sole, torso, and head to the cameras.
+    pub fn cycle(&mut self, context: CycleContext) -> Result<MainOutputs> {
+        let torso_to_ground = torso_to_ground(
+            *context.support_side,
+            context.robot_kinematics,
+            context.orientation,
+        );
+        let head_to_ground = torso_to_ground * context.robot_kinematics.head_to_torso;
+        let matrix = |position, calibration: &CameraCalibration| CameraMatrix {
+            ground_to_camera: (head_to_ground * optical_to_head(position, calibration)).inverse(),
+            intrinsics: calibration.intrinsics(),
+        };
+        let camera_matrices = CameraMatrices {
+            top: matrix(CameraPosition::Top, context.top),
+            bottom: matrix(CameraPosition::Bottom, context.bottom),
+        };
+        Ok(MainOutputs {
+            camera_matrices: Some(camera_matrices).into(),
+        })
+    }
+}
+
+fn torso_to_ground(
+    support_side: Side,
+    kinematics: &RobotKinematics,
+    orientation: &UnitQuaternion<f32>,
+) -> Isometry3<f32> {
+    // The ground frame turns with the robot: only roll and pitch are left.
+    let (roll, pitch, _) = orientation.euler_angles();
+    let level = UnitQuaternion::from_euler_angles(roll, pitch, 0.0);
+    let soles = kinematics
+        .soles_to_torso
+        .map(|sole| level * sole.translation.vector);
+    let middle = (soles.left + soles.right) / 2.0;
+    let origin = Vector3::new(middle.x, middle.y, soles.on(support_side).z);
+    Isometry3::from_parts(Translation3::from(-origin), level)
+}
+
+fn optical_to_head(position: CameraPosition, calibration: &CameraCalibration) -> Isometry3<f32> {
+    let CameraCalibration {
+        roll, pitch, yaw, ..
+    } = *calibration;
+    let correction = UnitQuaternion::from_euler_angles(roll, pitch, yaw);
+    let mount = camera_to_head(position);
+    let rotation = correction * mount.rotation * optical_to_camera();
+    Isometry3::from_parts(mount.translation, rotation)
+}
+
+#[cfg(test)]
+mod tests {
+    use kinematics::forward_kinematics;
+    use nalgebra::{Point2, Point3};
+    use types::joints::Joints;
+
+    use super::*;
+
+    fn calibration() -> CameraCalibration {
+        CameraCalibration {
+            focal_x: 0.95,
+            focal_y: 1.27,
+            center_x: 0.5,
+            center_y: 0.5,
+            width: 640.0,
+            height: 480.0,
+            ..CameraCalibration::default()
+        }
+    }
+
+    fn matrices(positions: &Joints<f32>, orientation: UnitQuaternion<f32>) -> CameraMatrices {
+        let mut node = CameraMatricesProvider::new(CreationContext {}).unwrap();
+        let context = CycleContext {
+            support_side: &Side::Left,
+            robot_kinematics: &RobotKinematics::from(&forward_kinematics(positions)),
+            orientation: &orientation,
+            top: &calibration(),
+            bottom: &calibration(),
+        };
+        node.cycle(context).unwrap().camera_matrices.value.unwrap()
+    }
+
+    #[test]
+    fn upright_the_top_camera_is_as_high_as_the_robot() {
+        let top = matrices(&Joints::filled(0.0), UnitQuaternion::identity()).top;
+        let expected = Point3::new(0.05871, 0.0, 0.33309 + 0.19014);
+        assert!(
+            (top.position() - expected).norm() < 1e-5,
+            "{}",
+            top.position()
+        );
+    }
+
+    #[test]
+    fn the_optical_axis_of_the_bottom_camera_meets_the_floor_in_front_of_the_feet() {
+        let bottom = matrices(&Joints::filled(0.0), UnitQuaternion::identity()).bottom;
+        let center = Point2::from(bottom.intrinsics.center);
+        let point = bottom.pixel_to_ground(center, 0.0).unwrap();
+        let expected = 0.05071 + (0.33309 + 0.14424) / 0.692_895_7_f32.tan();
+        assert!((point.x - expected).abs() < 1e-4, "{point}");
+        assert!(point.y.abs() < 1e-5);
+    }
+
+    #[test]
+    fn the_heading_of_the_robot_makes_no_difference() {
+        let turned = UnitQuaternion::from_euler_angles(0.0, 0.0, 2.0);
+        let ahead = matrices(&Joints::filled(0.0), UnitQuaternion::identity()).top;
+        let top = matrices(&Joints::filled(0.0), turned).top;
+        assert!((top.position() - ahead.position()).norm() < 1e-5);
+    }
+
+    #[test]
+    fn leaning_forward_looks_nearer() {
+        let leaning = UnitQuaternion::from_euler_angles(0.0, 0.2, 0.0);
+        let center = Point2::new(320.0, 240.0);
+        let positions = Joints::filled(0.0);
+        let upright = matrices(&positions, UnitQuaternion::identity()).bottom;
+        let leaning = matrices(&positions, leaning).bottom;
+        let reach = |matrix: &CameraMatrix| matrix.pixel_to_ground(center, 0.0).unwrap().x;
+        assert!(reach(&leaning) < reach(&upright));
+    }
+
+    #[test]
+    fn a_head_turned_left_sees_the_left() {
+        let mut positions = Joints::filled(0.0);
+        positions.head_yaw = 0.5;
+        let top = matrices(&positions, UnitQuaternion::identity()).top;
+        let point = top.pixel_to_ground(Point2::new(320.0, 400.0), 0.0).unwrap();
+        assert!((point.y / point.x - 0.5_f32.tan()).abs() < 1e-3, "{point}");
+    }
+}

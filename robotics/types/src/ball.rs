@@ -1,0 +1,25 @@
+//! Owns balls: as an image shows them, and as the robot remembers them.
+
+use framework::{Clear, Reflect, Timestamp};
+use nalgebra::Point2;
+use serde::{Deserialize, Serialize};
+
+/// A circle in an image that looks like a ball.
+#[derive(Clear, Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
+pub struct BallCandidate {
+    /// Centre of the circle in px, x to the right, y down.
+    pub center: Point2<f32>,
+    /// Radius of the circle in px.
+    pub radius: f32,
+    /// Where it lies in the ground frame in m; `None` where the camera's pose is not known.
+    pub position: Option<Point2<f32>>,
+}
+
+/// The ball as the robot remembers it.
+#[derive(Clear, Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
+pub struct Ball {
+    /// Where it lies in the ground frame of this cycle in m: x forward, y left of the robot.
+    pub position: Point2<f32>,
+    /// When a camera saw it last.
+    pub seen_at: Timestamp,
+}
