@@ -1,1 +1,25 @@
-//! hulkgen-grammar
+//! The grammar of a node file: what stands in `CreationContext`, `CycleContext` and `MainOutputs`, and how `new`, `cycle`
+//! and `restore` are written.
+//!
+//! The macro `#[context]` and the scanner of `hulkgen` read node files with this crate, so that an editor and the command
+//! line never disagree. Nothing here panics on what an author writes: whatever cannot be read is a [`Mistake`] with the
+//! place, what was expected, and the deed that mends it.
+
+mod context;
+mod field;
+mod kind;
+mod mistake;
+mod nearest;
+mod path;
+pub mod signature;
+
+pub use context::{
+    AnyContext, Context, ContextKind, is_context_attribute, parse_context, structural_mistakes,
+};
+pub use field::{
+    AnyField, CreationField, CycleField, Field, FromInstance, FromOutput, OutputField, Pathed,
+    ProcedureName, ReadField, StatePath, option_argument, read_field,
+};
+pub use mistake::{Mistake, Rule};
+pub use path::{DataPath, Name, Segment, SegmentName};
+pub use signature::{Signature, Signatures, find_node};

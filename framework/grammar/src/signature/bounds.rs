@@ -1,0 +1,137 @@
+//! What a function asks of the hardware interface.
+
+use syn::punctuated::Punctuated;
+use syn::spanned::Spanned;
+use syn::{
+    GenericArgument, GenericParam, Ident, ImplItemFn, Path, PathArguments, PathSegment, Token,
+    Type, TypeParamBound, WherePredicate,
+};
+
+use super::check::{Expected, last_segment};
+use crate::field::{peel, written};
+use crate::mistake::Mistake;
+
+/// Traits asked of the parameter of a context: `CycleContext<impl A + B>`, or a type parameter with its bounds.
+pub(super) fn read_bounds(
+    expected: &Expected<'_>,
+    method: &ImplItemFn,
+    context: &PathSegment,
+    mistakes: &mut Vec<Mistake>,
+) -> Vec<Path> {
+    let mut bounds = Bounds(Vec::new());
+    let interface = interface_argument(context);
+    let parameter = interface.and_then(|interface| parameter_name(method, interface));
+    mistakes.extend(agreement_mistake(expected, context, interface));
+    mistakes.extend(stray_parameter(expected, method, parameter));
+    match (interface.map(peel), parameter) {
+        (None, _) => {}
+        (Some(Type::ImplTrait(interface)), _) => bounds.extend(&interface.bounds),
+        (Some(_), Some(parameter)) => bounds.extend_from_generics(method, parameter),
+        (Some(other), None) => {
+            let message = format!(
+                "`{}` asks for the hardware `{}`: a node works with any that has the traits it names",
+                expected.function,
+                written(other)
+            );
+            mistakes.push(expected.mistake(other.span(), message));
+        }
+    }
+    bounds.0
+}
+
+struct Bounds(Vec<Path>);
+
+impl Bounds {
+    fn extend(&mut self, bounds: &Punctuated<TypeParamBound, Token![+]>) {
+        for bound in bounds {
+            // `?Sized` and lifetimes ask nothing of the platform.
+            let TypeParamBound::Trait(bound) = bound else {
+                continue;
+            };
+            let plain = matches!(bound.modifier, syn::TraitBoundModifier::None);
+            if plain && !self.0.contains(&bound.path) {
+                self.0.push(bound.path.clone());
+            }
+        }
+    }
+
+    fn extend_from_generics(&mut self, method: &ImplItemFn, parameter: &Ident) {
+        for declared in method.sig.generics.type_params() {
+            if declared.ident == *parameter {
+                self.extend(&declared.bounds);
+            }
+        }
+        let clause = method.sig.generics.where_clause.iter();
+        for predicate in clause.flat_map(|clause| &clause.predicates) {
+            if let WherePredicate::Type(predicate) = predicate
+                && last_segment(&predicate.bounded_ty).is_some_and(|last| last.ident == *parameter)
+            {
+                self.extend(&predicate.bounds);
+            }
+        }
+    }
+}
+
+/// The type that a context is given; lifetimes do not count.
+fn interface_argument(context: &PathSegment) -> Option<&Type> {
+    let PathArguments::AngleBracketed(arguments) = &context.arguments else {
+        return None;
+    };
+    arguments.args.iter().find_map(|argument| match argument {
+        GenericArgument::Type(Type::Infer(_)) => None,
+        GenericArgument::Type(data) => Some(data),
+        _ => None,
+    })
+}
+
+fn parameter_name<'method>(method: &'method ImplItemFn, data: &Type) -> Option<&'method Ident> {
+    let written = last_segment(data)?;
+    let mut parameters = method.sig.generics.type_params();
+    parameters
+        .find(|parameter| parameter.ident == written.ident)
+        .map(|parameter| &parameter.ident)
+}
+
+/// The struct has an `Interface` exactly where it has a field `HardwareInterface`.
+fn agreement_mistake(
+    expected: &Expected<'_>,
+    context: &PathSegment,
+    interface: Option<&Type>,
+) -> Option<Mistake> {
+    let (function, name) = (expected.function, expected.context.name());
+    match (expected.hardware?, interface) {
+        (true, None) => {
+            let message = format!(
+                "`{function}` does not name the hardware traits of the `HardwareInterface` in `{name}`"
+            );
+            Some(expected.mistake(context.ident.span(), message))
+        }
+        (false, Some(interface)) => {
+            let message = format!("`{name}` has no field `HardwareInterface`");
+            Some(expected.mistake(interface.span(), message))
+        }
+        _ => None,
+    }
+}
+
+/// A type or const parameter that no argument gives a meaning.
+fn stray_parameter(
+    expected: &Expected<'_>,
+    method: &ImplItemFn,
+    interface: Option<&Ident>,
+) -> Option<Mistake> {
+    let stray = method
+        .sig
+        .generics
+        .params
+        .iter()
+        .find_map(|parameter| match parameter {
+            GenericParam::Lifetime(_) => None,
+            GenericParam::Type(parameter) => {
+                (Some(&parameter.ident) != interface).then_some(&parameter.ident)
+            }
+            GenericParam::Const(parameter) => Some(&parameter.ident),
+        })?;
+    let message = format!("nothing tells what `{stray}` of `{}` is", expected.function);
+    Some(expected.mistake(stray.span(), message))
+}

@@ -1,0 +1,168 @@
+//! `#[derive(Reflect)]`.
+
+mod enums;
+mod parts;
+mod structs;
+
+use proc_macro2::TokenStream as Tokens;
+use quote::quote;
+use syn::{Data, DeriveInput, parse_quote};
+
+use crate::serde_names::Container;
+
+/// The functions of the trait that depend on the parts of a type.
+#[derive(Default)]
+struct Functions {
+    /// Body of `shape`.
+    shape: Tokens,
+    /// Bodies of `child`, `child_mut` and `children`; none where the trait's own will do.
+    parts: Option<Walk>,
+}
+
+/// How to find the parts of a value.
+struct Walk {
+    child: Tokens,
+    child_mut: Tokens,
+    children: Tokens,
+}
+
+pub(crate) fn expand(item: &DeriveInput) -> syn::Result<Tokens> {
+    let container = Container::read(&item.attrs)?;
+    let functions = match &item.data {
+        _ if container.foreign => foreign(),
+        Data::Struct(data) => structs::functions(&data.fields, &container)?,
+        Data::Enum(data) => enums::functions(data, &container)?,
+        Data::Union(data) => {
+            let message = "`Reflect` is for structs and enums";
+            return Err(syn::Error::new(data.union_token.span, message));
+        }
+    };
+    Ok(quote_implementation(item, &functions))
+}
+
+/// A type whose serde form is that of another type: shown as a whole.
+fn foreign() -> Functions {
+    Functions {
+        shape: quote!(framework_reflect::Shape::leaf::<Self>(
+            framework_reflect::Leaf::Opaque
+        )),
+        parts: None,
+    }
+}
+
+fn quote_implementation(item: &DeriveInput, functions: &Functions) -> Tokens {
+    let name = &item.ident;
+    let mut generics = item.generics.clone();
+    for parameter in generics.type_params_mut() {
+        parameter
+            .bounds
+            .push(parse_quote!(framework_reflect::DeserializeOwned));
+        parameter
+            .bounds
+            .push(parse_quote!(framework_reflect::Reflect));
+        parameter
+            .bounds
+            .push(parse_quote!(framework_reflect::Serialize));
+    }
+    let (parameters, arguments, clause) = generics.split_for_impl();
+    let shape = &functions.shape;
+    let walk = functions.parts.as_ref().map(quote_walk);
+    quote! {
+        const _: () = {
+            use ::framework::reflect::derived as framework_reflect;
+
+            #[automatically_derived]
+            impl #parameters framework_reflect::Reflect for #name #arguments #clause {
+                fn shape() -> framework_reflect::Shape {
+                    #shape
+                }
+
+                #walk
+
+                fn as_serialize(&self) -> &dyn framework_reflect::erased_serde::Serialize {
+                    self
+                }
+
+                fn deserialize_from(
+                    &mut self,
+                    deserializer: &mut dyn framework_reflect::erased_serde::Deserializer<'_>,
+                ) -> ::core::result::Result<(), framework_reflect::erased_serde::Error> {
+                    *self = framework_reflect::erased_serde::deserialize(deserializer)?;
+                    ::core::result::Result::Ok(())
+                }
+            }
+        };
+    }
+}
+
+fn quote_walk(walk: &Walk) -> Tokens {
+    let Walk {
+        child,
+        child_mut,
+        children,
+    } = walk;
+    quote! {
+        fn child(
+            &self,
+            segment: &framework_reflect::Segment,
+        ) -> ::core::option::Option<&dyn framework_reflect::Reflect> {
+            #child
+        }
+
+        fn child_mut(
+            &mut self,
+            segment: &framework_reflect::Segment,
+        ) -> ::core::option::Option<&mut dyn framework_reflect::Reflect> {
+            #child_mut
+        }
+
+        fn children(&self) -> framework_reflect::Children {
+            #children
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::expand;
+
+    fn error(item: &str) -> String {
+        let item = syn::parse_str(item).expect("the item is written well");
+        expand(&item).expect_err("it has a mistake").to_string()
+    }
+
+    #[test]
+    fn what_reflect_does_not_know_is_told() {
+        for (item, message) in [
+            (
+                "union U { a: u8, b: f32 }",
+                "`Reflect` is for structs and enums",
+            ),
+            (
+                "struct S { #[reflect(units = \"m\")] a: u8 }",
+                "expected `unit = \"…\"` or `skip`",
+            ),
+            (
+                "enum E { A { #[reflect(unit = 5)] a: u8 } }",
+                "expected string literal",
+            ),
+        ] {
+            assert_eq!(error(item), message, "{item}");
+        }
+    }
+
+    #[test]
+    fn a_type_parameter_must_be_reflected_too() {
+        let item = syn::parse_str("struct Both<T> { left: T, right: T }").expect("it is a struct");
+        let tokens = expand(&item)
+            .expect("it has no mistake")
+            .to_string()
+            .replace(' ', "");
+        let bounds = ["DeserializeOwned", "Reflect", "Serialize"]
+            .map(|name| format!("framework_reflect::{name}"));
+        assert!(
+            tokens.contains(&format!("impl<T:{}>", bounds.join("+"))),
+            "{tokens}"
+        );
+    }
+}

@@ -1,0 +1,146 @@
+//! The names that serde gives to fields and variants, and which of them it leaves out.
+
+mod case;
+
+use proc_macro2::TokenStream as Tokens;
+use syn::meta::ParseNestedMeta;
+use syn::{Attribute, LitStr, Token, parenthesized, token};
+
+use case::Case;
+
+/// `#[serde(…)]` of a struct, an enum or a variant.
+#[derive(Default)]
+pub(crate) struct Container {
+    /// For the names inside: fields of a struct or variant, variants of an enum.
+    rename_all: Option<Case>,
+    /// For the fields of the variants of an enum.
+    rename_all_fields: Option<Case>,
+    /// The one field stands for the struct.
+    pub(crate) transparent: bool,
+    /// Its serde form is that of another type.
+    pub(crate) foreign: bool,
+}
+
+/// `#[serde(…)]` of a field or variant, for itself.
+#[derive(Default)]
+pub(crate) struct Member {
+    rename: Option<String>,
+    /// It does not stand in the serde form.
+    pub(crate) skip: bool,
+    /// Its parts stand among its neighbours.
+    pub(crate) flatten: bool,
+}
+
+impl Container {
+    pub(crate) fn read(attributes: &[Attribute]) -> syn::Result<Self> {
+        let mut container = Self::default();
+        each(attributes, |meta| {
+            if meta.path.is_ident("rename_all") {
+                container.rename_all = case(&meta)?;
+            } else if meta.path.is_ident("rename_all_fields") {
+                container.rename_all_fields = case(&meta)?;
+            } else {
+                container.transparent |= meta.path.is_ident("transparent");
+                let foreign = ["from", "into", "remote", "try_from"];
+                container.foreign |= foreign.iter().any(|name| meta.path.is_ident(name));
+                skip_value(&meta)?;
+            }
+            Ok(())
+        })?;
+        Ok(container)
+    }
+
+    /// The container of a variant's fields, with what the enum says about all of them.
+    #[must_use]
+    pub(crate) fn inside(mut self, whole: &Self) -> Self {
+        self.rename_all = self.rename_all.or(whole.rename_all_fields);
+        self
+    }
+
+    pub(crate) fn field_name(&self, field: &syn::Ident, member: &Member) -> String {
+        let written = written(field);
+        match (&member.rename, self.rename_all) {
+            (Some(name), _) => name.clone(),
+            (None, Some(case)) => case.field(&written),
+            (None, None) => written,
+        }
+    }
+
+    pub(crate) fn variant_name(&self, variant: &syn::Ident, member: &Member) -> String {
+        let written = written(variant);
+        match (&member.rename, self.rename_all) {
+            (Some(name), _) => name.clone(),
+            (None, Some(case)) => case.variant(&written),
+            (None, None) => written,
+        }
+    }
+}
+
+impl Member {
+    pub(crate) fn read(attributes: &[Attribute]) -> syn::Result<Self> {
+        let mut member = Self::default();
+        each(attributes, |meta| {
+            if meta.path.is_ident("rename") {
+                member.rename = serialized_value(&meta)?.map(|name| name.value());
+                return Ok(());
+            }
+            member.skip |= meta.path.is_ident("skip") || meta.path.is_ident("skip_serializing");
+            member.flatten |= meta.path.is_ident("flatten");
+            skip_value(&meta)
+        })?;
+        Ok(member)
+    }
+}
+
+/// An identifier as serde writes it: without `r#`.
+fn written(name: &syn::Ident) -> String {
+    let text = name.to_string();
+    text.strip_prefix("r#")
+        .map(ToOwned::to_owned)
+        .unwrap_or(text)
+}
+
+fn each(
+    attributes: &[Attribute],
+    mut take: impl FnMut(ParseNestedMeta<'_>) -> syn::Result<()>,
+) -> syn::Result<()> {
+    for attribute in attributes {
+        if attribute.path().is_ident("serde") {
+            attribute.parse_nested_meta(&mut take)?;
+        }
+    }
+    Ok(())
+}
+
+fn case(meta: &ParseNestedMeta<'_>) -> syn::Result<Option<Case>> {
+    // An unknown case is serde's to tell.
+    Ok(serialized_value(meta)?.and_then(|name| Case::from_name(&name.value())))
+}
+
+/// `"x"` of `name = "x"` or `name(serialize = "x", deserialize = "y")`.
+fn serialized_value(meta: &ParseNestedMeta<'_>) -> syn::Result<Option<LitStr>> {
+    if meta.input.peek(Token![=]) {
+        return meta.value()?.parse().map(Some);
+    }
+    let mut serialized = None;
+    meta.parse_nested_meta(|nested| {
+        let value = nested.value()?.parse()?;
+        if nested.path.is_ident("serialize") {
+            serialized = Some(value);
+        }
+        Ok(())
+    })?;
+    Ok(serialized)
+}
+
+/// Steps over the value of something that is serde's business alone.
+fn skip_value(meta: &ParseNestedMeta<'_>) -> syn::Result<()> {
+    if meta.input.peek(Token![=]) {
+        meta.value()?.parse::<syn::Expr>()?;
+    } else if meta.input.peek(token::Paren) {
+        let content;
+        parenthesized!(content in meta.input);
+        content.parse::<Tokens>()?;
+    }
+    Ok(())
+}

@@ -1,0 +1,83 @@
+//! The clock that everything in one robot goes by: real in the threads driver, virtual in lockstep.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::Instant;
+
+use crate::error::{Error, Result};
+use crate::stop::Stop;
+use crate::time::Timestamp;
+use crate::timing::blocking;
+
+/// The one clock of a robot. Clones are the same clock.
+#[derive(Clone, Debug)]
+pub struct Clock(Source);
+
+#[derive(Clone, Debug)]
+enum Source {
+    Wall { start: Instant },
+    Stepped { now: Arc<AtomicU64> },
+}
+
+impl Clock {
+    /// Monotonic time, from zero now.
+    pub fn wall() -> Self {
+        Self(Source::Wall {
+            start: Instant::now(),
+        })
+    }
+
+    /// Virtual time for lockstep, from zero; only the driver moves it.
+    pub fn stepped() -> Self {
+        Self(Source::Stepped {
+            now: Arc::default(),
+        })
+    }
+
+    /// Whether time is virtual: then nothing may wait for it.
+    pub fn is_stepped(&self) -> bool {
+        matches!(self.0, Source::Stepped { .. })
+    }
+
+    /// Time since the start of the run.
+    #[inline]
+    pub fn now(&self) -> Timestamp {
+        match &self.0 {
+            Source::Wall { start } => Timestamp::ZERO + start.elapsed(),
+            Source::Stepped { now } => Timestamp::from_nanos(now.load(Ordering::Relaxed)),
+        }
+    }
+
+    /// The time, and the moment at which a wall clock was read.
+    #[inline]
+    pub(crate) fn read(&self) -> (Timestamp, Option<Instant>) {
+        match &self.0 {
+            Source::Wall { start } => {
+                let moment = Instant::now();
+                (Timestamp::ZERO + (moment - *start), Some(moment))
+            }
+            Source::Stepped { .. } => (self.now(), None),
+        }
+    }
+
+    /// Waits until `time` on a wall clock, counted as blocked; [`crate::Stopped`] if the robot is stopped meanwhile.
+    ///
+    /// On a stepped clock nothing ever waits: an error if the time has not come.
+    pub fn wait_until(&self, time: Timestamp, stop: &Stop) -> Result<()> {
+        match &self.0 {
+            Source::Wall { .. } => Ok(blocking(|| stop.wait(time - self.now()))?),
+            Source::Stepped { .. } if self.now() >= time => Ok(stop.check()?),
+            Source::Stepped { .. } => Err(Error::new(format!(
+                "would have to wait until {time}, which lockstep cannot: it is {}",
+                self.now()
+            ))),
+        }
+    }
+
+    /// Moves virtual time ahead, never back.
+    pub(crate) fn advance_to(&self, time: Timestamp) {
+        if let Source::Stepped { now } = &self.0 {
+            now.fetch_max(time.as_nanos(), Ordering::Relaxed);
+        }
+    }
+}

@@ -1,0 +1,128 @@
+//! One cycler instance: the loop around its generated body, in four calls so that both drivers can turn it.
+//!
+//! ```text
+//! wait:    setup nodes wait for the outside world          -> capture time
+//! begin:   timestamp; announce, or consume; take everything the cycle may read, once
+//! run:     nodes in order
+//! finish:  publish and complete, or abandon                 -> what the driver does next
+//! ```
+//! A failed `run` takes effect in `finish`: until then the announcement stands, as it would while the nodes still run.
+
+mod counters;
+mod description;
+mod instance;
+mod restarts;
+mod turn;
+
+pub use counters::{Counters, Counts};
+pub use description::{InstanceDescription, Kind, Policy, Scheduling};
+pub use instance::{Finished, Instance, PAUSE_AFTER_SETUP_FAILURE, Restarted, Waited};
+pub use turn::Cycler;
+
+use crate::error::Result;
+use crate::guarded::State;
+use crate::reflect::Reflect;
+use crate::report::{NodeReport, QueueReport};
+pub use crate::temporal::{Reference, ReferenceKind};
+use crate::time::{CycleTime, Timestamp};
+
+/// The generated part of a cycler instance: its nodes between its buffers.
+pub trait Body: Send {
+    /// The main outputs that other instances read: what a slot of the instance's buffer holds.
+    type Shared: Default + Send + Sync + 'static;
+
+    /// Nodes and cycler state anew, from the newest parameters.
+    fn create(&mut self) -> Result<()>;
+
+    /// Takes the newest parameters and runs the setup nodes; gives the capture time if one of them knows it.
+    fn wait(&mut self, slots: Slots<'_, Self::Shared>, cycle: Cycle) -> Result<Option<Timestamp>>;
+
+    /// The one capture point: takes everything that the cycle may read.
+    fn begin(&mut self, slots: Slots<'_, Self::Shared>, cycle: Cycle);
+
+    /// Runs the nodes in order.
+    fn run(&mut self, slots: Slots<'_, Self::Shared>, cycle: Cycle) -> Result<()>;
+
+    /// Keeps history, swaps the own outputs, closes procedures; the slot is published right afterwards.
+    fn finish(&mut self, shared: &Self::Shared, cycle: Cycle);
+
+    /// Closes procedures; nothing of the cycle is kept.
+    fn abandon(&mut self);
+
+    /// Everything that this cycle read from other instances, by name and number instead of by value.
+    fn references(&self, visit: &mut dyn FnMut(Reference));
+
+    /// Names of all main outputs, in manifest order of their nodes.
+    fn main_outputs(&self) -> &'static [&'static str];
+
+    /// A main output of the last finished cycle.
+    fn main_output<'a>(&'a self, shared: &'a Self::Shared, name: &str) -> Option<&'a dyn Reflect>;
+
+    /// An additional output, if this cycle filled it.
+    fn additional_output(&self, name: &str, cycle: u64) -> Option<&dyn Reflect>;
+
+    /// What the nodes did so far, in manifest order.
+    fn nodes(&self, visit: &mut dyn FnMut(NodeReport));
+
+    /// What the perception consumers did so far, in manifest order.
+    fn queues(&self, visit: &mut dyn FnMut(QueueReport));
+
+    /// Every node's state by the node's path, then `cycler_state`.
+    fn states(&mut self, visit: &mut dyn FnMut(&'static str, &mut dyn State));
+
+    /// Calls `restore` of the nodes that have one, after their states were loaded.
+    fn restore(&mut self) -> Result<()>;
+}
+
+/// One cycle as its nodes know it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Cycle {
+    /// Counts begun cycles from 1.
+    pub number: u64,
+    /// Its timestamp. In `wait`, where it is not known yet, that of the cycle before.
+    pub time: CycleTime,
+    /// Whether its nodes are timed.
+    pub timed: bool,
+}
+
+/// Where a body writes what others read, and what it wrote there in its last finished cycle.
+#[derive(Debug)]
+pub struct Slots<'a, S> {
+    /// Being written; holds what some older cycle left in it.
+    pub current: &'a mut S,
+    /// The last finished cycle.
+    pub previous: &'a S,
+}
+
+/// The outputs that stay with the instance: of this cycle, and of the last finished one.
+#[derive(Clone, Debug, Default)]
+pub struct Swap<T> {
+    current: T,
+    previous: T,
+}
+
+impl<T> Swap<T> {
+    /// What this cycle writes; before it does, what the last but one left.
+    #[inline]
+    pub fn current(&self) -> &T {
+        &self.current
+    }
+
+    /// What the last finished cycle wrote.
+    #[inline]
+    pub fn previous(&self) -> &T {
+        &self.previous
+    }
+
+    /// Both at once, to read one while writing the other.
+    #[inline]
+    pub fn both(&mut self) -> (&mut T, &T) {
+        (&mut self.current, &self.previous)
+    }
+
+    /// Ends a cycle: what it wrote is now what the last finished one wrote.
+    #[inline]
+    pub fn swap(&mut self) {
+        std::mem::swap(&mut self.current, &mut self.previous);
+    }
+}

@@ -1,0 +1,370 @@
+//! The loop that turns a body, whichever driver asks.
+
+mod failure;
+mod stopwatch;
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use super::restarts::Restarts;
+use super::{
+    Body, Counters, Cycle, Finished, Instance, InstanceDescription, Kind, Reference, Restarted,
+    Slots, Waited,
+};
+use crate::buffer::Writer;
+use crate::clock::Clock;
+use crate::error::{Error, Result};
+use crate::guarded::{OnFailure, State, contain};
+use crate::reflect::Reflect;
+use crate::report::{InstanceReport, NodeReport};
+use crate::time::{CycleTime, Timestamp};
+use crate::timing::{self, Tally};
+use failure::Consequence;
+use stopwatch::Stopwatch;
+
+/// One instance: its generated body, and the writer of what others read.
+pub struct Cycler<B: Body> {
+    description: InstanceDescription,
+    body: B,
+    writer: Writer<B::Shared>,
+    clock: Clock,
+    cycle: Cycle,
+    /// Number of the last finished cycle.
+    finished: u64,
+    /// Given by a setup node in the `wait` that is over.
+    captured: Option<Timestamp>,
+    /// Whether the cycle that `wait` prepares is timed.
+    timed: bool,
+    phase: Phase,
+    /// Of the cycle that began, until `finish`.
+    failure: Option<Error>,
+    restarts: Restarts,
+    counters: Arc<Counters>,
+    stopwatch: Stopwatch,
+    /// Of nodes that were replaced in a restart.
+    retired: Vec<NodeReport>,
+}
+
+/// What the instance has behind it; each cycle begins and ends, a restart starts over.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Phase {
+    /// Just created: there is no cycle before.
+    Fresh { restarted: bool },
+    /// Between `begin` and `finish`.
+    Begun { restarted: bool },
+    /// At least one cycle began since the nodes were created.
+    Between { restarted: bool },
+}
+
+impl<B: Body> Cycler<B> {
+    /// An instance whose nodes were just created.
+    pub fn new(
+        description: InstanceDescription,
+        body: B,
+        writer: Writer<B::Shared>,
+        clock: Clock,
+    ) -> Self {
+        Self {
+            stopwatch: Stopwatch::new(&clock, description.deadline),
+            description,
+            body,
+            writer,
+            clock,
+            cycle: Cycle::default(),
+            finished: 0,
+            captured: None,
+            timed: false,
+            phase: Phase::Fresh { restarted: false },
+            failure: None,
+            restarts: Restarts::default(),
+            counters: Arc::default(),
+            retired: Vec::new(),
+        }
+    }
+
+    /// The body, for tests.
+    pub fn body(&self) -> &B {
+        &self.body
+    }
+
+    /// A capture time that would break the order of time is replaced.
+    #[inline]
+    fn timestamp(&mut self, now: Timestamp) -> Timestamp {
+        let oldest = self.description.oldest_capture();
+        let usable = |captured: &Timestamp| *captured <= now && now - *captured <= oldest;
+        let captured = self.captured.take();
+        let mut start = captured.filter(usable).unwrap_or(now);
+        if self.cycle.number > 0 {
+            start = start.max(self.cycle.time.start.next());
+        }
+        self.counters.corrected.add(u64::from(
+            captured.is_some_and(|captured| captured != start),
+        ));
+        start
+    }
+
+    fn count(&self, tally: &Tally) {
+        self.counters.failures.add(tally.failures);
+        self.counters.skipped.add(tally.skipped);
+    }
+
+    fn publish(&mut self) -> Finished {
+        let Cycle {
+            number,
+            time,
+            timed,
+        } = self.cycle;
+        self.writer.complete(number, time.start);
+        self.finished = number;
+        self.counters.cycles.add(1);
+        self.counters.end();
+        let is_overrun = self.stopwatch.finish(timed);
+        self.counters.overruns.add(u64::from(is_overrun));
+        if self.phase.restarted() {
+            self.phase = Phase::Between { restarted: false };
+            Finished::Recovered
+        } else {
+            Finished::Completed
+        }
+    }
+
+    /// Keeps what the nodes counted; they are about to be replaced.
+    fn nodes_so_far(&self) -> Vec<NodeReport> {
+        let mut nodes = Vec::new();
+        self.body.nodes(&mut |mut node| {
+            if let Some(retired) = self
+                .retired
+                .iter()
+                .find(|retired| retired.node == node.node)
+            {
+                node.merge(retired);
+            }
+            nodes.push(node);
+        });
+        nodes
+    }
+}
+
+impl<B: Body> Instance for Cycler<B> {
+    fn description(&self) -> &InstanceDescription {
+        &self.description
+    }
+
+    fn cycle(&self) -> Cycle {
+        self.cycle
+    }
+
+    #[inline]
+    fn wait(&mut self) -> Result<Waited> {
+        let number = self.cycle.number + 1;
+        self.timed = timing::is_timed(number) || self.stopwatch.looks_closely();
+        let cycle = Cycle {
+            number,
+            time: self.cycle.time,
+            timed: self.timed,
+        };
+        let Self {
+            body,
+            writer,
+            stopwatch,
+            ..
+        } = self;
+        let (current, previous) = writer.slots();
+        // What this thread did in between is nobody's.
+        Tally::take();
+        stopwatch.start_waiting(cycle.timed);
+        let result = contain(self.description.name, || {
+            body.wait(Slots { current, previous }, cycle)
+        });
+        let tally = Tally::take();
+        stopwatch.end_waiting(&tally);
+        self.count(&tally);
+        match result {
+            Ok(captured) => {
+                self.captured = captured;
+                Ok(Waited::Ready)
+            }
+            Err(error) => Ok(match self.judge(error, self.description.on_failure)? {
+                Consequence::Stopped => Waited::Stopped,
+                Consequence::NoEvent => Waited::NoEvent,
+                Consequence::StartOver => Waited::Failed,
+                Consequence::Restart { at } => Waited::Restarting { at },
+            }),
+        }
+    }
+
+    #[inline]
+    fn begin(&mut self) {
+        let (now, moment) = self.clock.read();
+        self.stopwatch.begin(self.timed, moment);
+        let start = self.timestamp(now);
+        let since_last = match self.phase {
+            Phase::Fresh { .. } => Duration::ZERO,
+            Phase::Begun { .. } | Phase::Between { .. } => start - self.cycle.time.start,
+        };
+        self.cycle = Cycle {
+            number: self.cycle.number + 1,
+            time: CycleTime { start, since_last },
+            timed: self.timed,
+        };
+        self.phase = Phase::Begun {
+            restarted: self.phase.restarted(),
+        };
+        self.counters.begin(now);
+        if self.description.kind == Kind::Perception {
+            self.writer.announce(start);
+        }
+        let Self {
+            body,
+            writer,
+            cycle,
+            ..
+        } = self;
+        let (current, previous) = writer.slots();
+        let begun = contain(self.description.name, || {
+            body.begin(Slots { current, previous }, *cycle);
+            Ok(())
+        });
+        self.failure = begun.err();
+    }
+
+    #[inline]
+    fn run(&mut self) {
+        if self.failure.is_none() && self.phase.begun() {
+            let Self {
+                body,
+                writer,
+                cycle,
+                ..
+            } = self;
+            let (current, previous) = writer.slots();
+            let ran = contain(self.description.name, || {
+                body.run(Slots { current, previous }, *cycle)
+            });
+            self.failure = ran.err();
+        }
+        let tally = Tally::take();
+        self.stopwatch.end_running(tally);
+        self.count(&tally);
+    }
+
+    #[inline]
+    fn finish(&mut self) -> Result<Finished> {
+        if !self.phase.begun() {
+            return Ok(Finished::Abandoned);
+        }
+        self.stopwatch.resume();
+        let Self {
+            body,
+            writer,
+            cycle,
+            ..
+        } = self;
+        let result = match self.failure.take() {
+            Some(error) => Err(error),
+            None => contain(self.description.name, || {
+                body.finish(writer.slots().0, *cycle);
+                Ok(())
+            }),
+        };
+        self.phase = Phase::Between {
+            restarted: self.phase.restarted(),
+        };
+        let Err(error) = result else {
+            return Ok(self.publish());
+        };
+        self.give_up();
+        Ok(match self.judge(error, self.description.on_failure)? {
+            Consequence::Stopped => Finished::Stopped,
+            Consequence::NoEvent | Consequence::StartOver => Finished::Abandoned,
+            Consequence::Restart { at } => Finished::Restarting { at },
+        })
+    }
+
+    fn abandon(&mut self) {
+        if self.phase.begun() {
+            self.phase = Phase::Between {
+                restarted: self.phase.restarted(),
+            };
+            self.failure = None;
+            self.give_up();
+        }
+    }
+
+    fn restart(&mut self) -> Result<Restarted> {
+        self.abandon();
+        self.counters.restarts.add(1);
+        let nodes = self.nodes_so_far();
+        match contain(self.description.name, || self.body.create()) {
+            Ok(()) => {
+                self.retired = nodes;
+                self.phase = Phase::Fresh { restarted: true };
+                Ok(Restarted::Done)
+            }
+            Err(error) => Ok(match self.judge(error, OnFailure::Restart)? {
+                Consequence::Stopped => Restarted::Stopped,
+                Consequence::Restart { at } => Restarted::Again { at },
+                Consequence::NoEvent | Consequence::StartOver => Restarted::Again {
+                    at: self.clock.now() + super::PAUSE_AFTER_SETUP_FAILURE,
+                },
+            }),
+        }
+    }
+
+    fn counters(&self) -> &Arc<Counters> {
+        &self.counters
+    }
+
+    fn report(&self) -> InstanceReport {
+        let mut queues = Vec::new();
+        self.body.queues(&mut |queue| queues.push(queue));
+        InstanceReport {
+            description: self.description,
+            counts: self.counters.read(),
+            slowest: self.stopwatch.slowest().to_vec(),
+            durations: self.stopwatch.durations().clone(),
+            nodes: self.nodes_so_far(),
+            queues,
+        }
+    }
+
+    fn main_outputs(&self) -> &'static [&'static str] {
+        self.body.main_outputs()
+    }
+
+    fn main_output(&self, name: &str) -> Option<&dyn Reflect> {
+        self.body.main_output(&self.writer.newest().value, name)
+    }
+
+    fn additional_output(&self, name: &str) -> Option<&dyn Reflect> {
+        self.body.additional_output(name, self.finished)
+    }
+
+    fn references(&self, visit: &mut dyn FnMut(Reference)) {
+        self.body.references(visit);
+    }
+
+    fn states(&mut self, visit: &mut dyn FnMut(&'static str, &mut dyn State)) {
+        self.body.states(visit);
+    }
+
+    fn restore(&mut self) -> Result<()> {
+        self.body.restore()
+    }
+}
+
+impl Phase {
+    #[inline]
+    fn begun(self) -> bool {
+        matches!(self, Self::Begun { .. })
+    }
+
+    #[inline]
+    fn restarted(self) -> bool {
+        match self {
+            Self::Fresh { restarted } | Self::Begun { restarted } | Self::Between { restarted } => {
+                restarted
+            }
+        }
+    }
+}

@@ -1,0 +1,64 @@
+//! What the failure of a cycle leads to.
+
+use super::Cycler;
+use crate::cycler::Body;
+use crate::error::{Error, Result};
+use crate::guarded::{OnFailure, contain};
+use crate::time::Timestamp;
+
+/// What a failure leads to, if the robot need not stop.
+pub(super) enum Consequence {
+    Stopped,
+    NoEvent,
+    StartOver,
+    Restart { at: Timestamp },
+}
+
+impl<B: Body> Cycler<B> {
+    /// Applies the policy of the node that failed, or else the cycler's.
+    #[cold]
+    pub(super) fn judge(&mut self, error: Error, unless_of_node: OnFailure) -> Result<Consequence> {
+        if error.is_stopped() {
+            return Ok(Consequence::Stopped);
+        }
+        if error.is_no_event() {
+            self.counters.no_events.add(1);
+            return Ok(Consequence::NoEvent);
+        }
+        if error.on_failure().is_none() {
+            // Nodes count their own failures.
+            self.counters.failures.add(1);
+        }
+        match error.on_failure().unwrap_or(unless_of_node) {
+            OnFailure::Stop => Err(error),
+            OnFailure::Skip | OnFailure::Hold => Ok(Consequence::StartOver),
+            OnFailure::Restart => match self.restarts.after_failure(self.clock.now()) {
+                Some(at) => {
+                    eprintln!("{} restarts: {error}", self.description.name);
+                    Ok(Consequence::Restart { at })
+                }
+                None => Err(error.context("failed too often within a minute")),
+            },
+        }
+    }
+
+    /// Ends a cycle that is not published.
+    #[cold]
+    pub(super) fn give_up(&mut self) {
+        self.writer.abandon();
+        self.counters.abandoned.add(1);
+        self.counters.end();
+        self.stopwatch.discard();
+        let body = &mut self.body;
+        let abandoned = contain(self.description.name, || {
+            body.abandon();
+            Ok(())
+        });
+        if let Err(error) = abandoned {
+            eprintln!(
+                "{} while abandoning a cycle: {error}",
+                self.description.name
+            );
+        }
+    }
+}

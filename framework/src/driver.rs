@@ -1,0 +1,8 @@
+//! Two ways to turn the same instances: [`threads`] in the real world, [`lockstep`] on a virtual clock.
+
+pub mod lockstep;
+pub mod safe_state;
+pub mod threads;
+
+pub use lockstep::Lockstep;
+pub use safe_state::SafeState;

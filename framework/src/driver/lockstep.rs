@@ -1,0 +1,314 @@
+//! One thread, one virtual clock: the hardware says whose data is ready next, nothing ever waits.
+//!
+//! ```text
+//! time  t: wait, begin, run                of the instance whose event it is
+//!   t + d: finish                          others see the cycle from here on; d from the manifest
+//! ```
+//! At equal times: every `finish`, then restarts, then every `wait`, each in manifest order. An event of an instance that
+//! has not finished stays due. Same events, same bits.
+
+use super::SafeState;
+use crate::cycler::{Finished, Instance, Restarted, Waited};
+use crate::error::{Error, Result};
+use crate::hardware::{Event, Hardware};
+use crate::robot::Robot;
+use crate::time::Timestamp;
+
+/// Turns the instances of one robot, step by step.
+pub struct Lockstep<'robot, P> {
+    robot: &'robot mut Robot<P>,
+    hardware: &'robot dyn Hardware,
+    safe_state: SafeState<'robot>,
+    tracks: Vec<Track>,
+    /// Asked of the hardware, not done yet.
+    ahead: Option<Arrival>,
+    /// The hardware has no more events.
+    world_has_ended: bool,
+    stopped: bool,
+}
+
+/// What was done in one step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Stepped {
+    /// The virtual time.
+    pub at: Timestamp,
+    /// The instance it was done with.
+    pub instance: &'static str,
+    /// What it was.
+    pub step: Step,
+}
+
+/// What can be done with one instance at one time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Step {
+    /// Its data was ready, its nodes ran; the cycle is not finished.
+    Began,
+    /// Its data was ready, and no cycle came of it.
+    Waited(Waited),
+    /// Its data was ready, but it was busy: it begins when it has finished.
+    Postponed,
+    /// A cycle ended.
+    Finished(Finished),
+    /// Its nodes were created anew.
+    Restarted(Restarted),
+}
+
+/// Where one instance is.
+struct Track {
+    state: State,
+    /// Its data is ready since then, and it could not begin.
+    due: Option<Timestamp>,
+}
+
+#[derive(Clone, Copy)]
+enum State {
+    Idle,
+    Running { until: Timestamp },
+    Restarting { at: Timestamp },
+}
+
+#[derive(Clone, Copy)]
+struct Arrival {
+    at: Timestamp,
+    index: usize,
+}
+
+#[derive(Clone, Copy)]
+enum Deed {
+    Finish,
+    Restart,
+    BeginDue,
+    Arrive,
+}
+
+impl Deed {
+    /// The order at equal times. Waits are one class: among them only the manifest order counts.
+    fn rank(self) -> u8 {
+        match self {
+            Self::Finish => 0,
+            Self::Restart => 1,
+            Self::BeginDue | Self::Arrive => 2,
+        }
+    }
+}
+
+impl<'robot, P> Lockstep<'robot, P> {
+    /// For a robot that was created with [`crate::Clock::stepped`].
+    pub fn new(robot: &'robot mut Robot<P>, hardware: &'robot dyn Hardware) -> Self {
+        let tracks = robot.instances.iter().map(|_| Track {
+            state: State::Idle,
+            due: None,
+        });
+        Self {
+            tracks: tracks.collect(),
+            robot,
+            hardware,
+            safe_state: SafeState::new(hardware),
+            ahead: None,
+            world_has_ended: false,
+            stopped: false,
+        }
+    }
+
+    /// The robot between two steps.
+    pub fn robot(&self) -> &Robot<P> {
+        self.robot
+    }
+
+    /// The robot between two steps, to inject, subscribe, call or change parameters.
+    pub fn robot_mut(&mut self) -> &mut Robot<P> {
+        self.robot
+    }
+
+    /// Does what comes next; `None` at the end of the world, or when the robot has stopped.
+    pub fn step(&mut self) -> Result<Option<Stepped>> {
+        match self.next()? {
+            Some((at, deed, index)) => self.carry_out(at, deed, index).map(Some),
+            None => Ok(None),
+        }
+    }
+
+    /// Does everything up to `end`, included; `observe` sees each instance after each cycle that it finished.
+    pub fn run_until(
+        &mut self,
+        end: Timestamp,
+        mut observe: impl FnMut(&dyn Instance),
+    ) -> Result<()> {
+        while let Some((at, deed, index)) = self.next()?
+            && at <= end
+        {
+            let stepped = self.carry_out(at, deed, index)?;
+            if let Step::Finished(Finished::Completed | Finished::Recovered) = stepped.step {
+                observe(self.robot.instances[index].as_ref());
+            }
+        }
+        Ok(())
+    }
+
+    /// Ends the run in order: cycles that are not finished are abandoned.
+    pub fn stop(&mut self) {
+        if !self.stopped {
+            self.stopped = true;
+            self.robot
+                .instances
+                .iter_mut()
+                .for_each(|instance| instance.abandon());
+            self.safe_state.enter();
+            self.hardware.stop();
+        }
+    }
+
+    fn next(&mut self) -> Result<Option<(Timestamp, Deed, usize)>> {
+        if !self.robot.clock.is_stepped() {
+            return Err(Error::new(
+                "lockstep needs a virtual clock: Clock::stepped()",
+            ));
+        }
+        if self.stopped {
+            return Ok(None);
+        }
+        self.look_ahead()?;
+        let tracks = self.tracks.iter().enumerate().filter_map(|(index, track)| {
+            let (at, deed) = match track.state {
+                State::Running { until } => (until, Deed::Finish),
+                State::Restarting { at } => (at, Deed::Restart),
+                State::Idle => (track.due?, Deed::BeginDue),
+            };
+            Some((at, deed, index))
+        });
+        let arrival = self
+            .ahead
+            .map(|Arrival { at, index }| (at, Deed::Arrive, index));
+        // Of equals the first is taken: new data replaces what is due before that begins.
+        let deeds = arrival.into_iter().chain(tracks);
+        Ok(deeds.min_by_key(|(at, deed, index)| (*at, deed.rank(), *index)))
+    }
+
+    fn look_ahead(&mut self) -> Result<()> {
+        if self.ahead.is_some() || self.world_has_ended {
+            return Ok(());
+        }
+        match self.hardware.next_event() {
+            Ok(Some(event)) => self.ahead = Some(self.arrival(event)?),
+            Ok(None) => self.world_has_ended = true,
+            Err(error) if error.is_stopped() => self.world_has_ended = true,
+            Err(error) => {
+                self.stop();
+                return Err(error.context("the hardware has no next event"));
+            }
+        }
+        Ok(())
+    }
+
+    fn arrival(&self, Event { at, instance }: Event) -> Result<Arrival> {
+        let mut names = self
+            .robot
+            .instances
+            .iter()
+            .map(|instance| instance.description().name);
+        let index = names.position(|name| name == instance).ok_or_else(|| {
+            Error::new(format!(
+                "the hardware has an event for `{instance}`, which is no instance"
+            ))
+        })?;
+        let now = self.robot.clock.now();
+        if at < now {
+            let message =
+                format!("the hardware has an event for `{instance}` at {at}, but it is {now}");
+            return Err(Error::new(message));
+        }
+        Ok(Arrival { at, index })
+    }
+
+    fn carry_out(&mut self, at: Timestamp, deed: Deed, index: usize) -> Result<Stepped> {
+        self.robot.clock.advance_to(at);
+        let step = match deed {
+            Deed::Finish => self.finish(at, index),
+            Deed::Restart => self.restart(at, index),
+            Deed::BeginDue => self.begin(at, index),
+            Deed::Arrive => {
+                self.ahead = None;
+                self.arrive(at, index)
+            }
+        };
+        let instance = self.robot.instances[index].description().name;
+        match step {
+            Ok(step) => Ok(Stepped { at, instance, step }),
+            Err(error) => {
+                self.stop();
+                Err(error.context(format!("{instance} failed at {at}")))
+            }
+        }
+    }
+
+    fn arrive(&mut self, at: Timestamp, index: usize) -> Result<Step> {
+        let track = &mut self.tracks[index];
+        if matches!(track.state, State::Idle) && track.due.is_none() {
+            return self.begin(at, index);
+        }
+        if track.due.replace(at).is_some() {
+            // The hardware has replaced what was due by newer data.
+            self.robot.instances[index].counters().missed.add(1);
+        }
+        Ok(Step::Postponed)
+    }
+
+    fn begin(&mut self, at: Timestamp, index: usize) -> Result<Step> {
+        let instance = self.robot.instances[index].as_mut();
+        let track = &mut self.tracks[index];
+        track.due = None;
+        match instance.wait()? {
+            Waited::Ready => {
+                instance.begin();
+                instance.run();
+                let until = at + instance.description().duration_in_lockstep();
+                track.state = State::Running { until };
+                Ok(Step::Began)
+            }
+            waited @ Waited::Restarting { at } => {
+                track.state = State::Restarting { at };
+                self.safe_state
+                    .enter_while_restarting(instance.description());
+                Ok(Step::Waited(waited))
+            }
+            waited @ (Waited::NoEvent | Waited::Failed) => Ok(Step::Waited(waited)),
+            Waited::Stopped => {
+                self.stop();
+                Ok(Step::Waited(Waited::Stopped))
+            }
+        }
+    }
+
+    fn finish(&mut self, at: Timestamp, index: usize) -> Result<Step> {
+        self.become_idle(at, index);
+        let finished = self.robot.instances[index].finish()?;
+        let description = self.robot.instances[index].description();
+        match finished {
+            Finished::Completed | Finished::Abandoned => {}
+            Finished::Recovered => self.safe_state.leave_after_restart(description),
+            Finished::Restarting { at } => {
+                self.tracks[index].state = State::Restarting { at };
+                self.safe_state.enter_while_restarting(description);
+            }
+            Finished::Stopped => self.stop(),
+        }
+        Ok(Step::Finished(finished))
+    }
+
+    fn restart(&mut self, at: Timestamp, index: usize) -> Result<Step> {
+        let restarted = self.robot.instances[index].restart()?;
+        match restarted {
+            Restarted::Done => self.become_idle(at, index),
+            Restarted::Again { at } => self.tracks[index].state = State::Restarting { at },
+            Restarted::Stopped => self.stop(),
+        }
+        Ok(Step::Restarted(restarted))
+    }
+
+    /// What is due can begin now.
+    fn become_idle(&mut self, now: Timestamp, index: usize) {
+        let track = &mut self.tracks[index];
+        track.state = State::Idle;
+        track.due = track.due.map(|_| now);
+    }
+}

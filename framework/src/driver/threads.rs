@@ -1,0 +1,167 @@
+//! One named thread per instance; the calling thread is the watchdog.
+
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread;
+use std::time::Duration;
+
+use super::SafeState;
+use crate::clock::Clock;
+use crate::cycler::{
+    Counters, Finished, Instance, InstanceDescription, Kind, PAUSE_AFTER_SETUP_FAILURE, Restarted,
+    Waited,
+};
+use crate::error::{Error, Result};
+use crate::guarded::contain;
+use crate::hardware::Hardware;
+use crate::robot::Robot;
+use crate::stop::Stop;
+use crate::time::Timestamp;
+
+/// Runs until the stop is requested or an instance fails for good, which is the error.
+///
+/// Either way the robot stops in order: safe state, [`Hardware::stop`], then every thread ends its cycle.
+pub fn run<P>(robot: &mut Robot<P>, hardware: &dyn Hardware, stop: &Stop) -> Result<()> {
+    if robot.clock.is_stepped() {
+        return Err(Error::new("threads need a wall clock: Clock::wall()"));
+    }
+    let failure = Mutex::new(None);
+    let fail = |error: Error| {
+        let mut failure = failure.lock().unwrap_or_else(PoisonError::into_inner);
+        match *failure {
+            // The first failure stops the robot; what follows may be its consequence.
+            Some(_) => eprintln!("{error}"),
+            None => *failure = Some(error),
+        }
+        stop.request();
+    };
+    let safe_state = SafeState::new(hardware);
+    let watched = Watched::all(&robot.instances);
+    thread::scope(|scope| {
+        for instance in &mut robot.instances {
+            let description = *instance.description();
+            let turning = Turning {
+                clock: &robot.clock,
+                stop,
+                safe_state: &safe_state,
+            };
+            let spawned = thread::Builder::new()
+                .name(description.name.to_owned())
+                .spawn_scoped(scope, move || match turning.turn(instance.as_mut()) {
+                    Ok(()) => stop.request(),
+                    Err(error) => fail(error.context(format!("{} failed", description.name))),
+                });
+            if let Err(error) = spawned {
+                fail(Error::from(error).context(format!("no thread for {}", description.name)));
+                break;
+            }
+        }
+        watch(&watched, &robot.clock, stop, &safe_state);
+        safe_state.enter();
+        let stopped = contain("Hardware::stop", || {
+            hardware.stop();
+            Ok(())
+        });
+        stopped.unwrap_or_else(fail);
+    });
+    let failure = failure.into_inner().unwrap_or_else(PoisonError::into_inner);
+    failure.map_or(Ok(()), Err)
+}
+
+/// What a thread needs besides its instance.
+struct Turning<'run> {
+    clock: &'run Clock,
+    stop: &'run Stop,
+    safe_state: &'run SafeState<'run>,
+}
+
+impl Turning<'_> {
+    /// Cycle after cycle until the robot stops.
+    fn turn(&self, instance: &mut dyn Instance) -> Result<()> {
+        while !self.stop.is_requested() {
+            let next = match instance.wait()? {
+                Waited::Ready => {
+                    instance.begin();
+                    instance.run();
+                    instance.finish()?
+                }
+                Waited::NoEvent => Finished::Abandoned,
+                Waited::Failed => {
+                    // Stopped meanwhile: the loop sees it.
+                    let _ = self.stop.wait(PAUSE_AFTER_SETUP_FAILURE);
+                    Finished::Abandoned
+                }
+                Waited::Restarting { at } => Finished::Restarting { at },
+                Waited::Stopped => Finished::Stopped,
+            };
+            match next {
+                Finished::Completed | Finished::Abandoned => {}
+                Finished::Recovered => self.safe_state.leave_after_restart(instance.description()),
+                Finished::Restarting { at } => self.restart(instance, at)?,
+                Finished::Stopped => break,
+            }
+        }
+        Ok(())
+    }
+
+    /// Waits out the back-off and creates the nodes anew, until that succeeds or the robot stops.
+    fn restart(&self, instance: &mut dyn Instance, mut at: Timestamp) -> Result<()> {
+        self.safe_state
+            .enter_while_restarting(instance.description());
+        while self.stop.wait(at - self.clock.now()).is_ok() {
+            match instance.restart()? {
+                Restarted::Done => break,
+                Restarted::Again { at: later } => at = later,
+                Restarted::Stopped => self.stop.request(),
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A real-time instance, as the watchdog sees it.
+struct Watched {
+    description: InstanceDescription,
+    counters: Arc<Counters>,
+}
+
+impl Watched {
+    fn all(instances: &[Box<dyn Instance>]) -> Vec<Self> {
+        let real_time = instances
+            .iter()
+            .filter(|instance| instance.description().kind == Kind::RealTime);
+        real_time
+            .map(|instance| Self {
+                description: *instance.description(),
+                counters: instance.counters().clone(),
+            })
+            .collect()
+    }
+}
+
+/// Until the robot stops, looks for cycles that have begun and are not finished after `watchdog`.
+fn watch(watched: &[Watched], clock: &Clock, stop: &Stop, safe_state: &SafeState<'_>) {
+    let shortest = watched
+        .iter()
+        .map(|watched| watched.description.watchdog)
+        .min();
+    let period = shortest.map_or(Duration::from_secs(1), |shortest| {
+        (shortest / 4).clamp(Duration::from_millis(1), Duration::from_millis(50))
+    });
+    // One alarm per cycle that hangs: after a re-arm the same cycle does not count again.
+    let mut alarmed = vec![None; watched.len()];
+    while stop.wait(period).is_ok() {
+        let now = clock.now();
+        for (watched, alarmed) in watched.iter().zip(&mut alarmed) {
+            let Some(begun_at) = watched.counters.begun_at() else {
+                continue;
+            };
+            let limit = watched.description.watchdog;
+            if now - begun_at > limit && *alarmed != Some(begun_at) {
+                *alarmed = Some(begun_at);
+                let name = watched.description.name;
+                eprintln!("{name} has not finished a cycle for {limit:?}: safe state");
+                safe_state.enter();
+            }
+        }
+    }
+}

@@ -1,0 +1,77 @@
+//! Panics of nodes: one line that names the node, and an error that says the same.
+//!
+//! The standard hook prints three lines and a hint about backtraces for every panic, and it cannot know the node. Outside
+//! of nodes whatever hook was installed before is called.
+
+use std::any::Any;
+use std::cell::{Cell, RefCell};
+use std::panic::{PanicHookInfo, set_hook, take_hook};
+use std::sync::Once;
+
+use crate::error::Error;
+
+thread_local! {
+    static INSIDE: Cell<Option<&'static str>> = const { Cell::new(None) };
+    static LAST: RefCell<Option<String>> = const { RefCell::new(None) };
+}
+
+/// While it lives, panics of this thread are those of the node (or instance) with this name.
+pub(super) struct Inside {
+    before: Option<&'static str>,
+}
+
+#[inline]
+pub(super) fn enter(name: &'static str) -> Inside {
+    Inside {
+        before: INSIDE.replace(Some(name)),
+    }
+}
+
+impl Drop for Inside {
+    #[inline]
+    fn drop(&mut self) {
+        INSIDE.set(self.before);
+    }
+}
+
+/// Makes panics inside nodes short; once per process.
+pub(super) fn install_hook() {
+    static INSTALLED: Once = Once::new();
+    INSTALLED.call_once(|| {
+        let before = take_hook();
+        set_hook(Box::new(move |panic| match INSIDE.get() {
+            Some(name) => {
+                let message = describe(panic);
+                eprintln!("`{name}` {message}");
+                LAST.set(Some(message));
+            }
+            None => before(panic),
+        }));
+    });
+}
+
+/// The panic that was just caught on this thread, as an error.
+#[cold]
+pub(super) fn of_caught(caught: std::thread::Result<()>) -> Error {
+    match caught {
+        Err(payload) => {
+            let described = LAST.take();
+            Error::new(described.unwrap_or_else(|| format!("panicked: {}", text(payload.as_ref()))))
+        }
+        Ok(()) => Error::new("ended without a result"),
+    }
+}
+
+fn describe(panic: &PanicHookInfo<'_>) -> String {
+    let place = panic
+        .location()
+        .map_or_else(String::new, |place| format!(" at {place}"));
+    format!("panicked{place}: {}", text(panic.payload()))
+}
+
+fn text(payload: &(dyn Any + Send)) -> &str {
+    let borrowed = payload.downcast_ref::<&str>().copied();
+    borrowed
+        .or_else(|| payload.downcast_ref::<String>().map(String::as_str))
+        .unwrap_or("without a message")
+}

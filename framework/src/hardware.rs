@@ -1,0 +1,87 @@
+//! What the framework asks of a robot's hardware, and what hardware is given.
+
+use std::path::{Path, PathBuf};
+
+use serde::de::DeserializeOwned;
+
+use crate::clock::Clock;
+use crate::error::{Error, Result};
+use crate::parameters;
+use crate::stop::Stop;
+use crate::time::Timestamp;
+
+/// The platform, as far as the framework needs it; everything else are traits of the application.
+pub trait Hardware: Send + Sync {
+    /// Connects to the platform.
+    fn new(context: HardwareContext) -> Result<Self>
+    where
+        Self: Sized;
+
+    /// The identities that choose parameter layers, as (name, id): `("body", "3108…")`.
+    fn identities(&self) -> Vec<(String, String)> {
+        Vec::new()
+    }
+
+    /// The run ends: blocked calls return [`crate::Stopped`] within 100 ms.
+    fn stop(&self);
+
+    /// Takes the actuators away from the nodes; the hardware's own thread brings the robot down (sit, release).
+    ///
+    /// Called at most once until [`Hardware::rearm`].
+    fn enter_safe_state(&self);
+
+    /// Gives the actuators back to the nodes: an instance that had to restart has finished its first cycle.
+    fn rearm(&self) {}
+
+    /// Lockstep: advances the world until the data of one instance is ready, equal times in manifest order; `None` at the
+    /// end of the world.
+    ///
+    /// The driver asks for the next event before it finishes cycles that end earlier: `Clock::now` may be behind the world,
+    /// and what a read gives is the newest that was ready at `Clock::now`.
+    fn next_event(&self) -> Result<Option<Event>> {
+        Ok(None)
+    }
+}
+
+/// The data of one instance is ready.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Event {
+    /// Since when.
+    pub at: Timestamp,
+    /// Whose: the name of the instance.
+    pub instance: &'static str,
+}
+
+/// What [`Hardware::new`] is given.
+#[derive(Clone, Debug)]
+pub struct HardwareContext {
+    /// The command line after `--`.
+    pub options: Vec<String>,
+    /// The parameters' `[hardware.<target>]`.
+    pub table: toml::Table,
+    /// Where files of this run belong; not there until [`HardwareContext::create_run_folder`].
+    pub run_folder: PathBuf,
+    /// The one clock of the robot.
+    pub clock: Clock,
+    /// Ends the run.
+    pub stop: Stop,
+}
+
+impl HardwareContext {
+    /// The parameters' `[hardware.<target>]` as the hardware's own type.
+    ///
+    /// With `#[serde(deny_unknown_fields)]` a misspelt key is an error like every other; it names the key, and at the start
+    /// of a run the file and line.
+    pub fn parameters<T: DeserializeOwned>(&self) -> Result<T> {
+        Ok(parameters::from_table(&self.table)?)
+    }
+
+    /// The folder for files of this run, created if it is not there.
+    pub fn create_run_folder(&self) -> Result<&Path> {
+        let folder = self.run_folder.as_path();
+        std::fs::create_dir_all(folder).map_err(|error| {
+            Error::from(error).context(format!("cannot create {}", folder.display()))
+        })?;
+        Ok(folder)
+    }
+}

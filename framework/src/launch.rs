@@ -1,0 +1,211 @@
+//! From the command line of a generated binary to a running robot, and to its exit status.
+//!
+//! ```text
+//! options -> layers (default, location) -> hardware -> layers (identities) -> robot -> threads -> report
+//! ```
+//! Exit status: 0 done; 1 the robot failed; 2 wrong usage; 130 Ctrl-C.
+
+mod options;
+mod signals;
+mod status;
+
+use std::ffi::OsString;
+use std::io::Write;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::time::{Duration, SystemTime, UNIX_EPOCH};
+
+use serde::de::DeserializeOwned;
+
+use crate::clock::Clock;
+use crate::driver::threads;
+use crate::error::{Error, Result};
+use crate::hardware::{Hardware, HardwareContext};
+use crate::parameters::{Layers, Parameters};
+use crate::report::RobotReport;
+use crate::robot::{Robot, Start};
+use crate::stop::Stop;
+use crate::timing;
+use options::{Command, Format, Options};
+use signals::Signals;
+use status::Supervisor;
+
+/// What the manifest says about a binary; a constant of the generated crate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Target {
+    /// The robot's name.
+    pub robot: &'static str,
+    /// The target's name.
+    pub name: &'static str,
+    /// Directory of the parameters, relative to the workspace root, where `hulkgen run` starts the binary.
+    pub parameters: &'static str,
+    /// The default location of its parameters.
+    pub location: Option<&'static str>,
+    /// Names of the identities that choose layers, in order.
+    pub identities: &'static [&'static str],
+}
+
+const DONE: u8 = 0;
+const FAILED: u8 = 1;
+const WRONG_USAGE: u8 = 2;
+const INTERRUPTED: u8 = 130;
+
+/// Runs a robot with the process's arguments until it is told to stop.
+pub fn main<H, P>(
+    target: Target,
+    create: impl FnOnce(&Arc<H>, Start<P>) -> Result<Robot<P>>,
+) -> ExitCode
+where
+    H: Hardware,
+    P: DeserializeOwned,
+{
+    let arguments = std::env::args_os().skip(1);
+    ExitCode::from(run(target, arguments, &mut std::io::stdout(), create))
+}
+
+/// As [`main`], with arguments and standard output of the caller's; gives the exit status.
+pub fn run<H, P>(
+    target: Target,
+    arguments: impl IntoIterator<Item = OsString>,
+    output: &mut dyn Write,
+    create: impl FnOnce(&Arc<H>, Start<P>) -> Result<Robot<P>>,
+) -> u8
+where
+    H: Hardware,
+    P: DeserializeOwned,
+{
+    let options = match options::parse(arguments) {
+        Ok(Command::Run(options)) => *options,
+        Ok(Command::Help) => return status_of(write!(output, "{}", options::help(&target))),
+        Err(error) => {
+            eprintln!("error: {error}\n\n{}", options::help(&target));
+            return WRONG_USAGE;
+        }
+    };
+    let signals = Signals::new();
+    let stop = Stop::new();
+    let result = signals.and_then(|signals| {
+        let supervisor = Supervisor::start(signals.clone(), stop.clone())?;
+        let result = start_and_run(&target, &options, &stop, &supervisor, output, create);
+        stop.request();
+        supervisor.join();
+        // What fails while the user interrupts is mostly the interruption.
+        if signals.interrupted() && result.as_ref().is_err_and(Error::is_stopped) {
+            return Ok(INTERRUPTED);
+        }
+        result.map(|()| {
+            if signals.interrupted() {
+                INTERRUPTED
+            } else {
+                DONE
+            }
+        })
+    });
+    result.unwrap_or_else(|error| {
+        eprintln!("error: {error}");
+        FAILED
+    })
+}
+
+fn start_and_run<H, P>(
+    target: &Target,
+    options: &Options,
+    stop: &Stop,
+    supervisor: &Supervisor,
+    output: &mut dyn Write,
+    create: impl FnOnce(&Arc<H>, Start<P>) -> Result<Robot<P>>,
+) -> Result<()>
+where
+    H: Hardware,
+    P: DeserializeOwned,
+{
+    timing::time_every_cycle(options.format == Format::Json);
+    let clock = Clock::wall();
+    // The identities that choose layers come from the hardware, whose own table therefore comes first.
+    let mut layers = layers(target, options);
+    let hardware = connect::<H>(target, options, &layers.load()?, &clock, stop)?;
+    layers.identities = known_identities(target, hardware.identities());
+    let parameters = layers.load()?.deserialize()?;
+    let start = Start {
+        clock: clock.clone(),
+        stop: stop.clone(),
+        parameters,
+    };
+    let mut robot = create(&hardware, start)?;
+
+    supervisor.watch(&robot, options.duration);
+    let started = clock.now();
+    let result = threads::run(&mut robot, hardware.as_ref(), stop);
+    let report = RobotReport::new(target.name, clock.now() - started, &robot);
+    match options.format {
+        Format::Json => writeln!(output, "{}", report.to_json())?,
+        Format::Text => eprint!("{report}"),
+    }
+    result
+}
+
+fn connect<H: Hardware>(
+    target: &Target,
+    options: &Options,
+    parameters: &Parameters,
+    clock: &Clock,
+    stop: &Stop,
+) -> Result<Arc<H>> {
+    let hardware = H::new(HardwareContext {
+        options: options.hardware.clone(),
+        table: parameters.hardware(target.name)?,
+        run_folder: options
+            .run_folder
+            .clone()
+            .unwrap_or_else(default_run_folder),
+        clock: clock.clone(),
+        stop: stop.clone(),
+    });
+    let hardware = hardware.map_err(|error| parameters.locate(target.name, error));
+    Ok(Arc::new(hardware.map_err(|error| {
+        error.context(format!("hardware of `{}`", target.name))
+    })?))
+}
+
+fn layers(target: &Target, options: &Options) -> Layers {
+    let environment = std::env::vars_os().filter_map(|(variable, value)| {
+        // What is no text cannot be a parameter.
+        Some((variable.into_string().ok()?, value.into_string().ok()?))
+    });
+    Layers {
+        directory: options
+            .parameters
+            .clone()
+            .unwrap_or_else(|| target.parameters.into()),
+        location: options
+            .location
+            .clone()
+            .or_else(|| target.location.map(str::to_owned)),
+        identities: Vec::new(),
+        environment: environment.collect(),
+        settings: options.settings.clone(),
+    }
+}
+
+/// In the manifest's order; what the hardware reports beyond it chooses nothing.
+fn known_identities(target: &Target, reported: Vec<(String, String)>) -> Vec<(String, String)> {
+    let of_name = |name: &&str| {
+        reported
+            .iter()
+            .find(|(reported, _)| reported == name)
+            .cloned()
+    };
+    target.identities.iter().filter_map(of_name).collect()
+}
+
+fn default_run_folder() -> PathBuf {
+    let since_epoch = SystemTime::now()
+        .duration_since(UNIX_EPOCH)
+        .unwrap_or(Duration::ZERO);
+    PathBuf::from("runs").join(format!("{}-{}", since_epoch.as_secs(), std::process::id()))
+}
+
+fn status_of(written: std::io::Result<()>) -> u8 {
+    if written.is_ok() { DONE } else { FAILED }
+}

@@ -1,0 +1,217 @@
+//! The command line of a generated binary.
+
+use std::ffi::OsString;
+use std::path::PathBuf;
+use std::time::Duration;
+
+use lexopt::{Arg, Parser, ValueExt};
+
+use super::Target;
+use crate::error::{Error, Result};
+
+/// What the command line asks for.
+#[derive(Debug)]
+pub(super) enum Command {
+    Run(Box<Options>),
+    Help,
+}
+
+/// How to run.
+#[derive(Debug, Default, PartialEq, Eq)]
+pub(super) struct Options {
+    /// Until a signal if left out.
+    pub(super) duration: Option<Duration>,
+    pub(super) format: Format,
+    pub(super) parameters: Option<PathBuf>,
+    pub(super) location: Option<String>,
+    /// (path, value)
+    pub(super) settings: Vec<(String, String)>,
+    pub(super) run_folder: Option<PathBuf>,
+    /// Everything after `--`.
+    pub(super) hardware: Vec<String>,
+}
+
+/// How the run is reported at its end.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Format {
+    #[default]
+    Text,
+    Json,
+}
+
+/// How to use the binary.
+pub(super) fn help(target: &Target) -> String {
+    format!(
+        "\
+Robot {robot}, target {name}
+
+Usage: {name} [OPTIONS] [-- HARDWARE OPTIONS]
+
+  --for DURATION      stop after e.g. 10s, 500ms, 2m; without it on Ctrl-C
+  --headless          show nothing but the status line
+  --format FORMAT     text (default) or json: what is reported at the end
+  --parameters DIR    instead of {parameters}
+  --location NAME     layer of parameters
+  --set PATH=VALUE    a parameter, above all layers; may be repeated
+  --run-folder DIR    for files of this run, instead of runs/<start>-<process>
+  --help              this text
+",
+        robot = target.robot,
+        name = target.name,
+        parameters = target.parameters,
+    )
+}
+
+pub(super) fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Command> {
+    let mut arguments = arguments.into_iter();
+    let own: Vec<_> = arguments
+        .by_ref()
+        .take_while(|argument| argument != "--")
+        .collect();
+    let hardware = arguments.map(text).collect::<Result<_>>()?;
+    let mut options = Options {
+        hardware,
+        ..Options::default()
+    };
+    let mut parser = Parser::from_args(own);
+    while let Some(argument) = parser.next()? {
+        match argument {
+            Arg::Long("for") => options.duration = Some(duration(&parser.value()?.string()?)?),
+            // Nothing opens a window yet; scripts may say it already.
+            Arg::Long("headless") => {}
+            Arg::Long("format") => options.format = format_named(&parser.value()?.string()?)?,
+            Arg::Long("parameters") => options.parameters = Some(parser.value()?.into()),
+            Arg::Long("location") => options.location = Some(parser.value()?.string()?),
+            Arg::Long("set") => options.settings.push(setting(&parser.value()?.string()?)?),
+            Arg::Long("run-folder") => options.run_folder = Some(parser.value()?.into()),
+            Arg::Long("help") | Arg::Short('h') => return Ok(Command::Help),
+            unexpected => return Err(unexpected.unexpected().into()),
+        }
+    }
+    Ok(Command::Run(Box::new(options)))
+}
+
+fn format_named(name: &str) -> Result<Format> {
+    match name {
+        "text" => Ok(Format::Text),
+        "json" => Ok(Format::Json),
+        _ => Err(Error::new(format!(
+            "no format `{name}`: expected text or json"
+        ))),
+    }
+}
+
+fn setting(text: &str) -> Result<(String, String)> {
+    let parts = text
+        .split_once('=')
+        .map(|(path, value)| (path.trim(), value.trim()));
+    match parts {
+        Some((path, value)) if path.split('.').all(|key| !key.is_empty()) => {
+            Ok((path.to_owned(), value.to_owned()))
+        }
+        _ => Err(Error::new(format!("--set {text}: expected a.b=value"))),
+    }
+}
+
+/// A number with its unit: `10s`, `1.5s`, `500ms`, `2m`, `1h`.
+fn duration(text: &str) -> Result<Duration> {
+    let end = text
+        .find(|character: char| character.is_ascii_alphabetic())
+        .unwrap_or(text.len());
+    let (number, unit) = text.split_at(end);
+    let seconds = match unit {
+        "ms" => Some(1e-3),
+        "s" => Some(1.0),
+        "m" | "min" => Some(60.0),
+        "h" => Some(3600.0),
+        _ => None,
+    };
+    let parsed = seconds.zip(number.trim().parse::<f64>().ok());
+    parsed
+        .and_then(|(seconds, number)| Duration::try_from_secs_f64(number * seconds).ok())
+        .ok_or_else(|| {
+            Error::new(format!(
+                "`{text}` is no duration: expected e.g. 10s, 500ms or 2m"
+            ))
+        })
+}
+
+fn text(argument: OsString) -> Result<String> {
+    argument
+        .into_string()
+        .map_err(|argument| Error::new(format!("{} is no valid text", argument.display())))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parsed(arguments: &[&str]) -> Result<Options> {
+        match parse(arguments.iter().map(OsString::from))? {
+            Command::Run(options) => Ok(*options),
+            Command::Help => Err(Error::new("help")),
+        }
+    }
+
+    #[test]
+    fn every_option_is_understood_and_the_rest_is_the_hardwares() {
+        let options = parsed(&[
+            "--for",
+            "1.5s",
+            "--headless",
+            "--format=json",
+            "--parameters",
+            "here",
+            "--location",
+            "lab",
+            "--set",
+            "a.b=[1, 2]",
+            "--set",
+            "c = x=y",
+            "--run-folder",
+            "there",
+            "--",
+            "--for",
+            "ball",
+        ]);
+        let expected = Options {
+            duration: Some(Duration::from_millis(1500)),
+            format: Format::Json,
+            parameters: Some("here".into()),
+            location: Some("lab".to_owned()),
+            settings: vec![
+                ("a.b".to_owned(), "[1, 2]".to_owned()),
+                ("c".to_owned(), "x=y".to_owned()),
+            ],
+            run_folder: Some("there".into()),
+            hardware: vec!["--for".to_owned(), "ball".to_owned()],
+        };
+        assert_eq!(options.expect("all options are valid"), expected);
+    }
+
+    #[test]
+    fn durations_need_a_number_and_a_unit() {
+        assert_eq!(duration("2m").expect("valid"), Duration::from_secs(120));
+        assert_eq!(
+            duration("500ms").expect("valid"),
+            Duration::from_millis(500)
+        );
+        for wrong in ["", "10", "s", "-1s", "10 parsecs", "1e400s"] {
+            assert!(duration(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn wrong_usage_is_an_error() {
+        for wrong in [
+            &["--fro", "1s"][..],
+            &["--set", "a"],
+            &["--set", ".a=1"],
+            &["x"],
+            &["--format", "xml"],
+            &["--for"],
+        ] {
+            assert!(parsed(wrong).is_err(), "{wrong:?}");
+        }
+    }
+}

@@ -1,0 +1,46 @@
+//! Ctrl-C and the system's request to terminate: the first asks for an orderly stop, a second Ctrl-C ends the process.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use signal_hook::consts::{SIGINT, SIGTERM};
+use signal_hook::flag;
+
+use super::INTERRUPTED;
+use crate::error::Result;
+
+/// What signals have come.
+#[derive(Clone, Debug)]
+pub(super) struct Signals {
+    interrupted: Arc<AtomicBool>,
+    terminated: Arc<AtomicBool>,
+}
+
+impl Signals {
+    /// From now on the signals only set flags.
+    pub(super) fn new() -> Result<Self> {
+        let signals = Self {
+            interrupted: Arc::default(),
+            terminated: Arc::default(),
+        };
+        // In this order: the first Ctrl-C finds its flag unset and sets it.
+        flag::register_conditional_shutdown(
+            SIGINT,
+            INTERRUPTED.into(),
+            signals.interrupted.clone(),
+        )?;
+        flag::register(SIGINT, signals.interrupted.clone())?;
+        flag::register(SIGTERM, signals.terminated.clone())?;
+        Ok(signals)
+    }
+
+    /// Whether it was Ctrl-C.
+    pub(super) fn interrupted(&self) -> bool {
+        self.interrupted.load(Ordering::Relaxed)
+    }
+
+    /// Whether the run shall end.
+    pub(super) fn any(&self) -> bool {
+        self.interrupted() || self.terminated.load(Ordering::Relaxed)
+    }
+}

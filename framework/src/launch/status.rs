@@ -1,0 +1,121 @@
+//! Looks after a run: ends it on a signal or when its time is over, and shows a line a second on standard error.
+
+use std::fmt::Write;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread::{self, JoinHandle};
+use std::time::{Duration, Instant};
+
+use super::signals::Signals;
+use crate::cycler::{Counters, Counts};
+use crate::error::Result;
+use crate::robot::Robot;
+use crate::stop::Stop;
+
+const PERIOD: Duration = Duration::from_millis(20);
+const SHOWN_EVERY: Duration = Duration::from_secs(1);
+
+/// The thread that looks after the run.
+pub(super) struct Supervisor {
+    watched: Arc<Mutex<Option<Watched>>>,
+    thread: JoinHandle<()>,
+}
+
+/// What there is to look after once the robot was created.
+struct Watched {
+    started: Instant,
+    duration: Option<Duration>,
+    shown: Instant,
+    instances: Vec<Line>,
+}
+
+struct Line {
+    name: &'static str,
+    counters: Arc<Counters>,
+    shown: Counts,
+}
+
+impl Supervisor {
+    /// From now on a signal requests the stop.
+    pub(super) fn start(signals: Signals, stop: Stop) -> Result<Self> {
+        let watched = Arc::new(Mutex::new(None));
+        let seen = watched.clone();
+        let thread = thread::Builder::new()
+            .name("supervisor".to_owned())
+            .spawn(move || {
+                while stop.wait(PERIOD).is_ok() {
+                    let mut watched = lock(&seen);
+                    let is_over = watched.as_mut().is_some_and(Watched::look);
+                    if is_over || signals.any() {
+                        stop.request();
+                    }
+                }
+            })?;
+        Ok(Self { watched, thread })
+    }
+
+    /// From now on the robot's status is shown, and it is stopped after `duration`.
+    pub(super) fn watch<P>(&self, robot: &Robot<P>, duration: Option<Duration>) {
+        let now = Instant::now();
+        let instances = robot.instances.iter().map(|instance| Line {
+            name: instance.description().name,
+            counters: instance.counters().clone(),
+            shown: Counts::default(),
+        });
+        *lock(&self.watched) = Some(Watched {
+            started: now,
+            duration,
+            shown: now,
+            instances: instances.collect(),
+        });
+    }
+
+    /// Waits for the thread, which ends when the stop was requested.
+    pub(super) fn join(self) {
+        if self.thread.join().is_err() {
+            eprintln!("the supervisor panicked");
+        }
+    }
+}
+
+impl Watched {
+    /// Shows the status when it is time to; whether the run is over.
+    fn look(&mut self) -> bool {
+        let now = Instant::now();
+        let since_shown = now - self.shown;
+        if since_shown >= SHOWN_EVERY {
+            self.shown = now;
+            let mut line = format!("{:6.0} s", (now - self.started).as_secs_f64());
+            for instance in &mut self.instances {
+                instance.write(since_shown, &mut line);
+            }
+            eprintln!("{line}");
+        }
+        self.duration
+            .is_some_and(|duration| now - self.started >= duration)
+    }
+}
+
+impl Line {
+    /// Cycles per second since it was last shown; totals of what should not happen, where it did.
+    fn write(&mut self, since_shown: Duration, line: &mut String) {
+        let counts = self.counters.read();
+        let cycles = counts.cycles - self.shown.cycles;
+        let rate = cycles as f64 / since_shown.as_secs_f64();
+        self.shown = counts;
+        // Writing to a string cannot fail.
+        let _ = write!(line, "  |  {} {rate:6.1}/s", self.name);
+        for (count, what) in [
+            (counts.failures, "failures"),
+            (counts.overruns, "overruns"),
+            (counts.restarts, "restarts"),
+        ] {
+            if count > 0 {
+                let _ = write!(line, ", {count} {what}");
+            }
+        }
+    }
+}
+
+fn lock(watched: &Mutex<Option<Watched>>) -> std::sync::MutexGuard<'_, Option<Watched>> {
+    watched.lock().unwrap_or_else(PoisonError::into_inner)
+}

@@ -1,0 +1,32 @@
+//! The parameters of a robot: layers of TOML, merged field by field, each value with the place it comes from.
+//!
+//! Later layers win: `default.toml`, `<location>/default.toml`, `<identity>.<id>.toml` for each identity,
+//! `<location>/<identity>.<id>.toml`, the environment (`HULK_PARAMETERS__a__b`), `--set a.b=value`. Tables merge; arrays and
+//! all other values are replaced whole. Only `default.toml` has to be there.
+
+mod deserialize;
+mod error;
+mod layers;
+mod nearest;
+mod tree;
+
+pub use error::{Origin, ParameterError};
+pub use layers::{Layers, Parameters};
+
+use serde::de::DeserializeOwned;
+
+use tree::Tree;
+
+/// A type from the text of one TOML file; `name` is the file's in errors.
+pub fn from_text<T: DeserializeOwned>(name: &str, text: &str) -> Result<T, ParameterError> {
+    deserialize::deserialize(&tree::parse(name, text)?)
+}
+
+/// A type from a table; errors name the key.
+pub fn from_table<T: DeserializeOwned>(table: &toml::Table) -> Result<T, ParameterError> {
+    let origin = Origin::Unknown;
+    deserialize::deserialize(&Tree::from_value(
+        &toml::Value::Table(table.clone()),
+        &origin,
+    ))
+}

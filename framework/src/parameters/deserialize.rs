@@ -1,0 +1,332 @@
+//! A tree of values as a type, with errors that name the file, the line and the key.
+
+use std::collections::{BTreeMap, btree_map};
+use std::fmt::{self, Display};
+use std::slice;
+
+use serde::de::value::StrDeserializer;
+use serde::de::{
+    self, DeserializeOwned, DeserializeSeed, Deserializer, EnumAccess, IntoDeserializer, MapAccess,
+    SeqAccess, Unexpected, VariantAccess, Visitor,
+};
+use serde::forward_to_deserialize_any;
+
+use super::error::{Origin, ParameterError};
+use super::nearest::nearest;
+use super::tree::{Tree, Value};
+
+/// The type that the tree stands for.
+pub(super) fn deserialize<T: DeserializeOwned>(tree: &Tree) -> Result<T, ParameterError> {
+    T::deserialize(Node(tree)).map_err(|mistake| mistake.at(tree).finish())
+}
+
+#[derive(Clone, Copy)]
+struct Node<'tree>(&'tree Tree);
+
+/// What is wrong, with as much of the place as is known on the way out.
+#[derive(Debug)]
+struct Mistake {
+    message: String,
+    /// Innermost first.
+    keys: Vec<String>,
+    origin: Option<Origin>,
+}
+
+impl Mistake {
+    /// It is in this value, unless a more exact place is known.
+    fn at(mut self, tree: &Tree) -> Self {
+        self.origin.get_or_insert_with(|| tree.origin.clone());
+        self
+    }
+
+    fn below(mut self, key: impl Into<String>) -> Self {
+        self.keys.push(key.into());
+        self
+    }
+
+    fn finish(mut self) -> ParameterError {
+        self.keys.reverse();
+        let origin = self.origin.unwrap_or(Origin::Unknown);
+        ParameterError::new(origin, self.keys.join("."), self.message)
+    }
+
+    fn new(message: impl Into<String>) -> Self {
+        Self {
+            message: message.into(),
+            keys: Vec::new(),
+            origin: None,
+        }
+    }
+}
+
+impl de::Error for Mistake {
+    fn custom<T: Display>(message: T) -> Self {
+        Self::new(message.to_string())
+    }
+
+    fn missing_field(field: &'static str) -> Self {
+        Self::new("is missing: no layer has it").below(field)
+    }
+
+    fn unknown_field(field: &str, expected: &'static [&'static str]) -> Self {
+        let message = match (nearest(field, expected.iter().copied()), expected) {
+            (Some(name), _) => format!("nothing reads it; did you mean `{name}`?"),
+            (None, []) => "nothing reads it; nothing is expected here".to_owned(),
+            (None, _) => format!("nothing reads it; expected are {}", expected.join(", ")),
+        };
+        Self::new(message)
+    }
+
+    fn unknown_variant(variant: &str, expected: &'static [&'static str]) -> Self {
+        let message = match nearest(variant, expected.iter().copied()) {
+            Some(name) => format!("no variant `{variant}`; did you mean `{name}`?"),
+            None => format!(
+                "no variant `{variant}`; expected one of {}",
+                expected.join(", ")
+            ),
+        };
+        Self::new(message)
+    }
+
+    fn invalid_type(found: Unexpected<'_>, expected: &dyn de::Expected) -> Self {
+        Self::new(format!("expected {expected}, found {found}"))
+    }
+}
+
+impl Display for Mistake {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(formatter, "{}", self.message)
+    }
+}
+
+impl std::error::Error for Mistake {}
+
+impl<'de> Deserializer<'de> for Node<'_> {
+    type Error = Mistake;
+
+    fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Mistake> {
+        let result = match &self.0.value {
+            Value::Table(entries) => visitor.visit_map(Entries {
+                entries: entries.iter(),
+                value: None,
+            }),
+            Value::Array(items) => {
+                let mut items = Items {
+                    items: items.iter(),
+                    index: 0,
+                };
+                let value = visitor.visit_seq(&mut items);
+                match items.items.len() {
+                    0 => value,
+                    left if value.is_ok() => {
+                        Err(Mistake::new(format!("has {left} more items than expected")))
+                    }
+                    _ => value,
+                }
+            }
+            Value::String(text) | Value::Datetime(text) => visitor.visit_str(text),
+            Value::Integer(integer) => visitor.visit_i64(*integer),
+            Value::Float(float) => visitor.visit_f64(*float),
+            Value::Boolean(boolean) => visitor.visit_bool(*boolean),
+        };
+        result.map_err(|mistake| mistake.at(self.0))
+    }
+
+    fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Mistake> {
+        visitor.visit_some(self)
+    }
+
+    fn deserialize_newtype_struct<V: Visitor<'de>>(
+        self,
+        _name: &'static str,
+        visitor: V,
+    ) -> Result<V::Value, Mistake> {
+        visitor.visit_newtype_struct(self)
+    }
+
+    fn deserialize_unit<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Mistake> {
+        match &self.0.value {
+            Value::Table(entries) if entries.is_empty() => visitor.visit_unit(),
+            _ => self.deserialize_any(visitor),
+        }
+    }
+
+    fn deserialize_unit_struct<V: Visitor<'de>>(
+        self,
+        _name: &'static str,
+        visitor: V,
+    ) -> Result<V::Value, Mistake> {
+        self.deserialize_unit(visitor)
+    }
+
+    fn deserialize_enum<V: Visitor<'de>>(
+        self,
+        _name: &'static str,
+        _variants: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, Mistake> {
+        let result = match &self.0.value {
+            Value::String(variant) => visitor.visit_enum(Variant {
+                name: variant,
+                content: None,
+            }),
+            // A later layer replaces the whole value, and its variant need not be the one from before.
+            Value::Table(_) => match &self.0.of_last_layer().value {
+                Value::Table(entries) if entries.len() == 1 => visit_variant(entries, visitor),
+                _ => Err(Mistake::new("expected a table with one variant")),
+            },
+            _ => Err(Mistake::new(format!(
+                "expected a variant's name, found {}",
+                self.0.kind()
+            ))),
+        };
+        result.map_err(|mistake| mistake.at(self.0))
+    }
+
+    forward_to_deserialize_any! {
+        bool i8 i16 i32 i64 i128 u8 u16 u32 u64 u128 f32 f64 char str string bytes byte_buf
+        seq tuple tuple_struct map struct identifier ignored_any
+    }
+}
+
+fn visit_variant<'de, V: Visitor<'de>>(
+    entries: &BTreeMap<String, Tree>,
+    visitor: V,
+) -> Result<V::Value, Mistake> {
+    let (name, content) = entries
+        .iter()
+        .next()
+        .ok_or_else(|| Mistake::new("expected a variant"))?;
+    let variant = Variant {
+        name,
+        content: Some(content),
+    };
+    visitor
+        .visit_enum(variant)
+        .map_err(|mistake| mistake.at(content).below(name.as_str()))
+}
+
+struct Entries<'tree> {
+    entries: btree_map::Iter<'tree, String, Tree>,
+    value: Option<(&'tree str, &'tree Tree)>,
+}
+
+impl<'de> MapAccess<'de> for Entries<'_> {
+    type Error = Mistake;
+
+    fn next_key_seed<K: DeserializeSeed<'de>>(
+        &mut self,
+        seed: K,
+    ) -> Result<Option<K::Value>, Mistake> {
+        let Some((key, tree)) = self.entries.next() else {
+            return Ok(None);
+        };
+        self.value = Some((key, tree));
+        let deserializer: StrDeserializer<'_, Mistake> = key.as_str().into_deserializer();
+        let key = seed
+            .deserialize(deserializer)
+            .map_err(|mistake| mistake.at(tree).below(key.as_str()))?;
+        Ok(Some(key))
+    }
+
+    fn next_value_seed<V: DeserializeSeed<'de>>(&mut self, seed: V) -> Result<V::Value, Mistake> {
+        let (key, tree) = self
+            .value
+            .take()
+            .ok_or_else(|| Mistake::new("a value was asked for before its key"))?;
+        seed.deserialize(Node(tree))
+            .map_err(|mistake| mistake.at(tree).below(key))
+    }
+
+    fn size_hint(&self) -> Option<usize> {
+        Some(self.entries.len())
+    }
+}
+
+struct Items<'tree> {
+    items: slice::Iter<'tree, Tree>,
+    index: usize,
+}
+
+impl<'de> SeqAccess<'de> for Items<'_> {
+    type Error = Mistake;
+
+    fn next_element_seed<T: DeserializeSeed<'de>>(
+        &mut self,
+        seed: T,
+    ) -> Result<Option<T::Value>, Mistake> {
+        let Some(tree) = self.items.next() else {
+            return Ok(None);
+        };
+        let index = self.index;
+        self.index += 1;
+        let item = seed.deserialize(Node(tree));
+        item.map(Some)
+            .map_err(|mistake| mistake.at(tree).below(index.to_string()))
+    }
+
+    fn size_hint(&self) -> Option<usize> {
+        Some(self.items.len())
+    }
+}
+
+struct Variant<'tree> {
+    name: &'tree str,
+    content: Option<&'tree Tree>,
+}
+
+impl<'de> EnumAccess<'de> for Variant<'_> {
+    type Error = Mistake;
+    type Variant = Self;
+
+    fn variant_seed<V: DeserializeSeed<'de>>(self, seed: V) -> Result<(V::Value, Self), Mistake> {
+        let deserializer: StrDeserializer<'_, Mistake> = self.name.into_deserializer();
+        Ok((seed.deserialize(deserializer)?, self))
+    }
+}
+
+impl Variant<'_> {
+    fn content(&self) -> Result<Node<'_>, Mistake> {
+        let content = self.content.map(Node);
+        content.ok_or_else(|| {
+            Mistake::new(format!(
+                "variant `{}` has a value: {{ {0} = … }}",
+                self.name
+            ))
+        })
+    }
+}
+
+impl<'de> VariantAccess<'de> for Variant<'_> {
+    type Error = Mistake;
+
+    fn unit_variant(self) -> Result<(), Mistake> {
+        match self.content {
+            None => Ok(()),
+            Some(_) => Err(Mistake::new(format!(
+                "variant `{}` has no value",
+                self.name
+            ))),
+        }
+    }
+
+    fn newtype_variant_seed<T: DeserializeSeed<'de>>(self, seed: T) -> Result<T::Value, Mistake> {
+        seed.deserialize(self.content()?)
+    }
+
+    fn tuple_variant<V: Visitor<'de>>(
+        self,
+        _length: usize,
+        visitor: V,
+    ) -> Result<V::Value, Mistake> {
+        self.content()?.deserialize_any(visitor)
+    }
+
+    fn struct_variant<V: Visitor<'de>>(
+        self,
+        _fields: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, Mistake> {
+        self.content()?.deserialize_any(visitor)
+    }
+}

@@ -1,0 +1,211 @@
+//! Which files are layers, and what they are merged to.
+
+use std::fs;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+
+use super::error::{Origin, ParameterError};
+use super::tree::{self, Tree, Value};
+use super::{deserialize, from_text};
+use crate::error::{Error, Result};
+
+/// What environment variables that set parameters start with.
+const ENVIRONMENT_PREFIX: &str = "HULK_PARAMETERS__";
+/// `HULK_PARAMETERS__a__b` is `a.b`.
+const ENVIRONMENT_SEPARATOR: &str = "__";
+
+/// Everything that decides which value wins.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Layers {
+    /// Holds the files.
+    pub directory: PathBuf,
+    /// As on the command line or of the target; else what the directory's `parameters.toml` says.
+    pub location: Option<String>,
+    /// (name, id) in the order of the layers; none are known before the hardware is.
+    pub identities: Vec<(String, String)>,
+    /// Environment variables; those with another prefix do not matter.
+    pub environment: Vec<(String, String)>,
+    /// (path, value) of every `--set`.
+    pub settings: Vec<(String, String)>,
+}
+
+/// The merged values of one robot.
+#[derive(Clone, Debug)]
+pub struct Parameters {
+    tree: Tree,
+    /// The files that were read, in order.
+    files: Vec<PathBuf>,
+}
+
+/// `parameters.toml` beside the layers.
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Choice {
+    location: Option<String>,
+}
+
+impl Layers {
+    /// Reads and merges all layers that are there.
+    pub fn load(&self) -> Result<Parameters> {
+        let location = self.location()?;
+        let mut parameters = Parameters {
+            tree: Tree::empty(Origin::File {
+                path: display(&self.directory).into(),
+                line: 1,
+            }),
+            files: Vec::new(),
+        };
+        for (file, required) in self.files(location.as_deref()) {
+            parameters.add(file, required)?;
+        }
+        for (variable, value) in &self.environment {
+            if let Some(path) = variable.strip_prefix(ENVIRONMENT_PREFIX) {
+                let origin = Origin::Environment(variable.as_str().into());
+                let setting = tree::parse_setting(value, &origin);
+                parameters
+                    .tree
+                    .overlay(setting.below(path, ENVIRONMENT_SEPARATOR));
+            }
+        }
+        for (path, value) in &self.settings {
+            let origin = Origin::Setting(format!("{path}={value}").into());
+            parameters
+                .tree
+                .overlay(tree::parse_setting(value, &origin).below(path, "."));
+        }
+        Ok(parameters)
+    }
+
+    /// In the order of merging; only the first has to be there.
+    fn files(&self, location: Option<&str>) -> Vec<(PathBuf, bool)> {
+        let at_location = location.map(|location| self.directory.join(location));
+        let identified = |folder: &Path| -> Vec<(PathBuf, bool)> {
+            let names = self
+                .identities
+                .iter()
+                .map(|(name, id)| format!("{name}.{id}.toml"));
+            names.map(|name| (folder.join(name), false)).collect()
+        };
+        let mut files = vec![(self.directory.join("default.toml"), true)];
+        files.extend(
+            at_location
+                .iter()
+                .map(|folder| (folder.join("default.toml"), false)),
+        );
+        files.extend(identified(&self.directory));
+        files.extend(at_location.iter().flat_map(|folder| identified(folder)));
+        files
+    }
+
+    fn location(&self) -> Result<Option<String>> {
+        if let Some(location) = &self.location {
+            return Ok(Some(location.clone()));
+        }
+        let path = self.directory.join("parameters.toml");
+        let text = read(&path)?;
+        let choice: Option<Choice> = text
+            .map(|text| from_text(&display(&path), &text))
+            .transpose()?;
+        Ok(choice.and_then(|choice| choice.location))
+    }
+}
+
+impl Parameters {
+    /// As the robot's type. `hardware` does not belong to it.
+    pub fn deserialize<P: DeserializeOwned>(&self) -> Result<P> {
+        let mut tree = self.tree.clone();
+        if let Value::Table(entries) = &mut tree.value {
+            entries.remove("hardware");
+        }
+        deserialize::deserialize(&tree).map_err(|error| self.with_layers(error))
+    }
+
+    /// `[hardware.<target>]`, empty if no layer has it.
+    pub fn hardware(&self, target: &str) -> Result<toml::Table> {
+        let key = format!("hardware.{target}");
+        match self.tree.get(&key).map(|tree| (tree, tree.to_value())) {
+            None => Ok(toml::Table::new()),
+            Some((_, toml::Value::Table(table))) => Ok(table),
+            Some((tree, _)) => {
+                let message = format!("expected a table, found {}", tree.kind());
+                Err(ParameterError::new(tree.origin.clone(), key, message).into())
+            }
+        }
+    }
+
+    /// Where the value at this path was written last.
+    pub fn origin(&self, path: &str) -> Option<&Origin> {
+        self.tree.get(path).map(|tree| &tree.origin)
+    }
+
+    /// The files that were read, later ones win.
+    pub fn files(&self) -> &[PathBuf] {
+        &self.files
+    }
+
+    /// Gives an error of `[hardware.<target>]` the place that the hardware could not know.
+    pub(crate) fn locate(&self, target: &str, error: Error) -> Error {
+        let Some(found) = error.find::<ParameterError>() else {
+            return error;
+        };
+        if found.origin != Origin::Unknown {
+            return error;
+        }
+        let mut located = found.clone();
+        located.key = format!("hardware.{target}.{}", found.key);
+        // A missing key has no place of its own, its table has.
+        let mut path = located.key.as_str();
+        loop {
+            if let Some(origin) = self.origin(path) {
+                located.origin = origin.clone();
+                return located.into();
+            }
+            match path.rfind('.') {
+                Some(end) => path = &path[..end],
+                None => return located.into(),
+            }
+        }
+    }
+
+    fn add(&mut self, file: PathBuf, required: bool) -> Result<()> {
+        match read(&file)? {
+            Some(text) => {
+                self.tree.overlay(tree::parse(&display(&file), &text)?);
+                self.files.push(file);
+                Ok(())
+            }
+            None if required => Err(Error::new(format!(
+                "{} is missing: it holds the default of every parameter",
+                file.display()
+            ))),
+            None => Ok(()),
+        }
+    }
+
+    /// Where a value is missing, the layers that could have it help more than the line of the table.
+    fn with_layers(&self, error: ParameterError) -> Error {
+        let is_missing = self.tree.get(&error.key).is_none();
+        let error = Error::from(error);
+        if !is_missing || self.files.is_empty() {
+            return error;
+        }
+        let files: Vec<_> = self.files.iter().map(|file| display(file)).collect();
+        error.context(format!("parameters of {}", files.join(", ")))
+    }
+}
+
+/// `None` if there is no such file.
+fn read(path: &Path) -> Result<Option<String>> {
+    match fs::read_to_string(path) {
+        Ok(text) => Ok(Some(text)),
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(Error::from(error).context(format!("cannot read {}", path.display()))),
+    }
+}
+
+fn display(path: &Path) -> String {
+    path.display().to_string()
+}

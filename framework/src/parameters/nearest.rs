@@ -1,0 +1,42 @@
+//! The valid name that was probably meant.
+
+/// The nearest of `names` to `wanted`, if it is near enough to be a slip.
+pub(super) fn nearest<'a>(
+    wanted: &str,
+    names: impl IntoIterator<Item = &'a str>,
+) -> Option<&'a str> {
+    let limit = 1 + wanted.chars().count() / 3;
+    let distances = names.into_iter().map(|name| (distance(wanted, name), name));
+    let (distance, name) = distances.min_by_key(|(distance, _)| *distance)?;
+    (distance <= limit).then_some(name)
+}
+
+/// Levenshtein's distance.
+fn distance(from: &str, to: &str) -> usize {
+    let to: Vec<char> = to.chars().collect();
+    let mut row: Vec<usize> = (0..=to.len()).collect();
+    for (index, character) in from.chars().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = index + 1;
+        for column in 1..row.len() {
+            let replaced = diagonal + usize::from(to[column - 1] != character);
+            diagonal = row[column];
+            row[column] = replaced.min(row[column] + 1).min(row[column - 1] + 1);
+        }
+    }
+    row[to.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::nearest;
+
+    #[test]
+    fn a_slip_is_recognised_and_another_word_is_not() {
+        let names = ["ball_radius", "field_length", "step"];
+        assert_eq!(nearest("bal_radius", names), Some("ball_radius"));
+        assert_eq!(nearest("stpe", names), Some("step"));
+        assert_eq!(nearest("whistle", names), None);
+        assert_eq!(nearest("step", []), None);
+    }
+}

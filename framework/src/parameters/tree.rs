@@ -1,0 +1,260 @@
+//! TOML with the place of every value, and how two layers merge.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::error::{Origin, ParameterError};
+
+/// A value and where it was written.
+#[derive(Clone, Debug)]
+pub(super) struct Tree {
+    pub(super) origin: Origin,
+    /// The last layer that has anything here.
+    pub(super) layer: usize,
+    pub(super) value: Value,
+}
+
+#[derive(Clone, Debug)]
+pub(super) enum Value {
+    Table(BTreeMap<String, Tree>),
+    Array(Vec<Tree>),
+    String(String),
+    Integer(i64),
+    Float(f64),
+    Boolean(bool),
+    /// As TOML writes it.
+    Datetime(String),
+}
+
+/// The tree of one file.
+pub(super) fn parse(path: &str, text: &str) -> Result<Tree, ParameterError> {
+    let lines = Lines {
+        path: path.into(),
+        text,
+    };
+    let table = DeTable::parse(text).map_err(|error| {
+        let start = error.span().map_or(0, |span| span.start);
+        ParameterError::new(lines.origin(start), "", error.message())
+    })?;
+    let entries = lines.table(table.get_ref())?;
+    Ok(Tree {
+        origin: lines.origin(0),
+        layer: 0,
+        value: Value::Table(entries),
+    })
+}
+
+/// A value as on the right of `key = …`, or else the text itself: for the environment and the command line.
+pub(super) fn parse_setting(text: &str, origin: &Origin) -> Tree {
+    let value = toml::from_str::<toml::Table>(&format!("value = {text}"));
+    let value = value
+        .ok()
+        .filter(|table| table.len() == 1)
+        .and_then(|mut table| table.remove("value"));
+    Tree::from_value(
+        &value.unwrap_or_else(|| toml::Value::String(text.to_owned())),
+        origin,
+    )
+}
+
+impl Tree {
+    /// Every part of the value comes from the same place.
+    pub(super) fn from_value(value: &toml::Value, origin: &Origin) -> Self {
+        let below = |value| Self::from_value(value, origin);
+        let value = match value {
+            toml::Value::Table(table) => Value::Table(
+                table
+                    .iter()
+                    .map(|(key, value)| (key.clone(), below(value)))
+                    .collect(),
+            ),
+            toml::Value::Array(array) => Value::Array(array.iter().map(below).collect()),
+            toml::Value::String(text) => Value::String(text.clone()),
+            toml::Value::Integer(integer) => Value::Integer(*integer),
+            toml::Value::Float(float) => Value::Float(*float),
+            toml::Value::Boolean(boolean) => Value::Boolean(*boolean),
+            toml::Value::Datetime(datetime) => Value::Datetime(datetime.to_string()),
+        };
+        Self {
+            origin: origin.clone(),
+            layer: 0,
+            value,
+        }
+    }
+
+    /// The value without its places.
+    pub(super) fn to_value(&self) -> toml::Value {
+        match &self.value {
+            Value::Table(entries) => toml::Value::Table(
+                entries
+                    .iter()
+                    .map(|(key, tree)| (key.clone(), tree.to_value()))
+                    .collect(),
+            ),
+            Value::Array(items) => toml::Value::Array(items.iter().map(Self::to_value).collect()),
+            Value::String(text) | Value::Datetime(text) => toml::Value::String(text.clone()),
+            Value::Integer(integer) => toml::Value::Integer(*integer),
+            Value::Float(float) => toml::Value::Float(*float),
+            Value::Boolean(boolean) => toml::Value::Boolean(*boolean),
+        }
+    }
+
+    /// A table without entries.
+    pub(super) fn empty(origin: Origin) -> Self {
+        Self {
+            origin,
+            layer: 0,
+            value: Value::Table(BTreeMap::new()),
+        }
+    }
+
+    /// Puts a later layer over this one.
+    pub(super) fn overlay(&mut self, mut later: Self) {
+        later.mark(self.layer + 1);
+        self.merge(later);
+    }
+
+    fn merge(&mut self, later: Self) {
+        self.layer = later.layer;
+        match (&mut self.value, later) {
+            (
+                Value::Table(entries),
+                Self {
+                    value: Value::Table(later),
+                    ..
+                },
+            ) => {
+                for (key, tree) in later {
+                    match entries.get_mut(&key) {
+                        Some(entry) => entry.merge(tree),
+                        None => _ = entries.insert(key, tree),
+                    }
+                }
+            }
+            (_, later) => *self = later,
+        }
+    }
+
+    fn mark(&mut self, layer: usize) {
+        self.layer = layer;
+        match &mut self.value {
+            Value::Table(entries) => entries.values_mut().for_each(|tree| tree.mark(layer)),
+            Value::Array(items) => items.iter_mut().for_each(|tree| tree.mark(layer)),
+            _ => {}
+        }
+    }
+
+    /// Without what earlier layers had: for values that are replaced whole although they are tables.
+    pub(super) fn of_last_layer(&self) -> Self {
+        let mut tree = self.clone();
+        if let Value::Table(entries) = &mut tree.value {
+            entries.retain(|_, below| below.layer == self.layer);
+            entries
+                .values_mut()
+                .for_each(|below| *below = below.of_last_layer());
+        }
+        tree
+    }
+
+    /// This value at a path of keys, all from the same place.
+    pub(super) fn below(self, path: &str, separator: &str) -> Self {
+        path.rsplit(separator).fold(self, |tree, key| Self {
+            origin: tree.origin.clone(),
+            layer: 0,
+            value: Value::Table(BTreeMap::from([(key.to_owned(), tree)])),
+        })
+    }
+
+    /// What stands at a path of keys.
+    pub(super) fn get(&self, path: &str) -> Option<&Self> {
+        path.split('.')
+            .filter(|key| !key.is_empty())
+            .try_fold(self, |tree, key| match &tree.value {
+                Value::Table(entries) => entries.get(key),
+                Value::Array(items) => items.get(key.parse::<usize>().ok()?),
+                _ => None,
+            })
+    }
+
+    /// What kind of value it is, for messages.
+    pub(super) fn kind(&self) -> &'static str {
+        match self.value {
+            Value::Table(_) => "a table",
+            Value::Array(_) => "an array",
+            Value::String(_) => "a string",
+            Value::Integer(_) => "an integer",
+            Value::Float(_) => "a float",
+            Value::Boolean(_) => "a boolean",
+            Value::Datetime(_) => "a date or time",
+        }
+    }
+}
+
+/// Finds the line of a place in one file.
+struct Lines<'text> {
+    path: Arc<str>,
+    text: &'text str,
+}
+
+impl Lines<'_> {
+    fn origin(&self, start: usize) -> Origin {
+        let before = self
+            .text
+            .as_bytes()
+            .get(..start)
+            .unwrap_or(self.text.as_bytes());
+        let line = 1 + before.iter().filter(|byte| **byte == b'\n').count();
+        Origin::File {
+            path: self.path.clone(),
+            line,
+        }
+    }
+
+    fn table(&self, table: &DeTable<'_>) -> Result<BTreeMap<String, Tree>, ParameterError> {
+        let entries = table.iter().map(|(key, value)| {
+            // The key's line, not the value's: where one looks first.
+            let origin = self.origin(key.span().start);
+            Ok((key.get_ref().to_string(), self.tree(value, origin)?))
+        });
+        entries.collect()
+    }
+
+    fn tree(&self, value: &Spanned<DeValue<'_>>, origin: Origin) -> Result<Tree, ParameterError> {
+        let value = match value.get_ref() {
+            DeValue::Table(table) => Value::Table(self.table(table)?),
+            DeValue::Array(array) => {
+                let items = array
+                    .iter()
+                    .map(|item| self.tree(item, self.origin(item.span().start)));
+                Value::Array(items.collect::<Result<_, _>>()?)
+            }
+            DeValue::String(text) => Value::String(text.to_string()),
+            DeValue::Integer(integer) => {
+                let parsed = i64::from_str_radix(integer.as_str(), integer.radix());
+                Value::Integer(parsed.map_err(|error| {
+                    ParameterError::new(
+                        origin.clone(),
+                        "",
+                        format!("{}: {error}", integer.as_str()),
+                    )
+                })?)
+            }
+            DeValue::Float(float) => {
+                let parsed = float.as_str().parse();
+                Value::Float(parsed.map_err(|error| {
+                    ParameterError::new(origin.clone(), "", format!("{}: {error}", float.as_str()))
+                })?)
+            }
+            DeValue::Boolean(boolean) => Value::Boolean(*boolean),
+            DeValue::Datetime(datetime) => Value::Datetime(datetime.to_string()),
+        };
+        Ok(Tree {
+            origin,
+            layer: 0,
+            value,
+        })
+    }
+}

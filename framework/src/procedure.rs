@@ -1,0 +1,227 @@
+//! Calls that a node answers, at most one per cycle.
+//!
+//! ```text
+//! client: Caller::call(request) -> Pending ........................................ -> answer or refusal
+//! instance:            begin: Answerer::take   node: Call::answer   finish: Answerer::close (unanswered = refused)
+//! ```
+
+use std::fmt;
+use std::sync::Arc;
+use std::sync::mpsc::{
+    Receiver, RecvTimeoutError, SyncSender, TryRecvError, TrySendError, sync_channel,
+};
+use std::time::Duration;
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use crate::error::Result;
+
+/// Calls that may wait for an instance; more are refused, so that clients cannot fill the memory.
+const WAITING_CALLS: usize = 64;
+
+/// Connects clients with the node that answers.
+pub fn procedure<Request, Response>() -> (Caller<Request, Response>, Answerer<Request, Response>) {
+    let (sender, receiver) = sync_channel(WAITING_CALLS);
+    let answerer = Answerer {
+        receiver,
+        taken: None,
+    };
+    (Caller { sender }, answerer)
+}
+
+/// The clients' end of a procedure.
+#[derive(Debug)]
+pub struct Caller<Request, Response> {
+    sender: SyncSender<Asked<Request, Response>>,
+}
+
+/// The instance's end of a procedure.
+#[derive(Debug)]
+pub struct Answerer<Request, Response> {
+    receiver: Receiver<Asked<Request, Response>>,
+    taken: Option<Asked<Request, Response>>,
+}
+
+/// One call, as the node sees it in one cycle.
+#[derive(Debug)]
+pub struct Call<'cycle, Request, Response> {
+    asked: &'cycle mut Option<Asked<Request, Response>>,
+}
+
+/// A call that was made, to wait for its answer.
+#[derive(Debug)]
+pub struct Pending<Response> {
+    receiver: Receiver<Answer<Response>>,
+}
+
+/// Why a call has no response.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Refused(pub Arc<str>);
+
+/// What a call ends with.
+pub type Answer<Response> = Result<Response, Refused>;
+
+/// A procedure, whatever its types.
+pub trait CallAny: Send + Sync {
+    /// Makes a call with a request in any format; an error if it is no request of this procedure.
+    fn call_any(
+        &self,
+        request: &mut dyn erased_serde::Deserializer<'_>,
+    ) -> Result<Box<dyn PendingAny>>;
+}
+
+/// A call that was made, whatever its response.
+pub trait PendingAny: Send {
+    /// The answer, `None` if it does not come in time.
+    fn wait_any(&self, timeout: Duration) -> Option<Answer<Box<dyn erased_serde::Serialize>>>;
+}
+
+struct Asked<Request, Response> {
+    request: Request,
+    answers: SyncSender<Answer<Response>>,
+}
+
+impl<Request, Response> Caller<Request, Response> {
+    /// Asks; the node sees the call in one of the next cycles, in the order of the calls.
+    pub fn call(&self, request: Request) -> Pending<Response> {
+        let (answers, receiver) = sync_channel(1);
+        match self.sender.try_send(Asked { request, answers }) {
+            Ok(()) => {}
+            Err(TrySendError::Full(asked)) => asked.finish(refuse("too many calls are waiting")),
+            Err(TrySendError::Disconnected(asked)) => asked.finish(refuse("the robot has stopped")),
+        }
+        Pending { receiver }
+    }
+}
+
+impl<Request, Response> Clone for Caller<Request, Response> {
+    fn clone(&self) -> Self {
+        Self {
+            sender: self.sender.clone(),
+        }
+    }
+}
+
+impl<Response> Pending<Response> {
+    /// The answer if it is there.
+    pub fn try_answer(&self) -> Option<Answer<Response>> {
+        match self.receiver.try_recv() {
+            Ok(answer) => Some(answer),
+            Err(TryRecvError::Empty) => None,
+            Err(TryRecvError::Disconnected) => Some(refuse("the robot has stopped")),
+        }
+    }
+
+    /// The answer, `None` if it does not come in time.
+    pub fn wait_timeout(&self, timeout: Duration) -> Option<Answer<Response>> {
+        match self.receiver.recv_timeout(timeout) {
+            Ok(answer) => Some(answer),
+            Err(RecvTimeoutError::Timeout) => None,
+            Err(RecvTimeoutError::Disconnected) => Some(refuse("the robot has stopped")),
+        }
+    }
+}
+
+impl<Request, Response> Answerer<Request, Response> {
+    /// Takes the next call for this cycle; neither blocks nor allocates.
+    #[inline]
+    pub fn take(&mut self) {
+        if self.taken.is_none() {
+            self.taken = self.receiver.try_recv().ok();
+        }
+    }
+
+    /// The call of this cycle until it is answered.
+    #[inline]
+    pub fn call(&mut self) -> Option<Call<'_, Request, Response>> {
+        self.taken.is_some().then_some(Call {
+            asked: &mut self.taken,
+        })
+    }
+
+    /// What was taken and is not answered yet; for a recording.
+    pub fn request(&self) -> Option<&Request> {
+        self.taken.as_ref().map(|asked| &asked.request)
+    }
+
+    /// Ends the cycle: what is not answered is refused.
+    #[inline]
+    pub fn close(&mut self) {
+        if let Some(asked) = self.taken.take() {
+            asked.finish(refuse("the node did not answer"));
+        }
+    }
+}
+
+impl<Request, Response> Call<'_, Request, Response> {
+    /// What the client asks.
+    pub fn request(&self) -> &Request {
+        let asked = self
+            .asked
+            .as_ref()
+            .expect("a call is made of a taken one and ends when it is answered");
+        &asked.request
+    }
+
+    /// Gives the client its response.
+    pub fn answer(self, response: Response) {
+        self.finish(Ok(response));
+    }
+
+    /// Tells the client why there is no response.
+    pub fn refuse(self, reason: impl Into<String>) {
+        self.finish(refuse(&reason.into()));
+    }
+
+    fn finish(self, answer: Answer<Response>) {
+        if let Some(asked) = self.asked.take() {
+            asked.finish(answer);
+        }
+    }
+}
+
+impl<Request, Response> Asked<Request, Response> {
+    fn finish(self, answer: Answer<Response>) {
+        // Fails if the client does not wait any more, which is its right.
+        let _ = self.answers.try_send(answer);
+    }
+}
+
+impl<Request, Response> CallAny for Caller<Request, Response>
+where
+    Request: DeserializeOwned + Send,
+    Response: Serialize + Send + 'static,
+{
+    fn call_any(
+        &self,
+        request: &mut dyn erased_serde::Deserializer<'_>,
+    ) -> Result<Box<dyn PendingAny>> {
+        Ok(Box::new(self.call(erased_serde::deserialize(request)?)))
+    }
+}
+
+impl<Response: Serialize + Send + 'static> PendingAny for Pending<Response> {
+    fn wait_any(&self, timeout: Duration) -> Option<Answer<Box<dyn erased_serde::Serialize>>> {
+        let answer = self.wait_timeout(timeout)?;
+        Some(answer.map(|response| Box::new(response) as Box<dyn erased_serde::Serialize>))
+    }
+}
+
+impl<Request, Response> fmt::Debug for Asked<Request, Response> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.debug_struct("Asked").finish_non_exhaustive()
+    }
+}
+
+impl fmt::Display for Refused {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(formatter, "refused: {}", self.0)
+    }
+}
+
+impl std::error::Error for Refused {}
+
+fn refuse<Response>(reason: &str) -> Answer<Response> {
+    Err(Refused(reason.into()))
+}

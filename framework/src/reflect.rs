@@ -1,0 +1,158 @@
+//! Reflection: any value that a node exchanges, by path.
+//!
+//! Clients name values by path (`ball.position.x`) and get only what they name: [`at`] walks by reference, copies nothing
+//! and serialises nothing; [`Reflect::as_serialize`] of what it found serialises just that. Names below a value are those
+//! that serde gives them. [`Shape`] tells the same tree without a value, with documentation and units.
+
+pub mod derived;
+pub mod path;
+pub mod shape;
+
+mod collections;
+mod hashed;
+mod leaves;
+mod nalgebra;
+mod pointers;
+mod tuples;
+mod unknown;
+
+use std::borrow::Cow;
+
+pub use path::{InvalidPath, Path, Segment};
+pub use shape::{Content, FieldShape, Leaf, Shape, VariantContent, VariantShape};
+pub use unknown::{Reason, UnknownPath};
+
+/// A value whose parts can be named, read and written.
+///
+/// Derived: `#[derive(Reflect)]` beside `Serialize` and `Deserialize`, whose `rename`, `rename_all`, `skip`, `flatten` and
+/// `transparent` it follows. `#[reflect(unit = "m")]` on a field tells its unit, `#[reflect(skip)]` hides a field.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not implement `Reflect`",
+    label = "cannot be shown, recorded or set by path",
+    note = "add `#[derive(Reflect)]` (`use framework::Reflect`) beside `Serialize` and `Deserialize`"
+)]
+pub trait Reflect {
+    /// What a value of this type can have below it.
+    fn shape() -> Shape
+    where
+        Self: Sized;
+
+    /// The part with that name or index; of an enum, of its active variant.
+    fn child(&self, _segment: &Segment) -> Option<&dyn Reflect> {
+        None
+    }
+
+    /// As [`Reflect::child`]; also `None` for parts of what must stay consistent (the numbers of a unit quaternion).
+    fn child_mut(&mut self, _segment: &Segment) -> Option<&mut dyn Reflect> {
+        None
+    }
+
+    /// What [`Reflect::child`] knows now.
+    fn children(&self) -> Children {
+        Children::default()
+    }
+
+    /// The whole value, for any serde format.
+    fn as_serialize(&self) -> &dyn erased_serde::Serialize;
+
+    /// Replaces the whole value; on an error it stays as it was.
+    fn deserialize_from(
+        &mut self,
+        deserializer: &mut dyn erased_serde::Deserializer<'_>,
+    ) -> Result<(), erased_serde::Error>;
+
+    /// Full name of the type, for people.
+    fn type_name(&self) -> &'static str {
+        std::any::type_name::<Self>()
+    }
+}
+
+/// What stands below a value: names, or indices from zero, or both.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Children {
+    /// Sorted.
+    pub names: Vec<Cow<'static, str>>,
+    /// How many indices are valid.
+    pub indices: usize,
+    /// The value is an `Option` without content now.
+    pub absent: bool,
+}
+
+impl Children {
+    /// Only names, in any order.
+    pub fn named<N: Into<Cow<'static, str>>>(names: impl IntoIterator<Item = N>) -> Self {
+        let mut names: Vec<_> = names.into_iter().map(Into::into).collect();
+        names.sort_unstable();
+        Self {
+            names,
+            ..Self::default()
+        }
+    }
+
+    /// Only indices.
+    pub fn indexed(indices: usize) -> Self {
+        Self {
+            indices,
+            ..Self::default()
+        }
+    }
+
+    /// Those of a flattened field, too.
+    #[must_use]
+    pub fn and(mut self, other: Self) -> Self {
+        self.names.extend(other.names);
+        self.names.sort_unstable();
+        self.indices = self.indices.max(other.indices);
+        self
+    }
+}
+
+/// The part of a value at a path.
+pub fn at<'value>(
+    value: &'value dyn Reflect,
+    path: &Path,
+) -> Result<&'value dyn Reflect, UnknownPath> {
+    let mut part = value;
+    for (position, segment) in path.segments().iter().enumerate() {
+        part = match part.child(segment) {
+            Some(child) => child,
+            None => return Err(UnknownPath::new(path, position, part.children())),
+        };
+    }
+    Ok(part)
+}
+
+/// The part of a value at a path, to be written.
+pub fn at_mut<'value>(
+    value: &'value mut dyn Reflect,
+    path: &Path,
+) -> Result<&'value mut dyn Reflect, UnknownPath> {
+    let mut part = value;
+    for (position, segment) in path.segments().iter().enumerate() {
+        if part.child(segment).is_none() {
+            return Err(UnknownPath::new(path, position, part.children()));
+        }
+        part = part
+            .child_mut(segment)
+            .ok_or_else(|| UnknownPath::only_whole(path, position))?;
+    }
+    Ok(part)
+}
+
+/// What all types do that are written and read as a whole by their own serde implementation.
+macro_rules! whole {
+    () => {
+        fn as_serialize(&self) -> &dyn ::erased_serde::Serialize {
+            self
+        }
+
+        fn deserialize_from(
+            &mut self,
+            deserializer: &mut dyn ::erased_serde::Deserializer<'_>,
+        ) -> Result<(), ::erased_serde::Error> {
+            *self = ::erased_serde::deserialize(deserializer)?;
+            Ok(())
+        }
+    };
+}
+use whole;

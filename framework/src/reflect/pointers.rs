@@ -1,0 +1,96 @@
+//! Values that stand for another: its parts are theirs.
+
+use std::sync::Arc;
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use super::{Children, Content, Reflect, Segment, Shape, whole};
+
+impl<T: Reflect + Serialize + DeserializeOwned> Reflect for Option<T> {
+    fn shape() -> Shape {
+        Shape {
+            type_name: std::any::type_name::<Self>(),
+            content: Content::Option(Box::new(T::shape())),
+        }
+    }
+
+    fn child(&self, segment: &Segment) -> Option<&dyn Reflect> {
+        self.as_ref()?.child(segment)
+    }
+
+    fn child_mut(&mut self, segment: &Segment) -> Option<&mut dyn Reflect> {
+        self.as_mut()?.child_mut(segment)
+    }
+
+    fn children(&self) -> Children {
+        match self {
+            Some(value) => value.children(),
+            None => Children {
+                absent: true,
+                ..Children::default()
+            },
+        }
+    }
+
+    whole!();
+}
+
+impl<T: Reflect> Reflect for Box<T> {
+    fn shape() -> Shape {
+        T::shape()
+    }
+
+    fn child(&self, segment: &Segment) -> Option<&dyn Reflect> {
+        (**self).child(segment)
+    }
+
+    fn child_mut(&mut self, segment: &Segment) -> Option<&mut dyn Reflect> {
+        (**self).child_mut(segment)
+    }
+
+    fn children(&self) -> Children {
+        (**self).children()
+    }
+
+    fn as_serialize(&self) -> &dyn erased_serde::Serialize {
+        (**self).as_serialize()
+    }
+
+    fn deserialize_from(
+        &mut self,
+        deserializer: &mut dyn erased_serde::Deserializer<'_>,
+    ) -> Result<(), erased_serde::Error> {
+        (**self).deserialize_from(deserializer)
+    }
+}
+
+/// Written through a copy of its own where it is shared.
+impl<T: Reflect + Clone> Reflect for Arc<T> {
+    fn shape() -> Shape {
+        T::shape()
+    }
+
+    fn child(&self, segment: &Segment) -> Option<&dyn Reflect> {
+        (**self).child(segment)
+    }
+
+    fn child_mut(&mut self, segment: &Segment) -> Option<&mut dyn Reflect> {
+        Self::make_mut(self).child_mut(segment)
+    }
+
+    fn children(&self) -> Children {
+        (**self).children()
+    }
+
+    fn as_serialize(&self) -> &dyn erased_serde::Serialize {
+        (**self).as_serialize()
+    }
+
+    fn deserialize_from(
+        &mut self,
+        deserializer: &mut dyn erased_serde::Deserializer<'_>,
+    ) -> Result<(), erased_serde::Error> {
+        Self::make_mut(self).deserialize_from(deserializer)
+    }
+}

@@ -1,0 +1,245 @@
+//! What values of a type look like, without a value: for lists of paths, schemas and editors.
+
+use std::cell::RefCell;
+
+use serde::Serialize;
+
+use super::{Children, Path, Reflect, Segment, UnknownPath};
+
+/// A type as its serde form shows it.
+#[derive(Clone, Debug, Serialize)]
+pub struct Shape {
+    /// Full name of the type, for people.
+    pub type_name: &'static str,
+    pub content: Content,
+}
+
+/// What a value consists of.
+#[derive(Clone, Debug, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Content {
+    /// Nothing below it.
+    Leaf(Leaf),
+    /// Content, or null.
+    Option(Box<Shape>),
+    /// Elements of one type; `names` are other words for the indices, as `x`, `y`, `z`.
+    List {
+        item: Box<Shape>,
+        #[serde(skip_serializing_if = "Option::is_none")]
+        length: Option<usize>,
+        #[serde(skip_serializing_if = "<[_]>::is_empty")]
+        names: &'static [&'static str],
+    },
+    /// Values of one type by key.
+    Map(Box<Shape>),
+    /// In the order of the source.
+    Struct(Vec<FieldShape>),
+    /// Elements of several types.
+    Tuple(Vec<Shape>),
+    /// In the order of the source.
+    Enum(Vec<VariantShape>),
+    /// A type inside of itself: its content is that of the outer one.
+    #[serde(serialize_with = "nothing")]
+    Recursive(fn() -> Shape),
+}
+
+/// A value without parts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Leaf {
+    Bool,
+    Character,
+    Float {
+        bits: u32,
+    },
+    /// Something with a serde form of its own.
+    Opaque,
+    Signed {
+        bits: u32,
+    },
+    Text,
+    Unit,
+    Unsigned {
+        bits: u32,
+    },
+}
+
+/// A field of a struct.
+#[derive(Clone, Debug, Serialize)]
+pub struct FieldShape {
+    /// As serde names it.
+    pub name: &'static str,
+    #[serde(skip_serializing_if = "str::is_empty")]
+    pub docs: &'static str,
+    /// From `#[reflect(unit = "…")]`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unit: Option<&'static str>,
+    pub shape: Shape,
+}
+
+/// A variant of an enum.
+#[derive(Clone, Debug, Serialize)]
+pub struct VariantShape {
+    /// As serde names it.
+    pub name: &'static str,
+    #[serde(skip_serializing_if = "str::is_empty")]
+    pub docs: &'static str,
+    pub content: VariantContent,
+}
+
+/// What a variant holds.
+#[derive(Clone, Debug, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum VariantContent {
+    Unit,
+    /// One field without a name: a value of its own.
+    Value(Shape),
+    /// Any other fields, [`Content::Struct`] or [`Content::Tuple`]: they are parts of the enum itself.
+    Fields(Content),
+}
+
+impl Shape {
+    /// The shape of `T`, which may lie in itself.
+    pub fn of<T: Reflect>(content: impl FnOnce() -> Content) -> Self {
+        let type_name = std::any::type_name::<T>();
+        let content = match Entered::new(type_name) {
+            Some(_entered) => content(),
+            None => Content::Recursive(T::shape),
+        };
+        Self { type_name, content }
+    }
+
+    /// The shape of `T`, which has no parts.
+    pub fn leaf<T>(leaf: Leaf) -> Self {
+        Self {
+            type_name: std::any::type_name::<T>(),
+            content: Content::Leaf(leaf),
+        }
+    }
+
+    /// The shape at a path, as far as a type can tell: every variant counts as active, every option as present, every
+    /// list as long enough and every map as having the key.
+    pub fn at(&self, path: &Path) -> Result<Self, UnknownPath> {
+        let mut part = self.clone();
+        for (position, segment) in path.segments().iter().enumerate() {
+            part = match part.child(segment) {
+                Some(child) => child,
+                None => return Err(UnknownPath::new(path, position, part.children())),
+            };
+        }
+        Ok(part)
+    }
+
+    fn child(&self, segment: &Segment) -> Option<Self> {
+        match &self.content {
+            Content::Leaf(_) => None,
+            Content::Option(inner) => inner.child(segment),
+            Content::List {
+                item,
+                length,
+                names,
+            } => {
+                let index = segment.position(names)?;
+                length
+                    .is_none_or(|length| index < length)
+                    .then(|| (**item).clone())
+            }
+            Content::Map(value) => Some((**value).clone()),
+            Content::Struct(fields) => {
+                let name = segment.name()?;
+                fields
+                    .iter()
+                    .find(|field| field.name == name)
+                    .map(|field| field.shape.clone())
+            }
+            Content::Tuple(items) => items.get(segment.index()?).cloned(),
+            Content::Enum(variants) => self.child_of_variants(variants, segment),
+            Content::Recursive(expand) => expand().child(segment),
+        }
+    }
+
+    fn child_of_variants(&self, variants: &[VariantShape], segment: &Segment) -> Option<Self> {
+        let named = variants
+            .iter()
+            .find(|variant| Some(variant.name) == segment.name());
+        match named.map(|variant| &variant.content) {
+            Some(VariantContent::Unit) => None,
+            Some(VariantContent::Value(shape)) => Some(shape.clone()),
+            Some(VariantContent::Fields(_)) => Some(self.clone()),
+            None => variants
+                .iter()
+                .find_map(|variant| variant.inside(self)?.child(segment)),
+        }
+    }
+
+    fn children(&self) -> Children {
+        match &self.content {
+            Content::Leaf(_) | Content::Map(_) => Children::default(),
+            Content::Option(inner) => inner.children(),
+            Content::List { length, names, .. } => Children {
+                indices: length.unwrap_or_default(),
+                ..Children::named(names.iter().copied())
+            },
+            Content::Struct(fields) => Children::named(fields.iter().map(|field| field.name)),
+            Content::Tuple(items) => Children::indexed(items.len()),
+            Content::Enum(variants) => {
+                let parts = variants.iter().filter(|variant| !variant.is_unit());
+                Children::named(parts.map(|variant| variant.name))
+            }
+            Content::Recursive(expand) => expand().children(),
+        }
+    }
+}
+
+impl VariantShape {
+    /// Whether nothing is below it.
+    fn is_unit(&self) -> bool {
+        matches!(self.content, VariantContent::Unit)
+    }
+
+    /// What is found in an enum while the variant is active, without naming the variant.
+    fn inside(&self, whole: &Shape) -> Option<Shape> {
+        match &self.content {
+            VariantContent::Unit => None,
+            VariantContent::Value(shape) => Some(shape.clone()),
+            VariantContent::Fields(content) => Some(Shape {
+                type_name: whole.type_name,
+                content: content.clone(),
+            }),
+        }
+    }
+}
+
+thread_local! {
+    /// Types whose shape is being made, outermost first.
+    static OPEN: RefCell<Vec<&'static str>> = const { RefCell::new(Vec::new()) };
+}
+
+/// A type whose shape is being made, until dropped.
+struct Entered;
+
+impl Entered {
+    /// `None` if it is being made already.
+    fn new(type_name: &'static str) -> Option<Self> {
+        OPEN.with_borrow_mut(|open| {
+            let entered = !open.contains(&type_name);
+            entered.then(|| {
+                open.push(type_name);
+                Self
+            })
+        })
+    }
+}
+
+impl Drop for Entered {
+    fn drop(&mut self) {
+        OPEN.with_borrow_mut(Vec::pop);
+    }
+}
+
+fn nothing<S: serde::Serializer>(
+    _expand: &fn() -> Shape,
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    serializer.serialize_unit()
+}

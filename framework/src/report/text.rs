@@ -1,0 +1,102 @@
+//! The report for people: a table at the end of a run.
+
+use std::fmt;
+
+use super::{InstanceReport, RobotReport};
+use crate::timing::Histogram;
+
+impl fmt::Display for RobotReport {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let names = self
+            .instances
+            .iter()
+            .map(|instance| instance.description.name.len());
+        let width = names.max().unwrap_or(0).max("instance".len());
+        writeln!(
+            formatter,
+            "{} ran for {:.1} s",
+            self.target,
+            self.duration.as_secs_f64()
+        )?;
+        writeln!(
+            formatter,
+            "{:width$}  {:>8}  {:>9}  {:>10}  {:>10}  {:>8}  {:>8}  {:>8}",
+            "instance", "cycles", "rate", "p50", "p99", "overruns", "failures", "skipped"
+        )?;
+        for instance in &self.instances {
+            let InstanceReport {
+                description,
+                counts,
+                durations,
+                ..
+            } = instance;
+            writeln!(
+                formatter,
+                "{:width$}  {:>8}  {:>6.1} Hz  {:>10}  {:>10}  {:>8}  {:>8}  {:>8}",
+                description.name,
+                counts.cycles,
+                instance.rate(self.duration),
+                quantile(&durations.cycle, 0.5),
+                quantile(&durations.cycle, 0.99),
+                counts.overruns,
+                counts.failures,
+                counts.skipped,
+            )?;
+        }
+        self.instances
+            .iter()
+            .try_for_each(|instance| write_remarks(instance, formatter))
+    }
+}
+
+/// What is worth a line only where it happened.
+fn write_remarks(instance: &InstanceReport, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+    let name = instance.description.name;
+    let counts = &instance.counts;
+    let happened = [
+        (counts.abandoned, "cycles abandoned"),
+        (counts.restarts, "restarts"),
+        (counts.no_events, "waits without an event"),
+        (counts.corrected, "capture times replaced"),
+        (counts.missed, "events missed"),
+    ];
+    for (count, what) in happened.iter().filter(|(count, _)| *count > 0) {
+        writeln!(formatter, "{name}: {count} {what}")?;
+    }
+    for (node, overruns) in &instance.slowest {
+        writeln!(
+            formatter,
+            "{name}: `{node}` took longest in {overruns} overruns"
+        )?;
+    }
+    for node in instance.nodes.iter().filter(|node| node.failures > 0) {
+        writeln!(
+            formatter,
+            "{name}: `{}` failed in {} of {} calls",
+            node.node, node.failures, node.calls
+        )?;
+    }
+    for queue in instance
+        .queues
+        .iter()
+        .filter(|queue| queue.counts.dropped + queue.counts.expired > 0)
+    {
+        let counts = &queue.counts;
+        writeln!(
+            formatter,
+            "{name}: from {}, {} expired, {} dropped, {} delivered",
+            queue.from, counts.expired, counts.dropped, counts.delivered
+        )?;
+    }
+    Ok(())
+}
+
+fn quantile(histogram: &Histogram, share: f64) -> String {
+    if histogram.count() == 0 {
+        return "-".to_owned();
+    }
+    format!(
+        "{:.1} us",
+        histogram.quantile(share).as_nanos() as f64 / 1000.0
+    )
+}

@@ -1,0 +1,242 @@
+//! From the command line to the exit status.
+
+use std::ffi::OsString;
+use std::fs;
+use std::sync::Arc;
+use std::sync::Mutex;
+use std::time::Duration;
+
+use framework::launch::{self, Target};
+use framework::{
+    Clock, Hardware, HardwareContext, Parameter, Reflect, Result, Robot, Start, Stop, buffer_of,
+};
+use serde::{Deserialize, Serialize};
+use tempfile::TempDir;
+
+const TARGET: Target = Target {
+    robot: "test",
+    name: "simulated",
+    parameters: "parameters",
+    location: None,
+    identities: &["body", "head"],
+};
+
+#[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
+#[serde(deny_unknown_fields)]
+struct Parameters {
+    gain: f32,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Table {
+    port: u16,
+}
+
+struct TestHardware {
+    context: HardwareContext,
+    port: u16,
+    log: Mutex<Vec<&'static str>>,
+}
+
+impl Hardware for TestHardware {
+    fn new(context: HardwareContext) -> Result<Self> {
+        let Table { port } = context.parameters()?;
+        if context.options == ["fail"] {
+            return Err("the robot is not there".into());
+        }
+        if context.options == ["record"] {
+            fs::write(context.create_run_folder()?.join("file"), "")?;
+        }
+        Ok(Self {
+            context,
+            port,
+            log: Mutex::default(),
+        })
+    }
+
+    fn identities(&self) -> Vec<(String, String)> {
+        [("head", "3"), ("body", "17"), ("tail", "1")]
+            .map(|(name, id)| (name.into(), id.into()))
+            .into()
+    }
+
+    fn stop(&self) {
+        self.log.lock().expect("not poisoned").push("stop");
+    }
+
+    fn enter_safe_state(&self) {
+        self.log.lock().expect("not poisoned").push("safe state");
+    }
+}
+
+struct Ran {
+    status: u8,
+    output: String,
+    gain: Option<f32>,
+    hardware: Option<Arc<TestHardware>>,
+}
+
+fn workspace(text: &str) -> TempDir {
+    let directory = tempfile::tempdir().expect("a temporary directory");
+    fs::create_dir(directory.path().join("lab")).expect("can be created");
+    fs::write(directory.path().join("default.toml"), text).expect("can be written");
+    fs::write(directory.path().join("lab/default.toml"), "gain = 2.0").expect("can be written");
+    fs::write(directory.path().join("body.17.toml"), "gain = 17.0").expect("can be written");
+    directory
+}
+
+const TEXT: &str = "gain = 1.0\n[hardware.simulated]\nport = 9559\n";
+
+fn run(directory: &TempDir, arguments: &[&str]) -> Ran {
+    let mut all = vec![OsString::from("--parameters"), directory.path().into()];
+    all.extend(arguments.iter().map(OsString::from));
+    let (mut gain, mut seen) = (None, None);
+    let mut output = Vec::new();
+    let create = |hardware: &Arc<TestHardware>, start: Start<Parameters>| {
+        let parameter: Parameter<'_, f32> = &start.parameters.gain;
+        gain = Some(*parameter);
+        seen = Some(hardware.clone());
+        let (parameters, [], []) = buffer_of(|| start.parameters.clone(), []);
+        Ok(Robot {
+            name: "test",
+            clock: start.clock,
+            instances: vec![],
+            access: vec![],
+            parameters,
+        })
+    };
+    let status = launch::run(TARGET, all, &mut output, create);
+    Ran {
+        status,
+        output: String::from_utf8(output).expect("text"),
+        gain,
+        hardware: seen,
+    }
+}
+
+#[test]
+fn a_run_ends_when_its_time_is_over_and_reports_json() {
+    let directory = workspace(TEXT);
+    let run_folder = directory.path().join("run");
+    let folder = run_folder.display().to_string();
+    let ran = run(
+        &directory,
+        &[
+            "--for",
+            "50ms",
+            "--format",
+            "json",
+            "--headless",
+            "--run-folder",
+            &folder,
+            "--",
+            "a",
+        ],
+    );
+    assert_eq!(ran.status, 0);
+    let report: serde_json::Value = serde_json::from_str(&ran.output).expect("one object");
+    assert_eq!(
+        (&report["version"], &report["target"]),
+        (&1.into(), &"simulated".into())
+    );
+    assert!(report["duration_s"].as_f64().expect("a number") >= 0.05);
+    let hardware = ran.hardware.expect("was created");
+    assert_eq!(
+        (hardware.port, &hardware.context.options[..]),
+        (9559, &["a".to_owned()][..])
+    );
+    assert_eq!(
+        *hardware.log.lock().expect("not poisoned"),
+        ["safe state", "stop"]
+    );
+    assert!(!run_folder.exists(), "nobody asked for it");
+}
+
+#[test]
+fn the_run_folder_is_there_once_the_hardware_asks_for_it() {
+    let directory = workspace(TEXT);
+    let run_folder = directory.path().join("deep/run");
+    let folder = run_folder.display().to_string();
+    let ran = run(
+        &directory,
+        &["--for", "1ms", "--run-folder", &folder, "--", "record"],
+    );
+    assert_eq!(ran.status, 0);
+    assert!(run_folder.join("file").exists());
+    assert!(ran.output.is_empty(), "text goes to standard error");
+}
+
+#[test]
+fn identities_of_the_hardware_choose_layers_and_settings_win() {
+    let directory = workspace(TEXT);
+    assert_eq!(run(&directory, &["--for", "1ms"]).gain, Some(17.0));
+    assert_eq!(
+        run(&directory, &["--for", "1ms", "--location", "lab"]).gain,
+        Some(17.0)
+    );
+    fs::remove_file(directory.path().join("body.17.toml")).expect("was written");
+    assert_eq!(
+        run(&directory, &["--for", "1ms", "--location", "lab"]).gain,
+        Some(2.0)
+    );
+    assert_eq!(
+        run(&directory, &["--for", "1ms", "--set", "gain=3"]).gain,
+        Some(3.0)
+    );
+}
+
+#[test]
+fn wrong_usage_is_2_help_is_0_and_a_failure_is_1() {
+    let directory = workspace(TEXT);
+    assert_eq!(run(&directory, &["--for", "ever"]).status, 2);
+    let help = run(&directory, &["--help"]);
+    assert_eq!(help.status, 0);
+    assert!(help.output.contains("--set PATH=VALUE"), "{}", help.output);
+    assert_eq!(run(&directory, &["--for", "1ms", "--", "fail"]).status, 1);
+    assert_eq!(run(&workspace("gian = 1\n"), &["--for", "1ms"]).status, 1);
+}
+
+#[test]
+fn an_unknown_key_of_the_hardware_is_named() {
+    let context = HardwareContext {
+        options: vec![],
+        table: toml::from_str("prot = 1").expect("valid TOML"),
+        run_folder: "run".into(),
+        clock: Clock::wall(),
+        stop: Stop::new(),
+    };
+    let message = context
+        .parameters::<Table>()
+        .expect_err("misspelt")
+        .to_string();
+    assert!(
+        message.ends_with("`prot`: nothing reads it; did you mean `port`?"),
+        "{message}"
+    );
+    // The launcher knows the file, too; here it is enough that the run does not start.
+    let directory = workspace("gain = 1.0\n[hardware.simulated]\nprot = 1\n");
+    let ran = run(&directory, &["--for", "1ms"]);
+    assert_eq!((ran.status, ran.gain), (1, None));
+}
+
+#[test]
+fn a_clock_waits_and_a_stop_ends_the_wait() {
+    let (clock, stop) = (Clock::wall(), Stop::new());
+    let soon = clock.now() + Duration::from_millis(5);
+    clock.wait_until(soon, &stop).expect("nobody stops it");
+    assert!(clock.now() >= soon);
+    let ended = std::thread::scope(|scope| {
+        scope.spawn(|| stop.request());
+        clock.wait_until(clock.now() + Duration::from_secs(3600), &stop)
+    });
+    assert!(ended.expect_err("it was stopped").is_stopped());
+    let stepped = Clock::stepped();
+    assert!(stepped.wait_until(stepped.now(), &Stop::new()).is_ok());
+    assert!(
+        stepped
+            .wait_until(stepped.now().next(), &Stop::new())
+            .is_err(),
+        "it would have to wait"
+    );
+}

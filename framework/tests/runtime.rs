@@ -1,0 +1,16 @@
+//! Instances with hand-written bodies under both drivers.
+
+#[path = "runtime/body.rs"]
+mod body;
+#[path = "runtime/clients.rs"]
+mod clients;
+#[path = "runtime/failures.rs"]
+mod failures;
+#[path = "runtime/lockstep.rs"]
+mod lockstep;
+#[path = "runtime/reports.rs"]
+mod reports;
+#[path = "runtime/scripted.rs"]
+mod scripted;
+#[path = "runtime/threads.rs"]
+mod threads;

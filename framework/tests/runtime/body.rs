@@ -1,0 +1,377 @@
+//! Two small cyclers in the style of generated code: `Eye` perceives, `Legs` consume what it saw.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use framework::cycler::{Reference, ReferenceKind};
+use framework::{
+    Access, AdditionalOutput, AdditionalSlot, Answerer, Body, Consumer, Cycle, Cycler, Guarded,
+    Held, Horizon, InNode, Injected, Injection, InjectionCell, InjectionTable, Injector, Instance,
+    InstanceDescription, Kind, NodeReport, OnFailure, PerceptionInput, QueueReport, Reader,
+    Reflect, Result, Robot, Scheduling, Slots, State, Subscriptions, Swap, Timestamp, buffer,
+    buffer_of, procedure,
+};
+use serde::{Deserialize, Serialize};
+
+use crate::scripted::{Log, Script, ScriptedHardware};
+
+#[derive(Clone, Debug, Default, Deserialize, Reflect, Serialize)]
+pub(crate) struct OwnOutputs {
+    pub(crate) raw: u64,
+}
+
+#[derive(Clone, Debug, Default, Deserialize, Reflect, Serialize)]
+pub(crate) struct SharedOutputs {
+    pub(crate) value: u64,
+    /// Of other instances: what was persistent, what was transient.
+    pub(crate) persistent: Vec<u64>,
+    pub(crate) transient: Vec<u64>,
+    /// Nanoseconds that must not depend on anything but the events.
+    pub(crate) clock: u64,
+    pub(crate) since_last: Duration,
+    pub(crate) gain: u64,
+}
+
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Injections {
+    pub(crate) raw: Injection<u64>,
+    pub(crate) value: Injection<u64>,
+}
+
+impl InjectionTable for Injections {
+    fn get_mut(&mut self, output: &str) -> Option<&mut dyn InjectionCell> {
+        match output {
+            "raw" => Some(&mut self.raw),
+            "value" => Some(&mut self.value),
+            _ => None,
+        }
+    }
+}
+
+#[derive(Clone, Debug, Default, Deserialize, Reflect, Serialize)]
+pub(crate) struct Parameters {
+    pub(crate) gain: u64,
+}
+
+/// Reads the hardware.
+#[derive(Debug, Default, Deserialize, Serialize)]
+pub(crate) struct Receiver {
+    received: u64,
+}
+
+/// Works on what was read.
+#[derive(Debug, Default, Deserialize, Serialize)]
+pub(crate) struct Worker {
+    pub(crate) calls: u64,
+}
+
+/// What one instance is to do and where it is written down.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Plan {
+    pub(crate) create: Script,
+    pub(crate) receive: Script,
+    pub(crate) work: Script,
+    pub(crate) log: Log,
+    pub(crate) required_is_absent: bool,
+    /// Captured, instead of what the hardware says.
+    pub(crate) captured: Option<fn(Timestamp) -> Timestamp>,
+    /// A node that asks the real time: the mistake that lockstep runs must show.
+    pub(crate) reads_instant: bool,
+    pub(crate) answer: Option<fn(u32) -> Result<u32, String>>,
+}
+
+pub(crate) struct TestBody {
+    pub(crate) name: &'static str,
+    pub(crate) receiver: Guarded<Receiver>,
+    pub(crate) worker: Guarded<Worker>,
+    pub(crate) own: Swap<OwnOutputs>,
+    pub(crate) debug: AdditionalSlot<u64>,
+    pub(crate) subscribed: bool,
+    pub(crate) hardware: Arc<ScriptedHardware>,
+    pub(crate) parameters: Reader<Parameters>,
+    pub(crate) injections: Reader<Injected<Injections>>,
+    pub(crate) subscriptions: Subscriptions,
+    pub(crate) double: Answerer<u32, u32>,
+    pub(crate) perception: Option<(Horizon, Consumer<SharedOutputs>)>,
+    pub(crate) on_failure: OnFailure,
+    pub(crate) plan: Plan,
+}
+
+impl TestBody {
+    fn log(&self, what: &str) {
+        self.plan.log.add(format!("{} {what}", self.name));
+    }
+
+    fn work(&mut self, slots: Slots<'_, SharedOutputs>, cycle: Cycle) -> Result<()> {
+        if self.plan.required_is_absent {
+            slots.current.value = 0;
+            self.worker.skip();
+            return Ok(());
+        }
+        let plan = self.plan.clone();
+        let raw = self.own.current().raw;
+        let mut debug = AdditionalOutput::new(self.subscribed, cycle.number, &mut self.debug);
+        let mut call = self.double.call();
+        let node = |node: &mut Worker| {
+            node.calls += 1;
+            plan.work.next().perform()?;
+            debug.fill_if_subscribed(|| raw * 100);
+            if let (Some(call), Some(answer)) = (call.take(), plan.answer) {
+                match answer(*call.request()) {
+                    Ok(response) => call.answer(response),
+                    Err(reason) => call.refuse(reason),
+                }
+            }
+            Ok::<_, framework::Error>(raw + 1)
+        };
+        let outputs = match self.on_failure {
+            OnFailure::Stop | OnFailure::Restart => Some(self.worker.call(cycle, node)?),
+            OnFailure::Skip => self.worker.call_or_skip(cycle, node)?,
+            OnFailure::Hold => match self.worker.call_or_hold(cycle, node)? {
+                Held::Written(outputs) => Some(outputs),
+                Held::Hold => Some(slots.previous.value),
+                Held::Skip => None,
+            },
+        };
+        slots.current.value = outputs.unwrap_or_default();
+        if let Some(injections) = self.injections.view().get() {
+            injections.value.replace(&mut slots.current.value);
+        }
+        Ok(())
+    }
+
+    fn perceive(&self, shared: &mut SharedOutputs) {
+        shared.persistent.clear();
+        shared.transient.clear();
+        if let Some((_, consumer)) = &self.perception {
+            let projection = consumer.project(|outputs: &SharedOutputs| &outputs.value);
+            let input = PerceptionInput::new(&projection);
+            shared
+                .persistent
+                .extend(input.persistent.iter().map(|(_, value)| *value));
+            shared
+                .transient
+                .extend(input.transient.iter().map(|(_, value)| *value));
+        }
+    }
+}
+
+impl Body for TestBody {
+    type Shared = SharedOutputs;
+
+    fn create(&mut self) -> Result<()> {
+        self.log("create");
+        self.plan.create.next().perform().in_node("test::worker")?;
+        self.parameters.take();
+        self.receiver = Guarded::new("test::receiver", self.on_failure, Receiver::default());
+        self.worker = Guarded::new("test::worker", self.on_failure, Worker::default());
+        Ok(())
+    }
+
+    fn wait(&mut self, _: Slots<'_, SharedOutputs>, cycle: Cycle) -> Result<Option<Timestamp>> {
+        self.log("wait");
+        self.parameters.take();
+        self.receiver.renew_if_broken(|| Ok(Receiver::default()))?;
+        let hardware = &self.hardware;
+        let plan = &self.plan;
+        let (captured, raw) = self.receiver.call(cycle, |node| {
+            node.received += 1;
+            plan.receive.next().perform()?;
+            hardware.read()
+        })?;
+        self.own.both().0.raw = raw;
+        Ok(Some(self.plan.captured.map_or(captured, |captured| {
+            captured(hardware.clock.now())
+        })))
+    }
+
+    fn begin(&mut self, _: Slots<'_, SharedOutputs>, cycle: Cycle) {
+        self.log("begin");
+        self.parameters.take();
+        self.injections.take();
+        self.subscribed = self.subscriptions.contains(0);
+        self.double.take();
+        if let Some((horizon, consumer)) = &mut self.perception {
+            horizon.consume(cycle.time.start, [consumer]);
+        }
+        if let Some(injections) = self.injections.view().get() {
+            injections.raw.replace(&mut self.own.both().0.raw);
+        }
+    }
+
+    fn run(&mut self, slots: Slots<'_, SharedOutputs>, cycle: Cycle) -> Result<()> {
+        self.log("run");
+        self.worker.renew_if_broken(|| Ok(Worker::default()))?;
+        let Slots { current, previous } = slots;
+        self.perceive(current);
+        current.gain = self.parameters.view().gain;
+        current.since_last = cycle.time.since_last;
+        current.clock = if self.plan.reads_instant {
+            std::hint::black_box(Instant::now()).elapsed().as_nanos() as u64
+        } else {
+            cycle.time.start.as_nanos()
+        };
+        self.work(Slots { current, previous }, cycle)
+    }
+
+    fn finish(&mut self, _: &SharedOutputs, _: Cycle) {
+        self.log("finish");
+        self.own.swap();
+        self.double.close();
+    }
+
+    fn abandon(&mut self) {
+        self.log("abandon");
+        self.double.close();
+    }
+
+    fn references(&self, visit: &mut dyn FnMut(Reference)) {
+        visit(Reference {
+            instance: "parameters",
+            cycle: self.parameters.view().cycle(),
+            kind: ReferenceKind::Latest,
+        });
+        if let Some((_, consumer)) = &self.perception {
+            consumer.references("Eye", visit);
+        }
+    }
+
+    fn main_outputs(&self) -> &'static [&'static str] {
+        &[
+            "raw",
+            "value",
+            "persistent",
+            "transient",
+            "clock",
+            "since_last",
+            "gain",
+        ]
+    }
+
+    fn main_output<'a>(&'a self, shared: &'a SharedOutputs, name: &str) -> Option<&'a dyn Reflect> {
+        Some(match name {
+            "raw" => &self.own.previous().raw,
+            "value" => &shared.value,
+            "persistent" => &shared.persistent,
+            "transient" => &shared.transient,
+            "clock" => &shared.clock,
+            "since_last" => &shared.since_last,
+            "gain" => &shared.gain,
+            _ => return None,
+        })
+    }
+
+    fn additional_output(&self, name: &str, cycle: u64) -> Option<&dyn Reflect> {
+        match name {
+            "debug.raw" => self.debug.get(cycle).map(|value| value as &dyn Reflect),
+            _ => None,
+        }
+    }
+
+    fn nodes(&self, visit: &mut dyn FnMut(NodeReport)) {
+        visit(self.receiver.report());
+        visit(self.worker.report());
+    }
+
+    fn queues(&self, visit: &mut dyn FnMut(QueueReport)) {
+        if let Some((_, consumer)) = &self.perception {
+            visit(QueueReport {
+                from: "Eye",
+                counts: consumer.report(),
+            });
+        }
+    }
+
+    fn states(&mut self, visit: &mut dyn FnMut(&'static str, &mut dyn State)) {
+        visit("test::receiver", &mut self.receiver);
+        visit("test::worker", &mut self.worker);
+    }
+
+    fn restore(&mut self) -> Result<()> {
+        Ok(())
+    }
+}
+
+/// What the manifest of the test robot says about the two instances.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Setting {
+    pub(crate) eye: Plan,
+    pub(crate) legs: Plan,
+    pub(crate) on_failure: OnFailure,
+    pub(crate) eye_takes: Option<Duration>,
+    pub(crate) deadline: Option<Duration>,
+}
+
+fn description(name: &'static str, kind: Kind, setting: &Setting) -> InstanceDescription {
+    let is_eye = kind == Kind::Perception;
+    InstanceDescription {
+        name,
+        cycler: name,
+        kind,
+        on_failure: OnFailure::Stop,
+        deadline: setting.deadline,
+        pending_timeout: Duration::from_secs(1),
+        watchdog: Duration::from_millis(100),
+        history: Duration::from_secs(1),
+        lockstep_duration: setting.eye_takes.filter(|_| is_eye),
+        scheduling: Scheduling::default(),
+    }
+}
+
+/// `Eye` and `Legs`, in this order.
+pub(crate) fn robot(hardware: &Arc<ScriptedHardware>, setting: &Setting) -> Robot<Parameters> {
+    let (eye, [], [eye_for_legs]) = buffer([8]);
+    let (legs, [], []) = buffer([]);
+    let (parameters, [of_eye, of_legs], []) = buffer_of(|| Parameters { gain: 1 }, []);
+    let (mut instances, mut access): (Vec<Box<dyn Instance>>, Vec<_>) = Default::default();
+    let seen = Some((
+        Horizon::new(),
+        Consumer::new(eye_for_legs, Duration::from_secs(1)),
+    ));
+    let parts = [
+        ("Eye", Kind::Perception, eye, None, of_eye, &setting.eye),
+        ("Legs", Kind::RealTime, legs, seen, of_legs, &setting.legs),
+    ];
+    for (name, kind, writer, perception, parameters, plan) in parts {
+        let subscriptions = Subscriptions::new(&["debug.raw"]);
+        let (injector, [injections], []) = buffer([]);
+        let (caller, double) = procedure();
+        let on_failure = setting.on_failure;
+        let body = TestBody {
+            name,
+            receiver: Guarded::new("test::receiver", on_failure, Receiver::default()),
+            worker: Guarded::new("test::worker", on_failure, Worker::default()),
+            own: Swap::default(),
+            debug: AdditionalSlot::default(),
+            subscribed: false,
+            hardware: hardware.clone(),
+            parameters,
+            injections,
+            subscriptions: subscriptions.clone(),
+            double,
+            perception,
+            on_failure,
+            plan: plan.clone(),
+        };
+        let description = description(name, kind, setting);
+        instances.push(Box::new(Cycler::new(
+            description,
+            body,
+            writer,
+            hardware.clock.clone(),
+        )));
+        access.push(Access {
+            instance: name,
+            subscriptions,
+            injector: Box::new(Injector::<Injections>::new(injector)),
+            procedures: vec![("double", Box::new(caller))],
+        });
+    }
+    Robot {
+        name: "test",
+        clock: hardware.clock.clone(),
+        instances,
+        access,
+        parameters,
+    }
+}

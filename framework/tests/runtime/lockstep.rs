@@ -1,0 +1,316 @@
+//! The virtual clock: order, ties, missed events, same events same bits.
+
+use std::time::Duration;
+
+use framework::driver::lockstep::Step;
+use framework::{Digest, Finished, Lockstep, Timestamp, Waited};
+
+use crate::body::{Plan, Setting, robot};
+use crate::scripted::{Act, Script, ScriptedHardware, millis};
+
+/// All steps until the end of the world, as (milliseconds, instance, step).
+fn steps(
+    events: &[(u64, &'static str)],
+    setting: &Setting,
+) -> (
+    Vec<(u64, &'static str, Step)>,
+    [framework::cycler::Counts; 2],
+) {
+    let hardware = ScriptedHardware::lockstep(events.iter().copied());
+    let mut robot = robot(&hardware, setting);
+    let mut lockstep = Lockstep::new(&mut robot, hardware.as_ref());
+    let mut steps = Vec::new();
+    while let Some(stepped) = lockstep.step().expect("nothing stops the robot") {
+        steps.push((
+            stepped.at.as_nanos() / 1_000_000,
+            stepped.instance,
+            stepped.step,
+        ));
+    }
+    let counts = [0, 1].map(|index| robot.instances[index].counters().read());
+    (steps, counts)
+}
+
+const COMPLETED: Step = Step::Finished(Finished::Completed);
+
+#[test]
+fn a_cycle_is_wait_begin_run_finish() {
+    let plan = Plan::default();
+    let setting = Setting {
+        legs: plan.clone(),
+        ..Setting::default()
+    };
+    steps(&[(0, "Legs"), (12, "Legs")], &setting);
+    let once = ["Legs wait", "Legs begin", "Legs run", "Legs finish"];
+    assert_eq!(plan.log.lines(), [once, once].concat());
+}
+
+#[test]
+fn all_finish_before_all_wait_then_manifest_order() {
+    let setting = Setting {
+        eye_takes: Some(Duration::from_millis(10)),
+        ..Setting::default()
+    };
+    let (steps, _) = steps(
+        &[(0, "Eye"), (0, "Legs"), (10, "Eye"), (10, "Legs")],
+        &setting,
+    );
+    let expected = [
+        (0, "Eye", Step::Began),
+        (0, "Legs", Step::Began),
+        (0, "Legs", COMPLETED),
+        (10, "Eye", COMPLETED),
+        (10, "Eye", Step::Began),
+        (10, "Legs", Step::Began),
+        (10, "Legs", COMPLETED),
+        (20, "Eye", COMPLETED),
+    ];
+    assert_eq!(steps, expected);
+}
+
+#[test]
+fn an_event_of_a_busy_instance_stays_due_and_a_replaced_one_is_missed() {
+    let setting = Setting {
+        eye_takes: Some(Duration::from_millis(25)),
+        ..Setting::default()
+    };
+    let (steps, [eye, _]) = steps(&[(0, "Eye"), (10, "Eye"), (20, "Eye")], &setting);
+    let expected = [
+        (0, "Eye", Step::Began),
+        (10, "Eye", Step::Postponed),
+        (20, "Eye", Step::Postponed),
+        (25, "Eye", COMPLETED),
+        (25, "Eye", Step::Began),
+        (50, "Eye", COMPLETED),
+    ];
+    assert_eq!(steps, expected);
+    assert_eq!((eye.cycles, eye.missed), (2, 1));
+}
+
+#[test]
+fn an_event_at_the_very_finish_begins_then_and_none_is_missed() {
+    let setting = Setting {
+        eye_takes: Some(Duration::from_millis(10)),
+        ..Setting::default()
+    };
+    let (_, [eye, _]) = steps(&[(0, "Eye"), (10, "Eye"), (20, "Eye")], &setting);
+    assert_eq!((eye.cycles, eye.missed), (3, 0));
+}
+
+#[test]
+fn nothing_coming_is_no_cycle_and_is_counted() {
+    let receive = Script::new([Act::NoEvent, Act::Work]);
+    let setting = Setting {
+        legs: Plan {
+            receive,
+            ..Plan::default()
+        },
+        ..Setting::default()
+    };
+    let (steps, [_, legs]) = steps(&[(0, "Legs"), (12, "Legs")], &setting);
+    assert_eq!(steps[0], (0, "Legs", Step::Waited(Waited::NoEvent)));
+    assert_eq!((legs.cycles, legs.no_events, legs.failures), (1, 1, 0));
+}
+
+#[test]
+fn stopped_ends_the_run_in_order() {
+    let receive = Script::new([Act::Work, Act::Stopped]);
+    let setting = Setting {
+        legs: Plan {
+            receive,
+            ..Plan::default()
+        },
+        ..Setting::default()
+    };
+    let hardware = ScriptedHardware::lockstep([(0, "Legs"), (12, "Legs"), (24, "Legs")]);
+    let mut robot = robot(&hardware, &setting);
+    let mut lockstep = Lockstep::new(&mut robot, hardware.as_ref());
+    lockstep
+        .run_until(Timestamp::NEVER, |_| ())
+        .expect("a stop is no error");
+    assert_eq!(lockstep.step().expect("a stop is no error"), None);
+    let legs = robot.instances[1].counters().read();
+    assert_eq!((legs.cycles, legs.failures), (1, 0));
+    assert_eq!(hardware.log.lines(), ["safe state", "stop"]);
+}
+
+#[test]
+fn others_see_a_cycle_only_from_its_finish_on_and_transient_before_persistent() {
+    let setting = Setting {
+        eye_takes: Some(Duration::from_millis(10)),
+        ..Setting::default()
+    };
+    let eyes = [0, 20, 40].map(|at| (at, "Eye"));
+    let mut events = [5, 10, 22, 29, 30, 31, 45].map(|at| (at, "Legs")).to_vec();
+    events.extend(eyes);
+    events.sort_unstable();
+    let hardware = ScriptedHardware::lockstep(events);
+    let mut robot = robot(&hardware, &setting);
+    let mut lockstep = Lockstep::new(&mut robot, hardware.as_ref());
+    let mut seen = Vec::new();
+    while let Some(stepped) = lockstep.step().expect("nothing stops the robot") {
+        if stepped.instance == "Legs" && stepped.step == COMPLETED {
+            let read = |path| lockstep.robot().read(path).expect("an output");
+            let count = |path| read(path).as_array().map_or(0, Vec::len);
+            seen.push((
+                count("Legs.main_outputs.persistent"),
+                count("Legs.main_outputs.transient"),
+            ));
+        }
+    }
+    // At 5 the first is pending; at 10 it has finished; at 22 and 29 the second is pending.
+    assert_eq!(
+        seen,
+        [(0, 0), (1, 0), (0, 0), (0, 0), (1, 0), (0, 0), (0, 0)]
+    );
+}
+
+#[test]
+fn run_until_includes_its_end_and_observes_finished_cycles() {
+    let hardware = ScriptedHardware::lockstep((0..10).map(|number| (number * 10, "Legs")));
+    let mut robot = robot(&hardware, &Setting::default());
+    let mut lockstep = Lockstep::new(&mut robot, hardware.as_ref());
+    let mut observed = Vec::new();
+    lockstep
+        .run_until(millis(50), |instance| {
+            observed.push(instance.cycle().number)
+        })
+        .expect("nothing stops the robot");
+    assert_eq!(observed, [1, 2, 3, 4, 5, 6]);
+}
+
+#[test]
+fn events_for_nobody_or_in_the_past_are_errors() {
+    for events in [vec![(0, "Arms")], vec![(10, "Legs"), (5, "Legs")]] {
+        let hardware = ScriptedHardware::lockstep(events);
+        let mut robot = robot(&hardware, &Setting::default());
+        let mut lockstep = Lockstep::new(&mut robot, hardware.as_ref());
+        assert!(lockstep.run_until(Timestamp::NEVER, |_| ()).is_err());
+    }
+}
+
+#[test]
+fn each_driver_needs_its_clock() {
+    let hardware = ScriptedHardware::threads();
+    let mut robot = robot(&hardware, &Setting::default());
+    assert!(Lockstep::new(&mut robot, hardware.as_ref()).step().is_err());
+}
+
+fn digest_of_a_run(setting: &Setting) -> Digest {
+    let mut events: Vec<_> = (0..40).map(|number| (3 + number * 33, "Eye")).collect();
+    events.extend((0..120).map(|number| (number * 12, "Legs")));
+    events.sort_unstable();
+    let hardware = ScriptedHardware::lockstep(events);
+    let mut robot = robot(&hardware, setting);
+    let mut digest = Digest::new();
+    Lockstep::new(&mut robot, hardware.as_ref())
+        .run_until(Timestamp::NEVER, |instance| {
+            digest
+                .add_cycle(instance)
+                .expect("outputs can be serialised");
+        })
+        .expect("nothing stops the robot");
+    digest
+}
+
+#[test]
+fn same_events_same_bits() {
+    let setting = Setting {
+        eye_takes: Some(Duration::from_millis(27)),
+        ..Setting::default()
+    };
+    let digest = digest_of_a_run(&setting);
+    assert_eq!(digest, digest_of_a_run(&setting));
+    assert_ne!(
+        digest,
+        digest_of_a_run(&Setting::default()),
+        "durations matter"
+    );
+}
+
+#[test]
+fn a_node_that_asks_the_real_time_shows_in_the_bits() {
+    let legs = Plan {
+        reads_instant: true,
+        ..Plan::default()
+    };
+    let setting = Setting {
+        legs,
+        ..Setting::default()
+    };
+    let digests = [0; 3].map(|_| digest_of_a_run(&setting));
+    assert!(
+        digests.iter().any(|digest| *digest != digests[0]),
+        "{digests:?}"
+    );
+}
+
+#[test]
+fn capture_times_never_break_the_order_of_time() {
+    let timestamps = |captured: fn(Timestamp) -> Timestamp| {
+        let plan = Plan {
+            captured: Some(captured),
+            ..Plan::default()
+        };
+        let setting = Setting {
+            legs: plan,
+            ..Setting::default()
+        };
+        let hardware = ScriptedHardware::lockstep((1..4).map(|number| (number * 2000, "Legs")));
+        let mut robot = robot(&hardware, &setting);
+        let mut timestamps = Vec::new();
+        Lockstep::new(&mut robot, hardware.as_ref())
+            .run_until(Timestamp::NEVER, |instance| {
+                timestamps.push(instance.cycle().time.start)
+            })
+            .expect("nothing stops the robot");
+        (timestamps, robot.instances[1].counters().read().corrected)
+    };
+    let clock = vec![millis(2000), millis(4000), millis(6000)];
+    assert_eq!(
+        timestamps(|now| now + Duration::from_nanos(1)),
+        (clock.clone(), 3),
+        "future"
+    );
+    assert_eq!(timestamps(|_| millis(999)), (clock.clone(), 3), "too old");
+    assert_eq!(timestamps(|now| now), (clock.clone(), 0), "in order");
+    let constant = |now: Timestamp| {
+        if now < millis(3000) {
+            now
+        } else {
+            millis(3000)
+        }
+    };
+    let (timestamps, corrected) = timestamps(constant);
+    assert_eq!(
+        (timestamps, corrected),
+        (vec![millis(2000), millis(3000), millis(6000)], 1)
+    );
+}
+
+#[test]
+fn a_capture_time_not_after_the_last_is_one_nanosecond_later() {
+    let plan = Plan {
+        captured: Some(|_| millis(50)),
+        ..Plan::default()
+    };
+    let setting = Setting {
+        legs: plan,
+        ..Setting::default()
+    };
+    let hardware = ScriptedHardware::lockstep([(60, "Legs"), (72, "Legs"), (84, "Legs")]);
+    let mut robot = robot(&hardware, &setting);
+    let mut times = Vec::new();
+    Lockstep::new(&mut robot, hardware.as_ref())
+        .run_until(Timestamp::NEVER, |instance| {
+            times.push(instance.cycle().time)
+        })
+        .expect("nothing stops the robot");
+    let starts: Vec<_> = times.iter().map(|time| time.start.as_nanos()).collect();
+    assert_eq!(starts, [50_000_000, 50_000_001, 50_000_002]);
+    let since_last: Vec<_> = times
+        .iter()
+        .map(|time| time.since_last.as_nanos())
+        .collect();
+    assert_eq!(since_last, [0, 1, 1]);
+}

@@ -1,0 +1,158 @@
+//! Hardware and nodes that do what a test wrote down.
+
+use std::collections::VecDeque;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Mutex};
+use std::time::Duration;
+
+use framework::{
+    Clock, Error, Event, Hardware, HardwareContext, NoEvent, Result, Stop, Stopped, Timestamp,
+};
+
+pub(crate) fn millis(millis: u64) -> Timestamp {
+    Timestamp::ZERO + Duration::from_millis(millis)
+}
+
+/// What a node does in one call.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Act {
+    Work,
+    Fail,
+    Panic,
+    NoEvent,
+    Stopped,
+    /// Takes so many milliseconds.
+    Take(u64),
+}
+
+impl Act {
+    pub(crate) fn perform(self) -> Result<()> {
+        match self {
+            Self::Work => Ok(()),
+            Self::Fail => Err(Error::new("as scripted")),
+            Self::Panic => panic!("as scripted"),
+            Self::NoEvent => Err(NoEvent("as scripted".to_owned()).into()),
+            Self::Stopped => Err(Stopped.into()),
+            Self::Take(millis) => {
+                std::thread::sleep(Duration::from_millis(millis));
+                Ok(())
+            }
+        }
+    }
+}
+
+/// What the calls of one node do, one after the other; then it works.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Script(Arc<Mutex<VecDeque<Act>>>);
+
+impl Script {
+    pub(crate) fn new(acts: impl IntoIterator<Item = Act>) -> Self {
+        Self(Arc::new(Mutex::new(acts.into_iter().collect())))
+    }
+
+    pub(crate) fn next(&self) -> Act {
+        self.0
+            .lock()
+            .expect("not poisoned")
+            .pop_front()
+            .unwrap_or(Act::Work)
+    }
+}
+
+/// What happened, in order. Clones are the same log.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Log(Arc<Mutex<Vec<String>>>);
+
+impl Log {
+    pub(crate) fn add(&self, line: impl Into<String>) {
+        self.0.lock().expect("not poisoned").push(line.into());
+    }
+
+    pub(crate) fn lines(&self) -> Vec<String> {
+        self.0.lock().expect("not poisoned").clone()
+    }
+
+    pub(crate) fn count(&self, line: &str) -> usize {
+        self.lines().iter().filter(|known| *known == line).count()
+    }
+}
+
+/// Hardware whose events and data a test wrote down.
+pub(crate) struct ScriptedHardware {
+    pub(crate) clock: Clock,
+    pub(crate) stop: Stop,
+    pub(crate) log: Log,
+    events: Mutex<VecDeque<Event>>,
+    /// From capture to arrival.
+    pub(crate) latency: Duration,
+    /// Threads: data comes so often.
+    pub(crate) period: Duration,
+    reads: AtomicU64,
+}
+
+impl ScriptedHardware {
+    pub(crate) fn lockstep(events: impl IntoIterator<Item = (u64, &'static str)>) -> Arc<Self> {
+        let events = events.into_iter().map(|(at, instance)| Event {
+            at: millis(at),
+            instance,
+        });
+        Arc::new(Self::with(Clock::stepped(), events.collect()))
+    }
+
+    pub(crate) fn threads() -> Arc<Self> {
+        let mut hardware = Self::with(Clock::wall(), VecDeque::new());
+        // Shorter than the period, so that no two captures fall together at the very start.
+        hardware.latency = Duration::from_millis(1);
+        Arc::new(hardware)
+    }
+
+    pub(crate) fn with(clock: Clock, events: VecDeque<Event>) -> Self {
+        Self {
+            clock,
+            stop: Stop::new(),
+            log: Log::default(),
+            events: Mutex::new(events),
+            latency: Duration::from_millis(5),
+            period: Duration::from_millis(2),
+            reads: AtomicU64::new(0),
+        }
+    }
+
+    /// Waits for data; gives its capture time and a value.
+    pub(crate) fn read(&self) -> Result<(Timestamp, u64)> {
+        if self.clock.is_stepped() {
+            self.stop.check()?;
+        } else {
+            self.clock
+                .wait_until(self.clock.now() + self.period, &self.stop)?;
+        }
+        let now = self.clock.now();
+        let captured = Timestamp::ZERO + (now - Timestamp::ZERO).saturating_sub(self.latency);
+        Ok((captured, self.reads.fetch_add(1, Ordering::Relaxed)))
+    }
+}
+
+impl Hardware for ScriptedHardware {
+    fn new(context: HardwareContext) -> Result<Self> {
+        let mut hardware = Self::with(context.clock.clone(), VecDeque::new());
+        hardware.stop = context.stop.clone();
+        Ok(hardware)
+    }
+
+    fn stop(&self) {
+        self.stop.request();
+        self.log.add("stop");
+    }
+
+    fn enter_safe_state(&self) {
+        self.log.add("safe state");
+    }
+
+    fn rearm(&self) {
+        self.log.add("rearm");
+    }
+
+    fn next_event(&self) -> Result<Option<Event>> {
+        Ok(self.events.lock().expect("not poisoned").pop_front())
+    }
+}
