@@ -1,0 +1,265 @@
+//! The simulated NAO as the framework's hardware, for both drivers.
+//!
+//! With a wall clock a thread of its own turns the world. With a stepped clock
+//! `next_event` does, and nothing waits. Either way sensors and commands travel
+//! through LoLA's socket with the client that the real robot uses.
+
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+use framework::{Clock, Error, Event, HardwareContext, NoEvent, Result, Stop, Timestamp, blocking};
+use hardware::{ActuatorInterface, CameraInterface, SensorInterface};
+use lola::Client;
+use types::camera::CameraPosition;
+use types::image::YuyvImage;
+use types::leds::Leds;
+use types::motor_commands::MotorCommands;
+use types::sensor_data::SensorData;
+
+use crate::camera::{self, Exposure};
+use crate::field::Field;
+use crate::ground_truth::{BodyTruth, GroundTruth, ImageTruth};
+use crate::safety::Safety;
+use crate::settings::Settings;
+use crate::simulator::{Shared, Simulator};
+
+/// How long a reader waits before it looks whether the robot stops.
+const PATIENCE: Duration = Duration::from_millis(50);
+
+/// The simulated NAO.
+pub struct Hardware {
+    // Before the rest, so that its thread has ended when that goes.
+    thread: Option<Simulator>,
+    shared: Arc<Shared>,
+    client: Arc<Client>,
+    safety: Arc<Mutex<Safety>>,
+    identities: Vec<(String, String)>,
+    field: Arc<Field>,
+    clock: Clock,
+    stop: Stop,
+}
+
+impl framework::Hardware for Hardware {
+    fn new(context: HardwareContext) -> Result<Self> {
+        let mut settings: Settings = context.parameters()?;
+        settings.apply(&context.options)?;
+        let shared = Arc::new(Shared::new(&settings)?);
+        let clock = context.clock;
+        let client = Arc::new(Client::connect(
+            shared.socket(),
+            clock.clone(),
+            context.stop.clone(),
+        ));
+        let safety = Arc::new(Mutex::new(Safety::default()));
+        let first = connect(&shared, &client)?;
+        let thread = if clock.is_stepped() {
+            None
+        } else {
+            shared.lock().skip_to(clock.now());
+            let (client, safety) = (Arc::clone(&client), Arc::clone(&safety));
+            let let_down = move |now| let_down(&mut lock(&safety), &client, now);
+            Some(Simulator::run(
+                Arc::clone(&shared),
+                clock.clone(),
+                let_down,
+            )?)
+        };
+        let configuration = first.configuration;
+        let field = Arc::clone(&shared.lock().world().field);
+        Ok(Self {
+            thread,
+            client,
+            safety,
+            identities: vec![
+                ("body".to_owned(), configuration.body_id.to_string()),
+                ("head".to_owned(), configuration.head_id.to_string()),
+            ],
+            field,
+            shared,
+            clock,
+            stop: context.stop,
+        })
+    }
+
+    fn identities(&self) -> Vec<(String, String)> {
+        self.identities.clone()
+    }
+
+    fn stop(&self) {
+        self.stop.request();
+        self.shared.stepped.notify_all();
+    }
+
+    fn enter_safe_state(&self) {
+        lock(&self.safety).enter();
+    }
+
+    fn rearm(&self) {
+        lock(&self.safety).rearm();
+    }
+
+    fn next_event(&self) -> Result<Option<Event>> {
+        if self.thread.is_some() {
+            return Err(Error::new(
+                "with a wall clock the simulated NAO turns itself",
+            ));
+        }
+        let mut simulation = self.shared.lock();
+        loop {
+            if simulation.next_is_tick() {
+                let_down(
+                    &mut lock(&self.safety),
+                    &self.client,
+                    simulation.next_time(),
+                );
+            }
+            if let Some(event) = simulation.step()? {
+                return Ok(Some(event));
+            }
+        }
+    }
+}
+
+impl SensorInterface for Hardware {
+    fn read_sensors(&self) -> Result<(Timestamp, SensorData)> {
+        if self.thread.is_some() {
+            return self.client.read_state();
+        }
+        self.stop.check()?;
+        let states = self.shared.lock().take_states(self.clock.now());
+        // The newest counts, as with images: older ones belong to cycles that were missed.
+        let mut newest = Err(NoEvent("LoLA has sent no state since the last".to_owned()).into());
+        for _ in 0..states {
+            newest = self.client.read_state();
+        }
+        newest
+    }
+}
+
+impl ActuatorInterface for Hardware {
+    fn write_command(&self, motors: &MotorCommands, leds: &Leds) -> Result<()> {
+        if lock(&self.safety).permits(motors) {
+            self.client.write_command(motors, leds)?;
+        }
+        Ok(())
+    }
+}
+
+impl CameraInterface for Hardware {
+    fn read_image(&self, position: CameraPosition, image: &mut YuyvImage) -> Result<Timestamp> {
+        // Drawing stands for the camera's own work, so it counts as waiting for the hardware.
+        blocking(|| {
+            let exposure = self.next_exposure(position)?;
+            camera::render(&exposure, &self.field, image);
+            self.clock.wait_until(exposure.ready_at, &self.stop)?;
+            let garble = std::mem::take(self.shared.lock().garble_image.of_mut(position));
+            if garble {
+                image.data.truncate(image.data.len() / 2);
+            }
+            if image.is_complete() {
+                Ok(exposure.captured_at)
+            } else {
+                Err(NoEvent(format!("the image of camera {position:?} is garbled")).into())
+            }
+        })
+    }
+}
+
+impl Hardware {
+    /// What is really the case, for tests.
+    pub fn ground_truth(&self) -> GroundTruth {
+        self.shared.lock().ground_truth()
+    }
+
+    /// The body at each of LoLA's last 512 states, oldest first, for tests.
+    pub fn body_truths(&self) -> Vec<BodyTruth> {
+        self.shared.lock().bodies()
+    }
+
+    /// Where the camera was at one of its last 512 exposures and what it saw, for tests.
+    pub fn image_truth(
+        &self,
+        position: CameraPosition,
+        captured_at: Timestamp,
+    ) -> Option<ImageTruth> {
+        self.shared.lock().image_truth(position, captured_at)
+    }
+
+    /// Makes the next image that is read from one camera arrive garbled, for tests.
+    pub fn garble_next_image(&self, position: CameraPosition) {
+        *self.shared.lock().garble_image.of_mut(position) = true;
+    }
+
+    /// Makes the next state that LoLA sends arrive garbled, for tests.
+    pub fn garble_next_state(&self) {
+        self.shared.lock().garble_state = true;
+    }
+
+    /// What the client counted on its connection to LoLA.
+    pub fn counts(&self) -> lola::Counts {
+        self.client.counts()
+    }
+
+    /// How often LoLA received something that is no command.
+    pub fn rejected_commands(&self) -> u64 {
+        self.shared.lock().server().rejected()
+    }
+
+    fn next_exposure(&self, position: CameraPosition) -> Result<Exposure> {
+        let mut simulation = self.shared.lock();
+        if self.thread.is_none() {
+            self.stop.check()?;
+            let missing = || NoEvent(format!("camera {position:?} has no new image")).into();
+            return simulation
+                .take_ready_image(position, self.clock.now())
+                .ok_or_else(missing);
+        }
+        loop {
+            self.stop.check()?;
+            if let Some(exposure) = simulation.take_image(position, self.clock.now()) {
+                return Ok(exposure);
+            }
+            let waited = self.shared.stepped.wait_timeout(simulation, PATIENCE);
+            simulation = waited.unwrap_or_else(PoisonError::into_inner).0;
+        }
+    }
+}
+
+impl Drop for Hardware {
+    /// Lets the robot down to the end before the world goes.
+    fn drop(&mut self) {
+        let never = Stop::new();
+        while self.thread.is_some() && lock(&self.safety).is_fading(self.clock.now()) {
+            if never.wait(crate::simulation::TICK).is_err() {
+                break;
+            }
+        }
+    }
+}
+
+/// Connects the client and reads what kind of robot this is; the world stands still meanwhile.
+fn connect(shared: &Shared, client: &Client) -> Result<SensorData> {
+    std::thread::scope(|scope| {
+        // The client connects when it reads, so somebody else has to serve.
+        let serving = scope.spawn(|| shared.lock().greet());
+        let read = client.read_state();
+        let served = serving
+            .join()
+            .map_err(|_| Error::new("the simulated NAO does not start"))?;
+        served.and(read.map(|(_, sensors)| sensors))
+    })
+}
+
+/// In safe state: sends what the hardware commands.
+fn let_down(safety: &mut Safety, client: &Client, now: Timestamp) {
+    if let Some(motors) = safety.command(now)
+        && let Err(error) = client.write_command(&motors, &Leds::default())
+    {
+        eprintln!("the simulated NAO cannot let itself down: {error}");
+    }
+}
+
+fn lock(safety: &Mutex<Safety>) -> MutexGuard<'_, Safety> {
+    // Nothing in it can be half done.
+    safety.lock().unwrap_or_else(PoisonError::into_inner)
+}

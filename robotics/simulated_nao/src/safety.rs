@@ -1,0 +1,110 @@
+//! Who commands the motors: the nodes, or the hardware itself to let the robot down.
+
+use std::time::Duration;
+
+use framework::Timestamp;
+use types::joints::Joints;
+use types::motor_commands::MotorCommands;
+
+/// How long stiffness takes to fade.
+const RAMP: Duration = Duration::from_millis(500);
+
+/// The commander, and what it said last.
+#[derive(Debug, Default)]
+pub(crate) struct Safety {
+    last: MotorCommands,
+    phase: Phase,
+}
+
+#[derive(Debug, Default)]
+enum Phase {
+    /// The nodes command.
+    #[default]
+    Armed,
+    /// Since the first step after this the hardware commands.
+    Entered,
+    /// Fading since then.
+    Fading(Timestamp),
+}
+
+impl Safety {
+    /// Takes the motors away from the nodes.
+    pub(crate) fn enter(&mut self) {
+        if matches!(self.phase, Phase::Armed) {
+            self.phase = Phase::Entered;
+        }
+    }
+
+    /// Gives the motors back.
+    pub(crate) fn rearm(&mut self) {
+        self.phase = Phase::Armed;
+    }
+
+    /// Remembers a command of the nodes; whether it may be sent.
+    pub(crate) fn permits(&mut self, commands: &MotorCommands) -> bool {
+        let permitted = matches!(self.phase, Phase::Armed);
+        if permitted {
+            self.last = *commands;
+        }
+        permitted
+    }
+
+    /// What the hardware commands now: the last positions with fading stiffness.
+    pub(crate) fn command(&mut self, now: Timestamp) -> Option<MotorCommands> {
+        let since = match self.phase {
+            Phase::Armed => return None,
+            Phase::Entered => now,
+            Phase::Fading(since) => since,
+        };
+        self.phase = Phase::Fading(since);
+        let left = 1.0 - ((now - since).as_secs_f32() / RAMP.as_secs_f32()).min(1.0);
+        let stiffnesses = Joints::from_fn(|joint| self.last.stiffnesses[joint] * left);
+        Some(MotorCommands {
+            positions: self.last.positions,
+            stiffnesses,
+        })
+    }
+
+    /// Whether the robot is about to be let down.
+    pub(crate) fn is_fading(&self, now: Timestamp) -> bool {
+        match self.phase {
+            Phase::Armed => false,
+            Phase::Entered => true,
+            Phase::Fading(since) => now - since < RAMP,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn at(milliseconds: u64) -> Timestamp {
+        Timestamp::from_nanos(milliseconds * 1_000_000)
+    }
+
+    #[test]
+    fn stiffness_fades_while_the_nodes_are_ignored() {
+        let mut safety = Safety::default();
+        let stiff = MotorCommands {
+            positions: Joints::filled(0.3),
+            stiffnesses: Joints::filled(0.8),
+        };
+        assert!(safety.permits(&stiff));
+        assert_eq!(safety.command(at(0)), None);
+        safety.enter();
+        assert!(!safety.permits(&MotorCommands::default()));
+        let stiffness = |safety: &mut Safety, time| {
+            let command = safety.command(at(time)).unwrap();
+            assert_eq!(command.positions, stiff.positions);
+            command.stiffnesses.head_yaw
+        };
+        assert_eq!(stiffness(&mut safety, 100), 0.8);
+        assert!((stiffness(&mut safety, 350) - 0.4).abs() < 1e-6);
+        assert!(safety.is_fading(at(350)));
+        assert_eq!(stiffness(&mut safety, 600), 0.0);
+        assert!(!safety.is_fading(at(600)));
+        safety.rearm();
+        assert!(safety.permits(&stiff));
+    }
+}

@@ -1,0 +1,202 @@
+//! Serves LoLA, the NAO's low level interface, on a Unix stream socket.
+//!
+//! One client at a time gets the state every 12 ms and sends commands whenever it likes. The next
+//! one is served when the one before has gone. A client that does not read is dropped, as LoLA does.
+
+mod command;
+
+use std::io::{ErrorKind, Read, Write};
+use std::os::unix::net::{UnixListener, UnixStream};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use framework::{Error, Result};
+use lola::Command;
+use types::motor_commands::MotorCommands;
+
+use self::command::CommandStream;
+
+/// The server; its socket is removed with it.
+#[derive(Debug)]
+pub(crate) struct LolaServer {
+    listener: UnixListener,
+    path: PathBuf,
+    client: Option<UnixStream>,
+    received: CommandStream,
+    command: Command,
+}
+
+impl LolaServer {
+    /// Listens at `path`. A socket that nobody serves any more is replaced.
+    ///
+    /// # Errors
+    /// Where somebody serves that socket already, or it cannot be made; names the path.
+    pub(crate) fn new(path: PathBuf, commands: MotorCommands) -> Result<Self> {
+        let listener = listen(&path).map_err(|error| {
+            Error::from(error).context(format!("cannot serve LoLA at {}", path.display()))
+        })?;
+        let command = Command {
+            motors: commands,
+            ..Command::default()
+        };
+        Ok(Self {
+            listener,
+            path,
+            client: None,
+            received: CommandStream::default(),
+            command,
+        })
+    }
+
+    /// Waits until there is a client.
+    ///
+    /// # Errors
+    /// Where none comes in time.
+    pub(crate) fn wait_for_client(&mut self, patience: Duration) -> Result<()> {
+        let begun = Instant::now();
+        self.accept();
+        while self.client.is_none() {
+            if begun.elapsed() > patience {
+                let path = self.path.display();
+                return Err(Error::new(format!("nobody connects to LoLA at {path}")));
+            }
+            std::thread::sleep(Duration::from_micros(200));
+            self.accept();
+        }
+        Ok(())
+    }
+
+    /// Where it listens.
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// How often something came that is no command.
+    pub(crate) fn rejected(&self) -> u64 {
+        self.received.rejected()
+    }
+
+    /// Everything that clients have asked for until now: the newest value of each key.
+    pub(crate) fn receive(&mut self) -> MotorCommands {
+        self.accept();
+        let mut bytes = [0; 4096];
+        while let Some(client) = &mut self.client {
+            match client.read(&mut bytes) {
+                Ok(count) if count > 0 => self.received.push(&bytes[..count]),
+                Err(error) if error.kind() == ErrorKind::WouldBlock => break,
+                Err(error) if error.kind() == ErrorKind::Interrupted => {}
+                Ok(_) | Err(_) => self.drop_client(),
+            }
+            while self.received.next(&mut self.command) {}
+        }
+        self.command.motors
+    }
+
+    /// Sends one state to the client; whether there is one.
+    pub(crate) fn send(&mut self, state: &[u8]) -> bool {
+        self.accept();
+        let Some(client) = &mut self.client else {
+            return false;
+        };
+        // A state that fits only in part would put every later one out of step.
+        let sent = matches!(client.write(state), Ok(count) if count == state.len());
+        if !sent {
+            self.drop_client();
+        }
+        sent
+    }
+
+    fn accept(&mut self) {
+        if self.client.is_none()
+            && let Ok((client, _)) = self.listener.accept()
+            && client.set_nonblocking(true).is_ok()
+        {
+            self.client = Some(client);
+        }
+    }
+
+    fn drop_client(&mut self) {
+        self.client = None;
+        self.received.clear();
+    }
+}
+
+impl Drop for LolaServer {
+    fn drop(&mut self) {
+        // Somebody may have removed it already; nothing is left to do then.
+        let _ = std::fs::remove_file(&self.path);
+    }
+}
+
+fn listen(path: &Path) -> std::io::Result<UnixListener> {
+    let listener = match UnixListener::bind(path) {
+        Err(error) if error.kind() == ErrorKind::AddrInUse => {
+            if UnixStream::connect(path).is_ok() {
+                return Err(std::io::Error::new(error.kind(), "the socket is in use"));
+            }
+            std::fs::remove_file(path)?;
+            UnixListener::bind(path)?
+        }
+        other => other?,
+    };
+    listener.set_nonblocking(true)?;
+    Ok(listener)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn serve(folder: &tempfile::TempDir) -> LolaServer {
+        LolaServer::new(folder.path().join("lola"), MotorCommands::default()).unwrap()
+    }
+
+    #[test]
+    fn a_socket_in_use_is_named() {
+        let folder = tempfile::tempdir().unwrap();
+        let first = serve(&folder);
+        let error = LolaServer::new(first.path().into(), MotorCommands::default()).unwrap_err();
+        let message = error.to_string();
+        assert!(
+            message.contains(&first.path().display().to_string()),
+            "{message}"
+        );
+        assert!(message.contains("in use"), "{message}");
+    }
+
+    #[test]
+    fn a_socket_that_a_dead_server_left_is_replaced() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("lola");
+        drop(UnixListener::bind(&path).unwrap());
+        assert!(path.exists());
+        assert!(LolaServer::new(path, MotorCommands::default()).is_ok());
+    }
+
+    #[test]
+    fn the_second_client_is_served_when_the_first_has_gone() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut server = serve(&folder);
+        assert!(!server.send(b"nobody"));
+        let mut first = UnixStream::connect(server.path()).unwrap();
+        let mut second = UnixStream::connect(server.path()).unwrap();
+        assert!(server.send(b"one"));
+        let mut bytes = [0; 3];
+        first.read_exact(&mut bytes).unwrap();
+        assert_eq!(&bytes, b"one");
+        drop(first);
+        server.receive();
+        assert!(server.send(b"two"));
+        second.read_exact(&mut bytes).unwrap();
+        assert_eq!(&bytes, b"two");
+    }
+
+    #[test]
+    fn a_client_that_never_reads_is_dropped() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut server = serve(&folder);
+        let _deaf = UnixStream::connect(server.path()).unwrap();
+        let sent = (0..10_000).take_while(|_| server.send(&[0; 896])).count();
+        assert!(sent > 0 && sent < 10_000, "{sent}");
+    }
+}

@@ -1,0 +1,323 @@
+//! The world together with what it offers: LoLA every 12 ms, images of both cameras at 30 Hz.
+//!
+//! Whoever owns it turns it step by step, in real time or as fast as lockstep goes.
+
+use std::collections::VecDeque;
+use std::time::Duration;
+
+use framework::{Error, Event, Result, Timestamp};
+use types::camera::CameraPosition;
+
+use crate::camera::Exposure;
+use crate::ground_truth::{BodyTruth, GroundTruth, ImageTruth};
+use crate::server::LolaServer;
+use crate::settings::Settings;
+use crate::world::{IMAGE_LATENCY, World};
+
+/// LoLA's cycle.
+pub(crate) const TICK: Duration = Duration::from_millis(12);
+/// 30 images a second.
+const IMAGE_PERIOD: Duration = Duration::from_nanos(33_333_333);
+/// The first exposures; the cameras take turns.
+const FIRST_EXPOSURE: PerCamera<Duration> = PerCamera {
+    top: Duration::from_millis(5),
+    bottom: Duration::from_nanos(21_666_667),
+};
+/// How long to wait for the first client.
+const PATIENCE: Duration = Duration::from_millis(500);
+/// How many ticks and images are remembered for comparisons with the truth.
+const REMEMBERED: usize = 512;
+
+/// One value for each camera.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct PerCamera<T> {
+    top: T,
+    bottom: T,
+}
+
+impl<T> PerCamera<T> {
+    pub(crate) fn of(&self, camera: CameraPosition) -> &T {
+        match camera {
+            CameraPosition::Top => &self.top,
+            CameraPosition::Bottom => &self.bottom,
+        }
+    }
+
+    pub(crate) fn of_mut(&mut self, camera: CameraPosition) -> &mut T {
+        match camera {
+            CameraPosition::Top => &mut self.top,
+            CameraPosition::Bottom => &mut self.bottom,
+        }
+    }
+}
+
+/// What happens next.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+enum Step {
+    Expose(CameraPosition),
+    ImageReady(CameraPosition),
+    Tick,
+}
+
+/// At equal times in this order: whoever reads at that time sees what was exposed, and instances
+/// come as manifests name them, perception first.
+const STEPS: [Step; 5] = [
+    Step::Expose(CameraPosition::Top),
+    Step::Expose(CameraPosition::Bottom),
+    Step::ImageReady(CameraPosition::Top),
+    Step::ImageReady(CameraPosition::Bottom),
+    Step::Tick,
+];
+
+/// World, LoLA and cameras at one moment.
+pub(crate) struct Simulation {
+    world: World,
+    server: LolaServer,
+    state: Vec<u8>,
+    ticks: u64,
+    exposures: PerCamera<u64>,
+    images: PerCamera<u64>,
+    /// Images that nobody has read, oldest first.
+    waiting: PerCamera<VecDeque<Exposure>>,
+    /// When the states that nobody has read were sent.
+    unread: VecDeque<Timestamp>,
+    bodies: VecDeque<BodyTruth>,
+    image_truths: PerCamera<VecDeque<ImageTruth>>,
+    pub(crate) garble_state: bool,
+    pub(crate) garble_image: PerCamera<bool>,
+}
+
+impl Simulation {
+    pub(crate) fn new(
+        settings: &Settings,
+        server: impl FnOnce(&World) -> Result<LolaServer>,
+    ) -> Result<Self> {
+        let world = World::new(settings);
+        Ok(Self {
+            server: server(&world)?,
+            world,
+            state: Vec::new(),
+            ticks: 0,
+            exposures: PerCamera::default(),
+            images: PerCamera::default(),
+            waiting: PerCamera::default(),
+            unread: VecDeque::new(),
+            bodies: VecDeque::new(),
+            image_truths: PerCamera::default(),
+            garble_state: false,
+            garble_image: PerCamera::default(),
+        })
+    }
+
+    pub(crate) fn world(&self) -> &World {
+        &self.world
+    }
+
+    pub(crate) fn server(&self) -> &LolaServer {
+        &self.server
+    }
+
+    /// Waits for a client and sends it a state before time begins.
+    ///
+    /// # Errors
+    /// Where nobody connects.
+    pub(crate) fn greet(&mut self) -> Result<()> {
+        let sensors = self.world.sample();
+        lola::state::encode(&sensors, &mut self.state).map_err(Error::from)?;
+        self.server.wait_for_client(PATIENCE)?;
+        self.server.send(&self.state);
+        Ok(())
+    }
+
+    /// When the next step is due.
+    pub(crate) fn next_time(&self) -> Timestamp {
+        self.next().0
+    }
+
+    /// Whether the next step sends a state and obeys commands.
+    pub(crate) fn next_is_tick(&self) -> bool {
+        self.next().1 == Step::Tick
+    }
+
+    fn next(&self) -> (Timestamp, Step) {
+        let due = STEPS.map(|step| (self.due(step), step));
+        let first = |one: (Timestamp, Step), other: (Timestamp, Step)| {
+            if other.0 < one.0 { other } else { one }
+        };
+        due.into_iter().fold((Timestamp::NEVER, Step::Tick), first)
+    }
+
+    fn due(&self, step: Step) -> Timestamp {
+        let exposure = |camera, number| {
+            Timestamp::ZERO + *FIRST_EXPOSURE.of(camera) + times(IMAGE_PERIOD, number)
+        };
+        match step {
+            Step::Expose(camera) => exposure(camera, *self.exposures.of(camera)),
+            Step::ImageReady(camera) => exposure(camera, *self.images.of(camera)) + IMAGE_LATENCY,
+            Step::Tick => Timestamp::ZERO + times(TICK, self.ticks + 1),
+        }
+    }
+
+    /// Does the next step; the event it means for an instance.
+    ///
+    /// # Errors
+    /// Where the state cannot be encoded.
+    pub(crate) fn step(&mut self) -> Result<Option<Event>> {
+        let (at, step) = self.next();
+        match step {
+            Step::Expose(camera) => {
+                self.world.advance_to(at);
+                self.expose(camera);
+                Ok(None)
+            }
+            Step::ImageReady(camera) => {
+                *self.images.of_mut(camera) += 1;
+                let instance = match camera {
+                    CameraPosition::Top => "VisionTop",
+                    CameraPosition::Bottom => "VisionBottom",
+                };
+                Ok(Some(Event { at, instance }))
+            }
+            Step::Tick => {
+                self.world.advance_to(at);
+                self.tick()?;
+                Ok(Some(Event {
+                    at,
+                    instance: "Control",
+                }))
+            }
+        }
+    }
+
+    /// Leaves out what should have happened while nobody turned the simulation.
+    pub(crate) fn skip_to(&mut self, now: Timestamp) {
+        let passed = now - Timestamp::ZERO;
+        self.ticks = self.ticks.max(count(passed, TICK));
+        for camera in [CameraPosition::Top, CameraPosition::Bottom] {
+            let exposed = count(
+                passed.saturating_sub(*FIRST_EXPOSURE.of(camera)),
+                IMAGE_PERIOD,
+            );
+            let images = self.images.of_mut(camera);
+            *images = exposed.max(*images);
+            let exposures = self.exposures.of_mut(camera);
+            *exposures = exposed.max(*exposures);
+        }
+    }
+
+    fn tick(&mut self) -> Result<()> {
+        self.ticks += 1;
+        let now = self.world.now();
+        let sensors = self.world.sample();
+        let commands = self.server.receive();
+        self.world.command(commands);
+        lola::state::encode(&sensors, &mut self.state).map_err(Error::from)?;
+        if std::mem::take(&mut self.garble_state) {
+            self.state.fill(0xc1);
+        }
+        if self.server.send(&self.state) {
+            self.unread.push_back(now);
+        } else {
+            self.unread.clear();
+        }
+        remember(
+            &mut self.bodies,
+            BodyTruth {
+                at: now,
+                positions: sensors.positions,
+                commands,
+            },
+        );
+        // In real time nobody counts what the client has read.
+        self.unread.truncate(REMEMBERED);
+        Ok(())
+    }
+
+    fn expose(&mut self, camera: CameraPosition) {
+        let number = self.exposures.of_mut(camera);
+        let exposure = self.world.expose(camera, *number);
+        *number += 1;
+        remember(
+            self.image_truths.of_mut(camera),
+            ImageTruth::from(&exposure),
+        );
+        let waiting = self.waiting.of_mut(camera);
+        waiting.push_back(exposure);
+        // A camera has two buffers; the older image is lost.
+        if waiting.len() > 2 {
+            waiting.pop_front();
+        }
+    }
+
+    /// The newest image that is ready at `now`, or else the one that will be ready next.
+    pub(crate) fn take_image(
+        &mut self,
+        camera: CameraPosition,
+        now: Timestamp,
+    ) -> Option<Exposure> {
+        let waiting = self.waiting.of_mut(camera);
+        let ready = waiting
+            .iter()
+            .take_while(|exposure| exposure.ready_at <= now)
+            .count();
+        waiting.drain(..ready.saturating_sub(1));
+        waiting.pop_front()
+    }
+
+    /// The newest image, if it is ready at `now`.
+    pub(crate) fn take_ready_image(
+        &mut self,
+        camera: CameraPosition,
+        now: Timestamp,
+    ) -> Option<Exposure> {
+        let is_ready = self
+            .waiting
+            .of(camera)
+            .front()
+            .is_some_and(|first| first.ready_at <= now);
+        is_ready.then(|| self.take_image(camera, now)).flatten()
+    }
+
+    /// How many states that were sent until `now` wait in the socket; they count as read.
+    pub(crate) fn take_states(&mut self, now: Timestamp) -> usize {
+        let states = self.unread.iter().take_while(|at| **at <= now).count();
+        self.unread.drain(..states);
+        states
+    }
+
+    pub(crate) fn ground_truth(&self) -> GroundTruth {
+        GroundTruth::new(&self.world)
+    }
+
+    pub(crate) fn bodies(&self) -> Vec<BodyTruth> {
+        self.bodies.iter().copied().collect()
+    }
+
+    pub(crate) fn image_truth(
+        &self,
+        camera: CameraPosition,
+        captured_at: Timestamp,
+    ) -> Option<ImageTruth> {
+        let truths = self.image_truths.of(camera);
+        truths
+            .iter()
+            .rfind(|truth| truth.captured_at == captured_at)
+            .copied()
+    }
+}
+
+fn remember<T>(values: &mut VecDeque<T>, value: T) {
+    if values.len() == REMEMBERED {
+        values.pop_front();
+    }
+    values.push_back(value);
+}
+
+fn times(period: Duration, count: u64) -> Duration {
+    Duration::from_nanos(period.as_nanos() as u64 * count)
+}
+
+/// How many periods have passed.
+fn count(passed: Duration, period: Duration) -> u64 {
+    (passed.as_nanos() / period.as_nanos()) as u64
+}

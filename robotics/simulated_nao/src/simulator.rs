@@ -1,0 +1,147 @@
+//! A simulation that several threads share, and the thread that turns it in real time.
+
+use std::path::PathBuf;
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::thread::JoinHandle;
+use std::time::Duration;
+
+use framework::{Clock, Error, Result, Stop, Timestamp};
+use tempfile::TempDir;
+
+use crate::ground_truth::GroundTruth;
+use crate::server::LolaServer;
+use crate::settings::Settings;
+use crate::simulation::Simulation;
+
+/// Later than this the simulation leaves out what it has missed instead of catching up.
+const GREATEST_DELAY: Duration = Duration::from_millis(60);
+
+/// A simulation behind a lock.
+pub(crate) struct Shared {
+    simulation: Mutex<Simulation>,
+    /// Wakes who waits for the next exposure.
+    pub(crate) stepped: Condvar,
+    /// The folder of the socket, if it is ours.
+    _folder: Option<TempDir>,
+}
+
+impl Shared {
+    pub(crate) fn new(settings: &Settings) -> Result<Self> {
+        settings.check()?;
+        let (socket, folder) = match &settings.socket {
+            Some(path) => (path.clone(), None),
+            None => {
+                let folder = tempfile::Builder::new()
+                    .prefix("simulated_nao-")
+                    .tempdir()?;
+                (folder.path().join("lola"), Some(folder))
+            }
+        };
+        let simulation =
+            Simulation::new(settings, |world| LolaServer::new(socket, *world.commands()))?;
+        Ok(Self {
+            simulation: Mutex::new(simulation),
+            stepped: Condvar::new(),
+            _folder: folder,
+        })
+    }
+
+    pub(crate) fn lock(&self) -> MutexGuard<'_, Simulation> {
+        // A step that panicked left the world before or after it; both are worlds.
+        self.simulation
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+    }
+
+    pub(crate) fn socket(&self) -> PathBuf {
+        self.lock().server().path().to_owned()
+    }
+}
+
+/// A thread that turns a simulation with the wall clock until it is dropped.
+///
+/// Serves LoLA to whatever client connects: [`crate::Hardware`] is one, other programs may be.
+pub struct Simulator {
+    shared: Arc<Shared>,
+    closing: Stop,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl Simulator {
+    /// A world with its LoLA server; the clock must be a wall clock.
+    ///
+    /// # Errors
+    /// Names the setting that cannot be, or the socket that is in use.
+    pub fn start(settings: &Settings, clock: Clock) -> Result<Self> {
+        Self::run(Arc::new(Shared::new(settings)?), clock, |_| {})
+    }
+
+    /// Where LoLA is served.
+    pub fn socket(&self) -> PathBuf {
+        self.shared.socket()
+    }
+
+    /// What is really the case, for tests.
+    pub fn ground_truth(&self) -> GroundTruth {
+        self.shared.lock().ground_truth()
+    }
+
+    /// Calls `before_tick` ahead of every state that LoLA sends.
+    pub(crate) fn run(
+        shared: Arc<Shared>,
+        clock: Clock,
+        before_tick: impl FnMut(Timestamp) + Send + 'static,
+    ) -> Result<Self> {
+        if clock.is_stepped() {
+            return Err(Error::new(
+                "a simulator with its own thread needs a wall clock",
+            ));
+        }
+        let closing = Stop::new();
+        let thread = std::thread::Builder::new()
+            .name("simulated_nao".to_owned())
+            .spawn({
+                let (shared, closing) = (Arc::clone(&shared), closing.clone());
+                move || turn(&shared, &clock, &closing, before_tick)
+            })?;
+        Ok(Self {
+            shared,
+            closing,
+            thread: Some(thread),
+        })
+    }
+}
+
+impl Drop for Simulator {
+    fn drop(&mut self) {
+        self.closing.request();
+        if let Some(thread) = self.thread.take() {
+            // A panic of the thread has been printed; the world simply stands still since.
+            let _ = thread.join();
+        }
+    }
+}
+
+fn turn(shared: &Shared, clock: &Clock, closing: &Stop, mut before_tick: impl FnMut(Timestamp)) {
+    loop {
+        let due = shared.lock().next_time();
+        if clock.wait_until(due, closing).is_err() {
+            return;
+        }
+        let mut simulation = shared.lock();
+        let now = clock.now();
+        if now - simulation.next_time() > GREATEST_DELAY {
+            simulation.skip_to(now);
+            continue;
+        }
+        if simulation.next_is_tick() {
+            before_tick(now);
+        }
+        if let Err(error) = simulation.step() {
+            eprintln!("the simulated NAO cannot send its state: {error}");
+            return;
+        }
+        drop(simulation);
+        shared.stepped.notify_all();
+    }
+}

@@ -1,0 +1,138 @@
+//! The simulated NAO with the wall clock.
+
+use std::time::{Duration, Instant};
+
+use framework::{Clock, Hardware as _, HardwareContext, Stop};
+use hardware::{ActuatorInterface, CameraInterface, SensorInterface};
+use simulated_nao::Hardware;
+use types::camera::CameraPosition;
+use types::image::YuyvImage;
+use types::joints::Joints;
+use types::leds::Leds;
+use types::motor_commands::MotorCommands;
+
+fn create(stop: &Stop) -> Hardware {
+    Hardware::new(HardwareContext {
+        options: Vec::new(),
+        table: toml::Table::new(),
+        run_folder: std::env::temp_dir(),
+        clock: Clock::wall(),
+        stop: stop.clone(),
+    })
+    .unwrap()
+}
+
+#[test]
+fn sensors_are_sampled_every_12_ms_of_the_world() {
+    let hardware = create(&Stop::new());
+    for _ in 0..25 {
+        hardware.read_sensors().unwrap();
+    }
+    let times: Vec<_> = hardware
+        .body_truths()
+        .iter()
+        .map(|truth| truth.at)
+        .collect();
+    assert!(times.len() >= 24);
+    for time in &times {
+        assert_eq!(time.as_nanos() % 12_000_000, 0, "{time}");
+    }
+    assert!(times.is_sorted());
+}
+
+#[test]
+fn images_are_those_of_their_exposures() {
+    let hardware = create(&Stop::new());
+    let mut image = YuyvImage::default();
+    let mut last = None;
+    for _ in 0..5 {
+        let captured_at = hardware
+            .read_image(CameraPosition::Bottom, &mut image)
+            .unwrap();
+        assert!(last < Some(captured_at));
+        last = Some(captured_at);
+        assert_eq!((image.width, image.height), (640, 480));
+        assert!(image.is_complete());
+        assert!(
+            hardware
+                .image_truth(CameraPosition::Bottom, captured_at)
+                .is_some()
+        );
+    }
+}
+
+#[test]
+fn a_stop_ends_blocked_reads() {
+    let stop = Stop::new();
+    let hardware = create(&stop);
+    std::thread::scope(|scope| {
+        let reads = [
+            scope.spawn(|| {
+                loop {
+                    if let Err(error) =
+                        hardware.read_image(CameraPosition::Top, &mut YuyvImage::default())
+                    {
+                        break error;
+                    }
+                }
+            }),
+            scope.spawn(|| {
+                loop {
+                    if let Err(error) = hardware.read_sensors() {
+                        break error;
+                    }
+                }
+            }),
+        ];
+        std::thread::sleep(Duration::from_millis(100));
+        hardware.stop();
+        let begun = Instant::now();
+        for read in reads {
+            assert!(read.join().unwrap().is_stopped());
+        }
+        // 100 ms are promised; a busy machine may need longer to wake the threads.
+        assert!(
+            begun.elapsed() < Duration::from_millis(500),
+            "{:?}",
+            begun.elapsed()
+        );
+    });
+}
+
+#[test]
+fn garbled_data_is_no_event() {
+    let hardware = create(&Stop::new());
+    hardware.garble_next_image(CameraPosition::Top);
+    let mut image = YuyvImage::default();
+    let error = hardware
+        .read_image(CameraPosition::Top, &mut image)
+        .unwrap_err();
+    assert!(error.is_no_event(), "{error}");
+    assert!(hardware.read_image(CameraPosition::Top, &mut image).is_ok());
+    hardware.garble_next_state();
+    let read = (0..20)
+        .filter_map(|_| hardware.read_sensors().err())
+        .collect::<Vec<_>>();
+    assert_eq!(read.len(), 1, "{read:?}");
+    assert!(read[0].is_no_event());
+    assert_eq!(hardware.counts().rejected, 1);
+}
+
+#[test]
+fn the_robot_is_let_down_when_the_run_ends() {
+    let stop = Stop::new();
+    let hardware = create(&stop);
+    let command = MotorCommands {
+        positions: Joints::filled(0.1),
+        stiffnesses: Joints::filled(0.5),
+    };
+    hardware.write_command(&command, &Leds::default()).unwrap();
+    hardware.enter_safe_state();
+    stop.request();
+    hardware.stop();
+    std::thread::sleep(Duration::from_millis(700));
+    assert_eq!(
+        hardware.ground_truth().commands.stiffnesses,
+        Joints::default()
+    );
+}

@@ -1,0 +1,266 @@
+//! Finds the ball: a circle on the field, as large as a ball would be there, printed black and white.
+//!
+//! No learned classifier: a grid of places proposes, the rim and the print decide. Thresholds are
+//! parameters.
+
+mod circle;
+mod grid;
+mod inspection;
+mod view;
+
+use framework::{
+    AdditionalOutput, Input, MainOutput, Parameter, Reflect, RequiredInput, Result, context,
+};
+use nalgebra::Point2;
+use serde::{Deserialize, Serialize};
+use types::ball::BallCandidate;
+use types::camera::CameraMatrix;
+use types::image::YuyvImage;
+
+use self::grid::Grid;
+use self::inspection::{Finding, inspect};
+use self::view::View;
+use crate::field_color::FieldColor;
+use crate::segments::ImageSegments;
+
+/// What makes a circle a ball.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct BallDetectionParameters {
+    /// Smaller balls in px are not looked for.
+    pub least_radius: f32,
+    /// By which factor the radius may differ from what the distance says.
+    pub radius_tolerance: f32,
+    /// Least share of the rim that must be found, 0 to 1.
+    pub least_rim: f32,
+    /// Least share of field in the ring around it, 0 to 1.
+    pub least_field_around: f32,
+    /// Largest share of field within it, 0 to 1.
+    pub most_field_inside: f32,
+    /// Least difference between the mean luminances of print and ground.
+    pub least_contrast: f32,
+    /// Least share of dark print, 0 to 1.
+    pub least_dark: f32,
+    /// Largest share of dark print, 0 to 1.
+    pub most_dark: f32,
+}
+
+/// Has nothing to remember.
+#[derive(Debug, Deserialize, Serialize)]
+pub struct BallDetection {}
+
+#[context]
+pub struct CreationContext {}
+
+#[context]
+pub struct CycleContext {
+    image: Input<YuyvImage, "image">,
+    image_segments: Input<ImageSegments, "image_segments">,
+    camera_matrix: RequiredInput<Option<CameraMatrix>, "camera_matrix?">,
+    field_color: Parameter<FieldColor, "field_color">,
+    parameters: Parameter<BallDetectionParameters, "ball_detection">,
+    ball_radius: Parameter<f32, "field_dimensions.ball_radius">,
+    /// Where a ball was looked for.
+    ball_candidates: AdditionalOutput<Vec<BallCandidate>, "ball_candidates">,
+    /// What passed every test, best first; no two of them overlap.
+    balls: MainOutput<Vec<BallCandidate>>,
+}
+
+#[context]
+pub struct MainOutputs {}
+
+impl BallDetection {
+    /// Never fails.
+    pub fn new(_context: CreationContext) -> Result<Self> {
+        Ok(Self {})
+    }
+
+    /// The circles that pass every test.
+    pub fn cycle(&mut self, mut context: CycleContext) -> Result<MainOutputs> {
+        let view = View {
+            image: context.image,
+            matrix: context.camera_matrix,
+            field_color: context.field_color,
+            ball_radius: *context.ball_radius,
+        };
+        let mut grid = Grid::new(&view, context.parameters.least_radius.max(1.0));
+        grid.mark(context.image_segments);
+        context.ball_candidates.fill_if_subscribed(|| {
+            grid.cells()
+                .map(|(center, radius)| locate(&view, center, radius))
+                .collect()
+        });
+        let mut findings: Vec<_> = grid
+            .cells()
+            .filter_map(|(center, radius)| inspect(&view, context.parameters, center, radius))
+            .collect();
+        findings.sort_by(|one, other| other.score.total_cmp(&one.score));
+        for Finding { circle, .. } in findings {
+            let ball = locate(&view, circle.center, circle.radius);
+            if !context.balls.iter().any(|better| overlap(better, &ball)) {
+                context.balls.push(ball);
+            }
+        }
+        Ok(MainOutputs {})
+    }
+}
+
+fn locate(view: &View<'_>, center: Point2<f32>, radius: f32) -> BallCandidate {
+    BallCandidate {
+        center,
+        radius,
+        position: view.matrix.pixel_to_ground(center, view.ball_radius),
+    }
+}
+
+/// Neighbouring cells often find the same circle.
+fn overlap(one: &BallCandidate, other: &BallCandidate) -> bool {
+    nalgebra::distance(&one.center, &other.center) < one.radius + other.radius
+}
+
+#[cfg(test)]
+mod tests {
+    use framework::testing::{AdditionalProbe, parameter};
+    use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector2};
+    use types::camera::Intrinsics;
+    use types::image::Yuv;
+
+    use super::*;
+    use crate::field_color::tests::{GREEN, field_color};
+    use crate::segments::Segment;
+
+    const WHITE: [u8; 3] = [220, 220, 220];
+    const BLACK: [u8; 3] = [40, 40, 40];
+
+    /// Half a metre up, looking 0.4 rad down along y of the ground.
+    fn camera_matrix() -> CameraMatrix {
+        let down = -std::f32::consts::FRAC_PI_2 - 0.4;
+        let optical = UnitQuaternion::from_euler_angles(down, 0.0, 0.0);
+        let camera = Isometry3::from_parts(Translation3::new(0.0, 0.0, 0.5), optical);
+        CameraMatrix {
+            ground_to_camera: camera.inverse(),
+            intrinsics: Intrinsics {
+                focal: Vector2::new(608.0, 609.6),
+                center: Vector2::new(320.0, 240.0),
+            },
+        }
+    }
+
+    fn parameters() -> BallDetectionParameters {
+        parameter(
+            "{ least_radius = 3.5, radius_tolerance = 1.4, least_rim = 0.5, \
+             least_field_around = 0.5, most_field_inside = 0.15, least_contrast = 35.0, \
+             least_dark = 0.04, most_dark = 0.6 }",
+        )
+    }
+
+    /// A green image with discs of these colours, in this order.
+    fn image(discs: &[(Point2<f32>, f32, [u8; 3])]) -> YuyvImage {
+        let mut image = YuyvImage::new(640, 480);
+        for row in 0..480 {
+            for pair in 0..320 {
+                let place = Point2::new(2.0 * pair as f32 + 0.5, row as f32);
+                let hit = |(center, radius, _): &&(Point2<f32>, f32, [u8; 3])| {
+                    nalgebra::distance(center, &place) <= *radius
+                };
+                let color = discs
+                    .iter()
+                    .rfind(hit)
+                    .map_or(GREEN, |(_, _, color)| *color);
+                let Yuv { y, u, v } = Yuv::from_rgb(color);
+                let offset = (row * 320 + pair) * 4;
+                image.data[offset..offset + 4].copy_from_slice(&[y, u, y, v]);
+            }
+        }
+        image
+    }
+
+    /// Where a ball at this place of the ground is seen, and how large.
+    fn seen(x: f32, y: f32) -> (Point2<f32>, f32) {
+        let center = Point3::new(x, y, 0.05);
+        let matrix = camera_matrix();
+        (
+            matrix.ground_to_pixel(center).unwrap(),
+            matrix.pixel_radius(center, 0.05).unwrap(),
+        )
+    }
+
+    fn balls(
+        image: &YuyvImage,
+        candidates: &mut AdditionalProbe<Vec<BallCandidate>>,
+    ) -> Vec<BallCandidate> {
+        // Every fourth column as one piece that is not field: the grid then looks everywhere.
+        let pieces = (2..640).step_by(4);
+        let image_segments = ImageSegments {
+            column_step: 4,
+            segments: pieces
+                .map(|column| Segment {
+                    column,
+                    start: 0,
+                    end: 480,
+                    is_field: false,
+                })
+                .collect(),
+        };
+        let mut balls = Vec::new();
+        BallDetection::new(CreationContext {})
+            .unwrap()
+            .cycle(CycleContext {
+                image,
+                image_segments: &image_segments,
+                camera_matrix: &camera_matrix(),
+                field_color: &field_color(),
+                parameters: &parameters(),
+                ball_radius: &0.05,
+                ball_candidates: candidates.output(),
+                balls: &mut balls,
+            })
+            .unwrap();
+        balls
+    }
+
+    #[test]
+    fn a_printed_disc_of_the_right_size_is_the_ball() {
+        let (center, radius) = seen(0.2, 1.1);
+        let print = Vector2::new(0.4, -0.3) * radius;
+        let image = image(&[
+            (center, radius, WHITE),
+            (center + print, radius * 0.3, BLACK),
+            (center - print, radius * 0.3, BLACK),
+        ]);
+        let balls = balls(&image, &mut AdditionalProbe::unsubscribed());
+        assert_eq!(balls.len(), 1, "{balls:?}");
+        assert!((balls[0].center - center).norm() < 2.0, "{balls:?}");
+        assert!((balls[0].radius - radius).abs() < 2.0, "{balls:?}");
+        let position = balls[0].position.unwrap();
+        assert!(
+            (position - Point2::new(0.2, 1.1)).norm() < 0.03,
+            "{position}"
+        );
+    }
+
+    #[test]
+    fn a_white_disc_without_print_is_none() {
+        let (center, radius) = seen(0.2, 1.1);
+        let image = image(&[(center, radius, WHITE)]);
+        assert_eq!(balls(&image, &mut AdditionalProbe::unsubscribed()), []);
+    }
+
+    #[test]
+    fn a_ball_of_the_wrong_size_is_none() {
+        let (center, radius) = seen(0.2, 1.1);
+        let image = image(&[(center, radius * 2.0, WHITE), (center, radius * 0.7, BLACK)]);
+        assert_eq!(balls(&image, &mut AdditionalProbe::unsubscribed()), []);
+    }
+
+    #[test]
+    fn candidates_are_told_to_who_listens() {
+        let mut candidates = AdditionalProbe::default();
+        assert_eq!(balls(&image(&[]), &mut candidates), []);
+        assert!(
+            candidates
+                .value()
+                .is_some_and(|candidates| candidates.len() > 50)
+        );
+    }
+}

@@ -1,0 +1,162 @@
+//! Looks at one place closely: is there a circle of the right size, and is it printed like a ball?
+
+use std::f32::consts::TAU;
+
+use nalgebra::{Point2, Vector2};
+
+use super::BallDetectionParameters;
+use super::circle::{self, Circle};
+use super::view::View;
+
+/// Rays on which the rim is looked for.
+const RAYS: usize = 32;
+/// Samples along the diameter of a disc.
+const SAMPLES: i32 = 13;
+
+/// A circle that passed every test.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Finding {
+    pub(super) circle: Circle,
+    /// The share of the rim that was found, 0 to 1.
+    pub(super) score: f32,
+}
+
+/// Looks for a ball around `center`, where it would have about this radius in px.
+pub(super) fn inspect(
+    view: &View<'_>,
+    parameters: &BallDetectionParameters,
+    center: Point2<f32>,
+    radius: f32,
+) -> Option<Finding> {
+    let middle = move_to_middle(view, center, radius)?;
+    let first = find_rim(view, parameters, middle)?;
+    // From the middle of the circle every ray meets the rim squarely.
+    let finding = find_rim(view, parameters, first.circle.center)?;
+    let is_ball = finding.score >= parameters.least_rim
+        && ring_on_field(view, &finding.circle) >= parameters.least_field_around
+        && is_printed(view, parameters, &finding.circle);
+    is_ball.then_some(finding)
+}
+
+/// Follows what is not field to its middle.
+fn move_to_middle(view: &View<'_>, start: Point2<f32>, radius: f32) -> Option<Point2<f32>> {
+    let mut center = start;
+    for _ in 0..3 {
+        let mut sum = Vector2::zeros();
+        let mut count = 0.0;
+        for offset in disc(radius * 1.4) {
+            if view.is_field(center + offset) == Some(false) {
+                sum += offset;
+                count += 1.0;
+            }
+        }
+        if count < 8.0 {
+            return None;
+        }
+        center += sum / count;
+    }
+    Some(center)
+}
+
+/// The circle where, coming from outside, the field ends.
+fn find_rim(
+    view: &View<'_>,
+    parameters: &BallDetectionParameters,
+    center: Point2<f32>,
+) -> Option<Finding> {
+    let expected = view.expected_radius(center)?;
+    let mut rim = Vec::with_capacity(RAYS);
+    rim.extend(directions().filter_map(|direction| rim_on_ray(view, center, direction, expected)));
+    let tolerance = parameters.radius_tolerance;
+    let circle = circle::find(&rim, expected / tolerance..expected * tolerance)?;
+    let expected = view.expected_radius(circle.center)?;
+    let fits = (expected / tolerance..expected * tolerance).contains(&circle.radius);
+    fits.then(|| Finding {
+        circle,
+        score: circle.support(&rim) as f32 / RAYS as f32,
+    })
+}
+
+/// The outermost place on a ray where field is followed by two pixels that are not.
+fn rim_on_ray(
+    view: &View<'_>,
+    center: Point2<f32>,
+    direction: Vector2<f32>,
+    expected: f32,
+) -> Option<Point2<f32>> {
+    let at = |distance: f32| view.is_field(center + direction * distance);
+    let (furthest, nearest) = ((expected * 1.9).ceil() as i32, (expected * 0.3) as i32);
+    let mut outside_was_field = false;
+    for distance in (nearest..furthest).rev() {
+        let distance = distance as f32;
+        match at(distance) {
+            Some(true) => outside_was_field = true,
+            Some(false) if outside_was_field && at(distance - 1.0) == Some(false) => {
+                return Some(center + direction * (distance + 0.5));
+            }
+            // Something else than field outside, or beyond the edge of the image.
+            Some(false) | None => {}
+        }
+    }
+    None
+}
+
+/// The share of a ring around the circle that is field.
+fn ring_on_field(view: &View<'_>, circle: &Circle) -> f32 {
+    let samples = directions().flat_map(|direction| {
+        [1.2, 1.4].map(|distance| circle.center + direction * (circle.radius * distance))
+    });
+    let (field, seen) = samples
+        .filter_map(|point| view.is_field(point))
+        .fold((0.0, 0.0), |(field, seen), is_field| {
+            (field + f32::from(u8::from(is_field)), seen + 1.0)
+        });
+    if seen == 0.0 { 0.0 } else { field / seen }
+}
+
+/// Whether the disc has dark patches on a bright ground, and no field shows through.
+fn is_printed(view: &View<'_>, parameters: &BallDetectionParameters, circle: &Circle) -> bool {
+    let inside = || disc(circle.radius * 0.85).map(|offset| circle.center + offset);
+    let count = inside().count() as f32;
+    let field = inside()
+        .filter(|point| view.is_field(*point) == Some(true))
+        .count() as f32;
+    let brightest = inside()
+        .filter_map(|point| view.luminance(point))
+        .fold(0.0, f32::max);
+    let bright = |luminance: f32| luminance > brightest * 0.5;
+    let (dark_sum, dark, bright_sum, light) =
+        inside().filter_map(|point| view.luminance(point)).fold(
+            (0.0, 0.0, 0.0, 0.0),
+            |(dark_sum, dark, bright_sum, light), luminance| {
+                if bright(luminance) {
+                    (dark_sum, dark, bright_sum + luminance, light + 1.0)
+                } else {
+                    (dark_sum + luminance, dark + 1.0, bright_sum, light)
+                }
+            },
+        );
+    if dark == 0.0 || light == 0.0 {
+        return false;
+    }
+    let contrast = bright_sum / light - dark_sum / dark;
+    field / count <= parameters.most_field_inside
+        && contrast >= parameters.least_contrast
+        && (parameters.least_dark..parameters.most_dark).contains(&(dark / (dark + light)))
+}
+
+fn directions() -> impl Iterator<Item = Vector2<f32>> {
+    (0..RAYS).map(|ray| {
+        let (sine, cosine) = (ray as f32 * TAU / RAYS as f32).sin_cos();
+        Vector2::new(cosine, sine)
+    })
+}
+
+/// Offsets that cover a disc evenly.
+fn disc(radius: f32) -> impl Iterator<Item = Vector2<f32>> {
+    let half = SAMPLES / 2;
+    (-half..=half)
+        .flat_map(move |y| (-half..=half).map(move |x| Vector2::new(x as f32, y as f32)))
+        .filter(move |offset| offset.norm_squared() <= (half * half) as f32)
+        .map(move |offset| offset * (radius / half as f32))
+}
