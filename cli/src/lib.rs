@@ -1,1 +1,35 @@
 //! hulkgen: from a manifest and node crates to the crate that is the robot's runtime.
+//!
+//! [`pipeline`] is the list of stages; each has a type of its own, and no stage looks back behind the one before it.
+//!
+//! | # | Stage | Makes | In |
+//! |---|---|---|---|
+//! | – | door in | [`workspace::Workspace`]: every file that is read | `workspace.rs` |
+//! | ① | manifest | [`manifest::Manifest`]: `hulk.toml`, every name with its place | `manifest.rs` |
+//! | ② | scan | [`scan::Sources`]: node files by themselves, and the names that they use | `scan.rs` |
+//! | ③ | resolve | [`resolve::robot::Robot`]: every name bound to what it means | `resolve.rs` |
+//! | ④ | schedule | `Schedule`: the order of the nodes of every cycler, and why | `schedule.rs` |
+//! | ⑤ | describe | `RuntimeModel`: what each file will say; no decisions left | `model.rs` |
+//! | ⑥ | render | `GeneratedFiles`: path → text | `render.rs` |
+//! | – | door out | `Drift`: what differs on disk; written or only shown | `drift.rs` |
+//!
+//! Stages ① to ④ add what they find to one [`diagnostics::Diagnostics`] and stop where the next cannot go on; ⑤ and ⑥
+//! cannot fail. `commands` are what people call; only they print.
+//!
+//! Invariants: only `workspace` reads files of the robot and only `drift` writes them. The same input gives the same
+//! bytes: nothing depends on hash maps, clocks, the environment or the order in which files are found.
+
+pub mod diagnostics;
+pub mod manifest;
+pub mod resolve;
+pub mod scan;
+pub mod workspace;
+pub mod schedule;
+pub mod model;
+pub mod render;
+pub mod drift;
+pub mod pipeline;
+pub mod graph;
+pub mod arguments;
+pub mod commands;
+pub mod outcome;

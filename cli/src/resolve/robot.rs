@@ -22,6 +22,8 @@ pub struct Robot {
     pub parameter_tree: Tree<Reader>,
     /// Crates that generated code names, sorted by name: node crates, crates of exchanged types.
     pub crates: Vec<Dependency>,
+    /// Keys of the workspace's `[workspace.package]`, sorted: packages may inherit them.
+    pub inherited: Vec<String>,
     /// Edges whose types could not be resolved fully and are left to rustc.
     pub left_to_rustc: usize,
 }
@@ -31,6 +33,8 @@ pub struct Robot {
 pub struct Dependency {
     /// As written in `use`: the library's name.
     pub name: String,
+    /// The left side of its line in `[dependencies]`: `name`, unless the package says it with `-`.
+    pub key: String,
     /// The right side of its line in `[dependencies]`, for example `{ workspace = true }`.
     pub requirement: String,
     /// Only behind the feature of these targets.
@@ -174,8 +178,15 @@ pub struct Segment {
 
 #[derive(Clone, Debug)]
 pub enum CreationBinding {
-    Parameter { access: Access, data: DataType },
-    CyclerState { access: Access, data: DataType, shared: bool },
+    Parameter {
+        access: Access,
+        data: DataType,
+    },
+    CyclerState {
+        access: Access,
+        data: DataType,
+        shared: bool,
+    },
     HardwareInterface,
 }
 
@@ -183,25 +194,86 @@ pub enum CreationBinding {
 #[derive(Clone, Debug)]
 pub enum CycleBinding {
     /// This cycle's output of the own cycler.
-    OwnOutput { access: Access, data: DataType, producer: usize, checked: bool },
+    OwnOutput {
+        access: Access,
+        data: DataType,
+        producer: usize,
+        checked: bool,
+    },
     /// As `OwnOutput`; the node is skipped while something on the path is absent.
-    RequiredOwnOutput { access: Access, data: DataType, producer: usize, checked: bool },
+    RequiredOwnOutput {
+        access: Access,
+        data: DataType,
+        producer: usize,
+        checked: bool,
+    },
     /// Latest finished database of another instance (or of the own cycler's other instance).
-    OutputOf { instance: InstanceId, access: Access, data: DataType, producer: usize, checked: bool },
-    RequiredOutputOf { instance: InstanceId, access: Access, data: DataType, producer: usize, checked: bool },
-    Latest { instance: InstanceId, access: Access, data: DataType, producer: usize, checked: bool },
-    Previous { access: Access, data: DataType, producer: usize, checked: bool },
-    Historic { access: Access, data: DataType, producer: usize, checked: bool },
+    OutputOf {
+        instance: InstanceId,
+        access: Access,
+        data: DataType,
+        producer: usize,
+        checked: bool,
+    },
+    RequiredOutputOf {
+        instance: InstanceId,
+        access: Access,
+        data: DataType,
+        producer: usize,
+        checked: bool,
+    },
+    Latest {
+        instance: InstanceId,
+        access: Access,
+        data: DataType,
+        producer: usize,
+        checked: bool,
+    },
+    Previous {
+        access: Access,
+        data: DataType,
+        producer: usize,
+        checked: bool,
+    },
+    Historic {
+        access: Access,
+        data: DataType,
+        producer: usize,
+        checked: bool,
+    },
     /// One instance, or all instances of a cycler interleaved (`interleaved`).
-    Perception { instances: Vec<InstanceId>, interleaved: bool, access: Access, data: DataType, producer: usize, checked: bool },
-    Parameter { access: Access, data: DataType },
-    CyclerState { access: Access, data: DataType, shared: bool },
+    Perception {
+        instances: Vec<InstanceId>,
+        interleaved: bool,
+        access: Access,
+        data: DataType,
+        producer: usize,
+        checked: bool,
+    },
+    Parameter {
+        access: Access,
+        data: DataType,
+    },
+    CyclerState {
+        access: Access,
+        data: DataType,
+        shared: bool,
+    },
     CycleTime,
-    AdditionalOutput { access: Access, data: DataType },
-    Procedure { name: String, request: DataType, response: DataType },
+    AdditionalOutput {
+        access: Access,
+        data: DataType,
+    },
+    Procedure {
+        name: String,
+        request: DataType,
+        response: DataType,
+    },
     HardwareInterface,
     /// A main output written in place.
-    MainOutput { data: DataType },
+    MainOutput {
+        data: DataType,
+    },
 }
 
 /// What a field of `MainOutputs` is.
@@ -249,10 +321,16 @@ pub struct Branch<U> {
 #[derive(Clone, Debug)]
 pub enum Content<U> {
     /// A declared value, and who uses it (also those who use a field below it).
-    Leaf { data: DataType, users: Vec<U> },
+    Leaf {
+        data: DataType,
+        users: Vec<U>,
+    },
     Inner(Tree<U>),
     /// In the parameter tree: the shared shape of one cycler's instances (`$cycler_instance`).
-    Instance { cycler: usize, tree: Tree<U> },
+    Instance {
+        cycler: usize,
+        tree: Tree<U>,
+    },
 }
 
 /// Who reads a parameter: a node of a cycler, by path.
@@ -273,4 +351,98 @@ pub struct Writer {
 pub struct StateUse {
     pub node: String,
     pub shared: bool,
+}
+
+/// What a field of a cycle context reads from the main outputs of a cycler.
+#[derive(Clone, Copy, Debug)]
+pub struct OutputRead<'a> {
+    /// Empty: the own cycler.
+    pub instances: &'a [InstanceId],
+    pub access: &'a Access,
+    /// Position of the writing node in the nodes of the cycler that is read.
+    pub producer: usize,
+    /// Whether the types were compared.
+    pub checked: bool,
+}
+
+impl CycleBinding {
+    /// What it reads, if it reads a main output.
+    pub fn read(&self) -> Option<OutputRead<'_>> {
+        match self {
+            Self::OwnOutput {
+                access,
+                producer,
+                checked,
+                ..
+            }
+            | Self::RequiredOwnOutput {
+                access,
+                producer,
+                checked,
+                ..
+            }
+            | Self::Previous {
+                access,
+                producer,
+                checked,
+                ..
+            }
+            | Self::Historic {
+                access,
+                producer,
+                checked,
+                ..
+            } => Some(OutputRead {
+                instances: &[],
+                access,
+                producer: *producer,
+                checked: *checked,
+            }),
+            Self::OutputOf {
+                instance,
+                access,
+                producer,
+                checked,
+                ..
+            }
+            | Self::RequiredOutputOf {
+                instance,
+                access,
+                producer,
+                checked,
+                ..
+            }
+            | Self::Latest {
+                instance,
+                access,
+                producer,
+                checked,
+                ..
+            } => Some(OutputRead {
+                instances: std::slice::from_ref(instance),
+                access,
+                producer: *producer,
+                checked: *checked,
+            }),
+            Self::Perception {
+                instances,
+                access,
+                producer,
+                checked,
+                ..
+            } => Some(OutputRead {
+                instances,
+                access,
+                producer: *producer,
+                checked: *checked,
+            }),
+            Self::Parameter { .. }
+            | Self::CyclerState { .. }
+            | Self::CycleTime
+            | Self::AdditionalOutput { .. }
+            | Self::Procedure { .. }
+            | Self::HardwareInterface
+            | Self::MainOutput { .. } => None,
+        }
+    }
 }

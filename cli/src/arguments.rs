@@ -1,0 +1,234 @@
+//! What may stand on the command line: types for clap, no behaviour.
+
+use std::ffi::OsString;
+
+use camino::Utf8PathBuf;
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+/// Heading of the options of every command.
+const GLOBAL: &str = "Global options";
+
+/// hulkgen: from a manifest and plain Rust nodes to the program that runs the robot.
+#[derive(Clone, Debug, Parser)]
+#[command(
+    name = "hulkgen",
+    version,
+    after_help = "\
+Exit status: 0 done and good, 1 the answer is bad, 2 wrong usage, 3 drift (generate --check only),
+             101 a bug in hulkgen, 130 Ctrl-C.
+Data goes to stdout, everything else to stderr.",
+    arg_required_else_help = true
+)]
+pub struct Arguments {
+    #[command(flatten)]
+    pub global: Global,
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// Options of every command.
+#[derive(Args, Clone, Debug)]
+pub struct Global {
+    /// The robot's hulk.toml, or its folder [default: upwards from the current folder]
+    #[arg(long, global = true, value_name = "PATH", help_heading = GLOBAL)]
+    pub manifest: Option<Utf8PathBuf>,
+    /// Colours: `auto` means on a terminal, unless NO_COLOR is set
+    #[arg(
+        long,
+        global = true,
+        value_enum,
+        value_name = "WHEN",
+        default_value = "auto"
+    )]
+    pub color: Color,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Color {
+    Auto,
+    Always,
+    Never,
+}
+
+#[derive(Clone, Debug, Subcommand)]
+pub enum Command {
+    Generate(Generate),
+    Check(Check),
+    Explain(Explain),
+    Graph(Graph),
+    Show(Show),
+    Run(Run),
+    /// Print the JSON schema of hulk.toml, for editors
+    #[command(after_help = "\
+Exit status: 0.
+
+Example:
+  hulkgen schema > .hulk/hulk.schema.json")]
+    Schema,
+}
+
+/// Write the generated crate: unchanged files stay untouched, orphans are removed
+#[derive(Args, Clone, Debug)]
+#[command(after_help = "\
+Exit status: 0 written or nothing to do, 1 errors in the manifest or a node (nothing was written)
+             or in a parameter file, 3 with --check if something would be written.
+
+Examples:
+  hulkgen generate
+  hulkgen generate --check     # in CI: print the diff, write nothing")]
+pub struct Generate {
+    /// Write nothing; print the diff and end with 3 if there is one
+    #[arg(long)]
+    pub check: bool,
+    /// Form of the answer: with `json` the names of the files that differ
+    #[arg(long, value_enum, default_value = "text")]
+    pub format: TextOrJson,
+}
+
+/// Report every diagnostic of manifest, nodes and parameter files, without compiling
+#[derive(Args, Clone, Debug)]
+#[command(after_help = "\
+Exit status: 0 no errors, 1 errors, or warnings with --deny-warnings.
+
+Examples:
+  hulkgen check
+  hulkgen check --format json | jq '.diagnostics[].code'")]
+pub struct Check {
+    /// Let warnings be errors
+    #[arg(long)]
+    pub deny_warnings: bool,
+    /// Form of the answer
+    #[arg(long, value_enum, default_value = "text")]
+    pub format: TextOrJson,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum TextOrJson {
+    Text,
+    Json,
+}
+
+/// Explain the code of a diagnostic, a node, or an output: who writes it, who reads it
+#[derive(Args, Clone, Debug)]
+#[command(after_help = "\
+Exit status: 0 explained, 1 the robot has errors, 2 there is nothing of this name.
+
+Examples:
+  hulkgen explain unknown-output
+  hulkgen explain vision::ball_detection
+  hulkgen explain ball_position       # or Control.ball_position")]
+pub struct Explain {
+    /// Code, node or output
+    #[arg(value_name = "CODE|NODE|OUTPUT")]
+    pub subject: String,
+    /// Form of the answer
+    #[arg(long, value_enum, default_value = "text")]
+    pub format: TextOrJson,
+}
+
+/// Draw who writes what and who reads it
+#[derive(Args, Clone, Debug)]
+#[command(after_help = "\
+Exit status: 0 drawn, 1 the robot has errors, 2 there is no such cycler.
+
+Examples:
+  hulkgen graph --format svg > robot.svg
+  hulkgen graph --format html > robot.html       # zoom, search, highlight; needs no server
+  hulkgen graph --cycler Control --format dot | dot -Tpdf > control.pdf")]
+pub struct Graph {
+    /// Only this cycler and what it exchanges with others
+    #[arg(long, value_name = "NAME")]
+    pub cycler: Option<String>,
+    /// Language of the picture
+    #[arg(long, value_enum, default_value = "mermaid")]
+    pub format: GraphFormat,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum GraphFormat {
+    /// A picture for browsers and viewers
+    Svg,
+    /// For Graphviz
+    Dot,
+    /// For Markdown
+    Mermaid,
+    /// For programs
+    Json,
+    /// One self-contained page around the picture
+    Html,
+}
+
+/// Print a stage between manifest and generated crate as text
+#[derive(Args, Clone, Debug)]
+#[command(after_help = "\
+Exit status: 0 printed, 1 this stage or one before it has errors.
+
+Example:
+  hulkgen show schedule     # in which order nodes run, and why")]
+pub struct Show {
+    /// The stage
+    #[arg(value_enum)]
+    pub stage: Stage,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Stage {
+    /// What hulk.toml says
+    Manifest,
+    /// What each node asks for and gives, as written
+    Nodes,
+    /// Every name bound to what it means
+    Robot,
+    /// The order of nodes, and why
+    Schedule,
+    /// What each generated file will say
+    Model,
+}
+
+/// Generate, build and run a target
+///
+/// Runs in the robot's folder until Ctrl-C, or as long as --for says. With --format json the report
+/// at the end goes to stdout.
+#[derive(Args, Clone, Debug)]
+#[command(after_help = "\
+Exit status: that of the robot's program: 0 ended in order, 1 failed, 130 ended by Ctrl-C;
+             before it starts: 1 errors in the robot or a failed build, 2 wrong usage or no such target.
+
+Examples:
+  hulkgen run
+  hulkgen run simulated --for 10s --headless --format json
+  hulkgen run nao -- OPTIONS       # options of the hardware")]
+pub struct Run {
+    /// The target [default: the first of hulk.toml]
+    pub target: Option<String>,
+    /// End after this time, for example `10s` or `500ms`
+    #[arg(long = "for", value_name = "DURATION")]
+    pub duration: Option<schema::Duration>,
+    /// Open no window
+    #[arg(long)]
+    pub headless: bool,
+    /// Form of the report at the end
+    #[arg(long, value_enum)]
+    pub format: Option<TextOrJson>,
+    /// Folder of the parameter files [default: that of hulk.toml]
+    #[arg(long, value_name = "FOLDER")]
+    pub parameters: Option<Utf8PathBuf>,
+    /// Location whose parameters apply [default: that of the target]
+    #[arg(long, value_name = "NAME")]
+    pub location: Option<String>,
+    /// Set a parameter, for example `walk.speed=0.2`; may be repeated
+    #[arg(long, value_name = "PATH=VALUE")]
+    pub set: Vec<String>,
+    /// Folder for what the run writes
+    #[arg(long, value_name = "FOLDER")]
+    pub run_folder: Option<Utf8PathBuf>,
+    /// cargo's profile [default: `release`, or `dev` where hulkgen itself is a debug build]
+    #[arg(long, value_name = "NAME")]
+    pub profile: Option<String>,
+    /// Folder for what cargo builds [default: cargo's]
+    #[arg(long, value_name = "FOLDER")]
+    pub target_dir: Option<Utf8PathBuf>,
+    /// Options of the hardware
+    #[arg(last = true, value_name = "OPTIONS")]
+    pub options: Vec<OsString>,
+}

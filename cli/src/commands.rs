@@ -1,0 +1,89 @@
+//! What each command does: dispatch, and what all of them share.
+//!
+//! Invariant: only these modules print; a command returns its outcome and never ends the process.
+
+mod check;
+mod explain;
+mod generate;
+mod graph;
+mod run;
+mod schema;
+mod session;
+pub mod show;
+mod terminal;
+
+use crate::arguments::{Arguments, Command};
+use crate::diagnostics::Reported;
+use crate::outcome::{Outcome, Refusal};
+use session::Session;
+use terminal::Terminal;
+
+/// Why a command has no answer.
+enum Failure {
+    /// Errors are in the session's diagnostics.
+    Reported,
+    Refused(Refusal),
+}
+
+/// Does what the command line asks for; everything worth knowing is printed when it returns.
+pub fn run(arguments: &Arguments) -> Outcome {
+    let terminal = Terminal::new(arguments.global.color);
+    let answer = match &arguments.command {
+        Command::Schema => schema::run(&terminal).map_err(Failure::Refused),
+        command => with_session(arguments, command, &terminal),
+    };
+    match answer {
+        Ok(outcome) => outcome,
+        Err(Failure::Reported) => Outcome::Bad,
+        Err(Failure::Refused(refusal)) => {
+            terminal.refuse(&refusal);
+            refusal.outcome
+        }
+    }
+}
+
+fn with_session(
+    arguments: &Arguments,
+    command: &Command,
+    terminal: &Terminal,
+) -> Result<Outcome, Failure> {
+    if let Command::Explain(explain) = command
+        && let Some(outcome) = explain::run_without_robot(terminal, explain)?
+    {
+        return Ok(outcome);
+    }
+    let mut session = Session::open(&arguments.global, terminal)?;
+    let answer = match command {
+        Command::Generate(generate) => generate::run(&mut session, generate),
+        Command::Check(check) => return check::run(&mut session, check),
+        Command::Explain(explain) => explain::run(&mut session, explain),
+        Command::Graph(graph) => graph::run(&mut session, graph),
+        Command::Show(show) => show::run(&mut session, show),
+        Command::Run(run) => run::run(&mut session, run),
+        Command::Schema => unreachable!("needs no session"),
+    };
+    if matches!(answer, Err(Failure::Reported)) {
+        session.note_diagnostics();
+    }
+    answer
+}
+
+/// "1 node", "2 nodes".
+pub(crate) fn plural(number: usize, noun: &str) -> String {
+    match number {
+        1 => format!("1 {noun}"),
+        number => format!("{number} {noun}s"),
+    }
+}
+
+impl From<Reported> for Failure {
+    fn from(_: Reported) -> Self {
+        Self::Reported
+    }
+}
+
+impl From<Refusal> for Failure {
+    fn from(refusal: Refusal) -> Self {
+        Self::Refused(refusal)
+    }
+}

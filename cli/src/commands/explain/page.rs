@@ -1,0 +1,191 @@
+//! Explanations as text.
+
+use super::subject::{NodeSubject, OutputSubject, Subject};
+use crate::diagnostics::Code;
+use crate::graph::Edge;
+
+/// Width of paragraphs, in characters.
+const WIDTH: usize = 80;
+
+/// The page of a diagnostic.
+pub(super) fn of_code(code: Code) -> String {
+    let (name, severity) = (code.name(), code.severity().name());
+    let explanation = wrap(code.explanation());
+    format!("{name} ({severity})\n\n{}\n\n{explanation}", code.title())
+}
+
+/// A section for each node and output of the name.
+pub(super) fn of_subject(subject: &Subject<'_>) -> String {
+    let nodes = subject.nodes.iter().map(of_node);
+    let outputs = subject.outputs.iter().map(of_output);
+    nodes.chain(outputs).collect::<Vec<_>>().join("\n")
+}
+
+fn of_node(subject: &NodeSubject<'_>) -> String {
+    let NodeSubject { cycler, node, .. } = subject;
+    let kind = if node.setup { "setup node" } else { "node" };
+    let (place, all) = (node.order + 1, cycler.nodes.len());
+    let mut text = format!(
+        "{}: {kind} of {}, runs as {place} of {all}\n  {} in {}\n",
+        node.path, cycler.name, node.type_name, node.file
+    );
+    if !node.interfaces.is_empty() {
+        text.push_str(&format!(
+            "  asks the hardware for {}\n",
+            node.interfaces.join(", ")
+        ));
+    }
+    for edge in &subject.reads {
+        let checked = if edge.checked {
+            ""
+        } else {
+            ", type left to rustc"
+        };
+        text.push_str(&format!(
+            "  reads {} of {}{checked}\n",
+            source(edge),
+            edge.from.node
+        ));
+    }
+    let outputs = node
+        .fields
+        .iter()
+        .filter(|field| field.kind == "MainOutput");
+    for field in outputs {
+        let readers: Vec<&Edge> = (subject.writes.iter().copied())
+            .filter(|edge| edge.from.output == field.name && edge.kind.word() != "state")
+            .collect();
+        text.push_str(&format!("  writes {}, {}\n", field.name, read_by(&readers)));
+    }
+    for edge in subject
+        .writes
+        .iter()
+        .filter(|edge| edge.kind.word() == "state")
+    {
+        let state = &edge.from.output;
+        text.push_str(&format!(
+            "  writes the state {state}, read by {}\n",
+            edge.to.node
+        ));
+    }
+    text
+}
+
+fn of_output(subject: &OutputSubject<'_>) -> String {
+    let OutputSubject {
+        cycler,
+        node,
+        field,
+        reads,
+    } = subject;
+    let data = field.data.as_deref().unwrap_or("of unknown type");
+    format!(
+        "{}.{}: {data}\n  written by {} ({}:{})\n  {}\n",
+        cycler.name,
+        field.name,
+        node.path,
+        node.file,
+        field.line,
+        read_by(reads)
+    )
+}
+
+/// "read by `node` (kind)", each node once for each kind.
+fn read_by(edges: &[&Edge]) -> String {
+    let mut readers: Vec<String> = Vec::new();
+    for edge in edges {
+        let reader = format!("{} ({})", edge.to.node, edge.kind.word());
+        if !readers.contains(&reader) {
+            readers.push(reader);
+        }
+    }
+    match readers.as_slice() {
+        [] => "read by no node".to_owned(),
+        readers => format!("read by {}", readers.join(", ")),
+    }
+}
+
+fn source(edge: &Edge) -> String {
+    let output = &edge.from.output;
+    let kind = edge.kind.word();
+    match &edge.from.instance {
+        Some(instance) => format!("{instance}.{output} ({kind})"),
+        None => format!("{output} ({kind})"),
+    }
+}
+
+fn wrap(paragraph: &str) -> String {
+    let mut text = String::new();
+    let mut width = 0;
+    for word in paragraph.split_whitespace() {
+        let length = word.chars().count();
+        if width > 0 && width + 1 + length > WIDTH {
+            text.push('\n');
+            width = 0;
+        } else if width > 0 {
+            text.push(' ');
+            width += 1;
+        }
+        text.push_str(word);
+        width += length;
+    }
+    text.push('\n');
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{of_code, of_subject};
+    use crate::commands::explain::Subject;
+    use crate::diagnostics::Code;
+    use crate::graph::{describe, fixture};
+
+    fn page(name: &str) -> String {
+        let graph = describe(&fixture::robot(), &fixture::schedule());
+        of_subject(&Subject::find(&graph, name))
+    }
+
+    #[test]
+    fn every_code_has_a_page_of_80_columns() {
+        for &code in Code::ALL {
+            let page = of_code(code);
+            assert!(page.starts_with(code.name()));
+            let explanation = page.splitn(4, '\n').last().expect("there are three parts");
+            assert!(
+                explanation.lines().all(|line| line.chars().count() <= 80),
+                "{page}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_node_is_explained_by_path_and_by_module() {
+        assert_eq!(page("control::ball_filter"), page("ball_filter"));
+        assert_eq!(
+            page("ball_filter"),
+            "\
+control::ball_filter: node of Control, runs as 2 of 4
+  BallFilter in control/src/ball_filter.rs
+  reads sensors (historic) of control::sensor_receiver
+  reads VisionTop.balls (perception) of vision::ball_detection
+  reads VisionBottom.balls (perception) of vision::ball_detection
+  writes ball, read by control::head (input)
+  writes matrix, read by vision::ball_detection (latest)
+  writes the state calibration, read by control::head
+"
+        );
+    }
+
+    #[test]
+    fn an_output_is_explained_by_name_cycler_and_instance() {
+        let text = "\
+Vision.image: types::Image
+  written by vision::image_receiver (vision/src/image_receiver.rs:7)
+  read by vision::ball_detection (input), control::command_sender (latest)
+";
+        assert_eq!(page("image"), text);
+        assert_eq!(page("Vision.image"), text);
+        assert_eq!(page("VisionTop.image"), text);
+        assert_eq!(page("Control.image"), "");
+    }
+}

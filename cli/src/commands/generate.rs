@@ -1,0 +1,122 @@
+//! `generate`: the generated crate on disk, or what would change.
+
+use camino::Utf8Path;
+use serde_json::json;
+
+use super::session::Session;
+use super::{Failure, plural};
+use crate::arguments::{Generate, TextOrJson};
+use crate::drift::{Drift, DriftError};
+use crate::model;
+use crate::outcome::{Outcome, Refusal};
+use crate::pipeline::Understood;
+use crate::render::{self, GeneratedFiles};
+use crate::workspace::{MANIFEST, Workspace};
+
+/// Where a manifest that begins with `#:schema` and this path finds its schema.
+const SCHEMA: &str = ".hulk/hulk.schema.json";
+
+pub(super) fn run(session: &mut Session<'_>, generate: &Generate) -> Result<Outcome, Failure> {
+    let understood = session.understand()?;
+    session.note_diagnostics();
+    let files = render(&session.workspace, &understood);
+    let drift = compare(session, &understood, &files)?;
+    if generate.format == TextOrJson::Json {
+        session.terminal.data(&to_json(&drift))?;
+    } else if generate.check {
+        session.terminal.data(&drift.diff())?;
+    }
+    if generate.check {
+        note_drift(session, &drift);
+    } else {
+        apply(session, &understood, &files, &drift)?;
+    }
+    // Parameter files do not change the generated code, so their errors keep nothing from it.
+    Ok(match () {
+        () if session.diagnostics.has_errors() => Outcome::Bad,
+        () if generate.check && !drift.is_empty() => Outcome::Drift,
+        () => Outcome::Good,
+    })
+}
+
+/// Writes the generated crate and says on stderr what changed.
+pub(super) fn write(session: &Session<'_>, understood: &Understood) -> Result<(), Failure> {
+    let files = render(&session.workspace, understood);
+    let drift = compare(session, understood, &files)?;
+    apply(session, understood, &files, &drift)
+}
+
+fn render(workspace: &Workspace, understood: &Understood) -> GeneratedFiles {
+    let mut files = render::render(&model::describe(&understood.robot, &understood.schedule));
+    if names_schema(workspace) {
+        files.insert(SCHEMA.into(), schema::json_schema());
+    }
+    files
+}
+
+/// Whether the manifest tells editors to look for the schema where hulkgen keeps it.
+fn names_schema(workspace: &Workspace) -> bool {
+    let manifest = workspace.text(Utf8Path::new(MANIFEST)).unwrap_or_default();
+    let schema = manifest
+        .lines()
+        .find_map(|line| line.strip_prefix("#:schema"));
+    schema.is_some_and(|path| path.trim().trim_start_matches("./") == SCHEMA)
+}
+
+fn compare(
+    session: &Session<'_>,
+    understood: &Understood,
+    files: &GeneratedFiles,
+) -> Result<Drift, Failure> {
+    let root = session.workspace.root();
+    let drift = Drift::compare(root, &understood.robot.generated, files);
+    drift.map_err(|error| refusal(&error).into())
+}
+
+fn apply(
+    session: &Session<'_>,
+    understood: &Understood,
+    files: &GeneratedFiles,
+    drift: &Drift,
+) -> Result<(), Failure> {
+    let root = session.workspace.root();
+    drift.write(root, files).map_err(|error| refusal(&error))?;
+    let note = if drift.is_empty() {
+        format!("`{}` is current\n", understood.robot.generated)
+    } else {
+        drift.summary()
+    };
+    session.terminal.note(&note);
+    Ok(())
+}
+
+fn note_drift(session: &Session<'_>, drift: &Drift) {
+    if drift.is_empty() {
+        return;
+    }
+    let differing = drift.added.len() + drift.changed.len() + drift.orphaned.len();
+    session.terminal.note(&format!(
+        "\n{} {} not what would be generated now; run `hulkgen generate`\n",
+        plural(differing, "file"),
+        if differing == 1 { "is" } else { "are" }
+    ));
+}
+
+fn to_json(drift: &Drift) -> String {
+    let changed: Vec<_> = drift.changed.iter().map(|changed| &changed.path).collect();
+    let answer = json!({
+        "version": 1,
+        "added": drift.added,
+        "changed": changed,
+        "orphaned": drift.orphaned,
+    });
+    format!("{answer}\n")
+}
+
+fn refusal(error: &DriftError) -> Refusal {
+    let reason = std::error::Error::source(error);
+    let reason = reason
+        .map(|reason| format!(": {reason}"))
+        .unwrap_or_default();
+    Refusal::bad(format!("{error}{reason}"))
+}

@@ -1,0 +1,115 @@
+//! The robot's program in place of hulkgen.
+
+use std::ffi::OsString;
+use std::os::unix::process::CommandExt as _;
+use std::path::PathBuf;
+use std::process::Command;
+
+use camino::Utf8Path;
+
+use crate::arguments::{Run, TextOrJson};
+use crate::outcome::Refusal;
+
+/// Replaces this process, so that signals, exit status and terminal are the robot's own, as
+/// `cargo run` does. Runs in the workspace root, where the generated program expects to be. Returns
+/// only if that is impossible.
+pub(super) fn become_robot(executable: &Utf8Path, run: &Run, root: &Utf8Path) -> Refusal {
+    let arguments = match arguments(run) {
+        Ok(arguments) => arguments,
+        Err(refusal) => return refusal,
+    };
+    let error = Command::new(executable)
+        .args(arguments)
+        .current_dir(root)
+        .exec();
+    Refusal::bad(format!("cannot start `{executable}`: {error}"))
+}
+
+/// The program's options: those of `run` that are not hulkgen's own.
+fn arguments(run: &Run) -> Result<Vec<OsString>, Refusal> {
+    let mut arguments = Vec::new();
+    let folders = [
+        ("--parameters", &run.parameters),
+        ("--run-folder", &run.run_folder),
+    ];
+    for (name, folder) in folders {
+        if let Some(folder) = folder {
+            arguments.extend([name.into(), absolute(folder)?]);
+        }
+    }
+    let mut add = |name: &str, value: &str| arguments.extend([name.into(), value.into()]);
+    if let Some(duration) = run.duration {
+        add("--for", &format!("{}s", duration.get().as_secs_f64()));
+    }
+    if let Some(location) = &run.location {
+        add("--location", location);
+    }
+    for assignment in &run.set {
+        add("--set", assignment);
+    }
+    match run.format {
+        Some(TextOrJson::Json) => add("--format", "json"),
+        Some(TextOrJson::Text) => add("--format", "text"),
+        None => {}
+    }
+    if run.headless {
+        arguments.push("--headless".into());
+    }
+    if !run.options.is_empty() {
+        arguments.push("--".into());
+        arguments.extend(run.options.iter().cloned());
+    }
+    Ok(arguments)
+}
+
+/// The folder seen from anywhere: it was written for the current folder, the program runs in another.
+pub(super) fn absolute(folder: &Utf8Path) -> Result<OsString, Refusal> {
+    std::path::absolute(folder)
+        .map(PathBuf::into_os_string)
+        .map_err(|error| Refusal::bad(format!("cannot use the folder `{folder}`: {error}")))
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::Parser as _;
+
+    use super::arguments;
+    use crate::arguments::{Arguments, Command};
+
+    fn passed_on(line: &str) -> String {
+        let parsed = Arguments::try_parse_from(line.split(' ')).expect("it is right usage");
+        let Command::Run(run) = parsed.command else {
+            panic!("`{line}` is no run")
+        };
+        let arguments = arguments(&run).expect("the current folder is known");
+        let words: Vec<_> = arguments
+            .iter()
+            .map(|argument| argument.to_string_lossy())
+            .collect();
+        words.join(" ")
+    }
+
+    #[test]
+    fn options_of_the_robot_are_passed_on_and_those_of_cargo_are_not() {
+        assert_eq!(
+            passed_on(
+                "hulkgen run simulated --for 1500ms --headless --format json --location lab \
+                 --set a.b=1 --set c=2 --profile dev --target-dir t -- --scene ball"
+            ),
+            "--for 1.5s --location lab --set a.b=1 --set c=2 --format json --headless -- --scene ball"
+        );
+    }
+
+    #[test]
+    fn folders_are_meant_from_where_the_command_was_given() {
+        let folder = std::env::current_dir()
+            .expect("tests run somewhere")
+            .join("other");
+        let folder = folder.display();
+        assert_eq!(passed_on("hulkgen run"), "");
+        assert_eq!(
+            passed_on("hulkgen run --parameters other --run-folder /runs/1"),
+            format!("--parameters {folder} --run-folder /runs/1")
+        );
+    }
+}

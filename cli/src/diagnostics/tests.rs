@@ -1,0 +1,117 @@
+use camino::Utf8Path;
+
+use super::{Code, Diagnostic, Diagnostics, listed, nearest, position, render, to_json};
+use crate::workspace::Workspace;
+
+fn two_files() -> (Workspace, Diagnostics) {
+    let workspace = Workspace::in_memory([("a.rs", "ä: Input<u8>,\n"), ("b.rs", "x: u16\n")]);
+    for file in ["a.rs", "b.rs"] {
+        workspace.read(Utf8Path::new(file)).unwrap();
+    }
+    let mut diagnostics = Diagnostics::new();
+    let mismatch = Diagnostic::new(Code::TypeMismatch, "`x` is a `u16`, not a `u8`")
+        .at(Utf8Path::new("a.rs"), 10..12, "read here as `u8`")
+        .at(Utf8Path::new("b.rs"), 3..6, "written here")
+        .help("write `Input<u16>`");
+    diagnostics.add(mismatch.clone());
+    diagnostics.add(Diagnostic::new(Code::UnreadOutputs, "nobody reads").at(
+        Utf8Path::new("a.rs"),
+        0..2,
+        "",
+    ));
+    diagnostics.add(mismatch);
+    (workspace, diagnostics)
+}
+
+#[test]
+fn codes_are_sorted_and_unlike() {
+    let names: Vec<&str> = Code::ALL.iter().map(|code| code.name()).collect();
+    assert!(names.is_sorted(), "{names:?}");
+    for code in Code::ALL {
+        assert_eq!(Code::from_name(code.name()), Some(*code));
+        assert!(
+            code.title().ends_with('.') && code.explanation().ends_with('.'),
+            "{code:?}"
+        );
+    }
+}
+
+#[test]
+fn a_report_shows_every_file_with_code_and_deed() {
+    let (workspace, diagnostics) = two_files();
+    let text = render(&diagnostics, &workspace, false);
+    let expected = "\
+warning[unread-outputs]: nobody reads
+ --> a.rs:1:1
+  |
+1 | ä: Input<u8>,
+  | ^
+
+error[type-mismatch]: `x` is a `u16`, not a `u8`
+ --> a.rs:1:10
+  |
+1 | ä: Input<u8>,
+  |          ^^ read here as `u8`
+  |
+ ::: b.rs:1:4
+  |
+1 | x: u16
+  |    --- written here
+  |
+  = help: write `Input<u16>`
+
+";
+    assert_eq!(text, expected);
+    assert!(render(&diagnostics, &workspace, true).contains('\u{1b}'));
+}
+
+#[test]
+fn diagnostics_are_sorted_by_place_and_shown_once() {
+    let (_, diagnostics) = two_files();
+    let codes: Vec<Code> = diagnostics.sorted().iter().map(|one| one.code).collect();
+    assert_eq!(codes, [Code::UnreadOutputs, Code::TypeMismatch]);
+    assert!(diagnostics.has_errors() && diagnostics.has_warnings());
+}
+
+#[test]
+fn json_has_lines_and_columns_from_one() {
+    let (workspace, diagnostics) = two_files();
+    let json = to_json(&diagnostics, &workspace);
+    assert_eq!(json["version"], 1);
+    let mismatch = &json["diagnostics"][1];
+    assert_eq!(mismatch["code"], "type-mismatch");
+    assert_eq!(mismatch["severity"], "error");
+    assert_eq!(mismatch["help"], "write `Input<u16>`");
+    let expected = serde_json::json!({
+        "file": "a.rs", "line": 1, "column": 10, "end_line": 1, "end_column": 12,
+        "label": "read here as `u8`",
+    });
+    assert_eq!(mismatch["spans"][0], expected);
+    assert_eq!(mismatch["spans"].as_array().unwrap().len(), 2);
+}
+
+#[test]
+fn a_place_behind_the_end_is_the_end() {
+    let end = position("a\nbc", 99);
+    assert_eq!((end.line, end.column), (2, 3));
+}
+
+#[test]
+fn the_nearest_name_is_few_edits_away() {
+    for (wrong, meant) in [
+        ("bal", Some("ball")),
+        ("camera_matirx", Some("camera_matrix")),
+        ("BALL", Some("ball")),
+        ("imu", None),
+    ] {
+        assert_eq!(nearest(wrong, ["ball", "camera_matrix"]), meant, "{wrong}");
+    }
+}
+
+#[test]
+fn lists_are_sorted_and_short() {
+    assert_eq!(listed([]), "nothing");
+    assert_eq!(listed(["b", "a", "b"]), "`a` and `b`");
+    let many: Vec<String> = (10..20).map(|number| number.to_string()).collect();
+    assert!(listed(many.iter().map(String::as_str)).ends_with("`17` and 2 more"));
+}

@@ -1,0 +1,113 @@
+//! Stage ①: the manifest as its author wrote it, every name with its place in `hulk.toml`.
+//!
+//! Reports syntax, keys, spelling and names that stand twice; whether nodes exist is the matter of [`crate::scan`].
+
+mod names;
+mod places;
+mod tolerant;
+
+use std::ops::Range;
+
+use camino::Utf8Path;
+use toml::de::DeTable;
+
+use crate::diagnostics::{Code, Diagnostic, Diagnostics, Reported};
+use crate::workspace::{MANIFEST, Workspace};
+
+/// The manifest without mistakes of its own.
+#[derive(Clone, Debug)]
+pub struct Manifest {
+    pub robot: schema::Robot,
+    /// In manifest order.
+    pub cyclers: Vec<Cycler>,
+    /// In manifest order; the first is the default.
+    pub targets: Vec<Target>,
+    /// The whole manifest as it was written.
+    pub text: std::sync::Arc<str>,
+}
+
+/// A cycler and where its parts stand.
+#[derive(Clone, Debug)]
+pub struct Cycler {
+    pub declared: schema::Cycler,
+    /// Of its name.
+    pub name_range: Range<usize>,
+    /// In manifest order; at least one.
+    pub instances: Vec<Instance>,
+    /// Setup nodes first, then nodes, both in manifest order.
+    pub nodes: Vec<NodeEntry>,
+}
+
+/// An instance and where it stands.
+#[derive(Clone, Debug)]
+pub struct Instance {
+    /// Cycler name and suffix.
+    pub name: schema::InstanceName,
+    /// Its own settings, if it has any.
+    pub table: Option<schema::InstanceTable>,
+    /// Of its suffix, or of the cycler's name.
+    pub range: Range<usize>,
+}
+
+/// A line of `setup_nodes` or `nodes`.
+#[derive(Clone, Debug)]
+pub struct NodeEntry {
+    pub path: schema::NodePath,
+    pub setup: bool,
+    /// What it says itself; else the cycler's.
+    pub on_failure: Option<schema::OnFailure>,
+    /// Of its path.
+    pub range: Range<usize>,
+}
+
+/// A target and where it stands.
+#[derive(Clone, Debug)]
+pub struct Target {
+    pub declared: schema::Target,
+    /// Of its name.
+    pub name_range: Range<usize>,
+    /// Of its hardware type.
+    pub hardware_range: Range<usize>,
+    /// Of its location, if it has one.
+    pub location_range: Option<Range<usize>>,
+}
+
+impl Cycler {
+    /// Its name.
+    pub fn name(&self) -> &str {
+        self.declared.name.as_str()
+    }
+}
+
+/// Reads the manifest.
+///
+/// # Errors
+/// `syntax`, `unknown-key`, `missing-key`, `invalid-value`, `invalid-name`, `duplicate-name`.
+pub fn load(workspace: &Workspace, diagnostics: &mut Diagnostics) -> Result<Manifest, Reported> {
+    let file = Utf8Path::new(MANIFEST);
+    let text = match workspace.read(file) {
+        Ok(text) => text,
+        Err(error) => {
+            let error = Diagnostic::new(Code::Syntax, error.to_string());
+            return Err(diagnostics.fail(error));
+        }
+    };
+    let (table, errors) = DeTable::parse_recoverable(&text);
+    let mut reported = None;
+    for error in errors {
+        let range = error.span().unwrap_or(0..0);
+        let error = Diagnostic::new(Code::Syntax, error.message()).at(file, range, "");
+        reported = Some(diagnostics.fail(error));
+    }
+    if let Some(reported) = reported {
+        return Err(reported);
+    }
+    let declared = tolerant::read(&table, file, diagnostics)?;
+    let manifest = places::locate(declared, table.get_ref(), text.clone());
+    names::check(&manifest, diagnostics);
+    diagnostics.stop_at_errors()?;
+    Ok(manifest)
+}
+
+#[cfg(test)]
+mod tests;

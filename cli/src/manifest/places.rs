@@ -1,0 +1,102 @@
+//! Where every name of the manifest stands.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::{Cycler, Instance, Manifest, NodeEntry, Target};
+
+/// Joins the manifest with its places. Both come from one text, so what the one has, the other has.
+pub(super) fn locate(declared: schema::Manifest, table: &DeTable<'_>, text: Arc<str>) -> Manifest {
+    let cyclers = elements(table, "cycler");
+    let targets = elements(table, "target");
+    Manifest {
+        robot: declared.robot,
+        cyclers: zip(declared.cycler, cyclers, locate_cycler),
+        targets: zip(declared.target, targets, locate_target),
+        text,
+    }
+}
+
+fn zip<D, T>(
+    declared: Vec<D>,
+    places: &[Spanned<DeValue<'_>>],
+    locate: impl Fn(D, &Spanned<DeValue<'_>>) -> T,
+) -> Vec<T> {
+    let pairs = declared.into_iter().zip(places);
+    pairs
+        .map(|(declared, place)| locate(declared, place))
+        .collect()
+}
+
+fn locate_cycler(declared: schema::Cycler, place: &Spanned<DeValue<'_>>) -> Cycler {
+    let name_range = range_of(place, "name").unwrap_or_else(|| place.span());
+    let mut nodes = Vec::new();
+    for (key, entries, setup) in [
+        ("setup_nodes", &declared.setup_nodes, true),
+        ("nodes", &declared.nodes, false),
+    ] {
+        let places = list(place, key);
+        nodes.extend(entries.iter().zip(places).map(|(entry, place)| NodeEntry {
+            path: entry.path().clone(),
+            setup,
+            on_failure: entry.on_failure(),
+            range: range_of(place, "node").unwrap_or_else(|| place.span()),
+        }));
+    }
+    let mut places = list(place, "instances").iter();
+    let tables = declared
+        .instances
+        .iter()
+        .flatten()
+        .map(|one| one.table().cloned());
+    let mut tables = tables.chain(std::iter::repeat(None));
+    let instances = declared
+        .instance_names()
+        .into_iter()
+        .map(|name| Instance {
+            name,
+            table: tables.next().flatten(),
+            range: places.next().map_or_else(
+                || name_range.clone(),
+                |place| range_of(place, "name").unwrap_or_else(|| place.span()),
+            ),
+        })
+        .collect();
+    Cycler {
+        declared,
+        name_range,
+        instances,
+        nodes,
+    }
+}
+
+fn locate_target(declared: schema::Target, place: &Spanned<DeValue<'_>>) -> Target {
+    let range = |key| range_of(place, key).unwrap_or_else(|| place.span());
+    Target {
+        name_range: range("name"),
+        hardware_range: range("hardware"),
+        location_range: range_of(place, "location"),
+        declared,
+    }
+}
+
+/// The range of a value in a table; `None` where the place is no table or lacks the key.
+pub(super) fn range_of(place: &Spanned<DeValue<'_>>, key: &str) -> Option<Range<usize>> {
+    Some(place.get_ref().as_table()?.get(key)?.span())
+}
+
+fn elements<'a, 'i>(table: &'a DeTable<'i>, key: &str) -> &'a [Spanned<DeValue<'i>>] {
+    table.get(key).map_or(&[], array)
+}
+
+fn list<'a, 'i>(place: &'a Spanned<DeValue<'i>>, key: &str) -> &'a [Spanned<DeValue<'i>>] {
+    let table = place.get_ref().as_table();
+    table.and_then(|table| table.get(key)).map_or(&[], array)
+}
+
+fn array<'a, 'i>(value: &'a Spanned<DeValue<'i>>) -> &'a [Spanned<DeValue<'i>>] {
+    value.get_ref().as_array().map_or(&[], |array| array)
+}

@@ -1,0 +1,168 @@
+use super::load;
+use crate::diagnostics::{Code, Diagnostics, render};
+use crate::workspace::Workspace;
+
+const ROBOT: &str = "[robot]\nname = \"x\"\n";
+
+/// Codes in order, and the whole text.
+fn mistakes(manifest: &str) -> (Vec<&'static str>, String) {
+    let workspace = Workspace::in_memory([("hulk.toml", manifest)]);
+    let mut diagnostics = Diagnostics::new();
+    let loaded = load(&workspace, &mut diagnostics);
+    assert_eq!(loaded.is_err(), diagnostics.has_errors());
+    let codes = diagnostics
+        .sorted()
+        .iter()
+        .map(|one| one.code.name())
+        .collect();
+    (codes, render(&diagnostics, &workspace, false))
+}
+
+#[test]
+fn every_name_has_its_place() {
+    let text = format!(
+        "{ROBOT}[[cycler]]\nname = \"Vision\"\nkind = \"perception\"\n\
+         instances = [\"Top\", {{ name = \"Bottom\" }}]\nsetup_nodes = [\"a::b\"]\n\
+         nodes = [{{ node = \"a::c\", on_failure = \"skip\" }}]\n\
+         [[target]]\nname = \"simulated\"\nhardware = \"h::Hardware\"\n"
+    );
+    let workspace = Workspace::in_memory([("hulk.toml", text.as_str())]);
+    let mut diagnostics = Diagnostics::new();
+    let manifest = load(&workspace, &mut diagnostics).unwrap();
+    let at = |range: &std::ops::Range<usize>| &text[range.clone()];
+    let vision = &manifest.cyclers[0];
+    assert_eq!(at(&vision.name_range), "\"Vision\"");
+    assert_eq!(at(&vision.instances[0].range), "\"Top\"");
+    assert_eq!(at(&vision.instances[1].range), "\"Bottom\"");
+    assert_eq!(vision.instances[1].name.as_str(), "VisionBottom");
+    assert_eq!(at(&vision.nodes[0].range), "\"a::b\"");
+    assert_eq!(at(&vision.nodes[1].range), "\"a::c\"");
+    assert!(vision.nodes[0].setup && !vision.nodes[1].setup);
+    assert_eq!(at(&manifest.targets[0].hardware_range), "\"h::Hardware\"");
+}
+
+#[test]
+fn all_mistakes_of_keys_and_values_come_at_once() {
+    let (codes, text) = mistakes(
+        "[robot]\nname = \"x\"\nidentitis = [\"body\"]\n\
+         [[cycler]]\nname = \"vision\"\nkind = \"perceptoin\"\n\
+         nodes = [\"a\", { node = \"a::b\", on_failur = \"skip\" }]\ndeadline = \"12\"\n\
+         [[cycler]]\nkind = \"real-time\"\nqueue = \"many\"\nnodes = [\"a::b\"]\n\
+         [[target]]\nname = \"simulated\"\nhardwear = \"h::Hardware\"\n\
+         [[bridge]]\n",
+    );
+    assert_eq!(
+        codes,
+        [
+            "unknown-key",
+            "invalid-name",
+            "invalid-value",
+            "invalid-name",
+            "unknown-key",
+            "invalid-value",
+            "missing-key",
+            "invalid-value",
+            "missing-key",
+            "unknown-key",
+            "unknown-key",
+        ],
+        "{text}"
+    );
+    for part in [
+        "did you mean `identities`?",
+        "did you mean `perception`?",
+        "did you mean `on_failure`?",
+        "did you mean `hardware`?",
+        "write it in UpperCamelCase",
+        "`name` is missing",
+        "`bridge` is reserved",
+        "hulk.toml:3:1",
+    ] {
+        assert!(text.contains(part), "{part}\n{text}");
+    }
+}
+
+#[test]
+fn a_manifest_that_is_no_toml_shows_every_line_that_is_not() {
+    let (codes, text) = mistakes("[robot\nname = \"x\"\nx = = 1\n");
+    assert!(
+        codes.len() >= 2 && codes.iter().all(|code| *code == "syntax"),
+        "{text}"
+    );
+    assert!(
+        text.contains("hulk.toml:1:") && text.contains("hulk.toml:3:"),
+        "{text}"
+    );
+}
+
+#[test]
+fn names_that_stand_twice_show_both_places() {
+    let cycler = |name: &str, rest: &str| {
+        format!(
+            "[[cycler]]\nname = \"{name}\"\nkind = \"perception\"\nnodes = [\"a::b\"]\n{rest}\n"
+        )
+    };
+    let top = "instances = [\"Top\"]";
+    let target = "[[target]]\nname = \"s\"\nhardware = \"h::H\"\n";
+    for (rest, part) in [
+        (
+            cycler("Vision", "") + &cycler("Vision", ""),
+            "cycler `Vision` stands twice",
+        ),
+        (
+            cycler("HSLNet", "") + &cycler("HslNet", ""),
+            "would both be called `hsl_net`",
+        ),
+        (
+            cycler("Vision", top) + &cycler("VisionTop", ""),
+            "instance `VisionTop` stands twice",
+        ),
+        (
+            cycler("A", "instances = [\"B\", \"B\"]"),
+            "instance `AB` stands twice",
+        ),
+        (
+            cycler("A", "setup_nodes = [\"a::b\"]"),
+            "node `a::b` stands twice",
+        ),
+        (target.repeat(2), "target `s` stands twice"),
+    ] {
+        let (codes, text) = mistakes(&format!("{ROBOT}{rest}"));
+        assert_eq!(codes, [Code::DuplicateName.name()], "{text}");
+        assert!(text.contains(part) && text.contains("first here"), "{text}");
+    }
+}
+
+#[test]
+fn keys_of_the_other_kind_are_warned_of() {
+    let (codes, text) = mistakes(&format!(
+        "{ROBOT}[[cycler]]\nname = \"A\"\nkind = \"perception\"\nnodes = [\"a::b\"]\nwatchdog = \"1s\"\n"
+    ));
+    assert_eq!(codes, ["unused-key"]);
+    assert!(text.contains("remove `watchdog`"), "{text}");
+}
+
+#[test]
+fn empty_lists_and_numbers_out_of_range_are_errors() {
+    for (rest, part) in [
+        ("instances = []", "empty list of instances"),
+        ("queue = 0", "from 1 to 4096"),
+        (
+            "scheduling = { policy = \"fifo\", priority = 100 }",
+            "from 1 to 99",
+        ),
+    ] {
+        let (codes, text) = mistakes(&format!(
+            "{ROBOT}[[cycler]]\nname = \"A\"\nkind = \"perception\"\nnodes = [\"a::b\"]\n{rest}\n"
+        ));
+        assert_eq!(codes, ["invalid-value"], "{text}");
+        assert!(text.contains(part), "{text}");
+    }
+}
+
+#[test]
+fn a_missing_manifest_is_an_error() {
+    let workspace = Workspace::in_memory([("a", "")]);
+    let mut diagnostics = Diagnostics::new();
+    assert!(load(&workspace, &mut diagnostics).is_err());
+}

@@ -1,0 +1,33 @@
+//! `src/bin/<target>.rs`: one binary for each target.
+
+use crate::resolve::robot::Robot;
+
+/// The binary of a target.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Binary {
+    /// Name of the target and of the file.
+    pub name: String,
+    pub robot: String,
+    /// The crate of the generated library.
+    pub library: String,
+    /// Absolute path of the hardware type.
+    pub hardware: String,
+    /// Folder of the parameter files.
+    pub parameters: String,
+    pub location: Option<String>,
+    pub identities: Vec<String>,
+}
+
+/// Decides what the binary of each target says.
+pub fn describe(robot: &Robot) -> Vec<Binary> {
+    let binary = |target: &crate::resolve::robot::Target| Binary {
+        name: target.name.clone(),
+        robot: robot.name.clone(),
+        library: super::package::library(robot),
+        hardware: target.hardware.clone(),
+        parameters: robot.parameters.to_string(),
+        location: target.location.clone(),
+        identities: robot.identities.clone(),
+    };
+    robot.targets.iter().map(binary).collect()
+}

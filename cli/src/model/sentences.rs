@@ -1,0 +1,116 @@
+//! Sentences for doc comments.
+
+use std::collections::BTreeSet;
+
+use crate::resolve::robot::{
+    CyclerKind, Cycler, CycleBinding, Interface, Node, OutputBinding, Robot,
+};
+
+/// Words joined by commas, sorted and each once.
+pub(super) fn list<'a>(words: impl IntoIterator<Item = &'a str>) -> String {
+    let words: BTreeSet<&str> = words.into_iter().collect();
+    words.into_iter().collect::<Vec<_>>().join(", ")
+}
+
+/// `Cycler `Vision` (perception), instances `VisionTop` and `VisionBottom`.`
+pub(super) fn cycler_title(cycler: &Cycler) -> String {
+    let names: Vec<String> =
+        cycler.instances.iter().map(|instance| format!("`{}`", instance.name)).collect();
+    let instances = match names.as_slice() {
+        [_] if cycler.instances[0].name == cycler.name => "one instance".to_owned(),
+        [only] => format!("instance {only}"),
+        [all @ .., last] => format!("instances {} and {last}", all.join(", ")),
+        [] => "no instance".to_owned(),
+    };
+    format!("Cycler `{}` ({}), {instances}.", cycler.name, kind(cycler.kind))
+}
+
+/// The kind as the manifest writes it.
+pub(super) fn kind(kind: CyclerKind) -> &'static str {
+    match kind {
+        CyclerKind::Perception => "perception",
+        CyclerKind::RealTime => "real-time",
+    }
+}
+
+/// The data flow of a node in one line:
+/// `camera_matrix (required), image -> balls; when subscribed: ball_candidates`.
+pub(super) fn flow(robot: &Robot, node: &Node) -> String {
+    let mut reads = Vec::new();
+    let mut writes = Vec::new();
+    if asks(&node.cycle_bounds, |reading| reading == Some(true)) {
+        reads.push("hardware".to_owned());
+    }
+    for read in node.cycle.iter().filter_map(|field| read(robot, &field.binding)) {
+        if !reads.contains(&read) {
+            reads.push(read);
+        }
+    }
+    writes.extend(node.cycle.iter().filter_map(|field| match field.binding {
+        CycleBinding::MainOutput { .. } => Some(field.name.clone()),
+        _ => None,
+    }));
+    writes.extend(node.outputs.iter().filter_map(|field| match field.binding {
+        OutputBinding::MainOutput { .. } => Some(field.name.clone()),
+        OutputBinding::CaptureTime => None,
+    }));
+    if asks(&node.cycle_bounds, |reading| reading != Some(true)) {
+        writes.push("hardware".to_owned());
+    }
+    let writes = if writes.is_empty() { "nothing".to_owned() } else { writes.join(", ") };
+    let mut flow = format!("{} -> {writes}", reads.join(", ")).trim_start().to_owned();
+    let additional: Vec<&str> = node.cycle.iter().filter_map(|field| additional(&field.binding)).collect();
+    if !additional.is_empty() {
+        flow.push_str(&format!("; when subscribed: {}", additional.join(", ")));
+    }
+    flow
+}
+
+/// What a node reads through this field, if that is data of a cycle.
+fn read(robot: &Robot, binding: &CycleBinding) -> Option<String> {
+    let instance_name = |id: &crate::resolve::robot::InstanceId| {
+        robot.cyclers[id.cycler].instances[id.instance].name.as_str()
+    };
+    let path = |written: &str| written.replace('?', "");
+    Some(match binding {
+        CycleBinding::OwnOutput { access, .. } => path(&access.written),
+        CycleBinding::RequiredOwnOutput { access, .. } => {
+            format!("{} (required)", path(&access.written))
+        }
+        CycleBinding::OutputOf { instance, access, .. }
+        | CycleBinding::Latest { instance, access, .. } => {
+            format!("latest {}.{}", instance_name(instance), path(&access.written))
+        }
+        CycleBinding::RequiredOutputOf { instance, access, .. } => {
+            format!("latest {}.{} (required)", instance_name(instance), path(&access.written))
+        }
+        CycleBinding::Previous { access, .. } => format!("previous {}", path(&access.written)),
+        CycleBinding::Historic { access, .. } => format!("historic {}", path(&access.written)),
+        CycleBinding::Perception { instances, interleaved, access, .. } => {
+            let from = if *interleaved {
+                &robot.cyclers[instances[0].cycler].name
+            } else {
+                instance_name(&instances[0])
+            };
+            format!("perception {from}.{}", path(&access.written))
+        }
+        CycleBinding::CyclerState { access, .. } => format!("state {}", access.written),
+        CycleBinding::Procedure { name, .. } => format!("procedure {name}"),
+        CycleBinding::Parameter { .. }
+        | CycleBinding::CycleTime
+        | CycleBinding::AdditionalOutput { .. }
+        | CycleBinding::HardwareInterface
+        | CycleBinding::MainOutput { .. } => return None,
+    })
+}
+
+fn additional(binding: &CycleBinding) -> Option<&str> {
+    match binding {
+        CycleBinding::AdditionalOutput { access, .. } => Some(&access.written),
+        _ => None,
+    }
+}
+
+fn asks(bounds: &[Interface], reading: impl Fn(Option<bool>) -> bool) -> bool {
+    bounds.iter().any(|interface| reading(interface.reading))
+}

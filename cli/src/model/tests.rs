@@ -1,0 +1,186 @@
+//! Robots made by hand, and what the model decides about them.
+
+mod builder;
+
+use super::*;
+use crate::diagnostics::Diagnostics;
+use crate::schedule;
+use builder::NodeBuilder;
+pub(crate) use builder::{node, perception, real_time, robot};
+
+/// A robot with everything that most robots have: two cameras and a body.
+pub(crate) fn walker() -> Robot {
+    robot(vec![
+        perception("Vision", &["Top", "Bottom"])
+            .setup(
+                node("vision::image_receiver")
+                    .new_parameter("position", "types::CameraPosition", "$cycler_instance.position")
+                    .hardware(&[("hardware::CameraInterface", true)])
+                    .in_place("image", "types::Image")
+                    .capture_time("captured_at"),
+            )
+            .node(
+                node("vision::ball_detection")
+                    .input("image", "types::Image", "image")
+                    .required("camera_matrix", "Option<types::CameraMatrix>", "camera_matrix?")
+                    .parameter("ball_radius", "f32", "field_dimensions.ball_radius")
+                    .additional("candidates", "Vec<types::Ball>", "ball_candidates")
+                    .output("balls", "Vec<types::Ball>")
+                    .on_failure(OnFailure::Skip),
+            )
+            .node(
+                node("vision::camera_matrix_extractor")
+                    .required_of("pitch", "f32", "Control", "head_pitch")
+                    .output("camera_matrix", "Option<types::CameraMatrix>"),
+            ),
+        real_time("Control")
+            .setup(
+                node("control::sensor_data_receiver")
+                    .hardware(&[("hardware::SensorInterface", true)])
+                    .output("sensor_data", "types::SensorData"),
+            )
+            .node(
+                node("control::ball_filter")
+                    .perception("balls", "Vec<types::Ball>", "Vision", "balls")
+                    .historic("pose", "types::Pose", "pose")
+                    .previous("last", "Option<types::Ball>", "ball?")
+                    .output("ball", "Option<types::Ball>")
+                    .on_failure(OnFailure::Hold),
+            )
+            .node(
+                node("control::odometry")
+                    .cycle_time("cycle_time")
+                    .input("sensor_data", "types::SensorData", "sensor_data")
+                    .state("walked", "f32", "walked")
+                    .output("pose", "types::Pose"),
+            )
+            .node(
+                node("control::motion")
+                    .input("ball", "Option<types::Ball>", "ball?")
+                    .procedure("walk", "types::Walk", "f32", "walk")
+                    .hardware(&[("hardware::ActuatorInterface", false)])
+                    .output("head_pitch", "f32"),
+            ),
+    ])
+}
+
+/// The model of a robot without mistakes.
+pub(crate) fn model_of(robot: &Robot) -> RuntimeModel {
+    let mut diagnostics = Diagnostics::new();
+    let schedule = schedule::schedule(robot, &mut diagnostics).expect("the robot has no ring");
+    describe(robot, &schedule)
+}
+
+fn frame_of(cycler: &CyclerModel) -> Vec<&str> {
+    cycler.frame.iter().map(frame::FrameField::name).collect()
+}
+
+#[test]
+fn a_frame_has_only_what_some_node_needs() {
+    let model = model_of(&robot(vec![
+        real_time("Control").setup(node("control::a").output("a", "f32")),
+    ]));
+    assert_eq!(frame_of(&model.cyclers[0]), ["cycle", "injections", "own"]);
+    let model = model_of(&walker());
+    assert_eq!(
+        frame_of(&model.cyclers[1]),
+        [
+            "cycle",
+            "cycler_state",
+            "hardware_interface",
+            "historic",
+            "injections",
+            "own",
+            "perception",
+            "previous",
+            "procedures",
+            "shared",
+        ]
+    );
+}
+
+#[test]
+fn what_new_asks_for_is_in_the_frame_only_if_a_node_is_renewed_there() {
+    let legs = || {
+        node("control::legs")
+            .new_state("phase", "f32", "phase")
+            .new_hardware(&[("hardware::SensorInterface", true)])
+            .restores()
+            .input_of("x", "f32", "Vision", "x")
+    };
+    let with = |legs: NodeBuilder| {
+        model_of(&robot(vec![
+            perception("Vision", &[]).setup(node("vision::a").output("x", "f32")),
+            real_time("Control").node(legs),
+        ]))
+    };
+    let stopping = with(legs());
+    assert_eq!(frame_of(&stopping.cyclers[1]), ["cycle", "latest"]);
+    assert!(!stopping.cyclers[1].renews);
+    let skipping = with(legs().on_failure(OnFailure::Skip));
+    assert_eq!(
+        frame_of(&skipping.cyclers[1]),
+        ["cycle", "cycler_state", "hardware_interface", "latest"]
+    );
+    assert!(skipping.cyclers[1].renews);
+}
+
+#[test]
+fn nodes_that_end_in_the_same_name_are_called_by_their_whole_path() {
+    let model = model_of(&robot(vec![
+        real_time("Control")
+            .node(node("control::filter"))
+            .node(node("vision::filter"))
+            .node(node("vision::cycle"))
+            .node(node("vision::pose")),
+    ]));
+    let names: Vec<&str> = model.cyclers[0].nodes.iter().map(|node| node.name.as_str()).collect();
+    assert_eq!(names, ["control_filter", "vision_filter", "cycle_node", "pose"]);
+}
+
+#[test]
+fn an_instance_called_like_a_field_of_the_body_gets_another_field() {
+    let model = model_of(&robot(vec![
+        perception("Perception", &[]).setup(node("vision::a").output("a", "f32")),
+        real_time("Control").node(node("control::b").latest("a", "f32", "Perception", "a")),
+    ]));
+    let reader = &model.cyclers[1].latest[0];
+    assert_eq!((reader.field.as_str(), reader.reader.as_str()), ("perception", "perception2"));
+}
+
+#[test]
+fn instances_of_one_cycler_share_the_struct_of_their_parameters() {
+    let model = model_of(&walker());
+    let names: Vec<&str> =
+        model.parameters.structs.iter().map(|one| one.name.as_str()).collect();
+    assert_eq!(names, ["Parameters", "FieldDimensions", "VisionInstance"]);
+    let selects: Vec<&str> =
+        model.cyclers[0].instance_parameters.iter().map(|part| part.select.as_str()).collect();
+    assert_eq!(selects, ["select"]);
+}
+
+#[test]
+fn a_node_is_called_after_the_nodes_it_reads() {
+    let model = model_of(&walker());
+    assert_eq!(model.cyclers[0].cycle.nodes, ["camera_matrix_extractor", "ball_detection"]);
+    assert_eq!(model.cyclers[1].cycle.nodes, ["odometry", "ball_filter", "motion"]);
+}
+
+#[test]
+fn flows_name_what_is_read_and_written() {
+    let model = model_of(&walker());
+    let nodes = model.cyclers.iter().flat_map(|one| &one.nodes);
+    let flows: Vec<&str> = nodes.map(|node| node.step.flow.as_str()).collect();
+    assert_eq!(
+        flows,
+        [
+            "hardware -> image",
+            "image, camera_matrix (required) -> balls; when subscribed: ball_candidates",
+            "latest Control.head_pitch (required) -> camera_matrix",
+            "hardware -> sensor_data",
+            "perception Vision.balls, historic pose, previous ball -> ball",
+            "sensor_data, state walked -> pose",
+            "ball, procedure walk -> head_pitch, hardware",
+        ]
+    );
+}

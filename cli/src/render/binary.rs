@@ -1,0 +1,34 @@
+//! `src/bin/<target>.rs`.
+
+use quote::quote;
+
+use super::layout;
+use super::spelling::path;
+use crate::model::Binary;
+
+/// The binary of one target.
+pub(super) fn render_binary(binary: &Binary) -> String {
+    let Binary { name, robot, parameters, identities, .. } = binary;
+    let hardware = path(&binary.hardware);
+    let library = path(&format!("{}::runtime", binary.library));
+    let location = match &binary.location {
+        Some(location) => quote!(Some(#location)),
+        None => quote!(None),
+    };
+    let items = quote! {
+        const TARGET: ::framework::Target = ::framework::Target {
+            robot: #robot,
+            name: #name,
+            parameters: #parameters,
+            location: #location,
+            identities: &[#(#identities),*],
+        };
+
+        fn main() -> ::std::process::ExitCode {
+            ::framework::launch::main::<#hardware, _>(TARGET, #library::create)
+        }
+    };
+    let title = format!("The robot `{robot}` on target `{name}`.");
+    let modules = [format!("{}::runtime", binary.library), "framework::launch".to_owned()];
+    layout::rust_file(&title, &modules, items)
+}

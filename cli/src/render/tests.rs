@@ -1,0 +1,114 @@
+use super::*;
+use crate::model::DO_NOT_EDIT;
+use crate::model::tests::{model_of, node, perception, real_time, robot, walker};
+
+/// Compares a file of the walker with what was reviewed.
+fn assert_reviewed(path: &str) {
+    let files = render(&model_of(&walker()));
+    let mut settings = insta::Settings::clone_current();
+    settings.set_snapshot_path(concat!(env!("CARGO_MANIFEST_DIR"), "/../snapshots/render/walker"));
+    settings.set_prepend_module_to_snapshot(false);
+    settings.set_omit_expression(true);
+    settings.bind(|| {
+        insta::assert_snapshot!(path.replace('/', "__"), files[&Utf8PathBuf::from("generated").join(path)]);
+    });
+}
+
+#[test]
+fn the_package_inherits_and_hides_hardware_behind_features() {
+    assert_reviewed("Cargo.toml");
+}
+
+#[test]
+fn the_data_flow_is_one_line_per_fact() {
+    assert_reviewed("DATAFLOW.md");
+}
+
+#[test]
+fn parameters_are_one_tree_of_structs() {
+    assert_reviewed("src/parameters.rs");
+}
+
+#[test]
+fn a_database_has_only_what_its_cycler_uses() {
+    assert_reviewed("src/databases/vision.rs");
+    assert_reviewed("src/databases/control.rs");
+}
+
+#[test]
+fn nodes_have_one_function_each() {
+    assert_reviewed("src/cyclers/vision.rs");
+    assert_reviewed("src/cyclers/control.rs");
+}
+
+#[test]
+fn a_body_stands_between_buffers_and_nodes() {
+    assert_reviewed("src/runtime/vision.rs");
+    assert_reviewed("src/runtime/control.rs");
+}
+
+#[test]
+fn the_runtime_connects_all_instances() {
+    assert_reviewed("src/runtime.rs");
+    assert_reviewed("src/bin/nao.rs");
+}
+
+#[test]
+fn every_file_names_its_origin_and_every_source_parses() {
+    for (path, text) in render(&model_of(&walker())) {
+        assert!(text.contains(DO_NOT_EDIT), "{path} does not say where it comes from");
+        assert!(text.ends_with('\n') && !text.ends_with("\n\n"), "{path} ends oddly");
+        assert!(text.lines().all(|line| line == line.trim_end()), "{path} has trailing spaces");
+        if path.extension() == Some("rs") {
+            syn::parse_file(&text).unwrap_or_else(|error| panic!("{path}: {error}"));
+        }
+        if path.extension() == Some("toml") {
+            text.parse::<toml::Table>().unwrap_or_else(|error| panic!("{path}: {error}"));
+        }
+    }
+}
+
+#[test]
+fn the_same_robot_gives_the_same_bytes() {
+    assert_eq!(render(&model_of(&walker())), render(&model_of(&walker())));
+}
+
+#[test]
+fn another_node_adds_lines_and_changes_none() {
+    let with = |more: bool| {
+        let mut cycler = real_time("Control")
+            .setup(node("control::a").output("a", "f32"))
+            .node(node("control::b").input("a", "f32", "a").output("b", "f32"));
+        if more {
+            cycler = cycler.node(node("control::c").input("b", "f32", "b").output("c", "f32"));
+        }
+        let files = render(&model_of(&robot(vec![cycler])));
+        files[&Utf8PathBuf::from("generated/src/cyclers/control.rs")].clone()
+    };
+    let (before, after) = (with(false), with(true));
+    let diff = similar::TextDiff::from_lines(&before, &after);
+    let removed = diff.iter_all_changes().filter(|change| change.tag() == similar::ChangeTag::Delete);
+    assert_eq!(removed.count(), 0);
+}
+
+#[test]
+fn a_robot_of_one_node_without_any_field_is_still_a_robot() {
+    let files = render(&model_of(&robot(vec![real_time("Control").node(node("control::a"))])));
+    let database = &files[&Utf8PathBuf::from("generated/src/databases/control.rs")];
+    assert!(database.contains("pub struct Frame {\n    pub cycle: Cycle,\n}"), "{database}");
+    assert!(!database.contains("OwnOutputs"), "{database}");
+}
+
+#[test]
+fn keywords_are_names_like_others() {
+    let files = render(&model_of(&robot(vec![
+        perception("Type", &[])
+            .setup(node("vision::r#match").output("r#in", "f32"))
+            .node(node("vision::b").input("r#in", "f32", "r#in")),
+    ])));
+    assert!(files.contains_key(&Utf8PathBuf::from("generated/src/databases/type.rs")));
+    let nodes = &files[&Utf8PathBuf::from("generated/src/cyclers/type.rs")];
+    assert!(nodes.contains("r#in: &frame.own.r#in"), "{nodes}");
+    let database = &files[&Utf8PathBuf::from("generated/src/databases/type.rs")];
+    assert!(database.contains("\"in\" => Some(&mut self.r#in)"), "{database}");
+}

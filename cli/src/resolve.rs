@@ -1,0 +1,251 @@
+//! Stage ③: the robot, every name bound to what it means.
+//!
+//! Everything that two nodes, or a node and the manifest, can disagree about is found here, before rustc ever runs. A type
+//! error is given only where both types could be followed to their definitions; else the edge is left to rustc and
+//! counted.
+
+mod crates;
+mod hardware;
+mod inputs;
+mod nodes;
+pub mod parameter_files;
+mod parameters;
+mod paths;
+mod procedures;
+pub mod robot;
+mod scene;
+mod states;
+mod tree;
+mod warnings;
+
+use std::time::Duration;
+
+use crate::diagnostics::{Diagnostics, Reported};
+use crate::manifest::{self, Manifest};
+use crate::scan::Sources;
+use crate::workspace::Workspace;
+
+use robot::{
+    Content, CycleBinding, Cycler, CyclerKind, Instance, Node, OnFailure, Output, Robot,
+    Scheduling, Tree,
+};
+use scene::Scene;
+
+/// `pending_timeout` where the manifest says nothing.
+const PENDING_TIMEOUT: Duration = Duration::from_secs(1);
+/// `watchdog` where the manifest says nothing.
+const WATCHDOG: Duration = Duration::from_millis(300);
+/// `queue` where the manifest says nothing.
+const QUEUE: usize = 32;
+
+/// Binds every name of the manifest and the nodes.
+///
+/// # Errors
+/// Whatever two places disagree about; see the catalogue. Warnings are added, too.
+pub fn resolve(
+    workspace: &Workspace,
+    manifest: &Manifest,
+    sources: &Sources<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Result<Robot, Reported> {
+    let scene = Scene::new(manifest, sources, diagnostics);
+    let mut left_to_rustc = 0;
+    let mut cyclers: Vec<Cycler> = Vec::new();
+    for index in 0..scene.cyclers.len() {
+        let (cycler, unchecked) = resolve_cycler(workspace, &scene, index, diagnostics);
+        left_to_rustc += unchecked;
+        cyclers.push(cycler);
+    }
+    mark_readers(&mut cyclers);
+    let (parameter_tree, unchecked) = parameters::parameters(&scene, diagnostics);
+    left_to_rustc += unchecked;
+    let mut robot = Robot {
+        name: manifest.robot.name.to_string(),
+        generated: manifest.robot.generated.clone(),
+        parameters: manifest.robot.parameters.clone(),
+        identities: manifest
+            .robot
+            .identities
+            .iter()
+            .map(ToString::to_string)
+            .collect(),
+        targets: hardware::targets(workspace, manifest, &sources.library, diagnostics),
+        left_to_rustc: left_to_rustc + cyclers.iter().map(unchecked_edges).sum::<usize>(),
+        cyclers,
+        parameter_tree,
+        crates: Vec::new(),
+        inherited: workspace.members().inherited.clone(),
+    };
+    let texts = names_in_code(&robot);
+    robot.crates = crates::dependencies(
+        workspace,
+        manifest,
+        &scene,
+        texts.iter().map(String::as_str),
+    );
+    sources.library.report_problems(diagnostics);
+    diagnostics.stop_at_errors()?;
+    warnings::warn(&robot, manifest, sources, diagnostics);
+    Ok(robot)
+}
+
+fn resolve_cycler(
+    workspace: &Workspace,
+    scene: &Scene<'_>,
+    index: usize,
+    diagnostics: &mut Diagnostics,
+) -> (Cycler, usize) {
+    let cycler = &scene.cyclers[index];
+    let declared = &cycler.declared.declared;
+    let nodes = cycler.nodes.iter().map(|node| {
+        let text = workspace.text(node.source.file()).unwrap_or_default();
+        nodes::bind(scene, index, *node, &text, diagnostics)
+    });
+    let nodes: Vec<Node> = nodes.collect();
+    procedures::check(cycler, diagnostics);
+    let (states, unchecked) = states::states(scene, cycler, diagnostics);
+    let resolved = Cycler {
+        name: cycler.declared.name().to_owned(),
+        kind: match declared.kind {
+            schema::CyclerKind::Perception => CyclerKind::Perception,
+            schema::CyclerKind::RealTime => CyclerKind::RealTime,
+        },
+        instances: cycler
+            .declared
+            .instances
+            .iter()
+            .map(|one| instance(declared, one))
+            .collect(),
+        outputs: outputs(cycler, &nodes),
+        nodes,
+        additional_outputs: states::additional_outputs(scene, cycler, diagnostics),
+        states,
+        on_failure: nodes::on_failure(declared.on_failure),
+        pending_timeout: declared.pending_timeout.map_or(PENDING_TIMEOUT, Into::into),
+        queue: declared.queue.unwrap_or(QUEUE),
+        watchdog: declared.watchdog.map_or(WATCHDOG, Into::into),
+        history: declared
+            .history
+            .map_or_else(|| longest_pending_timeout(scene), Into::into),
+        lockstep_duration: declared.lockstep_duration.map(Into::into),
+    };
+    (resolved, unchecked)
+}
+
+fn longest_pending_timeout(scene: &Scene<'_>) -> Duration {
+    let declared = scene.cyclers.iter().map(|cycler| &cycler.declared.declared);
+    let perception = declared.filter(|one| one.kind == schema::CyclerKind::Perception);
+    let timeouts = perception.map(|one| one.pending_timeout.map_or(PENDING_TIMEOUT, Into::into));
+    timeouts.max().unwrap_or(PENDING_TIMEOUT)
+}
+
+fn instance(cycler: &schema::Cycler, instance: &manifest::Instance) -> Instance {
+    let own = instance.table.as_ref();
+    let scheduling = own
+        .and_then(|own| own.scheduling.as_ref())
+        .or(cycler.scheduling.as_ref());
+    let deadline = own.and_then(|own| own.deadline).or(cycler.deadline);
+    Instance {
+        name: instance.name.to_string(),
+        deadline: deadline.map(Into::into),
+        scheduling: scheduling.map_or_else(Scheduling::default, |scheduling| Scheduling {
+            policy: scheduling.policy.map(|policy| match policy {
+                schema::Policy::Fifo => "fifo".to_owned(),
+                schema::Policy::RoundRobin => "round-robin".to_owned(),
+            }),
+            priority: scheduling.priority,
+            cores: scheduling.cores.clone(),
+        }),
+    }
+}
+
+fn outputs(cycler: &scene::SceneCycler<'_>, nodes: &[Node]) -> Vec<Output> {
+    let outputs = cycler.outputs.iter().map(|(name, producer)| Output {
+        name: name.clone(),
+        data: (&producer.data).into(),
+        producer: producer.node,
+        in_place: producer.in_place,
+        shared: false,
+        historic: false,
+        previous: nodes
+            .get(producer.node)
+            .is_some_and(|node| node.on_failure == OnFailure::Hold),
+    });
+    outputs.collect()
+}
+
+/// Marks every output by who reads it.
+fn mark_readers(cyclers: &mut [Cycler]) {
+    for reader in 0..cyclers.len() {
+        let bindings: Vec<CycleBinding> = cyclers[reader]
+            .nodes
+            .iter()
+            .flat_map(|node| node.cycle.iter().map(|field| field.binding.clone()))
+            .collect();
+        for binding in bindings {
+            let Some(read) = binding.read() else {
+                continue;
+            };
+            let cycler = read
+                .instances
+                .first()
+                .map_or(reader, |instance| instance.cycler);
+            let name = &read.access.segments[0].name;
+            let output = cyclers[cycler]
+                .outputs
+                .iter_mut()
+                .find(|output| output.name == *name);
+            if let Some(output) = output {
+                output.shared |= !read.instances.is_empty();
+                output.historic |= matches!(binding, CycleBinding::Historic { .. });
+                output.previous |= matches!(binding, CycleBinding::Previous { .. });
+            }
+        }
+    }
+}
+
+fn unchecked_edges(cycler: &Cycler) -> usize {
+    let fields = cycler.nodes.iter().flat_map(|node| &node.cycle);
+    let reads = fields.filter_map(|field| field.binding.read());
+    reads.filter(|read| !read.checked).count()
+}
+
+/// Every type and path that generated code writes.
+fn names_in_code(robot: &Robot) -> Vec<String> {
+    let mut texts = Vec::new();
+    for cycler in &robot.cyclers {
+        texts.extend(cycler.outputs.iter().map(|output| output.data.text.clone()));
+        collect_types(&cycler.additional_outputs, &mut texts);
+        collect_types(&cycler.states, &mut texts);
+        for node in &cycler.nodes {
+            let bounds = node
+                .new_bounds
+                .iter()
+                .chain(&node.cycle_bounds)
+                .chain(&node.restore_bounds);
+            texts.extend(bounds.map(|interface| interface.path.clone()));
+            for field in &node.cycle {
+                if let CycleBinding::Procedure {
+                    request, response, ..
+                } = &field.binding
+                {
+                    texts.extend([request.text.clone(), response.text.clone()]);
+                }
+            }
+        }
+    }
+    collect_types(&robot.parameter_tree, &mut texts);
+    texts
+}
+
+fn collect_types<U>(tree: &Tree<U>, texts: &mut Vec<String>) {
+    for branch in &tree.branches {
+        match &branch.content {
+            Content::Leaf { data, .. } => texts.push(data.text.clone()),
+            Content::Inner(tree) | Content::Instance { tree, .. } => collect_types(tree, texts),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

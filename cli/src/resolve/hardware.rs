@@ -1,0 +1,105 @@
+//! Hardware: the traits that nodes ask for, and the types of targets that serve them.
+
+use camino::Utf8Path;
+
+use super::robot::{Interface, Target};
+use crate::diagnostics::{Code, Diagnostic, Diagnostics, nearest};
+use crate::manifest::{self, Manifest};
+use crate::scan::{Library, NodeSource, range};
+use crate::workspace::{MANIFEST, Workspace};
+
+/// The traits of one function, sorted by path.
+pub(super) fn interfaces(
+    library: &Library<'_>,
+    source: &NodeSource,
+    signature: &grammar::Signature,
+    diagnostics: &mut Diagnostics,
+) -> Vec<Interface> {
+    let mut interfaces = Vec::new();
+    for bound in &signature.bounds {
+        let Some(found) = library.hardware_trait(&source.module, bound) else {
+            continue;
+        };
+        if let Some(item) = &found.private {
+            let error = Diagnostic::new(Code::NotPublic, format!("`{}` is private", item.path()))
+                .at(
+                    &item.module.file,
+                    library.name_range(item),
+                    "not visible for the generated crate",
+                )
+                .at(
+                    source.file(),
+                    range(signature.span),
+                    format!("asked for by `{}`", source.path),
+                )
+                .help(format!("write `pub` at `{}` and its modules", item.name));
+            diagnostics.add(error);
+        }
+        interfaces.push(found.interface);
+    }
+    interfaces.sort();
+    interfaces.dedup();
+    interfaces
+}
+
+/// Targets whose hardware type can be found; another is `unknown-hardware`.
+pub(super) fn targets(
+    workspace: &Workspace,
+    manifest: &Manifest,
+    library: &Library<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Vec<Target> {
+    let mut targets = Vec::new();
+    for target in &manifest.targets {
+        let declared = &target.declared;
+        if let Some((message, help)) = unknown(workspace, library, declared) {
+            let error = Diagnostic::new(Code::UnknownHardware, message)
+                .at(Utf8Path::new(MANIFEST), target.hardware_range.clone(), "")
+                .help(help);
+            diagnostics.add(error);
+        }
+        targets.push(robot_target(target));
+    }
+    targets
+}
+
+fn robot_target(target: &manifest::Target) -> Target {
+    let declared = &target.declared;
+    Target {
+        name: declared.name.to_string(),
+        hardware: declared.hardware.to_string(),
+        triple: declared.triple.clone(),
+        cpu: declared.cpu.clone(),
+        profile: declared.profile.clone(),
+        location: declared.location.clone(),
+    }
+}
+
+/// What is wrong with a hardware path, and what to do.
+fn unknown(
+    workspace: &Workspace,
+    library: &Library<'_>,
+    target: &schema::Target,
+) -> Option<(String, String)> {
+    let path = target.hardware.as_str();
+    let name = target.hardware.segments().next()?;
+    if library.member(name).is_none() {
+        if workspace.members().is_shared(name) {
+            return None;
+        }
+        let members: Vec<&str> = workspace
+            .members()
+            .libraries()
+            .map(|one| one.library.as_str())
+            .collect();
+        let help = match nearest(name, members) {
+            Some(near) => format!("did you mean `{}`?", path.replacen(name, near, 1)),
+            None => format!("add a package with a library `{name}` to the workspace"),
+        };
+        return Some((
+            format!("no crate of the workspace is called `{name}`"),
+            help,
+        ));
+    }
+    library.missing_type(path)
+}

@@ -1,0 +1,279 @@
+//! Parameter files against the parameters that nodes declare.
+//!
+//! Every target starts from `default.toml`, its location's `default.toml`, and files of identities that only the robot
+//! chooses: a value that some identity's file gives may be there, so it is not missed.
+
+mod expected;
+mod layer;
+mod values;
+
+use std::collections::BTreeSet;
+
+use camino::{Utf8Path, Utf8PathBuf};
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::robot::{CreationBinding, CycleBinding, Robot};
+use crate::diagnostics::{Code, Diagnostic, Diagnostics, nearest};
+use crate::manifest::Manifest;
+use crate::scan::Sources;
+use crate::workspace::Workspace;
+
+use expected::Expected;
+use layer::Layer;
+
+/// Checks the files of every target.
+pub fn check(
+    workspace: &Workspace,
+    manifest: &Manifest,
+    sources: &Sources<'_>,
+    robot: &Robot,
+    diagnostics: &mut Diagnostics,
+) {
+    let texts = layer::find(workspace, manifest, diagnostics);
+    let mut layers = Vec::new();
+    for (file, text) in &texts {
+        let (table, errors) = DeTable::parse_recoverable(text);
+        for error in &errors {
+            let place = error.span().unwrap_or(0..0);
+            diagnostics.add(Diagnostic::new(Code::Syntax, error.message()).at(file, place, ""));
+        }
+        if errors.is_empty() {
+            layers.push(Layer {
+                file,
+                table: table.into_inner(),
+            });
+        }
+    }
+    let checker = Checker { sources, robot };
+    for layer in &layers {
+        checker.check_hardware(layer, diagnostics);
+        let root = Expected::Tree(&robot.parameter_tree);
+        checker.check_table(
+            layer.file,
+            &layer.table,
+            &root,
+            &mut Vec::new(),
+            diagnostics,
+        );
+    }
+    checker.check_missing(&layers, diagnostics);
+    sources.library.report_problems(diagnostics);
+}
+
+struct Checker<'a> {
+    sources: &'a Sources<'a>,
+    robot: &'a Robot,
+}
+
+impl Checker<'_> {
+    /// `[hardware.<target>]` is the hardware's own; only the target has to be there.
+    fn check_hardware(&self, layer: &Layer<'_>, diagnostics: &mut Diagnostics) {
+        let Some(hardware) = layer
+            .table
+            .get("hardware")
+            .and_then(|value| value.get_ref().as_table())
+        else {
+            return;
+        };
+        let targets: Vec<&str> = self
+            .robot
+            .targets
+            .iter()
+            .map(|target| target.name.as_str())
+            .collect();
+        for key in hardware
+            .keys()
+            .filter(|key| !targets.contains(&key.get_ref().as_ref()))
+        {
+            let name = key.get_ref();
+            let help = nearest(name, targets.iter().copied())
+                .map(|near| format!("did you mean `{near}`?"));
+            let error = Diagnostic::new(
+                Code::UnknownParameter,
+                format!("the robot has no target `{name}`"),
+            )
+            .at(layer.file, key.span(), "")
+            .help_if(help);
+            diagnostics.add(error);
+        }
+    }
+
+    /// Keys that nobody declares, and values that cannot be what a node reads.
+    fn check_table(
+        &self,
+        file: &Utf8Path,
+        table: &DeTable<'_>,
+        expected: &Expected<'_>,
+        path: &mut Vec<String>,
+        diagnostics: &mut Diagnostics,
+    ) {
+        let Some(children) = expected.children(self.sources) else {
+            return;
+        };
+        for (key, value) in table {
+            let name = key.get_ref();
+            if path.is_empty() && name == "hardware" {
+                continue;
+            }
+            path.push(name.to_string());
+            match children.get(name.as_ref()) {
+                Some(child) => self.check_value(file, value, &child.expected, path, diagnostics),
+                None => {
+                    let names = children.keys().map(String::as_str);
+                    let help = nearest(name, names).map(|near| format!("did you mean `{near}`?"));
+                    let message = format!("nobody declares the parameter `{}`", path.join("."));
+                    let error = Diagnostic::new(Code::UnknownParameter, message)
+                        .at(file, key.span(), "")
+                        .help(help.unwrap_or_else(|| "remove it".to_owned()));
+                    diagnostics.add(error);
+                }
+            }
+            path.pop();
+        }
+    }
+
+    fn check_value(
+        &self,
+        file: &Utf8Path,
+        value: &Spanned<DeValue<'_>>,
+        expected: &Expected<'_>,
+        path: &mut Vec<String>,
+        diagnostics: &mut Diagnostics,
+    ) {
+        if let (DeValue::Table(table), true) =
+            (value.get_ref(), expected.children(self.sources).is_some())
+        {
+            return self.check_table(file, table, expected, path, diagnostics);
+        }
+        if let Some(wrong) = values::mistake(value, expected, self.sources) {
+            let message = format!("`{}` {}", path.join("."), wrong.message);
+            let error = Diagnostic::new(Code::MistypedParameter, message)
+                .at(file, wrong.place, "")
+                .help_if(wrong.help);
+            diagnostics.add(error);
+        }
+    }
+
+    /// Declared paths that no file of a target gives.
+    fn check_missing(&self, layers: &[Layer<'_>], diagnostics: &mut Diagnostics) {
+        let folder = &self.robot.parameters;
+        let default = folder.join("default.toml");
+        if self.robot.parameter_tree.branches.is_empty() {
+            return;
+        }
+        if !layers.iter().any(|layer| layer.file == default) {
+            // It does not exist or cannot be parsed; both are told.
+            return;
+        }
+        let mut locations: BTreeSet<Option<&str>> = self
+            .robot
+            .targets
+            .iter()
+            .map(|target| target.location.as_deref())
+            .collect();
+        if locations.is_empty() {
+            locations.insert(None);
+        }
+        for location in locations {
+            let location = location.map(|location| folder.join(location).join("default.toml"));
+            let of_target = |layer: &&Layer<'_>| {
+                layer.file == default
+                    || location.as_deref() == Some(layer.file)
+                    || layer.file.file_name() != Some("default.toml")
+            };
+            let tables: Vec<&DeTable<'_>> = layers
+                .iter()
+                .filter(of_target)
+                .map(|layer| &layer.table)
+                .collect();
+            let root = Expected::Tree(&self.robot.parameter_tree);
+            self.report_missing(&default, &tables, &root, &mut Vec::new(), diagnostics);
+        }
+    }
+
+    fn report_missing(
+        &self,
+        file: &Utf8Path,
+        tables: &[&DeTable<'_>],
+        expected: &Expected<'_>,
+        path: &mut Vec<String>,
+        diagnostics: &mut Diagnostics,
+    ) {
+        for (name, child) in expected.children(self.sources).unwrap_or_default() {
+            let values: Vec<&DeValue<'_>> = tables
+                .iter()
+                .filter_map(|table| child.names(&name).find_map(|name| table.get(name)))
+                .map(|value| value.get_ref())
+                .collect();
+            let below: Vec<&DeTable<'_>> =
+                values.iter().filter_map(|value| value.as_table()).collect();
+            path.push(name);
+            let is_tree = matches!(child.expected, Expected::Tree(_));
+            if is_tree || !below.is_empty() && below.len() == values.len() {
+                self.report_missing(file, &below, &child.expected, path, diagnostics);
+            } else if values.is_empty() && child.required {
+                diagnostics.add(self.missing(file, path));
+            }
+            path.pop();
+        }
+    }
+
+    fn missing(&self, file: &Utf8Path, path: &[String]) -> Diagnostic {
+        let written = path.join(".");
+        let error = Diagnostic::new(
+            Code::MissingParameter,
+            format!("no file gives the parameter `{written}`"),
+        )
+        .at(file, 0..0, "")
+        .help(format!("add `{written} = …`"));
+        match self.declaration(path) {
+            Some((file, range)) => error.at(&file, range, "read here"),
+            None => error,
+        }
+    }
+
+    /// The first field that declares the path or what it lies below.
+    fn declaration(&self, path: &[String]) -> Option<(Utf8PathBuf, std::ops::Range<usize>)> {
+        self.robot.cyclers.iter().find_map(|cycler| {
+            let instances: Vec<String> = cycler
+                .instances
+                .iter()
+                .map(|one| schema::snake_case(&one.name))
+                .collect();
+            cycler.nodes.iter().find_map(|node| {
+                let creation = node
+                    .creation
+                    .iter()
+                    .filter_map(|field| match &field.binding {
+                        CreationBinding::Parameter { access, .. } => Some((access, &field.range)),
+                        _ => None,
+                    });
+                let cycle = node.cycle.iter().filter_map(|field| match &field.binding {
+                    CycleBinding::Parameter { access, .. } => Some((access, &field.range)),
+                    _ => None,
+                });
+                let mut fields = creation.chain(cycle);
+                let (_, range) = fields.find(|(access, _)| {
+                    access.segments.len() <= path.len()
+                        && access.segments.iter().zip(path).all(|(segment, name)| {
+                            segment.name == *name || segment.instance && instances.contains(name)
+                        })
+                })?;
+                Some((node.file.clone(), range.clone()))
+            })
+        })
+    }
+}
+
+/// The manifest's place of a target's location, or of the robot's first cycler: where a missing file is asked for.
+fn asked_for(manifest: &Manifest, location: &str) -> Option<std::ops::Range<usize>> {
+    let target = manifest
+        .targets
+        .iter()
+        .find(|one| one.declared.location.as_deref() == Some(location))?;
+    target.location_range.clone()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,178 @@
+//! Parameter files: what lacks, what is too much, what has the wrong type.
+
+use crate::scan::fixture::{Fixture, Node, cycler};
+
+/// A robot whose node `a` has these parameters.
+fn robot(fields: &str, targets: &str) -> Fixture {
+    let manifest = format!(
+        "identities = [\"head\"]\n{}{targets}",
+        cycler("Control", "real-time", "", &[], &["a"])
+    );
+    let cycle = format!("{fields}\nhardware: HardwareInterface,");
+    Fixture::new(&manifest).node(
+        "a",
+        Node {
+            head: "use types::*;",
+            cycle: &cycle,
+            asks: "hardware::Motors",
+            ..Node::default()
+        },
+    )
+}
+
+const NAO: &str =
+    "[[target]]\nname = \"nao\"\nhardware = \"hardware::Hardware\"\nlocation = \"field\"\n";
+
+#[test]
+fn files_that_fit_are_silent() {
+    robot("a: Parameter<f32, \"a.b\">,\nb: Parameter<Limits, \"limits\">,\nc: Parameter<[u8; COUNT], \"c\">,", NAO)
+        .file(
+            "parameters/default.toml",
+            "c = [1, 2, 3]\n[a]\nb = 1\n[limits]\nlow = 0.5\n[hardware.nao]\nanything = [1]\n",
+        )
+        .file("parameters/field/default.toml", "[limits]\nhigh = 2\n")
+        .file("parameters/head.P1.toml", "[a]\nb = 2.5\n")
+        .robot();
+}
+
+#[test]
+fn a_missing_file_is_named() {
+    let fixture =
+        robot("a: Parameter<f32, \"a\">,", NAO).file("parameters/field/default.toml", "a = 1\n");
+    fixture.expect(
+        "missing-parameter-file",
+        &[
+            "parameters/default.toml",
+            "create `parameters/default.toml`",
+        ],
+    );
+    let fixture =
+        robot("a: Parameter<f32, \"a\">,", NAO).file("parameters/default.toml", "a = 1\n");
+    fixture.expect(
+        "missing-parameter-file",
+        &["parameters/field/default.toml", "location = \"field\""],
+    );
+}
+
+#[test]
+fn a_value_that_no_file_gives_is_named_with_its_reader() {
+    let fixture = robot(
+        "a: Parameter<f32, \"a.b\">,\nb: Parameter<Option<u8>, \"maybe\">,",
+        "",
+    );
+    fixture.file("parameters/default.toml", "[a]\n").expect(
+        "missing-parameter",
+        &[
+            "no file gives the parameter `a.b`",
+            "parameters/default.toml:1:1",
+            "a.rs:15:4",
+            "read here",
+            "add `a.b = …`",
+        ],
+    );
+    let limits = robot("a: Parameter<Limits, \"limits\">,", "");
+    limits
+        .file("parameters/default.toml", "[limits]\nhigh = 1\n")
+        .expect("missing-parameter", &["`limits.low`"]);
+}
+
+#[test]
+fn a_value_of_another_location_does_not_count() {
+    let second = "[[target]]\nname = \"sim\"\nhardware = \"hardware::Hardware\"\n";
+    robot("a: Parameter<f32, \"a\">,", &format!("{NAO}{second}"))
+        .file("parameters/default.toml", "")
+        .file("parameters/field/default.toml", "a = 1\n")
+        .expect("missing-parameter", &["`a`"]);
+}
+
+#[test]
+fn a_value_of_an_identity_counts() {
+    robot("a: Parameter<f32, \"a\">,", "")
+        .file("parameters/default.toml", "")
+        .file("parameters/field/head.P1.toml", "a = 1\n")
+        .robot();
+}
+
+#[test]
+fn keys_that_nobody_declares_are_told_with_line() {
+    let fixture = || {
+        robot(
+            "a: Parameter<f32, \"a.bcd\">,\nb: Parameter<Limits, \"limits\">,",
+            NAO,
+        )
+    };
+    let default = (
+        "parameters/default.toml",
+        "[a]\nbcd = 1\n[limits]\nlow = 1\n",
+    );
+    fixture()
+        .file(default.0, &format!("{}hgih = 2\n", default.1))
+        .file(
+            "parameters/field/default.toml",
+            "[a]\nbcde = 1\n[hardware.noa]\n",
+        )
+        .answer()
+        .expect_all(
+            &[
+                "unknown-parameter",
+                "unknown-parameter",
+                "unknown-parameter",
+            ],
+            &[
+                "`limits.hgih`",
+                "did you mean `high`?",
+                "parameters/default.toml:5:1",
+                "`a.bcde`",
+                "did you mean `bcd`?",
+                "no target `noa`",
+            ],
+        );
+}
+
+#[test]
+fn values_of_the_wrong_type_are_told() {
+    for (data, value, part) in [
+        ("f32", "\"one\"", "is a string, not a number"),
+        ("bool", "1", "is a number, not true or false"),
+        ("u8", "300", "write a number from 0 to 255"),
+        ("u8", "1.5", "is a number, not a whole number"),
+        ("String", "1", "is a number, not a string"),
+        ("Vec<u8>", "[1, \"a\"]", "is a string, not a whole number"),
+        ("[u8; COUNT]", "[1, 2]", "has 2 elements, not 3"),
+        ("(u8, u8)", "[1]", "not an array of 2"),
+        ("Side", "\"Lefd\"", "did you mean \"Left\"?"),
+        ("Limits", "1", "is a number, not a table"),
+        ("Option<u8>", "\"x\"", "is a string"),
+    ] {
+        robot(&format!("a: Parameter<{data}, \"a\">,"), "")
+            .file("parameters/default.toml", &format!("a = {value}\n"))
+            .expect("mistyped-parameter", &[part, "parameters/default.toml:1:"]);
+    }
+    robot("a: Parameter<f32, \"a.b\">,", "")
+        .file("parameters/default.toml", "a = 1\n")
+        .answer()
+        .expect_all(
+            &["missing-parameter", "mistyped-parameter"],
+            &["`a` is a number, not a table"],
+        );
+}
+
+#[test]
+fn what_cannot_be_seen_is_not_judged() {
+    robot(
+        "a: Parameter<nalgebra::Point2<f32>, \"a\">,\nb: Parameter<Ball, \"b\">,",
+        "",
+    )
+    .file(
+        "parameters/default.toml",
+        "a = [1.0, 2.0]\nb = \"anything\"\n",
+    )
+    .robot();
+}
+
+#[test]
+fn a_file_that_is_no_toml_is_shown() {
+    robot("a: Parameter<f32, \"a\">,", "")
+        .file("parameters/default.toml", "a = \n")
+        .expect("syntax", &["parameters/default.toml:1:"]);
+}

@@ -1,0 +1,149 @@
+//! The one parameter tree of the robot.
+
+use grammar::{CreationField, CycleField, Pathed};
+
+use super::robot::{Access, Reader, Tree};
+use super::scene::{Scene, SceneCycler, SceneNode};
+use super::tree::{Declaration, Rules, merge};
+use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+use crate::scan::range;
+
+/// Every declared parameter, instances in place of `$cycler_instance`, and how many paths could not be compared.
+pub(super) fn parameters(
+    scene: &Scene<'_>,
+    diagnostics: &mut Diagnostics,
+) -> (Tree<Reader>, usize) {
+    let mut declarations = Vec::new();
+    for (index, cycler) in scene.cyclers.iter().enumerate() {
+        for node in &cycler.nodes {
+            for (pathed, span) in declared(node) {
+                declarations.extend(expand(scene, (index, cycler), node, pathed, span));
+            }
+        }
+    }
+    report_strangers(scene, &declarations, diagnostics);
+    let rules = Rules {
+        conflict: Code::ParameterConflict,
+        what: "parameter",
+    };
+    let merged = merge(&scene.sources.library, declarations, &rules, diagnostics);
+    (merged.tree, merged.unchecked)
+}
+
+fn declared<'a>(node: &SceneNode<'a>) -> impl Iterator<Item = (&'a Pathed, proc_macro2::Span)> {
+    let creation = node
+        .source
+        .creation
+        .fields
+        .iter()
+        .filter_map(|field| match &field.kind {
+            CreationField::Parameter(parameter) => Some((parameter, field.span)),
+            _ => None,
+        });
+    let cycle = node
+        .source
+        .cycle
+        .fields
+        .iter()
+        .filter_map(|field| match &field.kind {
+            CycleField::Parameter(parameter) => Some((parameter, field.span)),
+            _ => None,
+        });
+    creation.chain(cycle)
+}
+
+/// One declaration, or one for each instance.
+fn expand<'a>(
+    scene: &Scene<'a>,
+    (index, cycler): (usize, &SceneCycler<'a>),
+    node: &SceneNode<'a>,
+    parameter: &Pathed,
+    span: proc_macro2::Span,
+) -> Vec<Declaration<'a, Reader>> {
+    let declaration = Declaration {
+        segments: Access::of(&parameter.path).segments,
+        data: scene
+            .sources
+            .library
+            .resolve(&node.source.module, &parameter.data),
+        user: Reader {
+            cycler: index,
+            node: node.source.path.clone(),
+        },
+        instance: None,
+        source: node.source,
+        range: range(span),
+    };
+    let Some(place) = declaration
+        .segments
+        .iter()
+        .position(|segment| segment.instance)
+    else {
+        return vec![declaration];
+    };
+    let instances = cycler.declared.instances.iter();
+    instances
+        .map(|instance| {
+            let mut one = declaration.clone();
+            one.segments[place].name = schema::snake_case(instance.name.as_str());
+            one.instance = Some((place, index));
+            one
+        })
+        .collect()
+}
+
+/// What stands below an instance's name is the same for all instances of a cycler, so nobody adds to one of them alone.
+fn report_strangers(
+    scene: &Scene<'_>,
+    declarations: &[Declaration<'_, Reader>],
+    diagnostics: &mut Diagnostics,
+) {
+    let expanded: Vec<_> = declarations
+        .iter()
+        .filter(|one| one.instance.is_some())
+        .collect();
+    for stranger in declarations.iter().filter(|one| one.instance.is_none()) {
+        let beside = expanded.iter().find(|one| {
+            let (place, _) = one.instance.unwrap_or_default();
+            stranger.segments.len() > place
+                && one.segments[..=place]
+                    .iter()
+                    .zip(&stranger.segments)
+                    .all(|(a, b)| a.name == b.name)
+        });
+        let Some(beside) = beside else {
+            continue;
+        };
+        let known = expanded.iter().any(|one| {
+            stranger.segments.len() >= one.segments.len()
+                && one
+                    .segments
+                    .iter()
+                    .zip(&stranger.segments)
+                    .all(|(a, b)| a.name == b.name)
+        });
+        if known {
+            continue;
+        }
+        let (place, cycler) = beside.instance.unwrap_or_default();
+        let instance = &stranger.segments[place].name;
+        let cycler = scene.cyclers[cycler].declared.name();
+        let message =
+            format!("`{instance}` holds what `$cycler_instance` declares in cycler `{cycler}`");
+        let error = Diagnostic::new(Code::ParameterConflict, message)
+            .at(
+                stranger.source.file(),
+                stranger.range.clone(),
+                "adds to one instance alone",
+            )
+            .at(
+                beside.source.file(),
+                beside.range.clone(),
+                "for all instances of the cycler",
+            )
+            .help(format!(
+                "declare it with `$cycler_instance` in a node of `{cycler}`, or elsewhere"
+            ));
+        diagnostics.add(error);
+    }
+}

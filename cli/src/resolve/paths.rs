@@ -1,0 +1,216 @@
+//! Data paths below a value: what lies at their end, and whether a written type agrees with it.
+
+use grammar::{DataPath, Segment as GrammarSegment, SegmentName};
+
+use super::robot::{Access, Segment};
+use crate::scan::Library;
+use crate::scan::compare::{Comparison, compare};
+use crate::scan::types::{Definition, Resolved, Shape};
+
+/// What comparing a reader's type with the value at the end of its path shows.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Agreement {
+    Same,
+    /// Names lead out of what can be seen: left to rustc.
+    Unknown,
+    /// The type at the end is another.
+    Type {
+        expected: String,
+    },
+    /// `?` and `Option` disagree.
+    Option {
+        message: String,
+        help: String,
+    },
+    /// A segment names no field.
+    Field {
+        message: String,
+        names: Vec<String>,
+        wrong: String,
+    },
+    /// A segment names a field that generated code cannot reach.
+    Private {
+        structure: String,
+        field: String,
+    },
+}
+
+impl Access {
+    /// The written path of a grammar field.
+    pub(super) fn of(path: &DataPath) -> Self {
+        let segments = path.segments.iter().map(|segment| Segment {
+            name: name(segment).to_owned(),
+            optional: segment.optional,
+            instance: segment.name == SegmentName::CyclerInstance,
+        });
+        Self {
+            segments: segments.collect(),
+            written: path.to_string(),
+        }
+    }
+
+    /// Whether a `?` stands anywhere in it.
+    pub fn is_optional(&self) -> bool {
+        self.segments.iter().any(|segment| segment.optional)
+    }
+}
+
+fn name(segment: &GrammarSegment) -> &str {
+    match &segment.name {
+        SegmentName::Field(name) => name,
+        SegmentName::CyclerInstance => "cycler_instance",
+    }
+}
+
+/// Whether `written` is right for a path whose first segment is a value of type `start`.
+pub(super) fn check(
+    library: &Library<'_>,
+    start: &Resolved,
+    segments: &[Segment],
+    written: &Resolved,
+) -> Agreement {
+    let end = match walk(library, start, segments) {
+        Ok(end) => end,
+        Err(disagreement) => return disagreement,
+    };
+    let last = segments.last().map_or("", |segment| segment.name.as_str());
+    if !segments.iter().any(|segment| segment.optional) {
+        return without_mark(&end, written, last);
+    }
+    // The grammar has seen to it that a path with `?` has a type `Option<…>`.
+    let Some(inner) = written.option_argument() else {
+        return Agreement::Unknown;
+    };
+    match compare(inner, &end) {
+        Comparison::Same => Agreement::Same,
+        Comparison::Unknown => Agreement::Unknown,
+        Comparison::Different if is_option_of(&end, inner) => Agreement::Option {
+            message: format!("`{last}` is an `{}`", end.text),
+            help: format!("write `?` behind `{last}`, too"),
+        },
+        Comparison::Different => Agreement::Type {
+            expected: format!("Option<{}>", end.text),
+        },
+    }
+}
+
+fn without_mark(end: &Resolved, written: &Resolved, last: &str) -> Agreement {
+    match compare(written, end) {
+        Comparison::Same => Agreement::Same,
+        Comparison::Unknown => Agreement::Unknown,
+        Comparison::Different if is_option_of(end, written) => Agreement::Option {
+            message: format!("`{last}` is an `{}`, not a `{}`", end.text, written.text),
+            help: format!(
+                "write `{0}` for `&{0}`, or `{0}` and `?` behind `{last}` for `Option<&{1}>`",
+                end.text, written.text
+            ),
+        },
+        Comparison::Different if is_option_of(written, end) => Agreement::Option {
+            message: format!("`{last}` is a `{}`, not an `{}`", end.text, written.text),
+            help: format!("write `{}`", end.text),
+        },
+        Comparison::Different => Agreement::Type {
+            expected: end.text.clone(),
+        },
+    }
+}
+
+fn is_option_of(option: &Resolved, inner: &Resolved) -> bool {
+    option
+        .option_argument()
+        .is_some_and(|argument| compare(argument, inner) == Comparison::Same)
+}
+
+/// The type at the end of a path, behind its last `?` if it has one.
+fn walk(
+    library: &Library<'_>,
+    start: &Resolved,
+    segments: &[Segment],
+) -> Result<Resolved, Agreement> {
+    let mut current = start.clone();
+    for (index, segment) in segments.iter().enumerate() {
+        if index > 0 {
+            let owner = &segments[index - 1];
+            current = enter(library, &current, owner, segment)?;
+        }
+        if segment.optional {
+            current = look_into(&current, segment)?;
+        }
+    }
+    Ok(current)
+}
+
+fn look_into(data: &Resolved, segment: &Segment) -> Result<Resolved, Agreement> {
+    if let Some(inner) = data.option_argument() {
+        return Ok(inner.clone());
+    }
+    Err(if may_hide(data) {
+        Agreement::Unknown
+    } else {
+        Agreement::Option {
+            message: format!("`{}` is a `{}`, no `Option`", segment.name, data.text),
+            help: format!("remove the `?` behind `{}`", segment.name),
+        }
+    })
+}
+
+/// Whether a name may stand for anything.
+fn may_hide(data: &Resolved) -> bool {
+    match &data.shape {
+        Shape::Unknown => true,
+        Shape::Named { definition, .. } => {
+            matches!(definition, Definition::Foreign(_) | Definition::Standard(_))
+        }
+        _ => false,
+    }
+}
+
+/// The type of a field.
+fn enter(
+    library: &Library<'_>,
+    data: &Resolved,
+    owner: &Segment,
+    segment: &Segment,
+) -> Result<Resolved, Agreement> {
+    let field = &segment.name;
+    if data.option_argument().is_some() {
+        return Err(Agreement::Option {
+            message: format!(
+                "`{}` is an `{}`, so `{field}` may be absent",
+                owner.name, data.text
+            ),
+            help: format!("write `?` behind `{}`", owner.name),
+        });
+    }
+    let structure = library
+        .fields(data)
+        .ok_or_else(|| without_fields(data, field))?;
+    match structure.fields.iter().find(|one| one.name == *field) {
+        Some(found) if found.public => Ok(found.data.clone()),
+        Some(_) => Err(Agreement::Private {
+            structure: structure.path,
+            field: field.clone(),
+        }),
+        None if structure.dereferences => Err(Agreement::Unknown),
+        None => Err(Agreement::Field {
+            message: format!("`{}` has no field `{field}`", data.text),
+            names: structure.fields.into_iter().map(|one| one.name).collect(),
+            wrong: field.clone(),
+        }),
+    }
+}
+
+/// Only what certainly has no fields is an error.
+fn without_fields(data: &Resolved, field: &str) -> Agreement {
+    match &data.shape {
+        Shape::Named {
+            definition: Definition::Prelude(name),
+            ..
+        } if name != "Box" => Agreement::Field {
+            message: format!("`{}` has no field `{field}`", data.text),
+            names: Vec::new(),
+            wrong: field.to_owned(),
+        },
+        _ => Agreement::Unknown,
+    }
+}

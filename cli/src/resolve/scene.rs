@@ -1,0 +1,213 @@
+//! What all checks of the stage look at: the manifest's cyclers with the sources of their nodes, and who writes what.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use camino::Utf8Path;
+use grammar::{CycleField, OutputField};
+
+use super::robot::{DataType, InstanceId};
+use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+use crate::manifest::{self, Manifest};
+use crate::scan::types::Resolved;
+use crate::scan::{NodeSource, Sources, range};
+
+/// Manifest and sources, joined.
+pub(super) struct Scene<'a> {
+    pub(super) sources: &'a Sources<'a>,
+    pub(super) cyclers: Vec<SceneCycler<'a>>,
+}
+
+/// A cycler with its nodes.
+pub(super) struct SceneCycler<'a> {
+    pub(super) declared: &'a manifest::Cycler,
+    /// In the order of `declared.nodes`.
+    pub(super) nodes: Vec<SceneNode<'a>>,
+    /// Main outputs by name.
+    pub(super) outputs: BTreeMap<String, Producer<'a>>,
+}
+
+/// A node in a cycler.
+#[derive(Clone, Copy)]
+pub(super) struct SceneNode<'a> {
+    pub(super) entry: &'a manifest::NodeEntry,
+    pub(super) source: &'a NodeSource,
+}
+
+/// A main output and the field that declares it.
+pub(super) struct Producer<'a> {
+    /// Position in the cycler's nodes.
+    pub(super) node: usize,
+    pub(super) data: Resolved,
+    pub(super) in_place: bool,
+    pub(super) source: &'a NodeSource,
+    /// Of the field's type.
+    pub(super) range: Range<usize>,
+}
+
+impl<'a> Scene<'a> {
+    /// Joins both; two nodes with one output are a `duplicate-output`.
+    pub(super) fn new(
+        manifest: &'a Manifest,
+        sources: &'a Sources<'a>,
+        diagnostics: &mut Diagnostics,
+    ) -> Self {
+        let cyclers = manifest.cyclers.iter().map(|declared| {
+            let nodes = declared.nodes.iter().filter_map(|entry| {
+                let source = sources.nodes.get(entry.path.as_str())?;
+                Some(SceneNode { entry, source })
+            });
+            let nodes: Vec<SceneNode> = nodes.collect();
+            let outputs = collect_outputs(declared, &nodes, sources, diagnostics);
+            SceneCycler {
+                declared,
+                nodes,
+                outputs,
+            }
+        });
+        Self {
+            sources,
+            cyclers: cyclers.collect(),
+        }
+    }
+
+    /// The instance of this name.
+    pub(super) fn instance(&self, name: &str) -> Option<InstanceId> {
+        self.cyclers.iter().enumerate().find_map(|(cycler, scene)| {
+            let instances = &scene.declared.instances;
+            let instance = instances.iter().position(|one| one.name.as_str() == name)?;
+            Some(InstanceId { cycler, instance })
+        })
+    }
+
+    /// The cycler of this name.
+    pub(super) fn cycler(&self, name: &str) -> Option<usize> {
+        self.cyclers
+            .iter()
+            .position(|scene| scene.declared.name() == name)
+    }
+
+    /// Every instance's name, in manifest order.
+    pub(super) fn instance_names(&self) -> impl Iterator<Item = &str> {
+        let instances = self
+            .cyclers
+            .iter()
+            .flat_map(|scene| &scene.declared.instances);
+        instances.map(|instance| instance.name.as_str())
+    }
+}
+
+impl NodeSource {
+    /// Its file, relative to the workspace root.
+    pub fn file(&self) -> &Utf8Path {
+        &self.module.file
+    }
+}
+
+impl From<&Resolved> for DataType {
+    fn from(resolved: &Resolved) -> Self {
+        Self {
+            text: resolved.text.clone(),
+            resolved: resolved.is_known(),
+        }
+    }
+}
+
+fn collect_outputs<'a>(
+    cycler: &manifest::Cycler,
+    nodes: &[SceneNode<'a>],
+    sources: &Sources<'_>,
+    diagnostics: &mut Diagnostics,
+) -> BTreeMap<String, Producer<'a>> {
+    let mut outputs: BTreeMap<String, Producer> = BTreeMap::new();
+    for (node, SceneNode { source, .. }) in nodes.iter().enumerate() {
+        for (name, data, in_place, range) in declared_outputs(source) {
+            let data = sources.library.resolve(&source.module, data);
+            report_private(&data, source, &range, sources, diagnostics);
+            if let Some(first) = outputs.get(&name) {
+                let cycler = cycler.name();
+                let message = format!("two nodes of cycler `{cycler}` write `{name}`");
+                let error = Diagnostic::new(Code::DuplicateOutput, message)
+                    .at(
+                        source.file(),
+                        range,
+                        format!("written by `{}`", source.path),
+                    )
+                    .at(
+                        first.source.file(),
+                        first.range.clone(),
+                        format!("and by `{}`", first.source.path),
+                    )
+                    .help("rename one of the two outputs, or remove one of the nodes");
+                diagnostics.add(error);
+                continue;
+            }
+            outputs.insert(
+                name,
+                Producer {
+                    node,
+                    data,
+                    in_place,
+                    source,
+                    range,
+                },
+            );
+        }
+    }
+    outputs
+}
+
+/// Name, type, whether it is written in place, and the place of every main output of a node.
+fn declared_outputs(
+    source: &NodeSource,
+) -> impl Iterator<Item = (String, &syn::Type, bool, Range<usize>)> {
+    let returned = source
+        .outputs
+        .fields
+        .iter()
+        .filter_map(|field| match &field.kind {
+            OutputField::MainOutput(data) => Some((&field.name, data, false, field.span)),
+            OutputField::CaptureTime => None,
+        });
+    let in_place = source
+        .cycle
+        .fields
+        .iter()
+        .filter_map(|field| match &field.kind {
+            CycleField::MainOutput(data) => Some((&field.name, data, true, field.span)),
+            _ => None,
+        });
+    returned
+        .chain(in_place)
+        .map(|(name, data, in_place, span)| (name.to_string(), data, in_place, range(span)))
+}
+
+/// Types that are declared in a node file have to be public for the generated crate.
+pub(super) fn report_private(
+    data: &Resolved,
+    source: &NodeSource,
+    range_of_field: &Range<usize>,
+    sources: &Sources<'_>,
+    diagnostics: &mut Diagnostics,
+) {
+    for item in &data.private {
+        let message = format!("`{}` is private", item.path());
+        let name = &item.name;
+        let defined = sources.library.name_range(item);
+        let error = Diagnostic::new(Code::NotPublic, message)
+            .at(
+                &item.module.file,
+                defined,
+                "not visible for the generated crate",
+            )
+            .at(
+                source.file(),
+                range_of_field.clone(),
+                format!("used by `{}`", source.path),
+            )
+            .help(format!(
+                "write `pub` at `{name}` and its modules, or re-export it with `pub use`"
+            ));
+        diagnostics.add(error);
+    }
+}

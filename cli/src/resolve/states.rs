@@ -1,0 +1,228 @@
+//! Cycler states and additional outputs: trees of one cycler.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use grammar::{CreationField, CycleField, StatePath};
+
+use super::robot::{Access, Segment, StateUse, Tree, Writer};
+use super::scene::{Scene, SceneCycler};
+use super::tree::{Declaration, Rules, merge};
+use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+use crate::scan::{NodeSource, range};
+
+/// States of a cycler, and how many paths could not be compared.
+pub(super) fn states(
+    scene: &Scene<'_>,
+    cycler: &SceneCycler<'_>,
+    diagnostics: &mut Diagnostics,
+) -> (Tree<StateUse>, usize) {
+    let mut declarations = Vec::new();
+    for node in &cycler.nodes {
+        let source = node.source;
+        let creation = source
+            .creation
+            .fields
+            .iter()
+            .filter_map(|field| match &field.kind {
+                CreationField::CyclerState(state) => Some((state, range(field.span))),
+                _ => None,
+            });
+        let cycle = source
+            .cycle
+            .fields
+            .iter()
+            .filter_map(|field| match &field.kind {
+                CycleField::CyclerState(state) => Some((state, range(field.span))),
+                _ => None,
+            });
+        for context in [creation.collect::<Vec<_>>(), cycle.collect()] {
+            report_overlaps(source, &context, diagnostics);
+            declarations.extend(context.iter().map(|(state, range)| Declaration {
+                segments: Access::of(&state.path).segments,
+                data: scene.sources.library.resolve(&source.module, &state.data),
+                user: StateUse {
+                    node: source.path.clone(),
+                    shared: state.shared,
+                },
+                instance: None,
+                source,
+                range: range.clone(),
+            }));
+        }
+    }
+    report_unwritten(cycler, &declarations, diagnostics);
+    let rules = Rules {
+        conflict: Code::StateConflict,
+        what: "cycler state",
+    };
+    let mut merged = merge(&scene.sources.library, declarations, &rules, diagnostics);
+    merged
+        .tree
+        .for_each_leaf(&mut |users| one_use_per_node(users));
+    (merged.tree, merged.unchecked)
+}
+
+/// A node that writes a state in one field and reads it in another is a writer.
+fn one_use_per_node(users: &mut Vec<StateUse>) {
+    let mut by_node: BTreeMap<String, bool> = BTreeMap::new();
+    for user in users.drain(..) {
+        let shared = by_node.entry(user.node).or_insert(true);
+        *shared &= user.shared;
+    }
+    users.extend(
+        by_node
+            .into_iter()
+            .map(|(node, shared)| StateUse { node, shared }),
+    );
+}
+
+/// Two fields of one context that reach one value, of which one may change it.
+fn report_overlaps(
+    source: &NodeSource,
+    fields: &[(&StatePath, Range<usize>)],
+    diagnostics: &mut Diagnostics,
+) {
+    for (index, (second, second_range)) in fields.iter().enumerate() {
+        for (first, first_range) in &fields[..index] {
+            let (a, b) = (
+                Access::of(&first.path).segments,
+                Access::of(&second.path).segments,
+            );
+            let overlap = a.iter().zip(&b).all(|(a, b)| a.name == b.name);
+            if overlap && !(first.shared && second.shared) {
+                let message = format!(
+                    "`{}` and `{}` are one cycler state",
+                    first.path, second.path
+                );
+                let error = Diagnostic::new(Code::OverlappingStates, message)
+                    .at(source.file(), second_range.clone(), "borrowed again here")
+                    .at(source.file(), first_range.clone(), "borrowed here")
+                    .help("keep one of the two fields");
+                diagnostics.add(error);
+            }
+        }
+    }
+}
+
+/// A state that is only read, at, above or below its path.
+fn report_unwritten(
+    cycler: &SceneCycler<'_>,
+    declarations: &[Declaration<'_, StateUse>],
+    diagnostics: &mut Diagnostics,
+) {
+    let overlap = |a: &[Segment], b: &[Segment]| a.iter().zip(b).all(|(a, b)| a.name == b.name);
+    for reader in declarations.iter().filter(|one| one.user.shared) {
+        let mut writers = declarations.iter().filter(|one| !one.user.shared);
+        if writers.any(|writer| overlap(&writer.segments, &reader.segments)) {
+            continue;
+        }
+        let names: Vec<&str> = reader
+            .segments
+            .iter()
+            .map(|one| one.name.as_str())
+            .collect();
+        let path = names.join(".");
+        let written: Vec<String> = declarations
+            .iter()
+            .filter(|one| !one.user.shared)
+            .map(|one| {
+                one.segments
+                    .iter()
+                    .map(|one| one.name.clone())
+                    .collect::<Vec<_>>()
+                    .join(".")
+            })
+            .collect();
+        let near = crate::diagnostics::nearest(&path, written.iter().map(String::as_str));
+        let help = match near {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => format!("write it in a node of this cycler: `CyclerState<T, \"{path}\">`"),
+        };
+        let name = cycler.declared.name();
+        let message = format!("no node of cycler `{name}` writes the cycler state `{path}`");
+        let error = Diagnostic::new(Code::UnwrittenState, message)
+            .at(reader.source.file(), reader.range.clone(), "only read here")
+            .help(help);
+        diagnostics.add(error);
+    }
+}
+
+/// Additional outputs of a cycler; one path stands once, and not below another.
+pub(super) fn additional_outputs(
+    scene: &Scene<'_>,
+    cycler: &SceneCycler<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Tree<Writer> {
+    let mut declarations: Vec<Declaration<'_, Writer>> = Vec::new();
+    for node in &cycler.nodes {
+        for field in &node.source.cycle.fields {
+            let CycleField::AdditionalOutput(output) = &field.kind else {
+                continue;
+            };
+            let declaration = Declaration {
+                segments: Access::of(&output.path).segments,
+                data: scene
+                    .sources
+                    .library
+                    .resolve(&node.source.module, &output.data),
+                user: Writer {
+                    node: node.source.path.clone(),
+                },
+                instance: None,
+                source: node.source,
+                range: range(field.span),
+            };
+            match declarations
+                .iter()
+                .find(|other| overlaps(other, &declaration))
+            {
+                Some(other) => diagnostics.add(duplicate(cycler, other, &declaration)),
+                None => declarations.push(declaration),
+            }
+        }
+    }
+    let rules = Rules {
+        conflict: Code::DuplicateOutput,
+        what: "additional output",
+    };
+    merge(&scene.sources.library, declarations, &rules, diagnostics).tree
+}
+
+fn overlaps<U>(a: &Declaration<'_, U>, b: &Declaration<'_, U>) -> bool {
+    a.segments
+        .iter()
+        .zip(&b.segments)
+        .all(|(a, b)| a.name == b.name)
+}
+
+fn duplicate(
+    cycler: &SceneCycler<'_>,
+    first: &Declaration<'_, Writer>,
+    second: &Declaration<'_, Writer>,
+) -> Diagnostic {
+    let path = |one: &Declaration<'_, Writer>| {
+        let names: Vec<&str> = one.segments.iter().map(|one| one.name.as_str()).collect();
+        names.join(".")
+    };
+    let (a, b, name) = (path(first), path(second), cycler.declared.name());
+    let message = if a == b {
+        format!("the additional output `{b}` of cycler `{name}` is written twice")
+    } else {
+        format!(
+            "of the additional outputs `{a}` and `{b}` of cycler `{name}` one lies below the other"
+        )
+    };
+    Diagnostic::new(Code::DuplicateOutput, message)
+        .at(
+            second.source.file(),
+            second.range.clone(),
+            format!("written by `{}`", second.user.node),
+        )
+        .at(
+            first.source.file(),
+            first.range.clone(),
+            format!("and by `{}`", first.user.node),
+        )
+        .help("rename one of the two")
+}

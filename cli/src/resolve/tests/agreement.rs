@@ -1,0 +1,116 @@
+//! The table of written types and paths: who reads what as what.
+
+use super::{with_field, writes};
+use crate::scan::fixture::Fixture;
+
+/// Codes for a node that reads the output `x` of this type by this field.
+fn answer(output: &str, field: &str) -> (Vec<&'static str>, String) {
+    let output = format!("x: MainOutput<{output}>,");
+    let fixture = Fixture::control(&["a", "b"]).node("a", writes(&output));
+    let answer = with_field(fixture, "b", &format!("y: {field}")).answer();
+    let codes = answer
+        .codes
+        .into_iter()
+        .filter(|code| *code != "unread-outputs" && *code != "actuator-takes-default");
+    (codes.collect(), answer.text)
+}
+
+#[test]
+fn written_type_and_path_agree_by_the_contract() {
+    for (output, field, code) in [
+        ("u8", "Input<u8, \"x\">", None),
+        ("Option<u8>", "Input<Option<u8>, \"x\">", None),
+        ("Option<u8>", "Input<Option<u8>, \"x?\">", None),
+        ("Option<u8>", "RequiredInput<Option<u8>, \"x?\">", None),
+        ("Ball", "Input<f32, \"x.x\">", None),
+        ("Ball", "Input<Option<Point>, \"x.position\">", None),
+        ("Ball", "Input<Option<Point>, \"x.position?\">", None),
+        ("Ball", "Input<Option<f32>, \"x.position?.x\">", None),
+        ("Option<Ball>", "Input<Option<f32>, \"x?.x\">", None),
+        (
+            "Option<Ball>",
+            "Input<Option<Point>, \"x?.position?\">",
+            None,
+        ),
+        (
+            "Option<Ball>",
+            "Input<Option<Option<Point>>, \"x?.position\">",
+            None,
+        ),
+        (
+            "Option<Ball>",
+            "Input<Option<f32>, \"x?.position?.x\">",
+            None,
+        ),
+        (
+            "Wrapper<Option<u8>>",
+            "Input<Option<u8>, \"x.value?\">",
+            None,
+        ),
+        ("nalgebra::Point2<f32>", "Input<f32, \"x.x\">", None),
+        ("Option<u8>", "Input<u8, \"x\">", Some("option-mismatch")),
+        ("u8", "Input<Option<u8>, \"x\">", Some("option-mismatch")),
+        ("u8", "Input<Option<u8>, \"x?\">", Some("option-mismatch")),
+        (
+            "Ball",
+            "Input<f32, \"x.position.x\">",
+            Some("option-mismatch"),
+        ),
+        (
+            "Option<Ball>",
+            "Input<Option<Point>, \"x?.position\">",
+            Some("option-mismatch"),
+        ),
+        (
+            "Option<Ball>",
+            "Input<f32, \"x.x\">",
+            Some("option-mismatch"),
+        ),
+        ("u8", "Input<u16, \"x\">", Some("type-mismatch")),
+        (
+            "Option<u8>",
+            "Input<Option<u16>, \"x?\">",
+            Some("type-mismatch"),
+        ),
+        ("Ball", "Input<u8, \"x.x\">", Some("type-mismatch")),
+        ("Ball", "Input<f32, \"x.y\">", Some("unknown-output")),
+        ("u8", "Input<f32, \"x.y\">", Some("unknown-output")),
+        ("Ball", "Input<u8, \"x.secret\">", Some("not-public")),
+    ] {
+        let (codes, text) = answer(output, field);
+        assert_eq!(codes, Vec::from_iter(code), "{output} {field}\n{text}");
+    }
+}
+
+#[test]
+fn a_mismatch_shows_both_places() {
+    let (_, text) = answer("Vec<Ball>", "PreviousInput<Vec<Point>, \"x\">");
+    for part in [
+        "error[type-mismatch]: `x` is a `Vec<types::Ball>`, but is read as a `Vec<types::Point>`",
+        "crates/nodes/src/b.rs:15:4",
+        "`nodes::b` reads it as `Vec<types::Point>`",
+        "crates/nodes/src/a.rs:19:4",
+        "`nodes::a` writes it as `Vec<types::Ball>`",
+        "help: write `Vec<types::Ball>` here",
+    ] {
+        assert!(text.contains(part), "{part}\n{text}");
+    }
+}
+
+#[test]
+fn what_cannot_be_seen_is_counted_and_left_to_rustc() {
+    let fixture =
+        Fixture::control(&["a", "b"]).node("a", writes("x: MainOutput<nalgebra::Vector3<f32>>,"));
+    let fixture = with_field(
+        fixture,
+        "b",
+        "y: PreviousInput<nalgebra::SVector<f32, 3>, \"x\">",
+    );
+    let robot = fixture.answer().robot.expect("no error");
+    assert_eq!(robot.left_to_rustc, 1);
+    let read = robot.cyclers[0].nodes[1].cycle[0]
+        .binding
+        .read()
+        .expect("it reads");
+    assert!(!read.checked);
+}

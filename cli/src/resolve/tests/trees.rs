@@ -1,0 +1,165 @@
+//! Parameters, cycler states, additional outputs.
+
+use super::{ACTS, with_field};
+use crate::resolve::robot::{Content, Tree};
+use crate::scan::fixture::{Fixture, Node, cycler};
+
+/// Paths of a tree with their types.
+fn leaves<U>(tree: &Tree<U>) -> Vec<String> {
+    let branches = tree.branches.iter();
+    branches
+        .flat_map(|branch| match &branch.content {
+            Content::Leaf { data, users } => {
+                vec![format!("{}: {} {}", branch.name, data.text, users.len())]
+            }
+            Content::Inner(tree) => leaves(tree)
+                .iter()
+                .map(|leaf| format!("{}.{leaf}", branch.name))
+                .collect(),
+            Content::Instance { cycler, tree } => leaves(tree)
+                .iter()
+                .map(|leaf| format!("{}#{cycler}.{leaf}", branch.name))
+                .collect(),
+        })
+        .collect()
+}
+
+/// Nodes `a` and `b` with these fields.
+fn two(a: &str, b: &str) -> Fixture {
+    with_field(with_field(Fixture::control(&["a", "b"]), "a", a), "b", b)
+}
+
+#[test]
+fn parameters_make_one_tree_with_instances() {
+    let vision = cycler(
+        "Vision",
+        "perception",
+        "instances = [\"Top\", \"Bottom\"]",
+        &[],
+        &["eye"],
+    );
+    let control = cycler("Control", "real-time", "", &[], &["hand"]);
+    let eye = Node {
+        creation: "p: Parameter<u8, \"$cycler_instance.pitch\">,\nq: Parameter<Side, \"side\">,\n\
+                   r: Parameter<Ball, \"filter.$cycler_instance\">,",
+        ..ACTS
+    };
+    let fixture = Fixture::new(&(vision + &control)).node("eye", eye);
+    let hand = "a: Parameter<Wrapper<u8>, \"walk.step\">,\nb: Parameter<u8, \"walk.step.value\">,\n\
+        c: Parameter<Option<u8>, \"maybe?\">,\nd: Parameter<Side, \"side\">,\ne: Parameter<u8, \"vision_top.pitch\">";
+    let fixture = with_field(fixture, "hand", hand).file(
+        "parameters/default.toml",
+        "side = \"Left\"\nvision_top.pitch = 1\nvision_bottom.pitch = 2\n\
+         [walk.step]\nvalue = 1\n[filter.vision_top]\n[filter.vision_bottom]\n",
+    );
+    assert_eq!(
+        leaves(&fixture.robot().parameter_tree),
+        [
+            "filter.vision_bottom: types::Ball 1",
+            "filter.vision_top: types::Ball 1",
+            "maybe: Option<u8> 1",
+            "side: types::Side 2",
+            "vision_bottom#0.pitch: u8 1",
+            "vision_top#0.pitch: u8 2",
+            "walk.step: types::Wrapper<u8> 1",
+        ]
+    );
+}
+
+#[test]
+fn clashing_parameters_show_both_places() {
+    two("x: Parameter<u8, \"a.b\">", "x: Parameter<u16, \"a.b\">").expect(
+        "parameter-conflict",
+        &[
+            "parameter `a.b` is declared with two types",
+            "`a.b` as `u16`",
+            "`a.b` as `u8`",
+            "a.rs:15",
+            "b.rs:15",
+        ],
+    );
+    two("x: Parameter<Ball, \"a\">", "x: Parameter<u8, \"a.z\">")
+        .expect("parameter-conflict", &["`types::Ball` has no field `z`"]);
+    two(
+        "x: Parameter<Ball, \"a\">",
+        "x: Parameter<f32, \"a.position.x\">",
+    )
+    .expect("option-mismatch", &["write `?` behind `position`"]);
+    two("x: Parameter<Option<u8>, \"a?.b\">", "y: CycleTime").expect(
+        "option-mismatch",
+        &["nobody declares parameter `a` as an `Option`"],
+    );
+}
+
+#[test]
+fn nobody_adds_a_parameter_to_one_instance_alone() {
+    two(
+        "x: Parameter<u8, \"$cycler_instance.a\">",
+        "x: Parameter<u8, \"control.b\">",
+    )
+    .expect(
+        "parameter-conflict",
+        &["`control` holds what `$cycler_instance` declares"],
+    );
+}
+
+#[test]
+fn states_are_shared_by_path() {
+    let fixture = two(
+        "x: CyclerState<Ball, \"ball\">,\ny: CyclerState<u8, \"count.a\">",
+        "x: CyclerState<&f32, \"ball.x\">,\ny: CyclerState<&u8, \"count.a\">",
+    );
+    let robot = fixture.robot();
+    assert_eq!(
+        leaves(&robot.cyclers[0].states),
+        ["ball: types::Ball 2", "count.a: u8 2"]
+    );
+}
+
+#[test]
+fn clashing_states_show_both_places() {
+    two("x: CyclerState<u8, \"a\">", "x: CyclerState<u16, \"a\">").expect(
+        "state-conflict",
+        &["cycler state `a` is declared with two types"],
+    );
+    two(
+        "x: CyclerState<u8, \"a\">,\ny: CyclerState<&u8, \"a\">",
+        "x: CyclerState<u8, \"a\">",
+    )
+    .expect("overlapping-states", &["`a` and `a` are one cycler state"]);
+    two(
+        "x: CyclerState<&u8, \"a\">",
+        "x: CyclerState<u8, \"b\">,\ny: CycleTime",
+    )
+    .answer()
+    .expect_error(
+        "unwritten-state",
+        &["no node of cycler `Control` writes the cycler state `a`"],
+    );
+}
+
+#[test]
+fn additional_outputs_are_unique() {
+    let robot = two(
+        "x: AdditionalOutput<u8, \"a.b\">",
+        "x: AdditionalOutput<u8, \"a.c\">",
+    )
+    .robot();
+    assert_eq!(
+        leaves(&robot.cyclers[0].additional_outputs),
+        ["a.b: u8 1", "a.c: u8 1"]
+    );
+    two(
+        "x: AdditionalOutput<u8, \"a\">",
+        "x: AdditionalOutput<u8, \"a\">",
+    )
+    .expect(
+        "duplicate-output",
+        &["the additional output `a` of cycler `Control` is written twice"],
+    );
+    two(
+        "x: AdditionalOutput<Ball, \"a\">",
+        "x: AdditionalOutput<f32, \"a.x\">",
+    )
+    .expect("duplicate-output", &["one lies below the other"]);
+}

@@ -1,0 +1,151 @@
+//! What is allowed but probably not meant.
+
+use super::{ACTS, two_cyclers, with_field, writes};
+use crate::scan::fixture::{Fixture, Node, cycler};
+
+#[test]
+fn outputs_that_nobody_reads_are_told_in_the_manifest() {
+    let fixture = Fixture::control(&["a"]).node("a", writes("x: MainOutput<u8>,"));
+    fixture.expect(
+        "unread-outputs",
+        &[
+            "nobody reads what `nodes::a` writes in cycler `Control`",
+            "hulk.toml:7:",
+        ],
+    );
+}
+
+#[test]
+fn a_state_of_one_node_is_told() {
+    with_field(
+        Fixture::control(&["a"]),
+        "a",
+        "x: CyclerState<u8, \"count\">",
+    )
+    .expect(
+        "state-of-one-node",
+        &["only `nodes::a` uses the cycler state `count`", "a.rs:15"],
+    );
+}
+
+#[test]
+fn a_state_that_is_not_stored_needs_restore() {
+    let skips = Node {
+        state: "#[serde(skip)] cache: Vec<u8>,",
+        ..ACTS
+    };
+    Fixture::control(&["a"]).node("a", skips).expect(
+        "state-not-restorable",
+        &["`cache` of `Node` is not recorded"],
+    );
+    let restores = "pub fn restore(&mut self, context: CreationContext) -> Result<()> {}";
+    Fixture::control(&["a"])
+        .node(
+            "a",
+            Node {
+                more: restores,
+                ..skips
+            },
+        )
+        .robot();
+    let reading = "pub fn restore(&mut self, context: CreationContext<impl hardware::Camera>) -> Result<()> {}";
+    let reads = Node {
+        more: reading,
+        creation: "hardware: HardwareInterface,",
+        ..skips
+    };
+    let fixture = Fixture::control(&["a"]).node("a", reads);
+    let text = fixture.text("crates/nodes/src/a.rs");
+    let text = text.replace(
+        "new(context: CreationContext)",
+        "new(context: CreationContext<impl hardware::Camera>)",
+    );
+    fixture.file("crates/nodes/src/a.rs", &text).expect(
+        "state-not-restorable",
+        &["`restore` reads from the hardware: `hardware::Camera`"],
+    );
+}
+
+#[test]
+fn reading_the_hardware_outside_of_setup_is_told() {
+    let reads = Node {
+        asks: "hardware::Camera",
+        outputs: "x: MainOutput<u8>,",
+        ..ACTS
+    };
+    let fixture = |manifest: &str| {
+        let fixture = Fixture::new(manifest).node("a", reads);
+        with_field(fixture, "b", "x: PreviousInput<u8, \"x\">")
+    };
+    fixture(&cycler("Control", "real-time", "", &["a"], &["b"])).robot();
+    fixture(&cycler("Control", "real-time", "", &[], &["a", "b"])).expect(
+        "hardware-read-outside-setup",
+        &["`hardware::Camera`", "this is not recorded"],
+    );
+}
+
+#[test]
+fn an_actuator_that_may_take_a_default_is_told() {
+    let fixture = |output: &str, field: &str| {
+        let output = format!("command: MainOutput<{output}>,");
+        with_field(
+            Fixture::control(&["a", "b"]).node("a", writes(&output)),
+            "b",
+            field,
+        )
+    };
+    fixture("u8", "x: Input<u8, \"command\">").expect(
+        "actuator-takes-default",
+        &[
+            "`nodes::b` may receive a `command` that nobody computed",
+            "acts through `hardware::Motors`",
+        ],
+    );
+    fixture("Option<u8>", "x: RequiredInput<Option<u8>, \"command?\">").robot();
+    fixture("Option<u8>", "x: Input<Option<u8>, \"command\">").robot();
+}
+
+#[test]
+fn a_measurement_that_may_be_a_default_is_told() {
+    let fixture = |data: &str| {
+        let vision = "[[cycler]]\nname = \"Vision\"\nkind = \"perception\"\n\
+                      nodes = [{ node = \"nodes::eye\", on_failure = \"skip\" }]\n";
+        let control = cycler("Control", "real-time", "", &[], &["hand"]);
+        let output = format!("x: MainOutput<{data}>,");
+        let fixture = Fixture::new(&format!("{vision}{control}")).node("eye", writes(&output));
+        with_field(
+            fixture,
+            "hand",
+            &format!("x: PerceptionInput<{data}, \"Vision\", \"x\">"),
+        )
+    };
+    fixture("u8").expect(
+        "measurement-takes-default",
+        &["`x` is a default when `nodes::eye` fails"],
+    );
+    fixture("Option<u8>").robot();
+}
+
+#[test]
+fn a_warning_is_silenced_with_a_reason_at_its_line() {
+    let field = |comment: &str| {
+        with_field(
+            Fixture::control(&["a"]),
+            "a",
+            &format!("{comment}\nx: CyclerState<u8, \"count\">"),
+        )
+    };
+    field("// hulkgen: allow(state-of-one-node) read by a tool").robot();
+    field("// hulkgen: allow(state-of-one-node)").expect("state-of-one-node", &[]);
+    field("// hulkgen: allow(unread-outputs) for people").expect("state-of-one-node", &[]);
+}
+
+#[test]
+fn a_node_that_someone_reads_is_not_told() {
+    with_field(
+        two_cyclers(),
+        "hand",
+        "x: PerceptionInput<Option<Ball>, \"VisionTop\", \"ball\">",
+    )
+    .robot();
+}

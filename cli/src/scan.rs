@@ -1,0 +1,103 @@
+//! Stage ②: node files by themselves, and the names that they use.
+//!
+//! A node is found as rustc would find it: through the `mod` lines of its crate, beginning in `lib.rs`. What its file says
+//! is read with the crate `grammar`, by which the macro `#[context]` reads it, too. Whether other nodes agree with it is
+//! the matter of [`crate::resolve`].
+//!
+//! Invariant: a file is parsed once, and only if a node or one of its names leads there.
+
+pub mod compare;
+pub mod fields;
+#[cfg(test)]
+pub(crate) mod fixture;
+pub mod library;
+mod lookup;
+pub mod module;
+mod node;
+mod public;
+mod state;
+pub mod traits;
+pub mod types;
+mod unlisted;
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use camino::Utf8Path;
+use proc_macro2::Span;
+
+use crate::diagnostics::{Code, Diagnostic, Diagnostics, Reported};
+use crate::manifest::Manifest;
+use crate::workspace::{MANIFEST, Workspace};
+
+pub use library::Library;
+pub use node::NodeSource;
+pub use state::StateSource;
+pub(crate) use state::{derives, has_any_serde};
+
+/// Every node of the manifest, and the crates of the workspace that names lead to.
+#[derive(Debug)]
+pub struct Sources<'workspace> {
+    /// By node path; a node that stands in several cyclers is scanned once.
+    pub nodes: BTreeMap<String, NodeSource>,
+    pub library: Library<'workspace>,
+}
+
+/// Reads every node that the manifest names.
+///
+/// # Errors
+/// `unknown-node`, `not-public`, `syntax`, `missing-context`, `missing-node`, `missing-derive` and everything that
+/// `grammar` calls a mistake.
+pub fn scan<'workspace>(
+    workspace: &'workspace Workspace,
+    manifest: &Manifest,
+    diagnostics: &mut Diagnostics,
+) -> Result<Sources<'workspace>, Reported> {
+    // Spans of files that an earlier run parsed (`--watch`) are never asked for again.
+    proc_macro2::extra::invalidate_current_thread_spans();
+    let library = Library::new(workspace, &manifest.robot.generated);
+    let file = Utf8Path::new(MANIFEST);
+    let mut nodes = BTreeMap::new();
+    for entry in manifest.cyclers.iter().flat_map(|cycler| &cycler.nodes) {
+        let path = entry.path.as_str();
+        if nodes.contains_key(path) {
+            continue;
+        }
+        let node = match library.find_module(path) {
+            Ok(module) => node::scan(path, module, diagnostics),
+            Err(error) => {
+                diagnostics.add(error.describe(path, file, &entry.range));
+                None
+            }
+        };
+        if let Some(node) = node {
+            nodes.insert(path.to_owned(), node);
+        }
+    }
+    report_broken_packages(workspace, manifest, diagnostics);
+    library.report_problems(diagnostics);
+    diagnostics.stop_at_errors()?;
+    Ok(Sources { nodes, library })
+}
+
+/// The bytes of a span in its file.
+pub fn range(span: Span) -> Range<usize> {
+    span.byte_range()
+}
+
+/// A Cargo.toml that cannot be read hides the nodes of its package; only the generated crate's does not matter.
+fn report_broken_packages(
+    workspace: &Workspace,
+    manifest: &Manifest,
+    diagnostics: &mut Diagnostics,
+) {
+    for broken in &workspace.members().broken {
+        if !broken.file.starts_with(&manifest.robot.generated) {
+            let error = Diagnostic::new(Code::Syntax, broken.message.clone());
+            diagnostics.add(error.at(&broken.file, broken.range.clone(), ""));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,315 @@
+//! Crates of the workspace: their modules, parsed when a name leads there.
+
+use std::cell::RefCell;
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
+use std::rc::Rc;
+
+use camino::{Utf8Path, Utf8PathBuf};
+use syn::{Expr, ExprLit, Item, ItemMod, Lit, Meta};
+
+use super::module::{Entry, Module, Visible, folder_of};
+use super::range;
+use crate::diagnostics::{Code, Diagnostic, Diagnostics, listed, nearest};
+use crate::workspace::{Member, Workspace};
+
+/// Modules of the workspace's crates, by absolute path.
+#[derive(Debug)]
+pub struct Library<'workspace> {
+    workspace: &'workspace Workspace,
+    /// Folder of the generated crate, which is never read.
+    generated: Utf8PathBuf,
+    modules: RefCell<BTreeMap<String, Option<Rc<Module>>>>,
+    /// Files that cannot be read or parsed.
+    problems: RefCell<Vec<Diagnostic>>,
+    /// Public paths of items whose definition is not public.
+    pub(super) public_paths: RefCell<BTreeMap<String, Option<String>>>,
+    /// Where the globs of a module lead.
+    pub(super) glob_targets: RefCell<BTreeMap<String, Globs>>,
+    /// Names that are being looked for right now, with their modules: globs may lead in circles.
+    pub(super) searching: RefCell<BTreeSet<(String, String)>>,
+}
+
+/// The modules of the workspace that a module's globs name, and who sees what comes by them.
+pub(super) type Globs = Rc<Vec<(Rc<Module>, Visible)>>;
+
+/// Why a node path leads nowhere.
+#[derive(Debug)]
+pub(super) enum NotFound {
+    Library {
+        libraries: Vec<String>,
+    },
+    /// A module is not declared in its parent; `file`: a file is there all the same.
+    Module {
+        parent: Rc<Module>,
+        name: String,
+        file: Option<Utf8PathBuf>,
+    },
+    Private {
+        parent: Rc<Module>,
+        name: String,
+        range: Range<usize>,
+    },
+    /// The declaration is there, the file is not, or it cannot be parsed: that is told as a problem.
+    Told,
+}
+
+impl<'workspace> Library<'workspace> {
+    pub(super) fn new(workspace: &'workspace Workspace, generated: &Utf8Path) -> Self {
+        Self {
+            workspace,
+            generated: generated.to_owned(),
+            modules: RefCell::default(),
+            problems: RefCell::default(),
+            public_paths: RefCell::default(),
+            glob_targets: RefCell::default(),
+            searching: RefCell::default(),
+        }
+    }
+
+    /// The package whose library has this name; never the generated one.
+    pub fn member(&self, library: &str) -> Option<&'workspace Member> {
+        let member = self.workspace.members().library(library);
+        member.filter(|member| member.folder != self.generated)
+    }
+
+    /// Adds what could not be read or parsed since the last call.
+    pub fn report_problems(&self, diagnostics: &mut Diagnostics) {
+        for problem in self.problems.take() {
+            diagnostics.add(problem);
+        }
+    }
+
+    /// The module of a node, as public as generated code needs it.
+    pub(super) fn find_module(&self, path: &str) -> Result<Rc<Module>, NotFound> {
+        let mut names = path.split("::");
+        let library = names.next().unwrap_or_default();
+        if self.member(library).is_none() {
+            let members = self.workspace.members().libraries();
+            let libraries = members.map(|member| member.library.clone()).collect();
+            return Err(NotFound::Library { libraries });
+        }
+        let mut module = self.root(library).ok_or(NotFound::Told)?;
+        for name in names {
+            module = self.find_child(&module, name)?;
+        }
+        Ok(module)
+    }
+
+    fn find_child(&self, parent: &Rc<Module>, name: &str) -> Result<Rc<Module>, NotFound> {
+        let Some(entry) = parent.entries.get(name) else {
+            let file = candidates(&parent.folder, name);
+            let file = file.into_iter().find(|file| self.workspace.is_file(file));
+            let name = name.to_owned();
+            return Err(NotFound::Module {
+                parent: parent.clone(),
+                name,
+                file,
+            });
+        };
+        if !entry.is_public()
+            && let Entry::Item { index, .. } = entry
+        {
+            let declaration = match parent.item(*index) {
+                Item::Mod(item) => range(item.ident.span()),
+                _ => 0..0,
+            };
+            let name = name.to_owned();
+            return Err(NotFound::Private {
+                parent: parent.clone(),
+                name,
+                range: declaration,
+            });
+        }
+        self.module_in(parent, name).ok_or(NotFound::Told)
+    }
+
+    /// The root module of a member.
+    pub(super) fn root(&self, library: &str) -> Option<Rc<Module>> {
+        let member = self.member(library)?;
+        self.cached(library, || {
+            let folder = folder_of(&member.root_file, true);
+            self.parse(library.to_owned(), member.root_file.clone(), folder)
+        })
+    }
+
+    /// A module of a member by its absolute path.
+    pub(super) fn module(&self, path: &str) -> Option<Rc<Module>> {
+        match path.rsplit_once("::") {
+            None => self.root(path),
+            Some((parent, name)) => self.declared(&*self.module(parent)?, name),
+        }
+    }
+
+    /// A module that is declared right in another.
+    pub(super) fn declared(&self, parent: &Module, name: &str) -> Option<Rc<Module>> {
+        let Entry::Item { index, .. } = parent.entries.get(name)? else {
+            return None;
+        };
+        let Item::Mod(item) = parent.item(*index) else {
+            return None;
+        };
+        let path = format!("{}::{name}", parent.path);
+        self.cached(&path, || self.load(parent, item, path.clone()))
+    }
+
+    fn cached(&self, path: &str, load: impl FnOnce() -> Option<Rc<Module>>) -> Option<Rc<Module>> {
+        if let Some(module) = self.modules.borrow().get(path) {
+            return module.clone();
+        }
+        let module = load();
+        self.modules
+            .borrow_mut()
+            .insert(path.to_owned(), module.clone());
+        module
+    }
+
+    fn load(&self, parent: &Module, item: &ItemMod, path: String) -> Option<Rc<Module>> {
+        let name = item.ident.to_string();
+        if let Some((_, items)) = &item.content {
+            let syntax = syn::File {
+                shebang: None,
+                attrs: item.attrs.clone(),
+                items: items.clone(),
+            };
+            let folder = parent.folder.join(&name);
+            return Some(Rc::new(Module::new(
+                path,
+                parent.file.clone(),
+                folder,
+                syntax,
+            )));
+        }
+        let files = match path_attribute(item) {
+            Some(file) => vec![parent.file.parent().unwrap_or(Utf8Path::new("")).join(file)],
+            None => candidates(&parent.folder, &name),
+        };
+        let Some(file) = files.iter().find(|file| self.workspace.is_file(file)) else {
+            let message = format!("the file of module `{path}` does not exist");
+            let places: Vec<&str> = files.iter().map(|file| file.as_str()).collect();
+            let problem = Diagnostic::new(Code::UnknownNode, message)
+                .at(&parent.file, range(item.ident.span()), "declared here")
+                .help(format!(
+                    "create `{}` or remove this line",
+                    places.join("` or `")
+                ));
+            self.problems.borrow_mut().push(problem);
+            return None;
+        };
+        let folder = folder_of(file, path_attribute(item).is_some());
+        self.parse(path, file.clone(), folder)
+    }
+
+    fn parse(&self, path: String, file: Utf8PathBuf, folder: Utf8PathBuf) -> Option<Rc<Module>> {
+        let problem = |message: String| Diagnostic::new(Code::Syntax, message);
+        let text = match self.workspace.read(&file) {
+            Ok(text) => text,
+            Err(error) => {
+                let problem = problem(error.to_string()).at(&file, 0..0, "");
+                self.problems.borrow_mut().push(problem);
+                return None;
+            }
+        };
+        match syn::parse_file(&text) {
+            Ok(syntax) => Some(Rc::new(Module::new(path, file, folder, syntax))),
+            Err(error) => {
+                let problem = problem(error.to_string()).at(&file, range(error.span()), "");
+                self.problems.borrow_mut().push(problem);
+                None
+            }
+        }
+    }
+}
+
+impl NotFound {
+    /// The diagnostic at a line of the manifest.
+    pub(super) fn describe(&self, path: &str, file: &Utf8Path, place: &Range<usize>) -> Diagnostic {
+        let unknown = |message: String| Diagnostic::new(Code::UnknownNode, message);
+        match self {
+            Self::Library { libraries } => {
+                let library = path.split("::").next().unwrap_or_default();
+                let help = match nearest(library, libraries.iter().map(String::as_str)) {
+                    Some(near) => format!("did you mean `{}`?", path.replacen(library, near, 1)),
+                    None => format!("add a package with a library `{library}` to the workspace"),
+                };
+                unknown(format!("no crate of the workspace is called `{library}`"))
+                    .at(file, place.clone(), "")
+                    .help(help)
+            }
+            Self::Module {
+                parent,
+                name,
+                file: Some(found),
+            } => unknown(format!("module `{}::{name}` is not declared", parent.path))
+                .at(file, place.clone(), format!("its file is `{found}`"))
+                .help(format!("add `pub mod {name};` to `{}`", parent.file)),
+            Self::Module {
+                parent,
+                name,
+                file: None,
+            } => {
+                let help = match nearest(name, parent.module_names()) {
+                    Some(near) => {
+                        let parent = &parent.path;
+                        let wrong = format!("{parent}::{name}");
+                        format!(
+                            "did you mean `{}`?",
+                            path.replacen(&wrong, &format!("{parent}::{near}"), 1)
+                        )
+                    }
+                    None => format!(
+                        "`{}` declares {}",
+                        parent.path,
+                        listed(parent.module_names())
+                    ),
+                };
+                unknown(format!("there is no module `{}::{name}`", parent.path))
+                    .at(file, place.clone(), "")
+                    .help(help)
+            }
+            Self::Private {
+                parent,
+                name,
+                range,
+            } => Diagnostic::new(
+                Code::NotPublic,
+                format!("module `{}::{name}` is private", parent.path),
+            )
+            .at(
+                &parent.file,
+                range.clone(),
+                "not visible for the generated crate",
+            )
+            .at(file, place.clone(), "a node in it")
+            .help(format!("write `pub mod {name};`")),
+            Self::Told => unknown(format!("the file of node `{path}` cannot be read")).at(
+                file,
+                place.clone(),
+                "",
+            ),
+        }
+    }
+}
+
+fn candidates(folder: &Utf8Path, name: &str) -> Vec<Utf8PathBuf> {
+    vec![
+        folder.join(format!("{name}.rs")),
+        folder.join(name).join("mod.rs"),
+    ]
+}
+
+/// The file that `#[path = "…"]` names.
+fn path_attribute(item: &ItemMod) -> Option<String> {
+    item.attrs
+        .iter()
+        .find_map(|attribute| match &attribute.meta {
+            Meta::NameValue(meta) if meta.path.is_ident("path") => match &meta.value {
+                Expr::Lit(ExprLit {
+                    lit: Lit::Str(text),
+                    ..
+                }) => Some(text.value()),
+                _ => None,
+            },
+            _ => None,
+        })
+}

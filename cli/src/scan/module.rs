@@ -1,0 +1,261 @@
+//! One module of a crate: its items, and what it brings in with `use`.
+
+use std::collections::BTreeMap;
+
+use camino::{Utf8Path, Utf8PathBuf};
+use syn::{Attribute, Item, UseTree, Visibility};
+
+/// A module and everything that has a name in it.
+#[derive(Debug)]
+pub struct Module {
+    /// Absolute: `types::ball`.
+    pub path: String,
+    /// The file it stands in.
+    pub file: Utf8PathBuf,
+    /// Where files of its own modules lie.
+    pub(super) folder: Utf8PathBuf,
+    pub syntax: syn::File,
+    pub(super) entries: BTreeMap<String, Entry>,
+    pub(super) globs: Vec<Import>,
+}
+
+/// What a name in a module stands for.
+#[derive(Clone, Debug)]
+pub(super) enum Entry {
+    /// Position in the items of the module.
+    Item {
+        index: usize,
+        visible: Visible,
+    },
+    Import(Import),
+    /// Several items of one name, chosen by `cfg`.
+    Ambiguous,
+}
+
+/// A path behind `use`.
+#[derive(Clone, Debug)]
+pub(super) struct Import {
+    pub(super) segments: Vec<String>,
+    /// It begins with `::`.
+    pub(super) absolute: bool,
+    pub(super) visible: Visible,
+}
+
+/// Who can see a name of a module.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Visible {
+    /// `pub`.
+    Everywhere,
+    /// `pub(…)`: taken for the whole crate.
+    InCrate,
+    /// Only the module and those inside of it.
+    Inside,
+}
+
+impl Module {
+    pub(super) fn new(
+        path: String,
+        file: Utf8PathBuf,
+        folder: Utf8PathBuf,
+        syntax: syn::File,
+    ) -> Self {
+        let mut module = Self {
+            path,
+            file,
+            folder,
+            entries: BTreeMap::new(),
+            globs: Vec::new(),
+            syntax: syn::File {
+                shebang: None,
+                attrs: Vec::new(),
+                items: Vec::new(),
+            },
+        };
+        for (index, item) in syntax.items.iter().enumerate() {
+            module.add(index, item);
+        }
+        module.syntax = syntax;
+        module
+    }
+
+    /// Name of the crate it belongs to.
+    pub fn library(&self) -> &str {
+        self.path.split("::").next().unwrap_or(&self.path)
+    }
+
+    /// The module around it; `None` for the crate's root.
+    pub fn parent(&self) -> Option<&str> {
+        self.path.rsplit_once("::").map(|(parent, _)| parent)
+    }
+
+    /// The item of an [`Entry::Item`].
+    pub(super) fn item(&self, index: usize) -> &Item {
+        &self.syntax.items[index]
+    }
+
+    /// Names of the modules that are declared in it.
+    pub(super) fn module_names(&self) -> impl Iterator<Item = &str> {
+        self.entries.iter().filter_map(|(name, entry)| match entry {
+            Entry::Item { index, .. } => {
+                matches!(self.item(*index), Item::Mod(_)).then_some(name.as_str())
+            }
+            _ => None,
+        })
+    }
+
+    /// Names that other crates can see.
+    pub(super) fn public_names(&self) -> Vec<String> {
+        let public = self.entries.iter().filter(|(_, entry)| entry.is_public());
+        public.map(|(name, _)| name.clone()).collect()
+    }
+
+    fn add(&mut self, index: usize, item: &Item) {
+        let (name, visibility, attributes) = match item {
+            Item::Use(item) => {
+                if !only_for_tests(&item.attrs) {
+                    let absolute = item.leading_colon.is_some();
+                    let visible = Visible::new(&item.vis);
+                    let start = Import {
+                        segments: Vec::new(),
+                        absolute,
+                        visible,
+                    };
+                    self.add_use(&start, &item.tree);
+                }
+                return;
+            }
+            Item::ExternCrate(item) => {
+                let name = item.rename.as_ref().map_or(&item.ident, |(_, name)| name);
+                let segments = vec![item.ident.to_string()];
+                let visible = Visible::new(&item.vis);
+                let import = Import {
+                    segments,
+                    absolute: true,
+                    visible,
+                };
+                self.insert(name.to_string(), Entry::Import(import));
+                return;
+            }
+            Item::Struct(item) => (&item.ident, &item.vis, &item.attrs),
+            Item::Enum(item) => (&item.ident, &item.vis, &item.attrs),
+            Item::Union(item) => (&item.ident, &item.vis, &item.attrs),
+            Item::Type(item) => (&item.ident, &item.vis, &item.attrs),
+            Item::Trait(item) => (&item.ident, &item.vis, &item.attrs),
+            Item::Mod(item) => (&item.ident, &item.vis, &item.attrs),
+            Item::Const(item) => (&item.ident, &item.vis, &item.attrs),
+            _ => return,
+        };
+        if !only_for_tests(attributes) {
+            let visible = Visible::new(visibility);
+            self.insert(name.to_string(), Entry::Item { index, visible });
+        }
+    }
+
+    fn insert(&mut self, name: String, entry: Entry) {
+        let entry = if self.entries.contains_key(&name) {
+            Entry::Ambiguous
+        } else {
+            entry
+        };
+        self.entries.insert(name, entry);
+    }
+
+    fn add_use(&mut self, before: &Import, tree: &UseTree) {
+        let with = |name: &syn::Ident| {
+            let mut import = before.clone();
+            import.segments.push(name.to_string());
+            import
+        };
+        match tree {
+            UseTree::Path(path) => self.add_use(&with(&path.ident), &path.tree),
+            UseTree::Name(name) if name.ident == "self" => {
+                if let Some(name) = before.segments.last().cloned() {
+                    self.add_import(name, before.clone());
+                }
+            }
+            UseTree::Name(name) => self.add_import(name.ident.to_string(), with(&name.ident)),
+            UseTree::Rename(rename) if rename.ident == "self" => {
+                self.add_import(rename.rename.to_string(), before.clone());
+            }
+            UseTree::Rename(rename) => {
+                self.add_import(rename.rename.to_string(), with(&rename.ident));
+            }
+            UseTree::Glob(_) => self.globs.push(before.clone()),
+            UseTree::Group(group) => {
+                for tree in &group.items {
+                    self.add_use(before, tree);
+                }
+            }
+        }
+    }
+
+    fn add_import(&mut self, name: String, import: Import) {
+        if name != "_" {
+            // A macro or function of the same name is none of ours: the first import stays.
+            self.entries.entry(name).or_insert(Entry::Import(import));
+        }
+    }
+}
+
+impl Entry {
+    pub(super) fn visible(&self) -> Visible {
+        match self {
+            Self::Item { visible, .. } => *visible,
+            Self::Import(import) => import.visible,
+            Self::Ambiguous => Visible::Inside,
+        }
+    }
+
+    pub(super) fn is_public(&self) -> bool {
+        self.visible() == Visible::Everywhere
+    }
+}
+
+impl Visible {
+    fn new(visibility: &Visibility) -> Self {
+        match visibility {
+            Visibility::Public(_) => Self::Everywhere,
+            Visibility::Restricted(_) => Self::InCrate,
+            Visibility::Inherited => Self::Inside,
+        }
+    }
+
+    /// Whether code in the module `from` sees what has this visibility in the module `of`.
+    pub(super) fn reaches(self, from: &Module, of: &Module) -> bool {
+        let inside = from.path == of.path || from.path.starts_with(&format!("{}::", of.path));
+        match self {
+            Self::Everywhere => true,
+            Self::InCrate => from.library() == of.library(),
+            Self::Inside => inside,
+        }
+    }
+}
+
+/// Where the modules of a file lie: beside `lib.rs` and `mod.rs`, else in the folder of the file's name.
+pub(super) fn folder_of(file: &Utf8Path, is_root: bool) -> Utf8PathBuf {
+    let beside = file.parent().unwrap_or(Utf8Path::new(""));
+    match file.file_stem() {
+        Some(stem) if !is_root && stem != "mod" => beside.join(stem),
+        _ => beside.to_owned(),
+    }
+}
+
+/// `#[cfg(test)]`, also among other conditions that all have to hold.
+fn only_for_tests(attributes: &[Attribute]) -> bool {
+    attributes
+        .iter()
+        .filter(|attribute| attribute.path().is_ident("cfg"))
+        .any(|attribute| {
+            attribute
+                .parse_args::<syn::Meta>()
+                .is_ok_and(|condition| match condition {
+                    syn::Meta::Path(path) => path.is_ident("test"),
+                    syn::Meta::List(list) if list.path.is_ident("all") => list
+                        .tokens
+                        .clone()
+                        .into_iter()
+                        .any(|token| token.to_string() == "test"),
+                    _ => false,
+                })
+        })
+}

@@ -1,0 +1,194 @@
+//! One node file: its three structs, its functions, its state.
+
+use std::rc::Rc;
+
+use grammar::{
+    AnyContext, Context, ContextKind, CreationField, CycleField, Mistake, OutputField, Rule,
+};
+use syn::{Attribute, Expr, ExprLit, Item, ItemStruct, Lit, Meta};
+
+use super::module::Module;
+use super::range;
+use super::state::{self, StateSource};
+use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+
+/// A node as its file describes it.
+#[derive(Clone, Debug)]
+pub struct NodeSource {
+    /// As in the manifest; also the path by which generated code names its module.
+    pub path: String,
+    pub module: Rc<Module>,
+    /// First sentence of the file's documentation, if any.
+    pub summary: Option<String>,
+    pub creation: Context<CreationField>,
+    pub cycle: Context<CycleField>,
+    pub outputs: Context<OutputField>,
+    pub signatures: grammar::Signatures,
+    /// The node's struct, if it is written in this file.
+    pub state: Option<StateSource>,
+}
+
+/// Reads a node file; `None` if a part of it is missing, which is then reported.
+pub(super) fn scan(
+    path: &str,
+    module: Rc<Module>,
+    diagnostics: &mut Diagnostics,
+) -> Option<NodeSource> {
+    let (signatures, mistakes) = grammar::find_node(&module.syntax);
+    report(&module, mistakes, diagnostics);
+    let contexts = read_contexts(&module, diagnostics);
+    let signatures = signatures?;
+    let state = state::find(&module.syntax, &signatures.node);
+    check_derives(&module, &signatures, state.as_ref(), diagnostics);
+    let Contexts {
+        creation: Some(creation),
+        cycle: Some(cycle),
+        outputs: Some(outputs),
+    } = contexts
+    else {
+        return None;
+    };
+    Some(NodeSource {
+        path: path.to_owned(),
+        summary: summary(&module.syntax.attrs),
+        module,
+        creation,
+        cycle,
+        outputs,
+        signatures,
+        state,
+    })
+}
+
+#[derive(Default)]
+struct Contexts {
+    creation: Option<Context<CreationField>>,
+    cycle: Option<Context<CycleField>>,
+    outputs: Option<Context<OutputField>>,
+}
+
+fn read_contexts(module: &Module, diagnostics: &mut Diagnostics) -> Contexts {
+    let mut contexts = Contexts::default();
+    for kind in [
+        ContextKind::Creation,
+        ContextKind::Cycle,
+        ContextKind::MainOutputs,
+    ] {
+        let Some(item) = find_struct(module, kind) else {
+            diagnostics.add(missing_context(module, kind));
+            continue;
+        };
+        if !item.attrs.iter().any(grammar::is_context_attribute) {
+            let name = kind.name();
+            let message = format!("`{name}` lacks the attribute `#[context]`");
+            let error = Diagnostic::new(Code::MissingContext, message)
+                .at(&module.file, range(item.ident.span()), "")
+                .help(format!("write `#[context]` above `pub struct {name}`"));
+            diagnostics.add(error);
+        }
+        let Some((context, mistakes)) = grammar::parse_context(item) else {
+            continue;
+        };
+        report(module, mistakes, diagnostics);
+        match context {
+            AnyContext::Creation(creation) => contexts.creation = Some(creation),
+            AnyContext::Cycle(cycle) => contexts.cycle = Some(cycle),
+            AnyContext::MainOutputs(outputs) => contexts.outputs = Some(outputs),
+        }
+    }
+    contexts
+}
+
+fn find_struct(module: &Module, kind: ContextKind) -> Option<&ItemStruct> {
+    module.syntax.items.iter().find_map(|item| match item {
+        Item::Struct(item) if item.ident == kind.name() => Some(item),
+        _ => None,
+    })
+}
+
+fn missing_context(module: &Module, kind: ContextKind) -> Diagnostic {
+    let name = kind.name();
+    Diagnostic::new(
+        Code::MissingContext,
+        format!("node `{}` has no `{name}`", module.path),
+    )
+    .at(&module.file, 0..0, "")
+    .help(format!("add `#[context] pub struct {name} {{}}`"))
+}
+
+fn check_derives(
+    module: &Module,
+    signatures: &grammar::Signatures,
+    state: Option<&StateSource>,
+    diagnostics: &mut Diagnostics,
+) {
+    let Some(state) = state.filter(|state| !state.missing_derives.is_empty()) else {
+        return;
+    };
+    let names: Vec<String> = state
+        .missing_derives
+        .iter()
+        .map(|name| format!("`{name}`"))
+        .collect();
+    let message = format!(
+        "the node `{}` does not derive {}",
+        signatures.node,
+        names.join(" and ")
+    );
+    let error = Diagnostic::new(Code::MissingDerive, message)
+        .at(
+            &module.file,
+            state.range.clone(),
+            "its state is recorded and restored",
+        )
+        .help(format!(
+            "write `#[derive({})]` above it",
+            state.missing_derives.join(", ")
+        ));
+    diagnostics.add(error);
+}
+
+fn report(module: &Module, mistakes: Vec<Mistake>, diagnostics: &mut Diagnostics) {
+    for mistake in mistakes {
+        let error = Diagnostic::new(code(mistake.rule), mistake.message)
+            .at(&module.file, range(mistake.span), "")
+            .help_if(mistake.help);
+        diagnostics.add(error);
+    }
+}
+
+fn code(rule: Rule) -> Code {
+    match rule {
+        Rule::AmbiguousNode | Rule::MissingNode => Code::MissingNode,
+        Rule::InvalidContext => Code::InvalidContext,
+        Rule::InvalidField | Rule::UnknownKind => Code::InvalidField,
+        Rule::InvalidName => Code::InvalidName,
+        Rule::InvalidPath => Code::InvalidPath,
+        Rule::InvalidSignature => Code::InvalidSignature,
+        Rule::MisplacedKind => Code::MisplacedKind,
+        Rule::OptionMismatch => Code::OptionMismatch,
+    }
+}
+
+/// The first sentence of `//!` lines.
+fn summary(attributes: &[Attribute]) -> Option<String> {
+    let lines = attributes
+        .iter()
+        .filter_map(|attribute| match &attribute.meta {
+            Meta::NameValue(meta) if meta.path.is_ident("doc") => match &meta.value {
+                Expr::Lit(ExprLit {
+                    lit: Lit::Str(text),
+                    ..
+                }) => Some(text.value()),
+                _ => None,
+            },
+            _ => None,
+        });
+    let paragraph: Vec<String> = lines
+        .map(|line| line.trim().to_owned())
+        .take_while(|line| !line.is_empty())
+        .collect();
+    let text = paragraph.join(" ");
+    let end = text.find(". ").map_or(text.len(), |end| end + 1);
+    (!text.is_empty()).then(|| text[..end].to_owned())
+}

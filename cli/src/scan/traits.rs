@@ -1,0 +1,178 @@
+//! Hardware traits: where they are, and whether they read.
+
+use std::rc::Rc;
+
+use syn::{Item, ItemTrait, PathArguments, ReturnType, TraitItem, Type, TypeParamBound};
+
+use super::library::Library;
+use super::lookup::{Found, ItemId};
+use super::module::Module;
+use super::types::written;
+use crate::diagnostics::listed;
+use crate::resolve::robot::Interface;
+
+/// A trait that a node asks of the hardware.
+#[derive(Clone, Debug)]
+pub struct HardwareTrait {
+    pub interface: Interface,
+    /// The trait, if generated code cannot name it.
+    pub private: Option<ItemId>,
+}
+
+/// Supertraits may lead in circles; no honest trait has more.
+const DEEPEST: usize = 8;
+
+/// Traits without methods that say nothing about hardware.
+const MARKERS: &[&str] = &["Send", "Sized", "Sync", "Unpin"];
+
+impl Library<'_> {
+    /// The trait of a bound that is written in a module; nothing for markers such as `Send`.
+    pub fn hardware_trait(&self, module: &Rc<Module>, bound: &syn::Path) -> Option<HardwareTrait> {
+        let known = |path: String, reading, private| {
+            Some(HardwareTrait {
+                interface: Interface { path, reading },
+                private,
+            })
+        };
+        match self.find(module, bound) {
+            Some(Found::Prelude(name)) if MARKERS.contains(&name.as_str()) => None,
+            Some(Found::Prelude(name)) => known(name, None, None),
+            Some(Found::Standard(path)) => known(format!("std::{}", path.join("::")), None, None),
+            Some(Found::Foreign(path)) => known(path.join("::"), None, None),
+            Some(Found::Item(item)) => {
+                let reading = self.is_reading(&item, 0);
+                match self.public_path(&item) {
+                    Some(path) => known(path, reading, None),
+                    None => known(item.path(), reading, Some(item)),
+                }
+            }
+            Some(Found::Module(_)) | None => known(written(bound), None, None),
+        }
+    }
+
+    /// Why `crate::Type` of a member names no type that others can name, and what to do; `None`: nothing is wrong.
+    pub fn missing_type(&self, path: &str) -> Option<(String, String)> {
+        let (modules, name) = path.rsplit_once("::")?;
+        let mut module = self.root(modules.split("::").next()?)?;
+        for part in modules.split("::").skip(1) {
+            let Some(below) = self.module_in(&module, part) else {
+                let near = crate::diagnostics::nearest(part, module.module_names());
+                let help = near.map_or_else(
+                    || {
+                        format!(
+                            "`{}` declares {}",
+                            module.path,
+                            listed(module.module_names())
+                        )
+                    },
+                    |near| format!("did you mean `{near}`?"),
+                );
+                return Some((
+                    format!("there is no module `{}::{part}`", module.path),
+                    help,
+                ));
+            };
+            module = below;
+        }
+        if let Some(found) = self.find(
+            &module,
+            &syn::Path::from(syn::parse_str::<syn::Ident>(name).ok()?),
+        ) {
+            let private = match &found {
+                Found::Item(item) => item.module.path == module.path && !item.public,
+                _ => false,
+            };
+            return private.then(|| {
+                (
+                    format!("`{path}` is private"),
+                    format!("write `pub` at `{name}`"),
+                )
+            });
+        }
+        // A macro may define it.
+        if module
+            .syntax
+            .items
+            .iter()
+            .any(|item| matches!(item, Item::Macro(_)))
+        {
+            return None;
+        }
+        let names = module.public_names();
+        let help = match crate::diagnostics::nearest(name, names.iter().map(String::as_str)) {
+            Some(near) => format!("did you mean `{modules}::{near}`?"),
+            None => format!("define `pub struct {name}` in `{}`", module.file),
+        };
+        Some((format!("`{modules}` has no `{name}`"), help))
+    }
+
+    /// Whether a method of the trait or of a trait that it asks for returns anything but nothing; `None` if that cannot
+    /// be known.
+    fn is_reading(&self, item: &ItemId, depth: usize) -> Option<bool> {
+        let Item::Trait(definition) = item.item() else {
+            return None;
+        };
+        if has_reading_method(definition) {
+            return Some(true);
+        }
+        let mut answer = Some(false);
+        for bound in &definition.supertraits {
+            let TypeParamBound::Trait(bound) = bound else {
+                continue;
+            };
+            match self.find(&item.module, &bound.path) {
+                Some(Found::Prelude(name)) if MARKERS.contains(&name.as_str()) => {}
+                Some(Found::Standard(_)) => {}
+                Some(Found::Item(above)) if depth < DEEPEST => {
+                    match self.is_reading(&above, depth + 1) {
+                        Some(true) => return Some(true),
+                        Some(false) => {}
+                        None => answer = None,
+                    }
+                }
+                _ => answer = None,
+            }
+        }
+        answer
+    }
+}
+
+fn has_reading_method(definition: &ItemTrait) -> bool {
+    definition.items.iter().any(|item| match item {
+        TraitItem::Fn(method) => match &method.sig.output {
+            ReturnType::Default => false,
+            ReturnType::Type(_, data) => !is_nothing(data) && !is_result_of_nothing(data),
+        },
+        _ => false,
+    })
+}
+
+fn is_nothing(data: &Type) -> bool {
+    match data {
+        Type::Tuple(tuple) => tuple.elems.is_empty(),
+        Type::Never(_) => true,
+        Type::Paren(paren) => is_nothing(&paren.elem),
+        _ => false,
+    }
+}
+
+/// `Result<()>`, whatever its error is, and whatever crate it comes from.
+fn is_result_of_nothing(data: &Type) -> bool {
+    let Type::Path(path) = data else {
+        return false;
+    };
+    let Some(last) = path
+        .path
+        .segments
+        .last()
+        .filter(|last| last.ident == "Result")
+    else {
+        return false;
+    };
+    match &last.arguments {
+        PathArguments::AngleBracketed(arguments) => arguments.args.first().is_some_and(
+            |argument| matches!(argument, syn::GenericArgument::Type(data) if is_nothing(data)),
+        ),
+        _ => false,
+    }
+}

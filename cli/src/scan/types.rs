@@ -1,0 +1,480 @@
+//! Types as an author wrote them, made absolute: what generated code names, and what can be compared.
+
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+use quote::ToTokens;
+use syn::{Expr, GenericArgument, GenericParam, Item, PathArguments, Type};
+
+use super::library::Library;
+use super::lookup::{Found, ItemId};
+use super::module::Module;
+
+/// A type with every name followed as far as possible.
+#[derive(Clone, Debug)]
+pub struct Resolved {
+    /// As generated code names it: absolute, prelude types by bare name, aliases of the workspace expanded.
+    pub text: String,
+    pub shape: Shape,
+    /// Items in it that generated code cannot name.
+    pub private: Vec<ItemId>,
+}
+
+/// What a type is, by definitions instead of names.
+#[derive(Clone, Debug)]
+pub enum Shape {
+    Named {
+        definition: Definition,
+        arguments: Vec<Resolved>,
+    },
+    Tuple(Vec<Resolved>),
+    /// Element and length.
+    Array(Box<Resolved>, Box<Resolved>),
+    Slice(Box<Resolved>),
+    Reference(Box<Resolved>),
+    /// A length or another constant argument.
+    Constant(String),
+    /// A name in it could not be followed, or it is nothing that data has.
+    Unknown,
+}
+
+/// Where a named type is defined.
+#[derive(Clone, Debug)]
+pub enum Definition {
+    /// Primitive, or of the standard prelude.
+    Prelude(String),
+    /// Below `std`, for example `time::Duration`.
+    Standard(String),
+    /// A struct, enum or union of the workspace.
+    Workspace(ItemId),
+    /// Below a crate outside of the workspace, as written there: perhaps a re-export or an alias.
+    Foreign(String),
+}
+
+/// Names of generic parameters and what they stand for.
+pub(super) type Substitutions = BTreeMap<String, Resolved>;
+
+/// Types of `std` that the prelude has, too.
+const PRELUDE_OF_STANDARD: &[(&str, &str)] = &[
+    ("boxed::Box", "Box"),
+    ("option::Option", "Option"),
+    ("result::Result", "Result"),
+    ("string::String", "String"),
+    ("vec::Vec", "Vec"),
+];
+
+/// Aliases may lead in circles; no honest alias is deeper.
+const DEEPEST: usize = 32;
+
+impl Resolved {
+    /// Whether every name in it was followed to its end.
+    pub fn is_known(&self) -> bool {
+        self.shape.is_known()
+    }
+
+    /// `U`, if this is an `Option<U>`.
+    pub fn option_argument(&self) -> Option<&Self> {
+        match &self.shape {
+            Shape::Named {
+                definition: Definition::Prelude(name),
+                arguments,
+            } if name == "Option" => arguments.first(),
+            _ => None,
+        }
+    }
+
+    /// Crates that its text names.
+    pub fn libraries(&self, found: &mut Vec<String>) {
+        if let Shape::Named { definition, .. } = &self.shape {
+            found.extend(definition.library().map(str::to_owned));
+        }
+        self.shape.parts().for_each(|part| part.libraries(found));
+    }
+
+    /// A type about which nothing is known.
+    pub fn opaque() -> Self {
+        Self::unknown("_".to_owned())
+    }
+
+    fn unknown(text: String) -> Self {
+        Self {
+            text,
+            shape: Shape::Unknown,
+            private: Vec::new(),
+        }
+    }
+
+    /// One from several: `text` and `shape` are made of the parts.
+    fn of(
+        parts: Vec<Self>,
+        text: impl Fn(&[String]) -> String,
+        shape: impl Fn(Vec<Self>) -> Shape,
+    ) -> Self {
+        let texts: Vec<String> = parts.iter().map(|part| part.text.clone()).collect();
+        let private = parts.iter().flat_map(|part| part.private.clone()).collect();
+        Self {
+            text: text(&texts),
+            shape: shape(parts),
+            private,
+        }
+    }
+}
+
+impl Shape {
+    fn is_known(&self) -> bool {
+        !matches!(self, Self::Unknown) && self.parts().all(Resolved::is_known)
+    }
+
+    /// Types and constants that it is made of.
+    fn parts(&self) -> impl Iterator<Item = &Resolved> {
+        let (list, first, second) = match self {
+            Self::Named {
+                arguments: list, ..
+            }
+            | Self::Tuple(list) => (list.as_slice(), None, None),
+            Self::Array(element, length) => (&[][..], Some(element), Some(length)),
+            Self::Slice(element) | Self::Reference(element) => (&[][..], Some(element), None),
+            Self::Constant(_) | Self::Unknown => (&[][..], None, None),
+        };
+        list.iter()
+            .chain(first.into_iter().chain(second).map(|part| &**part))
+    }
+}
+
+impl Definition {
+    fn library(&self) -> Option<&str> {
+        match self {
+            Self::Prelude(_) | Self::Standard(_) => None,
+            Self::Workspace(item) => Some(item.module.library()),
+            Self::Foreign(path) => path.split("::").next(),
+        }
+    }
+}
+
+impl Library<'_> {
+    /// The absolute form of a type that is written in a module.
+    pub fn resolve(&self, module: &Rc<Module>, data: &Type) -> Resolved {
+        self.resolve_with(module, data, &Substitutions::new(), 0)
+    }
+
+    /// A type from its absolute text, by the names that the module's crate knows.
+    pub fn resolve_absolute(&self, module: &Rc<Module>, text: &str) -> Resolved {
+        match (syn::parse_str(text), self.root(module.library())) {
+            (Ok(data), Some(root)) => self.resolve(&root, &data),
+            _ => Resolved::unknown(text.to_owned()),
+        }
+    }
+
+    pub(super) fn resolve_with(
+        &self,
+        module: &Rc<Module>,
+        data: &Type,
+        generics: &Substitutions,
+        depth: usize,
+    ) -> Resolved {
+        let inner = |data: &Type| self.resolve_with(module, data, generics, depth);
+        match data {
+            Type::Path(path) if path.qself.is_none() && depth < DEEPEST => {
+                self.resolve_path(module, &path.path, generics, depth)
+            }
+            Type::Tuple(tuple) => {
+                let parts = tuple.elems.iter().map(inner).collect();
+                Resolved::of(parts, tuple_text, Shape::Tuple)
+            }
+            Type::Array(array) => {
+                let parts = vec![inner(&array.elem), self.constant(module, &array.len)];
+                Resolved::of(
+                    parts,
+                    |texts| format!("[{}; {}]", texts[0], texts[1]),
+                    |shapes| pair(shapes, Shape::Array),
+                )
+            }
+            Type::Slice(slice) => Resolved::of(
+                vec![inner(&slice.elem)],
+                |texts| format!("[{}]", texts[0]),
+                |shapes| single(shapes, Shape::Slice),
+            ),
+            Type::Reference(reference) => {
+                let lifetime = reference.lifetime.as_ref().map(|one| format!("{one} "));
+                let lifetime = lifetime.unwrap_or_default();
+                let mutable = if reference.mutability.is_some() {
+                    "mut "
+                } else {
+                    ""
+                };
+                Resolved::of(
+                    vec![inner(&reference.elem)],
+                    |texts| format!("&{lifetime}{mutable}{}", texts[0]),
+                    |shapes| single(shapes, Shape::Reference),
+                )
+            }
+            Type::Paren(paren) => inner(&paren.elem),
+            Type::Group(group) => inner(&group.elem),
+            other => Resolved::unknown(written(other)),
+        }
+    }
+
+    fn resolve_path(
+        &self,
+        module: &Rc<Module>,
+        path: &syn::Path,
+        generics: &Substitutions,
+        depth: usize,
+    ) -> Resolved {
+        if let Some(ident) = path.get_ident()
+            && let Some(argument) = generics.get(&ident.to_string())
+        {
+            return argument.clone();
+        }
+        let Some(arguments) = self.arguments(module, path, generics, depth) else {
+            return Resolved::unknown(written(path));
+        };
+        match self.find(module, path) {
+            Some(Found::Item(item)) => self.resolve_item(&item, arguments, path, depth),
+            Some(Found::Prelude(name)) => named(name.clone(), Definition::Prelude(name), arguments),
+            Some(Found::Standard(path)) => {
+                let path = path.join("::");
+                let same = PRELUDE_OF_STANDARD
+                    .iter()
+                    .find(|(standard, _)| *standard == path);
+                match same {
+                    Some((_, name)) => named(
+                        (*name).to_owned(),
+                        Definition::Prelude((*name).to_owned()),
+                        arguments,
+                    ),
+                    None => named(
+                        format!("std::{path}"),
+                        Definition::Standard(path),
+                        arguments,
+                    ),
+                }
+            }
+            Some(Found::Foreign(path)) => {
+                let path = path.join("::");
+                named(path.clone(), Definition::Foreign(path), arguments)
+            }
+            Some(Found::Module(_)) | None => Resolved::unknown(written(path)),
+        }
+    }
+
+    /// A struct, enum or union by its public path; an alias by what it stands for.
+    fn resolve_item(
+        &self,
+        item: &ItemId,
+        arguments: Vec<Resolved>,
+        path: &syn::Path,
+        depth: usize,
+    ) -> Resolved {
+        match item.item() {
+            Item::Struct(_) | Item::Enum(_) | Item::Union(_) => {
+                let public = self.public_path(item);
+                let text = public.clone().unwrap_or_else(|| item.path());
+                let mut resolved = named(text, Definition::Workspace(item.clone()), arguments);
+                if public.is_none() {
+                    resolved.private.push(item.clone());
+                }
+                resolved
+            }
+            Item::Type(alias) => {
+                let Some(generics) = substitutions(&alias.generics, arguments) else {
+                    return Resolved::unknown(written(path));
+                };
+                let expanded = self.resolve_with(&item.module, &alias.ty, &generics, depth + 1);
+                match self.public_path(item) {
+                    // What the alias stands for is hidden, the alias is not.
+                    Some(text) if !expanded.private.is_empty() && generics.is_empty() => Resolved {
+                        text,
+                        shape: expanded.shape,
+                        private: Vec::new(),
+                    },
+                    _ => expanded,
+                }
+            }
+            _ => Resolved::unknown(written(path)),
+        }
+    }
+
+    /// Types and constants between `<` and `>`; `None` if something else stands there.
+    fn arguments(
+        &self,
+        module: &Rc<Module>,
+        path: &syn::Path,
+        generics: &Substitutions,
+        depth: usize,
+    ) -> Option<Vec<Resolved>> {
+        let last = path.segments.len().checked_sub(1)?;
+        let mut found = Vec::new();
+        for (index, segment) in path.segments.iter().enumerate() {
+            match &segment.arguments {
+                PathArguments::None => {}
+                PathArguments::AngleBracketed(list) if index == last => {
+                    for argument in &list.args {
+                        found.push(match argument {
+                            GenericArgument::Type(data) => {
+                                self.type_or_constant(module, data, generics, depth)
+                            }
+                            GenericArgument::Const(value) => self.constant(module, value),
+                            _ => return None,
+                        });
+                    }
+                }
+                _ => return None,
+            }
+        }
+        Some(found)
+    }
+
+    /// An argument that is one name may be a constant.
+    fn type_or_constant(
+        &self,
+        module: &Rc<Module>,
+        data: &Type,
+        generics: &Substitutions,
+        depth: usize,
+    ) -> Resolved {
+        if let Type::Path(path) = data
+            && path.qself.is_none()
+            && let Some(Found::Item(item)) = self.find(module, &path.path)
+            && matches!(item.item(), Item::Const(_))
+        {
+            return self.constant_item(&item);
+        }
+        self.resolve_with(module, data, generics, depth)
+    }
+
+    fn constant(&self, module: &Rc<Module>, value: &Expr) -> Resolved {
+        if let Some(number) = number(value) {
+            return Resolved {
+                shape: Shape::Constant(number.clone()),
+                text: number,
+                private: Vec::new(),
+            };
+        }
+        let value = match value {
+            Expr::Block(block) => match block.block.stmts.as_slice() {
+                [syn::Stmt::Expr(value, None)] => value,
+                _ => value,
+            },
+            value => value,
+        };
+        if let Expr::Path(path) = value
+            && let Some(Found::Item(item)) = self.find(module, &path.path)
+        {
+            return self.constant_item(&item);
+        }
+        Resolved::unknown(written(value))
+    }
+
+    /// A constant by its number, where its definition is one.
+    fn constant_item(&self, item: &ItemId) -> Resolved {
+        let Item::Const(constant) = item.item() else {
+            return Resolved::unknown(item.path());
+        };
+        let public = self.public_path(item);
+        match (number(&constant.expr), public) {
+            (Some(number), Some(text)) => Resolved {
+                text,
+                shape: Shape::Constant(number),
+                private: Vec::new(),
+            },
+            (Some(number), None) => Resolved {
+                text: number.clone(),
+                shape: Shape::Constant(number),
+                private: Vec::new(),
+            },
+            (None, Some(text)) => Resolved::unknown(text),
+            (None, None) => Resolved {
+                text: item.path(),
+                shape: Shape::Unknown,
+                private: vec![item.clone()],
+            },
+        }
+    }
+}
+
+/// What the parameters of an alias or a struct stand for; `None` if their numbers differ.
+pub(super) fn substitutions(
+    generics: &syn::Generics,
+    arguments: Vec<Resolved>,
+) -> Option<Substitutions> {
+    let names: Vec<String> = generics
+        .params
+        .iter()
+        .filter_map(|parameter| match parameter {
+            GenericParam::Type(parameter) => Some(parameter.ident.to_string()),
+            GenericParam::Const(parameter) => Some(parameter.ident.to_string()),
+            GenericParam::Lifetime(_) => None,
+        })
+        .collect();
+    (names.len() == arguments.len()).then(|| names.into_iter().zip(arguments).collect())
+}
+
+fn named(name: String, definition: Definition, arguments: Vec<Resolved>) -> Resolved {
+    Resolved::of(
+        arguments,
+        |texts| {
+            if texts.is_empty() {
+                name.clone()
+            } else {
+                format!("{name}<{}>", texts.join(", "))
+            }
+        },
+        |arguments| Shape::Named {
+            definition: definition.clone(),
+            arguments,
+        },
+    )
+}
+
+fn tuple_text(texts: &[String]) -> String {
+    match texts {
+        [only] => format!("({only},)"),
+        several => format!("({})", several.join(", ")),
+    }
+}
+
+fn single(parts: Vec<Resolved>, shape: fn(Box<Resolved>) -> Shape) -> Shape {
+    parts
+        .into_iter()
+        .next()
+        .map_or(Shape::Unknown, |inner| shape(Box::new(inner)))
+}
+
+fn pair(parts: Vec<Resolved>, shape: fn(Box<Resolved>, Box<Resolved>) -> Shape) -> Shape {
+    let mut parts = parts.into_iter();
+    match (parts.next(), parts.next()) {
+        (Some(first), Some(second)) => shape(Box::new(first), Box::new(second)),
+        _ => Shape::Unknown,
+    }
+}
+
+/// An integer without its suffix, a bool, or a character.
+fn number(value: &Expr) -> Option<String> {
+    let Expr::Lit(literal) = value else {
+        return None;
+    };
+    match &literal.lit {
+        syn::Lit::Int(number) => Some(number.base10_digits().to_owned()),
+        syn::Lit::Bool(_) | syn::Lit::Char(_) => Some(written(literal)),
+        _ => None,
+    }
+}
+
+/// Tokens as an author would write them.
+pub(super) fn written(tokens: &impl ToTokens) -> String {
+    let mut text = tokens.to_token_stream().to_string();
+    for (spaced, tight) in [
+        (" :: ", "::"),
+        (":: ", "::"),
+        (" < ", "<"),
+        ("< ", "<"),
+        (" >", ">"),
+        (" ,", ","),
+        (" ;", ";"),
+        ("& ", "&"),
+    ] {
+        text = text.replace(spaced, tight);
+    }
+    text
+}

@@ -1,0 +1,118 @@
+use super::*;
+use crate::model::tests::{node, real_time, robot};
+
+/// Paths of a cycler's nodes in the order they run.
+fn order_of(robot: &Robot) -> Vec<&str> {
+    let mut diagnostics = Diagnostics::new();
+    let schedule = schedule(robot, &mut diagnostics).expect("the robot has no ring");
+    let nodes = &robot.cyclers[0].nodes;
+    schedule.cyclers[0].order.iter().map(|node| nodes[*node].path.as_str()).collect()
+}
+
+#[test]
+fn nodes_without_reason_keep_the_order_of_the_manifest() {
+    let robot = robot(vec![real_time("Control").node(node("b")).setup(node("s")).node(node("a"))]);
+    assert_eq!(order_of(&robot), ["s", "b", "a"]);
+}
+
+#[test]
+fn the_first_ready_node_of_the_manifest_runs_next() {
+    let robot = robot(vec![
+        real_time("Control")
+            .node(node("late").input("x", "f32", "x"))
+            .node(node("other"))
+            .node(node("writer").output("x", "f32"))
+            .node(node("last")),
+    ]);
+    assert_eq!(order_of(&robot), ["other", "writer", "late", "last"]);
+}
+
+#[test]
+fn historic_inputs_order_and_previous_inputs_do_not() {
+    let robot = robot(vec![
+        real_time("Control")
+            .node(node("historic").historic("x", "f32", "x"))
+            .node(node("previous").previous("x", "f32", "x"))
+            .node(node("writer").previous("y", "f32", "x").output("x", "f32")),
+    ]);
+    assert_eq!(order_of(&robot), ["previous", "writer", "historic"]);
+}
+
+#[test]
+fn readers_of_a_state_run_after_its_writers_who_keep_their_order() {
+    let robot = robot(vec![
+        real_time("Control")
+            .node(node("reader").reads_state("x", "f32", "filter.gain"))
+            .node(node("second").state("x", "f32", "filter.gain"))
+            .node(node("first").state("x", "types::Filter", "other")),
+    ]);
+    assert_eq!(order_of(&robot), ["second", "reader", "first"]);
+}
+
+#[test]
+fn between_setup_nodes_and_nodes_state_orders_nothing() {
+    let robot = robot(vec![
+        real_time("Control")
+            .setup(node("setup").reads_state("x", "f32", "gain"))
+            .node(node("writer").state("x", "f32", "gain")),
+    ]);
+    assert_eq!(order_of(&robot), ["setup", "writer"]);
+}
+
+#[test]
+fn edges_keep_the_field_that_caused_them() {
+    let robot = robot(vec![
+        real_time("Control")
+            .node(node("writer").output("x", "Option<f32>"))
+            .node(node("reader").cycle_time("time").required("x", "Option<f32>", "x?")),
+    ]);
+    let schedule = schedule(&robot, &mut Diagnostics::new()).expect("the robot has no ring");
+    let edge = Edge { from: 0, to: 1, reason: Reason::RequiredInput, field: 1, path: "x?".to_owned() };
+    assert_eq!(schedule.cyclers[0].reasons(1).collect::<Vec<_>>(), [&edge]);
+    assert_eq!(schedule.cyclers[0].place(1), Some(1));
+}
+
+/// The messages and the places of all rings.
+fn rings_of(robot: &Robot) -> Vec<String> {
+    let mut diagnostics = Diagnostics::new();
+    schedule(robot, &mut diagnostics).expect_err("the robot has a ring");
+    let text = |one: &&crate::diagnostics::Diagnostic| {
+        let places: Vec<String> =
+            one.spans.iter().map(|span| format!("{}: {}", span.file, span.text)).collect();
+        format!("{}\n{}", one.message, places.join("\n"))
+    };
+    diagnostics.sorted().iter().map(text).collect()
+}
+
+#[test]
+fn a_ring_is_told_whole_with_the_field_of_every_edge() {
+    let robot = robot(vec![
+        real_time("Control")
+            .node(node("control::a").input("z", "f32", "z").output("x", "f32"))
+            .node(node("control::b").historic("x", "f32", "x").state("s", "f32", "s"))
+            .node(node("control::c").reads_state("s", "f32", "s").output("z", "f32"))
+            .node(node("control::d").input("z", "f32", "z")),
+    ]);
+    assert_eq!(
+        rings_of(&robot),
+        ["nodes of cycler `Control` wait for each other: \
+          `control::a` → `control::b` → `control::c` → `control::a`\n\
+          control/b.rs: `control::b` reads `x` after `control::a` wrote it\n\
+          control/c.rs: `control::c` reads the state `s` after `control::b` wrote it\n\
+          control/a.rs: `control::a` reads `z` after `control::c` wrote it"]
+    );
+}
+
+#[test]
+fn every_ring_is_told_also_the_smallest() {
+    let robot = robot(vec![
+        real_time("Control")
+            .node(node("a").input("x", "f32", "x").output("x", "f32"))
+            .node(node("b").input("z", "f32", "z").output("y", "f32"))
+            .node(node("c").input("y", "f32", "y").output("z", "f32")),
+    ]);
+    let rings = rings_of(&robot);
+    assert_eq!(rings.len(), 2);
+    assert!(rings[0].contains("`a` → `a`"), "{}", rings[0]);
+    assert!(rings[1].contains("`b` → `c` → `b`"), "{}", rings[1]);
+}

@@ -1,0 +1,146 @@
+//! The door in: the only part of hulkgen that reads files of the robot's workspace.
+//!
+//! Paths are relative to the workspace root and use `/`. Every text that was read is kept, so that diagnostics can show
+//! it later, also if the file has changed meanwhile.
+//!
+//! Invariant: the generated crate is never looked at to understand the robot, so it may be missing or hold anything.
+
+mod disk;
+mod glob;
+mod members;
+mod memory;
+
+use std::cell::{OnceCell, RefCell};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use camino::{Utf8Path, Utf8PathBuf};
+
+use disk::Disk;
+use memory::Memory;
+
+pub use members::{Member, Members};
+
+/// Name of the manifest at the workspace root.
+pub const MANIFEST: &str = "hulk.toml";
+
+/// A robot's workspace, on disk or in memory.
+#[derive(Debug)]
+pub struct Workspace {
+    files: Files,
+    texts: RefCell<BTreeMap<Utf8PathBuf, Arc<str>>>,
+    members: OnceCell<Members>,
+}
+
+#[derive(Debug)]
+enum Files {
+    Disk(Disk),
+    Memory(Memory),
+}
+
+/// A file that cannot be read.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("cannot read `{file}`: {reason}")]
+pub struct ReadError {
+    /// Relative to the workspace root.
+    pub file: Utf8PathBuf,
+    pub reason: String,
+    /// The file does not exist, as opposed to one that exists and cannot be read.
+    pub missing: bool,
+}
+
+/// There is no robot here.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("no `hulk.toml` in `{start}` or any folder above it")]
+pub struct NoManifest {
+    pub start: Utf8PathBuf,
+}
+
+impl Workspace {
+    /// The workspace whose `hulk.toml` lies in `start` or the nearest folder above it.
+    pub fn open(start: &Utf8Path) -> Result<Self, NoManifest> {
+        let disk = Disk::above(start, MANIFEST).ok_or_else(|| NoManifest {
+            start: start.to_owned(),
+        })?;
+        Ok(Self::new(Files::Disk(disk)))
+    }
+
+    /// The workspace whose root is this folder, whether it has a manifest or not.
+    pub fn at_root(root: &Utf8Path) -> Self {
+        Self::new(Files::Disk(Disk::new(root)))
+    }
+
+    /// A workspace of these files, for tests; paths are relative to its root.
+    pub fn in_memory<P, T>(files: impl IntoIterator<Item = (P, T)>) -> Self
+    where
+        P: Into<Utf8PathBuf>,
+        T: Into<String>,
+    {
+        Self::new(Files::Memory(Memory::new(files)))
+    }
+
+    fn new(files: Files) -> Self {
+        Self {
+            files,
+            texts: RefCell::default(),
+            members: OnceCell::new(),
+        }
+    }
+
+    /// The root folder; empty for a workspace in memory.
+    pub fn root(&self) -> &Utf8Path {
+        match &self.files {
+            Files::Disk(disk) => disk.root(),
+            Files::Memory(_) => Utf8Path::new(""),
+        }
+    }
+
+    /// The text of a file, read once.
+    pub fn read(&self, file: &Utf8Path) -> Result<Arc<str>, ReadError> {
+        if let Some(text) = self.text(file) {
+            return Ok(text);
+        }
+        let text = match &self.files {
+            Files::Disk(disk) => disk.read(file),
+            Files::Memory(memory) => memory.read(file),
+        }?;
+        self.texts
+            .borrow_mut()
+            .insert(file.to_owned(), text.clone());
+        Ok(text)
+    }
+
+    /// The text of a file that was read before, as it was then.
+    pub fn text(&self, file: &Utf8Path) -> Option<Arc<str>> {
+        self.texts.borrow().get(file).cloned()
+    }
+
+    /// Every file that was read so far, sorted: what the answer depends on.
+    pub fn read_files(&self) -> Vec<Utf8PathBuf> {
+        self.texts.borrow().keys().cloned().collect()
+    }
+
+    /// Whether this is a file.
+    pub fn is_file(&self, file: &Utf8Path) -> bool {
+        match &self.files {
+            Files::Disk(disk) => disk.is_file(file),
+            Files::Memory(memory) => memory.is_file(file),
+        }
+    }
+
+    /// Files and folders directly in a folder, sorted; none if there is no such folder.
+    pub fn list(&self, folder: &Utf8Path) -> Vec<Utf8PathBuf> {
+        match &self.files {
+            Files::Disk(disk) => disk.list(folder),
+            Files::Memory(memory) => memory.list(folder),
+        }
+    }
+
+    /// The packages of the workspace and what the root says about dependencies, read once and without cargo.
+    pub fn members(&self) -> &Members {
+        self.members.get_or_init(|| Members::read(self))
+    }
+}
+
+#[cfg(test)]
+mod tests;

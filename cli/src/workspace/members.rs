@@ -1,0 +1,287 @@
+//! Packages of a workspace, read from Cargo.toml files without cargo.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use camino::{Utf8Path, Utf8PathBuf};
+
+use super::{Workspace, glob};
+
+/// The packages of a workspace, and what the root says about dependencies.
+#[derive(Debug, Default)]
+pub struct Members {
+    /// Packages with a library, by its name as written in `use`.
+    libraries: BTreeMap<String, Member>,
+    /// `[workspace.dependencies]` of the root.
+    shared: Dependencies,
+    /// Keys of the root's `[workspace.package]`, sorted: packages may inherit them.
+    pub inherited: Vec<String>,
+    /// Cargo.toml files that cannot be read or parsed; the generated crate's may be among them.
+    pub broken: Vec<BrokenPackage>,
+}
+
+/// A package of the workspace that has a library.
+#[derive(Clone, Debug)]
+pub struct Member {
+    /// Name in `[package]`.
+    pub package: String,
+    /// Name as written in `use`.
+    pub library: String,
+    /// The package's folder; empty for a package at the root.
+    pub folder: Utf8PathBuf,
+    /// The library's first file, usually `src/lib.rs`.
+    pub root_file: Utf8PathBuf,
+    dependencies: Dependencies,
+}
+
+/// A Cargo.toml that hulkgen cannot use.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct BrokenPackage {
+    pub file: Utf8PathBuf,
+    pub range: Range<usize>,
+    pub message: String,
+}
+
+/// A dependency table: crate name as written in `use` → key and right side.
+type Dependencies = BTreeMap<String, Entry>;
+
+#[derive(Clone, Debug)]
+struct Entry {
+    key: String,
+    requirement: String,
+    /// `path`, relative to the package's folder.
+    path: Option<String>,
+    workspace: bool,
+}
+
+impl Members {
+    pub(super) fn read(workspace: &Workspace) -> Self {
+        let mut members = Self::default();
+        let Some(root) = members.parse(workspace, Utf8Path::new("Cargo.toml")) else {
+            return members;
+        };
+        let mut folders: Vec<Utf8PathBuf> = Vec::new();
+        if root.contains_key("package") {
+            folders.push(Utf8PathBuf::new());
+        }
+        if let Some(table) = root.get("workspace").and_then(toml::Value::as_table) {
+            let excluded = patterns(workspace, table, "exclude");
+            folders.extend(patterns(workspace, table, "members"));
+            folders.retain(|folder| !excluded.contains(folder));
+            members.shared = dependencies(table, "dependencies");
+            let inherited = table.get("package").and_then(toml::Value::as_table);
+            members.inherited = inherited
+                .into_iter()
+                .flatten()
+                .map(|(key, _)| key.clone())
+                .collect();
+            members.inherited.sort();
+        }
+        for folder in folders {
+            members.add(workspace, folder);
+        }
+        members.name_shared_libraries();
+        members
+    }
+
+    /// The package whose library has this name.
+    pub fn library(&self, name: &str) -> Option<&Member> {
+        self.libraries.get(name)
+    }
+
+    /// Every package with a library, sorted by the library's name.
+    pub fn libraries(&self) -> impl Iterator<Item = &Member> {
+        self.libraries.values()
+    }
+
+    /// Whether the root's `[workspace.dependencies]` has a crate of this name.
+    pub fn is_shared(&self, library: &str) -> bool {
+        self.shared.contains_key(library)
+    }
+
+    /// The line for `[dependencies]` of a package in `from` that makes a crate known as `library`: key and right side.
+    ///
+    /// The root's `[workspace.dependencies]` come first, then the path of a member, then what one of the packages
+    /// `users` (libraries' names) asks for. `None`: nobody says where the crate comes from.
+    pub fn requirement(
+        &self,
+        library: &str,
+        from: &Utf8Path,
+        users: &[&str],
+    ) -> Option<(String, String)> {
+        if let Some(entry) = self.shared.get(library) {
+            return Some((entry.key.clone(), "{ workspace = true }".to_owned()));
+        }
+        if let Some(member) = self.libraries.get(library) {
+            let path = relative(from, &member.folder);
+            return Some((member.package.clone(), format!("{{ path = \"{path}\" }}")));
+        }
+        users
+            .iter()
+            .filter_map(|user| self.libraries.get(*user))
+            .find_map(|user| {
+                let entry = user
+                    .dependencies
+                    .get(library)
+                    .filter(|entry| !entry.workspace)?;
+                let requirement = match &entry.path {
+                    None => entry.requirement.clone(),
+                    Some(path) => {
+                        let moved = relative(from, &normalized(&user.folder.join(path)));
+                        let path = |path: &str| format!("\"{path}\"");
+                        entry
+                            .requirement
+                            .replace(&path(entry.path.as_deref()?), &path(moved.as_str()))
+                    }
+                };
+                Some((entry.key.clone(), requirement))
+            })
+    }
+
+    fn parse(&mut self, workspace: &Workspace, file: &Utf8Path) -> Option<toml::Table> {
+        let broken = |range, message: String| BrokenPackage {
+            file: file.to_owned(),
+            range,
+            message,
+        };
+        let text = match workspace.read(file) {
+            Ok(text) => text,
+            Err(error) => {
+                self.broken.push(broken(0..0, error.to_string()));
+                return None;
+            }
+        };
+        match toml::from_str(&text) {
+            Ok(table) => Some(table),
+            Err(error) => {
+                let range = error.span().unwrap_or(0..0);
+                self.broken.push(broken(range, error.message().to_owned()));
+                None
+            }
+        }
+    }
+
+    fn add(&mut self, workspace: &Workspace, folder: Utf8PathBuf) {
+        let Some(package) = self.parse(workspace, &folder.join("Cargo.toml")) else {
+            return;
+        };
+        if let Some(member) = Member::new(workspace, folder, &package) {
+            self.libraries.insert(member.library.clone(), member);
+        }
+    }
+
+    /// A shared dependency on a member is known by the member's library name unless the root renames it.
+    fn name_shared_libraries(&mut self) {
+        let by_folder: BTreeMap<&Utf8Path, &Member> = self
+            .libraries
+            .values()
+            .map(|member| (member.folder.as_path(), member))
+            .collect();
+        let named = std::mem::take(&mut self.shared)
+            .into_iter()
+            .map(|(name, entry)| {
+                let member = entry
+                    .path
+                    .as_deref()
+                    .and_then(|path| by_folder.get(normalized(Utf8Path::new(path)).as_path()));
+                match member {
+                    Some(member) if member.package == entry.key => (member.library.clone(), entry),
+                    _ => (name, entry),
+                }
+            });
+        // A package may stand there twice, once by its own name and once renamed: the shorter key is kept.
+        let mut shared = Dependencies::new();
+        for (name, entry) in named {
+            match shared.get(&name) {
+                Some(other) if other.key.len() <= entry.key.len() => {}
+                _ => {
+                    shared.insert(name, entry);
+                }
+            }
+        }
+        self.shared = shared;
+    }
+}
+
+impl Member {
+    /// `None`: the package has no library.
+    fn new(workspace: &Workspace, folder: Utf8PathBuf, package: &toml::Table) -> Option<Self> {
+        let name = package.get("package")?.get("name")?.as_str()?.to_owned();
+        let library = package.get("lib");
+        let library_name = library
+            .and_then(|library| library.get("name")?.as_str())
+            .map_or_else(|| name.replace('-', "_"), str::to_owned);
+        let path = library.and_then(|library| library.get("path")?.as_str());
+        let root_file = folder.join(path.unwrap_or("src/lib.rs"));
+        workspace.is_file(&root_file).then(|| Self {
+            package: name,
+            library: library_name,
+            root_file,
+            dependencies: dependencies(package, "dependencies"),
+            folder,
+        })
+    }
+
+    /// Crates that the package names in `[dependencies]`, as written in `use`.
+    pub fn dependencies(&self) -> impl Iterator<Item = &str> {
+        self.dependencies.keys().map(String::as_str)
+    }
+}
+
+impl Entry {
+    fn new(key: &str, value: &toml::Value) -> (String, Self) {
+        let text = |name: &str| value.get(name).and_then(toml::Value::as_str);
+        let workspace = value.get("workspace").and_then(toml::Value::as_bool);
+        let entry = Self {
+            key: key.to_owned(),
+            requirement: value.to_string(),
+            path: text("path").map(str::to_owned),
+            workspace: workspace.unwrap_or(false),
+        };
+        (key.replace('-', "_"), entry)
+    }
+}
+
+fn dependencies(table: &toml::Table, name: &str) -> Dependencies {
+    let entries = table.get(name).and_then(toml::Value::as_table);
+    let entries = entries.into_iter().flatten();
+    entries.map(|(key, value)| Entry::new(key, value)).collect()
+}
+
+/// The folders that `members` or `exclude` names, in the order of the list.
+fn patterns(workspace: &Workspace, table: &toml::Table, name: &str) -> Vec<Utf8PathBuf> {
+    let list = table.get(name).and_then(toml::Value::as_array);
+    let strings = list.into_iter().flatten().filter_map(toml::Value::as_str);
+    strings
+        .flat_map(|pattern| glob::expand(workspace, pattern))
+        .collect()
+}
+
+/// The way from one folder to another, both relative to the workspace root.
+fn relative(from: &Utf8Path, to: &Utf8Path) -> Utf8PathBuf {
+    let from: Vec<&str> = from.components().map(|part| part.as_str()).collect();
+    let to: Vec<&str> = to.components().map(|part| part.as_str()).collect();
+    let shared = from.iter().zip(&to).take_while(|(a, b)| a == b).count();
+    let up = from[shared..].iter().map(|_| "..");
+    let way: Utf8PathBuf = up.chain(to[shared..].iter().copied()).collect();
+    if way.as_str().is_empty() {
+        ".".into()
+    } else {
+        way
+    }
+}
+
+/// Without `.` and with every `..` taken back.
+fn normalized(path: &Utf8Path) -> Utf8PathBuf {
+    let mut parts: Vec<&str> = Vec::new();
+    for part in path.components().map(|part| part.as_str()) {
+        match part {
+            "." => {}
+            ".." => {
+                parts.pop();
+            }
+            part => parts.push(part),
+        }
+    }
+    parts.into_iter().collect()
+}

@@ -1,0 +1,116 @@
+use camino::Utf8Path;
+
+use super::{Workspace, glob};
+
+fn workspace(files: &[(&str, &str)]) -> Workspace {
+    Workspace::in_memory(files.iter().copied())
+}
+
+const ROOT: (&str, &str) = (
+    "Cargo.toml",
+    r#"
+        [workspace]
+        members = ["generated", "robotics/*"]
+        exclude = ["robotics/old"]
+        [workspace.dependencies]
+        my-types = { path = "robotics/types" }
+        serde = "1"
+    "#,
+);
+
+#[test]
+fn a_pattern_of_stars_and_question_marks_fits_names() {
+    for (pattern, name, fits) in [
+        ("*", "vision", true),
+        ("v*n", "vision", true),
+        ("v*x", "vision", false),
+        ("visio?", "vision", true),
+        ("?", "", false),
+        ("*", "", true),
+    ] {
+        assert_eq!(glob::matches(pattern, name), fits, "{pattern} {name}");
+    }
+}
+
+#[test]
+fn members_are_found_by_the_name_of_their_library() {
+    let workspace = workspace(&[
+        ROOT,
+        ("generated/Cargo.toml", "<<<<<<< HEAD"),
+        (
+            "robotics/types/Cargo.toml",
+            "[package]\nname = \"my-types\"",
+        ),
+        ("robotics/types/src/lib.rs", ""),
+        (
+            "robotics/eyes/Cargo.toml",
+            "[package]\nname = \"eyes\"\n[lib]\nname = \"vision\"\npath = \"seeing.rs\"\n\
+             [dependencies]\nnalgebra = { version = \"0.35\", features = [\"serde-serialize\"] }",
+        ),
+        ("robotics/eyes/seeing.rs", ""),
+        ("robotics/old/Cargo.toml", "[package]\nname = \"old\""),
+        ("robotics/old/src/lib.rs", ""),
+    ]);
+    let members = workspace.members();
+    let names: Vec<&str> = members
+        .libraries()
+        .map(|one| one.library.as_str())
+        .collect();
+    assert_eq!(names, ["my_types", "vision"]);
+    assert_eq!(
+        members.library("vision").unwrap().root_file,
+        "robotics/eyes/seeing.rs"
+    );
+    assert_eq!(members.broken.len(), 1);
+    assert_eq!(members.broken[0].file, "generated/Cargo.toml");
+}
+
+#[test]
+fn a_dependency_comes_from_the_root_then_a_member_then_a_user() {
+    let workspace = workspace(&[
+        ROOT,
+        (
+            "robotics/types/Cargo.toml",
+            "[package]\nname = \"my-types\"",
+        ),
+        ("robotics/types/src/lib.rs", ""),
+        (
+            "robotics/vision/Cargo.toml",
+            "[package]\nname = \"vision\"\n[dependencies]\n\
+             ordered-float = \"5\"\nown = { path = \"../../own\" }\nserde = { workspace = true }",
+        ),
+        ("robotics/vision/src/lib.rs", ""),
+    ]);
+    let requirement = |library| {
+        let line =
+            workspace
+                .members()
+                .requirement(library, Utf8Path::new("generated"), &["vision"]);
+        line.map(|(key, requirement)| format!("{key} = {requirement}"))
+    };
+    for (library, line) in [
+        ("my_types", "my-types = { workspace = true }"),
+        ("serde", "serde = { workspace = true }"),
+        ("vision", "vision = { path = \"../robotics/vision\" }"),
+        ("ordered_float", "ordered-float = \"5\""),
+        ("own", "own = { path = \"../own\" }"),
+    ] {
+        assert_eq!(requirement(library).as_deref(), Some(line));
+    }
+    assert_eq!(requirement("unknown"), None);
+}
+
+#[test]
+fn a_text_is_kept_as_it_was_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let root = Utf8Path::from_path(folder.path()).unwrap();
+    std::fs::write(root.join("hulk.toml"), "first").unwrap();
+    std::fs::create_dir_all(root.join("a/b")).unwrap();
+    let workspace = Workspace::open(&root.join("a/b")).unwrap();
+    let manifest = Utf8Path::new("hulk.toml");
+    assert_eq!(workspace.text(manifest), None);
+    assert_eq!(&*workspace.read(manifest).unwrap(), "first");
+    std::fs::write(root.join("hulk.toml"), "second").unwrap();
+    assert_eq!(&*workspace.read(manifest).unwrap(), "first");
+    assert!(workspace.read(Utf8Path::new("other")).unwrap_err().missing);
+}

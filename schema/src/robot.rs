@@ -1,0 +1,79 @@
+//! The manifest as a whole, the robot, and its targets.
+
+use camino::Utf8PathBuf;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::cycler::Cycler;
+use crate::length::Size;
+use crate::spelling::{HardwarePath, IdentityName, RobotName, TargetName};
+
+/// `hulk.toml`: a robot, its cyclers with their nodes, and the targets it runs on.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Manifest {
+    /// The robot.
+    pub robot: Robot,
+    /// Nodes that a driver runs again and again.
+    #[serde(default)]
+    pub cycler: Vec<Cycler>,
+    /// Binaries with their hardware; the first is the default.
+    #[serde(default)]
+    pub target: Vec<Target>,
+}
+
+/// The robot: its name and its folders.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Robot {
+    /// Name of the robot in snake_case; the generated package is called `<name>_runtime`.
+    pub name: RobotName,
+    /// Folder of the generated crate, relative to the workspace root.
+    #[serde(default = "generated")]
+    #[schemars(with = "String")]
+    pub generated: Utf8PathBuf,
+    /// Folder of the parameter files, relative to the workspace root.
+    #[serde(default = "parameters")]
+    #[schemars(with = "String")]
+    pub parameters: Utf8PathBuf,
+    /// Parts of the robot that report an id each, for example `body` and `head`: parameter layers, in this order.
+    #[serde(default)]
+    pub identities: Vec<IdentityName>,
+    /// How much a robot keeps of its recordings before the oldest are overwritten, for example "2GiB".
+    #[serde(default = "recording_budget")]
+    pub recording_budget: Size,
+}
+
+/// A binary with its hardware: `generated/src/bin/<name>.rs` behind the feature `target-<name>`.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Target {
+    /// Name of the target; lower case, hyphens allowed.
+    pub name: TargetName,
+    /// Path of the type that serves the hardware traits, for example `simulated_nao::Hardware`.
+    pub hardware: HardwarePath,
+    /// Target triple, perhaps with a version of glibc: `x86_64-unknown-linux-gnu.2.28`. Left out: the host.
+    #[serde(default)]
+    pub triple: Option<String>,
+    /// CPU to compile for, as in `-C target-cpu`.
+    #[serde(default)]
+    pub cpu: Option<String>,
+    /// Cargo profile. Left out: `release`.
+    #[serde(default)]
+    pub profile: Option<String>,
+    /// Default location of its parameters: a folder below the robot's `parameters`.
+    #[serde(default)]
+    pub location: Option<String>,
+}
+
+fn generated() -> Utf8PathBuf {
+    "generated".into()
+}
+
+fn parameters() -> Utf8PathBuf {
+    "parameters".into()
+}
+
+fn recording_budget() -> Size {
+    Size::from_gibibytes(2)
+}
