@@ -1,0 +1,22 @@
+//! The robot `nao` on target `simulated`.
+//!
+//! Written by `hulkgen generate` from hulk.toml and the nodes it names. Do not edit.
+
+use std::process::ExitCode;
+
+use framework::Target;
+use framework::launch;
+use nao_runtime::runtime;
+use simulated_nao::Hardware;
+
+const TARGET: Target = Target {
+    robot: "nao",
+    name: "simulated",
+    parameters: "robotics/parameters",
+    location: Some("simulated"),
+    identities: &["body", "head"],
+};
+
+fn main() -> ExitCode {
+    launch::main::<Hardware, _>(TARGET, runtime::create)
+}

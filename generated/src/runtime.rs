@@ -1,0 +1,175 @@
+//! Instances, what connects them, and how to create them.
+//!
+//! Written by `hulkgen generate` from hulk.toml and the nodes it names. Do not edit.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use framework::Access;
+use framework::Consumer;
+use framework::Cycler;
+use framework::History;
+use framework::Horizon;
+use framework::Injector;
+use framework::Interleaving;
+use framework::Result;
+use framework::Robot;
+use framework::Start;
+use framework::Subscriptions;
+use framework::Swap;
+use framework::buffer;
+use framework::buffer_of;
+use framework::procedure;
+use hardware::ActuatorInterface;
+use hardware::CameraInterface;
+use hardware::SensorInterface;
+
+use crate::cyclers;
+use crate::databases;
+use crate::parameters::Parameters;
+
+pub mod control;
+pub mod vision;
+
+/// All instances in manifest order, connected and ready for a driver.
+pub fn create<Hardware>(
+    hardware: &Arc<Hardware>,
+    start: Start<Parameters>,
+) -> Result<Robot<Parameters>>
+where
+    Hardware: ActuatorInterface + CameraInterface + SensorInterface + Send + Sync
+        + 'static,
+{
+    // Readers of the newest cycle on the left, queues of consumers on the right.
+    let (vision_top_writer, [], [vision_top_queue_for_control]) = buffer([32]);
+    let (vision_bottom_writer, [], [vision_bottom_queue_for_control]) = buffer([32]);
+    let (control_writer, [control_for_vision_top, control_for_vision_bottom], []) = buffer([]);
+    let (
+        parameters,
+        [parameters_for_vision_top,
+        parameters_for_vision_bottom,
+        parameters_for_control,
+        ],
+        [],
+    ) = buffer_of(|| start.parameters.clone(), []);
+
+    // What clients write, listen to and call.
+    let (vision_top_injections, [vision_top_injected], []) = buffer([]);
+    let vision_top_subscriptions = Subscriptions::new(&["ball_candidates"]);
+    let (vision_bottom_injections, [vision_bottom_injected], []) = buffer([]);
+    let vision_bottom_subscriptions = Subscriptions::new(&["ball_candidates"]);
+    let (control_injections, [control_injected], []) = buffer([]);
+    let control_subscriptions = Subscriptions::new(
+        &[
+            "ball_memory.persistent_ball",
+            "foot_pressure.sole_pressures",
+            "orientation_filter.innovation",
+        ],
+    );
+    let (control_look_at, control_look_at_answerer) = procedure();
+
+    let vision_top = Cycler::new(
+        vision::VISION_TOP,
+        vision::Vision {
+            nodes: cyclers::vision::Nodes::new()?,
+            additional_outputs: databases::vision::AdditionalOutputs::default(),
+            capture_time: None,
+            hardware_interface: hardware.clone(),
+            injections: vision_top_injected,
+            own: Swap::default(),
+            parameters: parameters_for_vision_top,
+            subscribed: databases::vision::Subscribed::default(),
+            subscriptions: vision_top_subscriptions.clone(),
+            control: control_for_vision_top,
+            select: |parameters| &parameters.vision_top,
+        },
+        vision_top_writer,
+        start.clock.clone(),
+    );
+
+    let vision_bottom = Cycler::new(
+        vision::VISION_BOTTOM,
+        vision::Vision {
+            nodes: cyclers::vision::Nodes::new()?,
+            additional_outputs: databases::vision::AdditionalOutputs::default(),
+            capture_time: None,
+            hardware_interface: hardware.clone(),
+            injections: vision_bottom_injected,
+            own: Swap::default(),
+            parameters: parameters_for_vision_bottom,
+            subscribed: databases::vision::Subscribed::default(),
+            subscriptions: vision_bottom_subscriptions.clone(),
+            control: control_for_vision_bottom,
+            select: |parameters| &parameters.vision_bottom,
+        },
+        vision_bottom_writer,
+        start.clock.clone(),
+    );
+
+    let control = Cycler::new(
+        control::CONTROL,
+        control::Control {
+            nodes: cyclers::control::Nodes::new()?,
+            additional_outputs: databases::control::AdditionalOutputs::default(),
+            capture_time: None,
+            cycler_state: databases::control::CyclerState::default(),
+            hardware_interface: hardware.clone(),
+            historic: databases::control::Historic {
+                orientation: History::new(Duration::from_secs(1)),
+            },
+            injections: control_injected,
+            own: Swap::default(),
+            parameters: parameters_for_control,
+            perception: databases::control::Perception {
+                horizon: Horizon::new(),
+                vision: Interleaving::new(),
+                vision_top: Consumer::new(
+                    vision_top_queue_for_control,
+                    Duration::from_secs(1),
+                ),
+                vision_bottom: Consumer::new(
+                    vision_bottom_queue_for_control,
+                    Duration::from_secs(1),
+                ),
+            },
+            procedures: databases::control::Procedures {
+                look_at: control_look_at_answerer,
+            },
+            subscribed: databases::control::Subscribed::default(),
+            subscriptions: control_subscriptions.clone(),
+        },
+        control_writer,
+        start.clock.clone(),
+    );
+
+    Ok(Robot {
+        name: "nao",
+        clock: start.clock,
+        instances: vec![
+            Box::new(vision_top),
+            Box::new(vision_bottom),
+            Box::new(control),
+        ],
+        access: vec![
+            Access {
+                instance: "VisionTop",
+                subscriptions: vision_top_subscriptions,
+                injector: Box::new(Injector::new(vision_top_injections)),
+                procedures: Vec::new(),
+            },
+            Access {
+                instance: "VisionBottom",
+                subscriptions: vision_bottom_subscriptions,
+                injector: Box::new(Injector::new(vision_bottom_injections)),
+                procedures: Vec::new(),
+            },
+            Access {
+                instance: "Control",
+                subscriptions: control_subscriptions,
+                injector: Box::new(Injector::new(control_injections)),
+                procedures: vec![("look_at", Box::new(control_look_at))],
+            },
+        ],
+        parameters,
+    })
+}
