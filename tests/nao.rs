@@ -1,0 +1,90 @@
+//! The NAO in lockstep: the whole generated robot on the simulated body, with the truth beside it.
+
+use std::sync::Arc;
+
+use framework::driver::lockstep::Lockstep;
+use framework::parameters::Layers;
+use framework::robot::{Robot, Start};
+use framework::{Clock, Hardware as _, HardwareContext, Instance, Stop, Timestamp};
+use nao_runtime::parameters::Parameters;
+use nao_runtime::runtime;
+use simulated_nao::Hardware;
+use types::ball::BallCandidate;
+use types::camera::{CameraMatrix, CameraPosition};
+
+use crate::root;
+
+/// The instances of Vision and the camera of each.
+pub const CAMERAS: [(&str, CameraPosition); 2] =
+    [("VisionTop", CameraPosition::Top), ("VisionBottom", CameraPosition::Bottom)];
+
+/// A robot in its world, before its first cycle.
+pub struct Nao {
+    pub hardware: Arc<Hardware>,
+    pub robot: Robot<Parameters>,
+}
+
+impl Nao {
+    /// With these options of the simulated hardware and these settings of parameters (`a.b`, `value`).
+    pub fn new(options: &[&str], settings: &[(&str, &str)]) -> Self {
+        let parameters = Layers {
+            directory: root().join("robotics/parameters"),
+            location: Some("simulated".to_owned()),
+            settings: settings
+                .iter()
+                .map(|(path, value)| ((*path).to_owned(), (*value).to_owned()))
+                .collect(),
+            ..Layers::default()
+        }
+        .load()
+        .expect("the parameters of the repository are complete");
+        let (clock, stop) = (Clock::stepped(), Stop::default());
+        let hardware = Hardware::new(HardwareContext {
+            options: options.iter().map(|option| (*option).to_owned()).collect(),
+            table: parameters.hardware("simulated").expect("a table or nothing"),
+            run_folder: std::env::temp_dir(),
+            clock: clock.clone(),
+            stop: stop.clone(),
+        })
+        .expect("the simulated NAO needs nothing but a socket");
+        let hardware = Arc::new(hardware);
+        let parameters = parameters.deserialize().expect("the parameters fit the nodes");
+        let robot = runtime::create(&hardware, Start { clock, stop, parameters })
+            .expect("every node can be created");
+        Self { hardware, robot }
+    }
+
+    /// Runs for `seconds` of virtual time; `observe` sees every instance after each finished cycle.
+    pub fn run(&mut self, seconds: f64, mut observe: impl FnMut(&Hardware, &dyn Instance)) {
+        let end = Timestamp::from_nanos((seconds * 1e9) as u64);
+        let hardware = self.hardware.clone();
+        Lockstep::new(&mut self.robot, &*self.hardware)
+            .run_until(end, |instance| observe(&hardware, instance))
+            .expect("the robot does not stop");
+    }
+}
+
+/// A main output of the instance's last finished cycle.
+pub fn output<T: serde::de::DeserializeOwned>(instance: &dyn Instance, name: &str) -> T {
+    let value = instance
+        .main_output(name)
+        .unwrap_or_else(|| panic!("{} has no `{name}`", instance.description().name));
+    let value = serde_json::to_value(value.as_serialize()).expect("outputs serialise");
+    serde_json::from_value(value).expect("what was written can be read")
+}
+
+/// The camera matrix that Vision used in its last cycle.
+pub fn camera_matrix(instance: &dyn Instance) -> Option<CameraMatrix> {
+    output(instance, "camera_matrix")
+}
+
+/// The balls that Vision saw in its last cycle, best first.
+pub fn balls(instance: &dyn Instance) -> Vec<BallCandidate> {
+    output(instance, "balls")
+}
+
+/// The camera of an instance of Vision.
+pub fn camera_of(instance: &dyn Instance) -> Option<CameraPosition> {
+    let name = instance.description().name;
+    CAMERAS.iter().find(|(instance, _)| *instance == name).map(|(_, camera)| *camera)
+}

@@ -1,0 +1,4 @@
+//! Listens for whistles.
+
+pub mod ear;
+pub mod whistle;

@@ -1,0 +1,5 @@
+//! Shows what the robot does.
+
+pub mod cycle;
+pub mod lamp;
+pub mod setup;

@@ -1,0 +1,4 @@
+//! Faster than thinking.
+
+pub mod bumper;
+pub mod flinch;

@@ -1,0 +1,3 @@
+//! Nodes of several cyclers.
+
+pub mod counter;

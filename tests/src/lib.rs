@@ -1,1 +1,0 @@
-//! hulkgen-tests

@@ -1,0 +1,133 @@
+//! What the tests of this crate share: where the repository is, and its own source files.
+
+pub mod nao;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use hulkgen::workspace::Workspace;
+
+/// The root of the repository.
+pub fn root() -> PathBuf {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).parent();
+    folder.expect("the crate lies in the repository").to_owned()
+}
+
+/// A source file by its path relative to the root.
+pub struct Source {
+    pub path: String,
+    pub text: String,
+}
+
+/// Every file with this ending below the folders, sorted; build output and fixtures' generated crates included.
+pub fn sources(folders: &[&str], ending: &str) -> Vec<Source> {
+    let root = root();
+    let mut found = Vec::new();
+    for folder in folders {
+        collect(&root, &root.join(folder), ending, &mut found);
+    }
+    found.sort_by(|left, right| left.path.cmp(&right.path));
+    assert!(!found.is_empty(), "no {ending} files below {folders:?}");
+    found
+}
+
+fn collect(root: &Path, folder: &Path, ending: &str, found: &mut Vec<Source>) {
+    let entries = fs::read_dir(folder)
+        .unwrap_or_else(|error| panic!("{} cannot be listed: {error}", folder.display()));
+    for entry in entries {
+        let path = entry.expect("an entry of a folder that was just listed").path();
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        if path.is_dir() {
+            if name != "target" && name != "node_modules" && !name.starts_with('.') {
+                collect(root, &path, ending, found);
+            }
+        } else if name.ends_with(ending) {
+            let text = fs::read_to_string(&path)
+                .unwrap_or_else(|error| panic!("{} cannot be read: {error}", path.display()));
+            let path = path.strip_prefix(root).expect("it lies below the root");
+            found.push(Source { path: path.to_string_lossy().into_owned(), text });
+        }
+    }
+}
+
+/// Says that a test was skipped and what it needs; a failure where everything is required.
+pub fn skip(name: &str, install: &str) {
+    assert!(
+        std::env::var_os("HULKGEN_REQUIRE_ALL").is_none(),
+        "{name} may not be skipped here: {install}"
+    );
+    println!("SKIPPED {name}: {install}");
+}
+
+/// The fixture robots under `tests/robots/` that live in memory only, by name.
+pub const FIXTURES: &[&str] = &[
+    "cycler_state",
+    "perception_and_real_time",
+    "required_input",
+    "smallest",
+    "two_instances",
+];
+
+/// The workspace of a fixture robot: its manifest, and one crate `nodes` of its node files.
+pub fn fixture(name: &str) -> Workspace {
+    Workspace::in_memory(fixture_files(name))
+}
+
+/// The same as path and text, for tests that change a file first.
+pub fn fixture_files(name: &str) -> Vec<(String, String)> {
+    workspace_files(&format!("tests/robots/{name}"))
+}
+
+/// A folder with `hulk.toml`, `nodes/*.rs` and perhaps `parameters/*.toml`, as a whole workspace.
+pub fn workspace_files(folder: &str) -> Vec<(String, String)> {
+    let below = |path: &str| path.trim_start_matches(folder).trim_start_matches('/').to_owned();
+    let mut files = vec![
+        ("Cargo.toml".to_owned(), WORKSPACE.to_owned()),
+        ("nodes/Cargo.toml".to_owned(), NODES.to_owned()),
+    ];
+    let mut modules = String::new();
+    for source in sources(&[folder], ".rs") {
+        let path = below(&source.path).replace("nodes/", "nodes/src/");
+        let module = path.trim_start_matches("nodes/src/").trim_end_matches(".rs");
+        modules.push_str(&format!("pub mod {module};\n"));
+        files.push((path, source.text));
+    }
+    modules.push_str("pub struct Hardware;\n");
+    files.push(("nodes/src/lib.rs".to_owned(), modules));
+    for source in sources(&[folder], ".toml") {
+        files.push((below(&source.path), source.text));
+    }
+    files
+}
+
+const WORKSPACE: &str = r#"[workspace]
+members = ["generated", "nodes"]
+
+[workspace.package]
+version = "0.1.0"
+edition = "2024"
+
+[workspace.dependencies]
+framework = { package = "hulkgen-framework", version = "0.1.0" }
+nodes = { path = "nodes" }
+serde = { version = "1", features = ["derive"] }
+"#;
+
+const NODES: &str = r#"[package]
+name = "nodes"
+version.workspace = true
+edition.workspace = true
+
+[dependencies]
+framework.workspace = true
+serde.workspace = true
+"#;
+
+/// The first comment of a fixture's manifest: what the robot is there to show.
+pub fn purpose(name: &str) -> String {
+    let path = root().join("tests/robots").join(name).join("hulk.toml");
+    let manifest = fs::read_to_string(&path)
+        .unwrap_or_else(|error| panic!("{} cannot be read: {error}", path.display()));
+    let first = manifest.lines().next().unwrap_or_default();
+    first.trim_start_matches("# ").to_owned()
+}

@@ -1,0 +1,142 @@
+//! The rules of deny.toml, and how many crates hulkgen may need.
+
+use std::process::Command;
+
+use serde_json::Value;
+use support::root;
+
+fn cargo(arguments: &[&str]) -> String {
+    let output = Command::new(env!("CARGO"))
+        .args(arguments)
+        .current_dir(root())
+        .output()
+        .expect("cargo can be started");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).expect("cargo prints UTF-8")
+}
+
+fn packages() -> Vec<Value> {
+    let metadata: Value =
+        serde_json::from_str(&cargo(&["metadata", "--format-version", "1", "--locked"]))
+            .expect("cargo prints JSON");
+    metadata["packages"].as_array().expect("packages are a list").clone()
+}
+
+fn rules() -> toml::Table {
+    let text = std::fs::read_to_string(root().join("deny.toml")).expect("deny.toml is there");
+    text.parse().expect("deny.toml is TOML")
+}
+
+#[test]
+fn every_licence_is_allowed() {
+    let rules = rules();
+    let allowed: Vec<_> = rules["licenses"]["allow"]
+        .as_array()
+        .expect("a list")
+        .iter()
+        .filter_map(|licence| licence.as_str())
+        .collect();
+    let refused: Vec<_> = packages()
+        .iter()
+        .filter(|package| {
+            let expression = package["license"].as_str().unwrap_or_default();
+            !is_allowed(expression, &allowed)
+        })
+        .map(|package| format!("{} {}: {}", package["name"], package["version"], package["license"]))
+        .collect();
+    assert!(refused.is_empty(), "{refused:#?}");
+}
+
+/// Whether an SPDX expression of `OR`s and `AND`s can be met by allowed licences.
+fn is_allowed(expression: &str, allowed: &[&str]) -> bool {
+    let expression = expression.trim();
+    if let Some(inner) = expression.strip_prefix('(').and_then(|rest| rest.strip_suffix(')'))
+        && !inner.contains('(')
+    {
+        return is_allowed(inner, allowed);
+    }
+    for (operator, all) in [(" AND ", true), (" OR ", false), ("/", false)] {
+        let parts = split_outside_parentheses(expression, operator);
+        if parts.len() > 1 {
+            let mut met = parts.into_iter().map(|part| is_allowed(part, allowed));
+            return if all { met.all(|met| met) } else { met.any(|met| met) };
+        }
+    }
+    allowed.contains(&expression)
+}
+
+fn split_outside_parentheses<'a>(expression: &'a str, operator: &str) -> Vec<&'a str> {
+    let mut parts = Vec::new();
+    let (mut start, mut depth) = (0, 0);
+    for (position, character) in expression.char_indices() {
+        match character {
+            '(' => depth += 1,
+            ')' => depth -= 1,
+            _ if depth == 0 && position >= start && expression[position..].starts_with(operator) => {
+                parts.push(&expression[start..position]);
+                start = position + operator.len();
+            }
+            _ => {}
+        }
+    }
+    parts.push(&expression[start..]);
+    parts
+}
+
+#[test]
+fn licence_expressions_are_understood() {
+    let allowed = ["MIT", "Apache-2.0", "Unicode-3.0"];
+    for (expression, expected) in [
+        ("MIT OR Apache-2.0", true),
+        ("MIT/Apache-2.0", true),
+        ("GPL-3.0", false),
+        ("GPL-3.0 OR MIT", true),
+        ("(MIT OR GPL-3.0) AND Unicode-3.0", true),
+        ("(GPL-3.0 OR LGPL-3.0) AND Unicode-3.0", false),
+        ("MIT AND GPL-3.0", false),
+        ("", false),
+    ] {
+        assert_eq!(is_allowed(expression, &allowed), expected, "{expression}");
+    }
+}
+
+#[test]
+fn no_denied_crate_is_used() {
+    let rules = rules();
+    let denied: Vec<_> = rules["bans"]["deny"]
+        .as_array()
+        .expect("a list")
+        .iter()
+        .filter_map(|rule| rule["name"].as_str())
+        .collect();
+    for package in packages() {
+        let name = package["name"].as_str().expect("a package has a name");
+        assert!(!denied.contains(&name), "{name} is denied by deny.toml");
+    }
+}
+
+#[test]
+fn every_crate_comes_from_the_registry_or_the_workspace() {
+    for package in packages() {
+        let source = package["source"].as_str().unwrap_or("path");
+        let known = source == "path" || source.starts_with("registry+");
+        assert!(known, "{} comes from {source}", package["name"]);
+    }
+}
+
+#[test]
+fn hulkgen_needs_fewer_than_120_crates() {
+    let tree = cargo(&["tree", "--locked", "-p", "hulkgen", "-e", "normal", "--prefix", "none"]);
+    let mut crates: Vec<_> = tree.lines().filter_map(|line| line.split_whitespace().next()).collect();
+    crates.sort_unstable();
+    crates.dedup();
+    assert!(crates.contains(&"syn") && crates.len() < 120, "{} crates: {crates:?}", crates.len());
+}
+
+#[test]
+fn hulkgen_does_not_contain_the_robot() {
+    let tree = cargo(&["tree", "--locked", "-p", "hulkgen", "-e", "normal", "--prefix", "none"]);
+    for robot in ["nalgebra", "hulkgen-framework ", "nao_runtime"] {
+        assert!(!tree.contains(robot), "hulkgen links {robot}");
+    }
+}
