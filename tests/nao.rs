@@ -15,8 +15,10 @@ use types::camera::{CameraMatrix, CameraPosition};
 use crate::root;
 
 /// The instances of Vision and the camera of each.
-pub const CAMERAS: [(&str, CameraPosition); 2] =
-    [("VisionTop", CameraPosition::Top), ("VisionBottom", CameraPosition::Bottom)];
+pub const CAMERAS: [(&str, CameraPosition); 2] = [
+    ("VisionTop", CameraPosition::Top),
+    ("VisionBottom", CameraPosition::Bottom),
+];
 
 /// A robot in its world, before its first cycle.
 pub struct Nao {
@@ -41,16 +43,27 @@ impl Nao {
         let (clock, stop) = (Clock::stepped(), Stop::default());
         let hardware = Hardware::new(HardwareContext {
             options: options.iter().map(|option| (*option).to_owned()).collect(),
-            table: parameters.hardware("simulated").expect("a table or nothing"),
+            table: parameters
+                .hardware("simulated")
+                .expect("a table or nothing"),
             run_folder: std::env::temp_dir(),
             clock: clock.clone(),
             stop: stop.clone(),
         })
         .expect("the simulated NAO needs nothing but a socket");
         let hardware = Arc::new(hardware);
-        let parameters = parameters.deserialize().expect("the parameters fit the nodes");
-        let robot = runtime::create(&hardware, Start { clock, stop, parameters })
-            .expect("every node can be created");
+        let parameters = parameters
+            .deserialize()
+            .expect("the parameters fit the nodes");
+        let robot = runtime::create(
+            &hardware,
+            Start {
+                clock,
+                stop,
+                parameters,
+            },
+        )
+        .expect("every node can be created");
         Self { hardware, robot }
     }
 
@@ -86,5 +99,8 @@ pub fn balls(instance: &dyn Instance) -> Vec<BallCandidate> {
 /// The camera of an instance of Vision.
 pub fn camera_of(instance: &dyn Instance) -> Option<CameraPosition> {
     let name = instance.description().name;
-    CAMERAS.iter().find(|(instance, _)| *instance == name).map(|(_, camera)| *camera)
+    CAMERAS
+        .iter()
+        .find(|(instance, _)| *instance == name)
+        .map(|(_, camera)| *camera)
 }

@@ -35,8 +35,14 @@ fn collect(root: &Path, folder: &Path, ending: &str, found: &mut Vec<Source>) {
     let entries = fs::read_dir(folder)
         .unwrap_or_else(|error| panic!("{} cannot be listed: {error}", folder.display()));
     for entry in entries {
-        let path = entry.expect("an entry of a folder that was just listed").path();
-        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let path = entry
+            .expect("an entry of a folder that was just listed")
+            .path();
+        let name = path
+            .file_name()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .into_owned();
         if path.is_dir() {
             if name != "target" && name != "node_modules" && !name.starts_with('.') {
                 collect(root, &path, ending, found);
@@ -45,7 +51,10 @@ fn collect(root: &Path, folder: &Path, ending: &str, found: &mut Vec<Source>) {
             let text = fs::read_to_string(&path)
                 .unwrap_or_else(|error| panic!("{} cannot be read: {error}", path.display()));
             let path = path.strip_prefix(root).expect("it lies below the root");
-            found.push(Source { path: path.to_string_lossy().into_owned(), text });
+            found.push(Source {
+                path: path.to_string_lossy().into_owned(),
+                text,
+            });
         }
     }
 }
@@ -80,7 +89,11 @@ pub fn fixture_files(name: &str) -> Vec<(String, String)> {
 
 /// A folder with `hulk.toml`, `nodes/*.rs` and perhaps `parameters/*.toml`, as a whole workspace.
 pub fn workspace_files(folder: &str) -> Vec<(String, String)> {
-    let below = |path: &str| path.trim_start_matches(folder).trim_start_matches('/').to_owned();
+    let below = |path: &str| {
+        path.trim_start_matches(folder)
+            .trim_start_matches('/')
+            .to_owned()
+    };
     let mut files = vec![
         ("Cargo.toml".to_owned(), WORKSPACE.to_owned()),
         ("nodes/Cargo.toml".to_owned(), NODES.to_owned()),
@@ -88,7 +101,9 @@ pub fn workspace_files(folder: &str) -> Vec<(String, String)> {
     let mut modules = String::new();
     for source in sources(&[folder], ".rs") {
         let path = below(&source.path).replace("nodes/", "nodes/src/");
-        let module = path.trim_start_matches("nodes/src/").trim_end_matches(".rs");
+        let module = path
+            .trim_start_matches("nodes/src/")
+            .trim_end_matches(".rs");
         modules.push_str(&format!("pub mod {module};\n"));
         files.push((path, source.text));
     }

@@ -232,3 +232,26 @@ pub struct Run {
     #[arg(last = true, value_name = "OPTIONS")]
     pub options: Vec<OsString>,
 }
+
+#[cfg(test)]
+mod tests {
+    use clap::{CommandFactory as _, Parser as _};
+
+    use super::{Arguments, Command};
+
+    #[test]
+    fn the_command_line_is_well_formed() {
+        Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn what_follows_two_hyphens_belongs_to_the_hardware() {
+        let words = ["hulkgen", "run", "--", "--for", "nothing"];
+        let parsed = Arguments::try_parse_from(words).expect("it is right usage");
+        let Command::Run(run) = parsed.command else {
+            panic!("it is `run`")
+        };
+        assert_eq!((run.target, run.duration), (None, None));
+        assert_eq!(run.options, ["--for", "nothing"]);
+    }
+}

@@ -43,8 +43,13 @@ pub struct Changed {
 /// A file or folder that cannot be read or written.
 #[derive(Debug, thiserror::Error)]
 pub enum DriftError {
+    /// What was to be done, and why it could not be.
     #[error("cannot {deed} `{path}`")]
-    Io { deed: &'static str, path: Utf8PathBuf, source: io::Error },
+    Io {
+        deed: &'static str,
+        path: Utf8PathBuf,
+        source: io::Error,
+    },
     /// Orphans would be removed from a folder that belongs to somebody else.
     #[error("`{folder}` cannot be the generated folder: {reason}")]
     NotOwned { folder: Utf8PathBuf, reason: String },
@@ -99,10 +104,19 @@ impl Drift {
     /// Everything that differs: a unified diff for each changed file, the names of all others.
     pub fn diff(&self) -> String {
         let mut text = String::new();
-        for Changed { path, before, after } in &self.changed {
+        for Changed {
+            path,
+            before,
+            after,
+        } in &self.changed
+        {
             let diff = TextDiff::from_lines(before, after);
             let (old, new) = (format!("a/{path}"), format!("b/{path}"));
-            let _ = write!(text, "{}", diff.unified_diff().context_radius(3).header(&old, &new));
+            let _ = write!(
+                text,
+                "{}",
+                diff.unified_diff().context_radius(3).header(&old, &new)
+            );
         }
         for path in &self.added {
             let _ = writeln!(text, "missing: {path}");
@@ -120,19 +134,33 @@ impl Drift {
         lines.extend(self.changed.iter().map(|changed| (&changed.path, '~')));
         lines.extend(self.orphaned.iter().map(|path| (path, '-')));
         lines.sort();
-        lines.into_iter().map(|(path, mark)| format!("{mark} {path}\n")).collect()
+        lines
+            .into_iter()
+            .map(|(path, mark)| format!("{mark} {path}\n"))
+            .collect()
     }
 }
 
 /// Only a folder of its own below the root may be cleaned.
 fn own(root: &Utf8Path, folder: &Utf8Path) -> Result<(), DriftError> {
-    let not_owned = |reason: String| DriftError::NotOwned { folder: folder.to_owned(), reason };
-    let below = folder.components().all(|part| matches!(part, camino::Utf8Component::Normal(_)));
+    let not_owned = |reason: String| DriftError::NotOwned {
+        folder: folder.to_owned(),
+        reason,
+    };
+    let below = folder
+        .components()
+        .all(|part| matches!(part, camino::Utf8Component::Normal(_)));
     if folder.as_str().is_empty() || !below {
-        return Err(not_owned("it is no folder below the workspace root".to_owned()));
+        return Err(not_owned(
+            "it is no folder below the workspace root".to_owned(),
+        ));
     }
-    let found = MARKS_OF_OTHERS.iter().find(|mark| root.join(folder).join(mark).exists());
-    found.map_or(Ok(()), |mark| Err(not_owned(format!("there is `{mark}` in it"))))
+    let found = MARKS_OF_OTHERS
+        .iter()
+        .find(|mark| root.join(folder).join(mark).exists());
+    found.map_or(Ok(()), |mark| {
+        Err(not_owned(format!("there is `{mark}` in it")))
+    })
 }
 
 #[cfg(test)]

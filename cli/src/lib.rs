@@ -19,17 +19,17 @@
 //! Invariants: only `workspace` reads files of the robot and only `drift` writes them. The same input gives the same
 //! bytes: nothing depends on hash maps, clocks, the environment or the order in which files are found.
 
-pub mod diagnostics;
-pub mod manifest;
-pub mod resolve;
-pub mod scan;
-pub mod workspace;
-pub mod schedule;
-pub mod model;
-pub mod render;
-pub mod drift;
-pub mod pipeline;
-pub mod graph;
 pub mod arguments;
 pub mod commands;
+pub mod diagnostics;
+pub mod drift;
+pub mod graph;
+pub mod manifest;
+pub mod model;
 pub mod outcome;
+pub mod pipeline;
+pub mod render;
+pub mod resolve;
+pub mod scan;
+pub mod schedule;
+pub mod workspace;

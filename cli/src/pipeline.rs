@@ -17,8 +17,17 @@ pub struct Understood {
     pub schedule: Schedule,
 }
 
-/// Stages ① to ④: everything that can be wrong with a manifest and its nodes.
+/// Stages ① to ④: everything that can be wrong with a manifest, its nodes and its parameter files.
 pub fn understand(
+    workspace: &Workspace,
+    diagnostics: &mut Diagnostics,
+) -> Result<Understood, Reported> {
+    let understood = bind_and_order(workspace, diagnostics);
+    diagnostics.silence(workspace);
+    understood
+}
+
+fn bind_and_order(
     workspace: &Workspace,
     diagnostics: &mut Diagnostics,
 ) -> Result<Understood, Reported> {
@@ -27,7 +36,6 @@ pub fn understand(
     let robot = resolve::resolve(workspace, &manifest, &sources, diagnostics)?;
     let schedule = schedule::schedule(&robot, diagnostics)?;
     parameter_files::check(workspace, &manifest, &sources, &robot, diagnostics);
-    diagnostics.silence(workspace);
     Ok(Understood { robot, schedule })
 }
 

@@ -33,13 +33,25 @@ pub type GeneratedFiles = BTreeMap<Utf8PathBuf, String>;
 /// Renders every file of the generated crate.
 pub fn render(model: &RuntimeModel) -> GeneratedFiles {
     let mut files = BTreeMap::from([
-        ("Cargo.toml".to_owned(), templates::render_package(&model.package)),
-        ("DATAFLOW.md".to_owned(), templates::render_dataflow(&model.dataflow)),
+        (
+            "Cargo.toml".to_owned(),
+            templates::render_package(&model.package),
+        ),
+        (
+            "DATAFLOW.md".to_owned(),
+            templates::render_dataflow(&model.dataflow),
+        ),
         ("src/lib.rs".to_owned(), render_library(model)),
-        ("src/parameters.rs".to_owned(), parameters::render_parameters(&model.parameters)),
+        (
+            "src/parameters.rs".to_owned(),
+            parameters::render_parameters(&model.parameters),
+        ),
         (
             "src/databases.rs".to_owned(),
-            render_modules("What the cyclers write and what their nodes see.", &model.cyclers),
+            render_modules(
+                "What the cyclers write and what their nodes see.",
+                &model.cyclers,
+            ),
         ),
         (
             "src/cyclers.rs".to_owned(),
@@ -49,19 +61,37 @@ pub fn render(model: &RuntimeModel) -> GeneratedFiles {
     ]);
     for cycler in &model.cyclers {
         let module = &cycler.module;
-        files.insert(format!("src/databases/{module}.rs"), database::render_database(cycler));
-        files.insert(format!("src/cyclers/{module}.rs"), nodes::render_nodes(cycler));
-        files.insert(format!("src/runtime/{module}.rs"), body::render_body(cycler, &model.runtime));
+        files.insert(
+            format!("src/databases/{module}.rs"),
+            database::render_database(cycler),
+        );
+        files.insert(
+            format!("src/cyclers/{module}.rs"),
+            nodes::render_nodes(cycler),
+        );
+        files.insert(
+            format!("src/runtime/{module}.rs"),
+            body::render_body(cycler, &model.runtime),
+        );
     }
     for binary in &model.binaries {
-        files.insert(format!("src/bin/{}.rs", binary.name), binary::render_binary(binary));
+        files.insert(
+            format!("src/bin/{}.rs", binary.name),
+            binary::render_binary(binary),
+        );
     }
-    files.into_iter().map(|(path, text)| (model.folder.join(path), text)).collect()
+    files
+        .into_iter()
+        .map(|(path, text)| (model.folder.join(path), text))
+        .collect()
 }
 
 /// `lib.rs`: modules in the order in which one reads them.
 fn render_library(model: &RuntimeModel) -> String {
-    let title = format!("The robot `{}`: its parameters, databases, cyclers and runtime.", model.robot);
+    let title = format!(
+        "The robot `{}`: its parameters, databases, cyclers and runtime.",
+        model.robot
+    );
     let modules = quote! {
         #[rustfmt::skip]
         pub mod parameters;
@@ -77,7 +107,10 @@ fn render_library(model: &RuntimeModel) -> String {
 
 /// A file that only lists one module for each cycler, sorted.
 fn render_modules(title: &str, cyclers: &[CyclerModel]) -> String {
-    let mut modules: Vec<&str> = cyclers.iter().map(|cycler| cycler.module.as_str()).collect();
+    let mut modules: Vec<&str> = cyclers
+        .iter()
+        .map(|cycler| cycler.module.as_str())
+        .collect();
     modules.sort_unstable();
     let modules = modules.into_iter().map(ident);
     layout::rust_file(title, &[], quote!(#(pub mod #modules;)*))

@@ -47,8 +47,11 @@ pub struct Edge {
 /// The kind of field that makes one node run after another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Reason {
+    /// This cycle's value.
     Input,
+    /// This cycle's value, which must be present.
     RequiredInput,
+    /// Values by time, this cycle's included.
     HistoricInput,
     /// A `CyclerState` that is only read runs after the nodes that write it.
     CyclerState,
@@ -79,7 +82,10 @@ pub fn schedule(robot: &Robot, diagnostics: &mut Diagnostics) -> Result<Schedule
         for ring in rings::rings(&graph) {
             reported = Some(diagnostics.fail(rings::describe(cycler, &ring)));
         }
-        cyclers.push(CyclerSchedule { order: order(cycler, &graph), edges });
+        cyclers.push(CyclerSchedule {
+            order: order(cycler, &graph),
+            edges,
+        });
     }
     match reported {
         Some(reported) => Err(reported),
@@ -95,7 +101,11 @@ fn graph(cycler: &Cycler, edges: &[Edge]) -> Graph {
         graph.add_node(node);
     }
     for edge in edges {
-        graph.add_edge(NodeIndex::new(edge.from), NodeIndex::new(edge.to), edge.clone());
+        graph.add_edge(
+            NodeIndex::new(edge.from),
+            NodeIndex::new(edge.to),
+            edge.clone(),
+        );
     }
     graph
 }

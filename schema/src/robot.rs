@@ -29,11 +29,11 @@ pub struct Robot {
     /// Name of the robot in snake_case; the generated package is called `<name>_runtime`.
     pub name: RobotName,
     /// Folder of the generated crate, relative to the workspace root.
-    #[serde(default = "generated")]
+    #[serde(default = "generated", with = "folder")]
     #[schemars(with = "String")]
     pub generated: Utf8PathBuf,
     /// Folder of the parameter files, relative to the workspace root.
-    #[serde(default = "parameters")]
+    #[serde(default = "parameters", with = "folder")]
     #[schemars(with = "String")]
     pub parameters: Utf8PathBuf,
     /// Parts of the robot that report an id each, for example `body` and `head`: parameter layers, in this order.
@@ -76,4 +76,23 @@ fn parameters() -> Utf8PathBuf {
 
 fn recording_budget() -> Size {
     Size::from_gibibytes(2)
+}
+
+/// Folders as text: camino's own serde feature would give serde another feature set than the robot's.
+mod folder {
+    use camino::{Utf8Path, Utf8PathBuf};
+    use serde::{Deserialize as _, Deserializer, Serializer};
+
+    pub(super) fn serialize<S: Serializer>(
+        folder: &Utf8Path,
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(folder.as_str())
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(
+        deserializer: D,
+    ) -> Result<Utf8PathBuf, D::Error> {
+        String::deserialize(deserializer).map(Utf8PathBuf::from)
+    }
 }

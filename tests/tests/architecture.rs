@@ -89,33 +89,56 @@ fn generated_files_say_who_wrote_them() {
 #[test]
 fn generated_code_suppresses_no_lint() {
     for source in sources(&["generated", "tests/robots/zoo/generated"], ".rs") {
-        assert!(!source.text.contains("#[allow"), "{} allows a lint", source.path);
-        assert!(!source.text.contains("#![allow"), "{} allows a lint", source.path);
+        assert!(
+            !source.text.contains("#[allow"),
+            "{} allows a lint",
+            source.path
+        );
+        assert!(
+            !source.text.contains("#![allow"),
+            "{} allows a lint",
+            source.path
+        );
     }
 }
 
 /// The stages in the order of the data.
-const STAGES: &[&str] = &["workspace", "manifest", "scan", "resolve", "schedule", "model", "render"];
+const STAGES: &[&str] = &[
+    "workspace",
+    "manifest",
+    "scan",
+    "resolve",
+    "schedule",
+    "model",
+    "render",
+];
 
 #[test]
 fn a_stage_imports_only_earlier_stages() {
     let mut backwards = Vec::new();
     for source in sources(&["cli/src"], ".rs") {
-        let Some(own) = STAGES.iter().position(|stage| stage_of(&source.path) == *stage) else {
+        let Some(own) = STAGES
+            .iter()
+            .position(|stage| stage_of(&source.path) == *stage)
+        else {
             continue;
         };
         for (number, line) in source.text.lines().enumerate() {
             for (position, stage) in STAGES.iter().enumerate() {
                 let later = position > own && line.contains(&format!("crate::{stage}::"));
-                let behind_the_model =
-                    STAGES[own] == "render" && position < own - 1 && line.contains(&format!("crate::{stage}::"));
+                let behind_the_model = STAGES[own] == "render"
+                    && position < own - 1
+                    && line.contains(&format!("crate::{stage}::"));
                 if later || behind_the_model {
                     backwards.push(format!("{}:{}: {}", source.path, number + 1, line.trim()));
                 }
             }
         }
     }
-    assert!(backwards.is_empty(), "against the direction of the data: {backwards:#?}");
+    assert!(
+        backwards.is_empty(),
+        "against the direction of the data: {backwards:#?}"
+    );
 }
 
 fn stage_of(path: &str) -> &str {
@@ -132,14 +155,24 @@ fn only_the_two_doors_touch_the_disk() {
         .filter(|source| source.text.contains("std::fs") || source.text.contains("File::open"))
         .map(|source| source.path)
         .collect();
-    assert!(others.is_empty(), "the disk is read or written in {others:#?}");
+    assert!(
+        others.is_empty(),
+        "the disk is read or written in {others:#?}"
+    );
 }
 
 #[test]
 fn the_framework_knows_no_robot() {
     const FOREIGN: &[&str] = &["nao", "football", "soccer", "ball", "lola", "robocup"];
     let mut named = Vec::new();
-    for source in sources(&["framework/src", "framework/grammar/src", "framework/macros/src"], ".rs") {
+    for source in sources(
+        &[
+            "framework/src",
+            "framework/grammar/src",
+            "framework/macros/src",
+        ],
+        ".rs",
+    ) {
         for (number, line) in source.text.lines().enumerate() {
             let words = line.split(|character: char| !character.is_alphanumeric());
             for word in words.filter(|word| FOREIGN.contains(&word.to_lowercase().as_str())) {
@@ -156,7 +189,11 @@ fn unsafe_code_stands_only_where_the_workspace_says() {
     let others: Vec<_> = sources(HAND_WRITTEN, ".rs")
         .into_iter()
         .filter(|source| source.text.contains("unsafe {") || source.text.contains("unsafe impl"))
-        .filter(|source| !UNSAFE.iter().any(|allowed| source.path.starts_with(allowed)))
+        .filter(|source| {
+            !UNSAFE
+                .iter()
+                .any(|allowed| source.path.starts_with(allowed))
+        })
         .map(|source| source.path)
         .collect();
     assert!(others.is_empty(), "unsafe code in {others:#?}");

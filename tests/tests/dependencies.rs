@@ -11,7 +11,11 @@ fn cargo(arguments: &[&str]) -> String {
         .current_dir(root())
         .output()
         .expect("cargo can be started");
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
     String::from_utf8(output.stdout).expect("cargo prints UTF-8")
 }
 
@@ -19,7 +23,10 @@ fn packages() -> Vec<Value> {
     let metadata: Value =
         serde_json::from_str(&cargo(&["metadata", "--format-version", "1", "--locked"]))
             .expect("cargo prints JSON");
-    metadata["packages"].as_array().expect("packages are a list").clone()
+    metadata["packages"]
+        .as_array()
+        .expect("packages are a list")
+        .clone()
 }
 
 fn rules() -> toml::Table {
@@ -42,7 +49,12 @@ fn every_licence_is_allowed() {
             let expression = package["license"].as_str().unwrap_or_default();
             !is_allowed(expression, &allowed)
         })
-        .map(|package| format!("{} {}: {}", package["name"], package["version"], package["license"]))
+        .map(|package| {
+            format!(
+                "{} {}: {}",
+                package["name"], package["version"], package["license"]
+            )
+        })
         .collect();
     assert!(refused.is_empty(), "{refused:#?}");
 }
@@ -50,7 +62,9 @@ fn every_licence_is_allowed() {
 /// Whether an SPDX expression of `OR`s and `AND`s can be met by allowed licences.
 fn is_allowed(expression: &str, allowed: &[&str]) -> bool {
     let expression = expression.trim();
-    if let Some(inner) = expression.strip_prefix('(').and_then(|rest| rest.strip_suffix(')'))
+    if let Some(inner) = expression
+        .strip_prefix('(')
+        .and_then(|rest| rest.strip_suffix(')'))
         && !inner.contains('(')
     {
         return is_allowed(inner, allowed);
@@ -59,7 +73,11 @@ fn is_allowed(expression: &str, allowed: &[&str]) -> bool {
         let parts = split_outside_parentheses(expression, operator);
         if parts.len() > 1 {
             let mut met = parts.into_iter().map(|part| is_allowed(part, allowed));
-            return if all { met.all(|met| met) } else { met.any(|met| met) };
+            return if all {
+                met.all(|met| met)
+            } else {
+                met.any(|met| met)
+            };
         }
     }
     allowed.contains(&expression)
@@ -72,7 +90,10 @@ fn split_outside_parentheses<'a>(expression: &'a str, operator: &str) -> Vec<&'a
         match character {
             '(' => depth += 1,
             ')' => depth -= 1,
-            _ if depth == 0 && position >= start && expression[position..].starts_with(operator) => {
+            _ if depth == 0
+                && position >= start
+                && expression[position..].starts_with(operator) =>
+            {
                 parts.push(&expression[start..position]);
                 start = position + operator.len();
             }
@@ -126,17 +147,86 @@ fn every_crate_comes_from_the_registry_or_the_workspace() {
 
 #[test]
 fn hulkgen_needs_fewer_than_120_crates() {
-    let tree = cargo(&["tree", "--locked", "-p", "hulkgen", "-e", "normal", "--prefix", "none"]);
-    let mut crates: Vec<_> = tree.lines().filter_map(|line| line.split_whitespace().next()).collect();
+    let tree = cargo(&[
+        "tree", "--locked", "-p", "hulkgen", "-e", "normal", "--prefix", "none",
+    ]);
+    let mut crates: Vec<_> = tree
+        .lines()
+        .filter_map(|line| line.split_whitespace().next())
+        .collect();
     crates.sort_unstable();
     crates.dedup();
-    assert!(crates.contains(&"syn") && crates.len() < 120, "{} crates: {crates:?}", crates.len());
+    assert!(
+        crates.contains(&"syn") && crates.len() < 120,
+        "{} crates: {crates:?}",
+        crates.len()
+    );
 }
 
 #[test]
 fn hulkgen_does_not_contain_the_robot() {
-    let tree = cargo(&["tree", "--locked", "-p", "hulkgen", "-e", "normal", "--prefix", "none"]);
+    let tree = cargo(&[
+        "tree", "--locked", "-p", "hulkgen", "-e", "normal", "--prefix", "none",
+    ]);
     for robot in ["nalgebra", "hulkgen-framework ", "nao_runtime"] {
         assert!(!tree.contains(robot), "hulkgen links {robot}");
     }
+}
+
+/// What cargo would build, as (package, profile, features) of each library and macro.
+fn units(arguments: &[&str]) -> Vec<(String, String)> {
+    let output = Command::new(env!("CARGO"))
+        .args([
+            "build",
+            "--release",
+            "--locked",
+            "--unit-graph",
+            "-Zunstable-options",
+        ])
+        .args(arguments)
+        // The graph of units is not stable yet, but no other question has this answer.
+        .env("RUSTC_BOOTSTRAP", "1")
+        .current_dir(root())
+        .output()
+        .expect("cargo can be started");
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    let graph: Value = serde_json::from_slice(&output.stdout).expect("cargo prints JSON");
+    let units = graph["units"].as_array().expect("units are a list");
+    units
+        .iter()
+        .filter(|unit| {
+            let kind = unit["target"]["kind"][0].as_str();
+            kind == Some("lib") || kind == Some("proc-macro")
+        })
+        .map(|unit| {
+            let how = format!("{} {} {}", unit["profile"], unit["features"], unit["mode"]);
+            (unit["pkg_id"].to_string(), how)
+        })
+        .collect()
+}
+
+#[test]
+fn no_crate_is_compiled_twice_on_the_way_of_the_first_command() {
+    let hulkgen = units(&[]);
+    let target = [
+        "--bin",
+        "simulated",
+        "--no-default-features",
+        "--features",
+        "target-simulated",
+    ];
+    let robot = units(&[&["-p", "nao_runtime"][..], &target].concat());
+    let mut ways = std::collections::BTreeMap::<_, std::collections::BTreeSet<_>>::new();
+    for (package, how) in hulkgen.iter().chain(&robot) {
+        ways.entry(package).or_default().insert(how);
+    }
+    let twice: Vec<_> = ways.iter().filter(|(_, ways)| ways.len() > 1).collect();
+    assert!(
+        ways.len() > 50 && twice.is_empty(),
+        "compiled in more than one way: {twice:#?}"
+    );
 }

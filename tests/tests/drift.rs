@@ -19,7 +19,10 @@ fn hulkgen(folder: &Path, arguments: &[&str]) -> Output {
 /// The binary beside this test: `cargo test --workspace` builds it.
 fn binary() -> PathBuf {
     let test = std::env::current_exe().expect("this test has a path");
-    let folder = test.parent().and_then(Path::parent).expect("target/<profile>/deps/<test>");
+    let folder = test
+        .parent()
+        .and_then(Path::parent)
+        .expect("target/<profile>/deps/<test>");
     folder.join(format!("hulkgen{}", std::env::consts::EXE_SUFFIX))
 }
 
@@ -36,7 +39,15 @@ fn assert_success(output: &Output) {
 fn copy_of_the_workspace() -> tempfile::TempDir {
     let copy = tempfile::tempdir().expect("a temporary folder");
     for entry in [
-        "Cargo.toml", "hulk.toml", "cli", "framework", "generated", "robotics", "schema", "templates", "tests",
+        "Cargo.toml",
+        "hulk.toml",
+        "cli",
+        "framework",
+        "generated",
+        "robotics",
+        "schema",
+        "templates",
+        "tests",
         "web",
     ] {
         copy_all(&root().join(entry), &copy.path().join(entry));
@@ -64,7 +75,9 @@ fn files(folder: &Path) -> Vec<(PathBuf, String)> {
     let mut open = vec![folder.to_owned()];
     while let Some(next) = open.pop() {
         for entry in fs::read_dir(&next).expect("a folder that exists") {
-            let path = entry.expect("an entry of a folder that was just listed").path();
+            let path = entry
+                .expect("an entry of a folder that was just listed")
+                .path();
             if path.is_dir() {
                 open.push(path);
             } else {
@@ -84,7 +97,10 @@ fn the_nao_is_current() {
 
 #[test]
 fn the_zoo_is_current() {
-    assert_success(&hulkgen(&root().join("tests/robots/zoo"), &["generate", "--check"]));
+    assert_success(&hulkgen(
+        &root().join("tests/robots/zoo"),
+        &["generate", "--check"],
+    ));
 }
 
 #[test]
@@ -102,14 +118,23 @@ fn conflict_marks_in_any_file_are_repaired() {
     let copy = copy_of_the_workspace();
     let generated = copy.path().join("generated");
     let before = files(&generated);
-    assert!(before.iter().any(|(path, _)| path == Path::new("Cargo.toml")));
+    assert!(
+        before
+            .iter()
+            .any(|(path, _)| path == Path::new("Cargo.toml"))
+    );
     for (path, text) in &before {
         let conflict = format!("<<<<<<< ours\n{text}=======\n>>>>>>> theirs\n");
         fs::write(generated.join(path), conflict).expect("it was just copied");
         let check = hulkgen(copy.path(), &["generate", "--check"]);
         assert_eq!(check.status.code(), Some(3), "{} is drift", path.display());
         assert_success(&hulkgen(copy.path(), &["generate"]));
-        assert_eq!(before, files(&generated), "after marks in {}", path.display());
+        assert_eq!(
+            before,
+            files(&generated),
+            "after marks in {}",
+            path.display()
+        );
     }
 }
 
@@ -158,8 +183,14 @@ fn a_broken_node_writes_nothing_and_says_where() {
     assert_eq!(output.status.code(), Some(1));
     let message = String::from_utf8_lossy(&output.stderr);
     assert!(message.contains("unknown-output"), "{message}");
-    assert!(message.contains("robotics/vision/src/ball_detection.rs"), "{message}");
-    assert!(message.contains("`camera_matrix`"), "the nearest name is missing: {message}");
+    assert!(
+        message.contains("robotics/vision/src/ball_detection.rs"),
+        "{message}"
+    );
+    assert!(
+        message.contains("`camera_matrix`"),
+        "the nearest name is missing: {message}"
+    );
     let after = files(&generated);
     for ((path, old), (_, new)) in before.iter().zip(&after) {
         if path != Path::new("DATAFLOW.md") {

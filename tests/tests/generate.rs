@@ -4,7 +4,7 @@ use hulkgen::diagnostics::{self, Diagnostics};
 use hulkgen::pipeline;
 use hulkgen::render::GeneratedFiles;
 use hulkgen::workspace::Workspace;
-use support::{FIXTURES, fixture, fixture_files, root, purpose};
+use support::{FIXTURES, fixture, fixture_files, purpose, root};
 
 fn generate(workspace: &Workspace) -> GeneratedFiles {
     let mut diagnostics = Diagnostics::new();
@@ -46,7 +46,10 @@ fn what_lies_in_the_generated_folder_changes_nothing() {
         let mut files = fixture_files(name);
         let clean = generate(&Workspace::in_memory(files.clone()));
         for path in clean.keys() {
-            files.push((path.to_string(), "<<<<<<< ours\n=======\n>>>>>>> theirs\n".to_owned()));
+            files.push((
+                path.to_string(),
+                "<<<<<<< ours\n=======\n>>>>>>> theirs\n".to_owned(),
+            ));
         }
         assert_eq!(clean, generate(&Workspace::in_memory(files)), "{name}");
     }

@@ -1,8 +1,8 @@
 //! What the NAO does, in lockstep, against the truth that its nodes cannot see.
 
 use framework::{Digest, Timestamp};
-use support::nao::{Nao, balls, camera_matrix, camera_of, output};
 use simulated_nao::ImageTruth;
+use support::nao::{Nao, balls, camera_matrix, camera_of, output};
 use types::joints::{JointName, Joints};
 use types::sensor_data::SensorData;
 
@@ -17,7 +17,9 @@ fn camera_matrices_project_the_penalty_mark_while_the_head_scans() {
     for pose in WAYS {
         let mut nao = Nao::new(&["--pose", pose], &[]);
         nao.run(20.0, |hardware, instance| {
-            let Some(camera) = camera_of(instance) else { return };
+            let Some(camera) = camera_of(instance) else {
+                return;
+            };
             let cycle = instance.cycle();
             if cycle.time.start < SETTLED {
                 return;
@@ -26,7 +28,9 @@ fn camera_matrices_project_the_penalty_mark_while_the_head_scans() {
                 .image_truth(camera, cycle.time.start)
                 .expect("every cycle of Vision is about an image that was exposed");
             for mark in ImageTruth::penalty_marks() {
-                let Some(pixel) = truth.project(mark) else { continue };
+                let Some(pixel) = truth.project(mark) else {
+                    continue;
+                };
                 shown += 1;
                 directions.push(truth.camera_matrix.ground_to_camera.rotation.angle());
                 let mark_on_ground = truth.ground_to_field.inverse() * mark;
@@ -39,10 +43,15 @@ fn camera_matrices_project_the_penalty_mark_while_the_head_scans() {
         });
     }
     println!("{near} of {shown} projections within 5 px, worst {worst:.1} px");
-    assert!(shown >= 200, "the head looks at a penalty mark in {shown} images only");
+    assert!(
+        shown >= 200,
+        "the head looks at a penalty mark in {shown} images only"
+    );
     let (least, most) = directions
         .iter()
-        .fold((f32::MAX, f32::MIN), |(least, most), angle| (least.min(*angle), most.max(*angle)));
+        .fold((f32::MAX, f32::MIN), |(least, most), angle| {
+            (least.min(*angle), most.max(*angle))
+        });
     assert!(most - least > 0.1, "the head does not scan");
     assert!(near * 100 >= shown * 95, "{near} of {shown} within 5 px");
 }
@@ -53,7 +62,9 @@ fn the_ball_is_seen_where_it_is() {
     for ball in ["2.9,0.3", "3.4,-0.3", "2.6,0.0", "4.0,0.5"] {
         let mut nao = Nao::new(&["--pose", "2.0,0.0,0.0", "--ball", ball], &[]);
         nao.run(15.0, |hardware, instance| {
-            let Some(camera) = camera_of(instance) else { return };
+            let Some(camera) = camera_of(instance) else {
+                return;
+            };
             let cycle = instance.cycle();
             if cycle.time.start < SETTLED {
                 return;
@@ -61,10 +72,14 @@ fn the_ball_is_seen_where_it_is() {
             let truth = hardware
                 .image_truth(camera, cycle.time.start)
                 .expect("every cycle of Vision is about an image that was exposed");
-            let Some(ball) = truth.ball.filter(|ball| ball.is_whole) else { return };
+            let Some(ball) = truth.ball.filter(|ball| ball.is_whole) else {
+                return;
+            };
             shown += 1;
             found += usize::from(
-                balls(instance).iter().any(|seen| (seen.center - ball.center).norm() <= 15.0),
+                balls(instance)
+                    .iter()
+                    .any(|seen| (seen.center - ball.center).norm() <= 15.0),
             );
         });
     }
@@ -107,7 +122,10 @@ fn joints_reach_the_commanded_pose_within_their_velocity_limits() {
             for joint in JointName::ALL {
                 let change = (sensors.positions[joint] - positions[joint]).abs();
                 let limit = kinematics::limits::of(joint).velocity as f32 * seconds;
-                assert!(change <= limit * 1.001 + 1e-5, "{joint:?} moved {change} rad, {limit} allowed");
+                assert!(
+                    change <= limit * 1.001 + 1e-5,
+                    "{joint:?} moved {change} rad, {limit} allowed"
+                );
                 moved = moved.max(change);
             }
         }
@@ -118,10 +136,17 @@ fn joints_reach_the_commanded_pose_within_their_velocity_limits() {
     for joint in JointName::ALL {
         let difference = (truth.positions[joint] - truth.commands.positions[joint]).abs();
         // The head keeps moving, so it follows its command by at most one step.
-        assert!(difference < 0.02, "{joint:?} is {difference} rad from its command");
+        assert!(
+            difference < 0.02,
+            "{joint:?} is {difference} rad from its command"
+        );
     }
     // The ready pose bends the knees.
-    assert!(truth.positions[JointName::LeftKneePitch] > 0.5, "{:?}", truth.positions);
+    assert!(
+        truth.positions[JointName::LeftKneePitch] > 0.5,
+        "{:?}",
+        truth.positions
+    );
 }
 
 #[test]
@@ -133,7 +158,10 @@ fn the_eyes_and_the_memory_know_the_ball() {
     let ball = ball.expect("the ball lies in front of the robot and was scanned");
     let truth = nao.hardware.ground_truth();
     let expected = truth.ground_to_field.inverse() * truth.ball.expect("there is one");
-    assert!((ball.position - expected.xy()).norm() < 0.15, "{ball:?} instead of {expected}");
+    assert!(
+        (ball.position - expected.xy()).norm() < 0.15,
+        "{ball:?} instead of {expected}"
+    );
 }
 
 #[test]
@@ -141,13 +169,22 @@ fn garbled_packets_and_images_are_counted_and_skipped() {
     let mut nao = Nao::new(&[], &[]);
     nao.run(0.5, |_, _| {});
     nao.hardware.garble_next_state();
-    nao.hardware.garble_next_image(types::camera::CameraPosition::Top);
+    nao.hardware
+        .garble_next_image(types::camera::CameraPosition::Top);
     nao.run(1.5, |_, _| {});
     let report = |name: &str| nao.robot.instance(name).expect("it runs").report();
     for name in ["Control", "VisionTop"] {
         assert_eq!(report(name).counts.failures, 0, "{name}");
     }
-    assert_eq!(nao.robot.instance("VisionTop").expect("it runs").counters().read().no_events, 1);
+    assert_eq!(
+        nao.robot
+            .instance("VisionTop")
+            .expect("it runs")
+            .counters()
+            .read()
+            .no_events,
+        1
+    );
     assert!(report("Control").counts.cycles > 110, "Control went on");
     assert!(report("VisionTop").counts.cycles > 40, "VisionTop went on");
 }

@@ -1,6 +1,7 @@
 //! `generate`: the generated crate on disk, or what would change.
 
 use camino::Utf8Path;
+use camino::Utf8PathBuf;
 use serde_json::json;
 
 use super::session::Session;
@@ -103,14 +104,17 @@ fn note_drift(session: &Session<'_>, drift: &Drift) {
 }
 
 fn to_json(drift: &Drift) -> String {
-    let changed: Vec<_> = drift.changed.iter().map(|changed| &changed.path).collect();
     let answer = json!({
         "version": 1,
-        "added": drift.added,
-        "changed": changed,
-        "orphaned": drift.orphaned,
+        "added": texts(&drift.added),
+        "changed": texts(drift.changed.iter().map(|changed| &changed.path)),
+        "orphaned": texts(&drift.orphaned),
     });
     format!("{answer}\n")
+}
+
+fn texts<'paths>(paths: impl IntoIterator<Item = &'paths Utf8PathBuf>) -> Vec<&'paths str> {
+    paths.into_iter().map(|path| path.as_str()).collect()
 }
 
 fn refusal(error: &DriftError) -> Refusal {

@@ -35,7 +35,7 @@ fn label_to_json(label: &Label, workspace: &Workspace) -> Value {
     let start = position(&text, label.range.start);
     let end = position(&text, label.range.end);
     json!({
-        "file": label.file,
+        "file": label.file.as_str(),
         "line": start.line,
         "column": start.column,
         "end_line": end.line,

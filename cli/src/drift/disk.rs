@@ -31,7 +31,9 @@ pub(super) fn files(root: &Utf8Path, folder: &Utf8Path) -> Result<Vec<Utf8PathBu
         };
         for entry in entries {
             let entry = entry.map_err(|source| failed("list", &current, source))?;
-            let kind = entry.file_type().map_err(|source| failed("list", &current, source))?;
+            let kind = entry
+                .file_type()
+                .map_err(|source| failed("list", &current, source))?;
             if current == folder && CARGOS_OWN.contains(&entry.file_name()) {
                 continue;
             }
@@ -53,7 +55,9 @@ pub fn write_file(path: &Utf8Path, text: &str) -> Result<(), DriftError> {
     fs::create_dir_all(folder).map_err(|source| failed("create", folder, source))?;
     let write = || -> io::Result<()> {
         // Beside the file, so that it can be moved there in one step.
-        let mut file = tempfile::Builder::new().permissions(permissions()).tempfile_in(folder)?;
+        let mut file = tempfile::Builder::new()
+            .permissions(permissions())
+            .tempfile_in(folder)?;
         file.write_all(text.as_bytes())?;
         file.persist(path).map_err(|error| error.error)?;
         Ok(())
@@ -70,7 +74,11 @@ fn permissions() -> fs::Permissions {
 /// Removes a file, and the folders above it that are empty then.
 pub(super) fn remove(root: &Utf8Path, path: &Utf8Path) -> Result<(), DriftError> {
     fs::remove_file(root.join(path)).map_err(|source| failed("remove", path, source))?;
-    for folder in path.ancestors().skip(1).take_while(|folder| !folder.as_str().is_empty()) {
+    for folder in path
+        .ancestors()
+        .skip(1)
+        .take_while(|folder| !folder.as_str().is_empty())
+    {
         if fs::remove_dir(root.join(folder)).is_err() {
             break;
         }
@@ -79,5 +87,9 @@ pub(super) fn remove(root: &Utf8Path, path: &Utf8Path) -> Result<(), DriftError>
 }
 
 fn failed(deed: &'static str, path: &Utf8Path, source: io::Error) -> DriftError {
-    DriftError::Io { deed, path: path.to_owned(), source }
+    DriftError::Io {
+        deed,
+        path: path.to_owned(),
+        source,
+    }
 }

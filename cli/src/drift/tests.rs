@@ -1,7 +1,10 @@
 use super::*;
 
 fn files(texts: &[(&str, &str)]) -> GeneratedFiles {
-    texts.iter().map(|(path, text)| ((*path).into(), (*text).to_owned())).collect()
+    texts
+        .iter()
+        .map(|(path, text)| ((*path).into(), (*text).to_owned()))
+        .collect()
 }
 
 struct Folder(tempfile::TempDir);
@@ -33,13 +36,18 @@ fn writing_what_differs_leaves_nothing_that_differs() {
         ("generated/Cargo.lock", "\n"),
         ("elsewhere.rs", "\n"),
     ]);
-    let files = files(&[("generated/Cargo.toml", "new\n"), ("generated/src/lib.rs", "new\n")]);
+    let files = files(&[
+        ("generated/Cargo.toml", "new\n"),
+        ("generated/src/lib.rs", "new\n"),
+    ]);
     let drift = folder.compare(&files);
     assert_eq!(
         drift.summary(),
         "+ generated/Cargo.toml\n- generated/src/gone/orphan.rs\n~ generated/src/lib.rs\n"
     );
-    drift.write(folder.root(), &files).expect("everything is writable");
+    drift
+        .write(folder.root(), &files)
+        .expect("everything is writable");
     assert!(folder.compare(&files).is_empty());
     assert!(!folder.root().join("generated/src/gone").exists());
     assert!(folder.root().join("generated/target/debug/huge").exists());
@@ -51,18 +59,26 @@ fn an_unchanged_file_is_not_touched() {
     let folder = Folder::with(&[("generated/a", "same\n"), ("generated/b", "old\n")]);
     let written = |name: &str| {
         let metadata = folder.root().join("generated").join(name).metadata();
-        metadata.and_then(|metadata| metadata.modified()).expect("the file is there")
+        metadata
+            .and_then(|metadata| metadata.modified())
+            .expect("the file is there")
     };
     let before = written("a");
     let files = files(&[("generated/a", "same\n"), ("generated/b", "new\n")]);
-    folder.compare(&files).write(folder.root(), &files).expect("everything is writable");
+    folder
+        .compare(&files)
+        .write(folder.root(), &files)
+        .expect("everything is writable");
     assert_eq!(written("a"), before);
 }
 
 #[test]
 fn the_diff_shows_changes_and_names_the_rest() {
     let folder = Folder::with(&[("generated/a", "one\ntwo\n"), ("generated/c", "\n")]);
-    let drift = folder.compare(&files(&[("generated/a", "one\nthree\n"), ("generated/b", "\n")]));
+    let drift = folder.compare(&files(&[
+        ("generated/a", "one\nthree\n"),
+        ("generated/b", "\n"),
+    ]));
     assert_eq!(
         drift.diff(),
         "--- a/generated/a\n+++ b/generated/a\n@@ -1,2 +1,2 @@\n one\n-two\n+three\n\
@@ -74,9 +90,11 @@ fn the_diff_shows_changes_and_names_the_rest() {
 fn a_folder_of_others_is_never_cleaned() {
     let folder = Folder::with(&[("hulk.toml", ""), ("robot/hulk.toml", "")]);
     for unsafe_folder in ["", ".", "..", "/", "generated/../..", "robot"] {
-        let compared =
-            Drift::compare(folder.root(), unsafe_folder.into(), &GeneratedFiles::new());
-        assert!(matches!(compared, Err(DriftError::NotOwned { .. })), "{unsafe_folder}");
+        let compared = Drift::compare(folder.root(), unsafe_folder.into(), &GeneratedFiles::new());
+        assert!(
+            matches!(compared, Err(DriftError::NotOwned { .. })),
+            "{unsafe_folder}"
+        );
     }
 }
 
@@ -84,5 +102,11 @@ fn a_folder_of_others_is_never_cleaned() {
 fn text_that_is_no_utf_8_is_drift_and_no_failure() {
     let folder = Folder::with(&[("generated/a", "")]);
     std::fs::write(folder.root().join("generated/a"), [0xff]).expect("the file is writable");
-    assert_eq!(folder.compare(&files(&[("generated/a", "text\n")])).changed.len(), 1);
+    assert_eq!(
+        folder
+            .compare(&files(&[("generated/a", "text\n")]))
+            .changed
+            .len(),
+        1
+    );
 }

@@ -51,15 +51,27 @@ impl Accessor {
             .map(|part| {
                 let name = before.map_or_else(String::new, |segment| variable(&segment.name));
                 before = part.last();
-                Look { name, fields: names(part), optional: ends_optional(part) }
+                Look {
+                    name,
+                    fields: names(part),
+                    optional: ends_optional(part),
+                }
             })
             .collect();
-        Self { place, reference, optional: ends_optional(first), looks }
+        Self {
+            place,
+            reference,
+            optional: ends_optional(first),
+            looks,
+        }
     }
 }
 
 fn names(segments: &[Segment]) -> Vec<String> {
-    segments.iter().map(|segment| segment.name.clone()).collect()
+    segments
+        .iter()
+        .map(|segment| segment.name.clone())
+        .collect()
 }
 
 fn ends_optional(segments: &[Segment]) -> bool {
@@ -90,7 +102,11 @@ mod tests {
 
     fn look(name: &str, fields: &[&str], optional: bool) -> Look {
         let fields = fields.iter().map(|field| (*field).to_owned()).collect();
-        Look { name: name.to_owned(), fields, optional }
+        Look {
+            name: name.to_owned(),
+            fields,
+            optional,
+        }
     }
 
     #[test]
@@ -99,8 +115,18 @@ mod tests {
             ("a", &["frame", "a"], false, vec![]),
             ("a.b", &["frame", "a", "b"], false, vec![]),
             ("a?", &["frame", "a"], true, vec![]),
-            ("a.b?.c.d", &["frame", "a", "b"], true, vec![look("b", &["c", "d"], false)]),
-            ("a?.b?", &["frame", "a"], true, vec![look("a", &["b"], true)]),
+            (
+                "a.b?.c.d",
+                &["frame", "a", "b"],
+                true,
+                vec![look("b", &["c", "d"], false)],
+            ),
+            (
+                "a?.b?",
+                &["frame", "a"],
+                true,
+                vec![look("a", &["b"], true)],
+            ),
             (
                 "a?.b.c?.0",
                 &["frame", "a"],
@@ -111,7 +137,11 @@ mod tests {
         for (path, place, optional, looks) in cases {
             let accessor = Accessor::below(&["frame"], &segments(path));
             assert_eq!(accessor.place, place, "{path}");
-            assert_eq!((accessor.optional, accessor.looks), (optional, looks), "{path}");
+            assert_eq!(
+                (accessor.optional, accessor.looks),
+                (optional, looks),
+                "{path}"
+            );
             assert!(!accessor.reference, "{path}");
         }
     }

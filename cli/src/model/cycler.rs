@@ -1,16 +1,15 @@
 //! One cycler: its database, its nodes, and what stands between its buffers and its nodes.
 
-use std::collections::BTreeSet;
+mod outputs;
+mod sources;
 
 use super::frame::{self, FrameField, Hardware, InstanceParameters};
-use super::names::{Names, name_nodes, plain, snake_case};
+use super::names::{name_nodes, snake_case};
 use super::node::{NodeModel, StepOutput, Surroundings, asked};
 use super::parameters::Parameters;
 use super::sentences;
-use super::structs::{Struct, Structs};
-use crate::resolve::robot::{
-    CycleBinding, Cycler, InstanceId, Interface, Node, Robot, StateUse, Tree, Writer,
-};
+use super::structs::Struct;
+use crate::resolve::robot::{Cycler, InstanceId, Interface, Node, Robot};
 use crate::schedule::CyclerSchedule;
 
 /// Fields that a body may have itself.
@@ -81,6 +80,7 @@ pub struct Calls {
     pub hardware: Hardware,
 }
 
+/// A main output of the cycler.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OutputField {
     pub name: String,
@@ -97,6 +97,8 @@ pub struct OutputField {
 /// A declared additional output.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct AdditionalOutput {
+    /// Its path as written.
+    pub written: String,
     /// Its field in `Subscribed`.
     pub flag: String,
     /// Its names for clients, one for each instance if they differ.
@@ -105,6 +107,7 @@ pub struct AdditionalOutput {
     pub place: Vec<String>,
 }
 
+/// A procedure that a node of the cycler answers.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ProcedureField {
     pub name: String,
@@ -123,6 +126,7 @@ pub struct Perception {
     pub interleavings: Vec<Interleaving>,
 }
 
+/// The order over all instances of one perception cycler.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Interleaving {
     pub field: String,
@@ -143,6 +147,7 @@ pub struct Source {
     pub module: String,
 }
 
+/// Which parts of the last finished cycle are read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Previous {
     pub own: bool,
@@ -150,6 +155,7 @@ pub struct Previous {
 }
 
 impl CyclerModel {
+    /// Whether `Frame` has this field.
     pub fn has(&self, field: &FrameField) -> bool {
         self.frame.contains(field)
     }
@@ -159,25 +165,30 @@ impl CyclerModel {
         self.frame.iter().any(FrameField::borrows)
     }
 
+    /// Whether some main output stays with the instance.
     pub fn has_own(&self) -> bool {
         self.outputs.iter().any(|output| !output.shared)
     }
 
+    /// Whether some main output is read by other instances.
     pub fn has_shared(&self) -> bool {
         self.outputs.iter().any(|output| output.shared)
     }
 
     /// Whether the parameters are read at all.
     pub fn has_parameters(&self) -> bool {
-        self.frame.iter().chain(&self.creation).any(|field| {
-            matches!(field, FrameField::Parameters | FrameField::Instance(_))
-        })
+        self.frame
+            .iter()
+            .chain(&self.creation)
+            .any(|field| matches!(field, FrameField::Parameters | FrameField::Instance(_)))
     }
 
+    /// Whether the nodes share states.
     pub fn has_states(&self) -> bool {
         !self.state_structs.is_empty()
     }
 
+    /// Main outputs that are read by time.
     pub fn historic(&self) -> impl Iterator<Item = &OutputField> {
         self.outputs.iter().filter(|output| output.historic)
     }
@@ -194,6 +205,7 @@ impl CyclerModel {
             .collect()
     }
 
+    /// Whether any node touches the hardware.
     pub fn is_generic(&self) -> bool {
         self.hardware != Hardware::Absent
     }
@@ -209,52 +221,43 @@ pub fn describe(
     let instance_parameters = frame::instance_parameters(cycler, parameters);
     let creation = frame::creation_fields(cycler, &instance_parameters);
     let frame = frame::frame_fields(cycler, &instance_parameters);
-    let additional_outputs = additional_outputs(cycler);
-    let flags: Vec<(String, String)> = additional_outputs.iter().map(|(path, output)| (path.clone(), output.flag.clone())).collect();
+    let additional_outputs = outputs::additional_outputs(cycler);
     let surroundings = Surroundings {
         robot,
         cycler,
         instance_parameters: &instance_parameters,
-        flags: &flags,
+        additional_outputs: &additional_outputs,
         frame_is_generic: frame.contains(&FrameField::HardwareInterface),
         creation_is_generic: creation.contains(&FrameField::HardwareInterface),
     };
     let names = name_nodes(&cycler.nodes);
-    let nodes: Vec<NodeModel> = names
-        .iter()
-        .zip(&cycler.nodes)
-        .map(|(name, node)| surroundings.describe(name.clone(), node))
+    let named = names.into_iter().zip(&cycler.nodes);
+    let nodes: Vec<NodeModel> = named
+        .map(|(name, node)| surroundings.describe(name, node))
         .collect();
-    let generic = surroundings.frame_is_generic || surroundings.creation_is_generic;
-    let union = |generic: bool, bounds: &dyn Fn(&Node) -> Vec<Interface>| {
-        asked(generic, &cycler.nodes.iter().flat_map(bounds).collect::<Vec<_>>())
-    };
+    let created = surroundings.creation_is_generic;
+    let touched = surroundings.frame_is_generic || created;
     CyclerModel {
         name: cycler.name.clone(),
         module: snake_case(&cycler.name),
         title: sentences::cycler_title(cycler),
-        outputs: outputs(cycler),
-        output_names: output_names(cycler),
-        additional_structs: structs(robot, "AdditionalOutputs", &cycler.additional_outputs, &writers),
-        additional_outputs: additional_outputs.into_iter().map(|(_, output)| output).collect(),
-        state_structs: structs(robot, "CyclerState", &cycler.states, &users),
-        procedures: procedures(cycler),
-        perception: perception(robot, cycler),
-        latest: latest(robot, cycler),
-        previous: Previous {
-            own: cycler.outputs.iter().any(|output| output.previous && !output.shared),
-            shared: cycler.outputs.iter().any(|output| output.previous && output.shared),
-        },
+        outputs: outputs::outputs(cycler),
+        output_names: outputs::output_names(cycler),
+        additional_structs: outputs::additional_structs(robot, cycler),
+        state_structs: outputs::state_structs(robot, cycler),
+        procedures: outputs::procedures(cycler),
+        perception: sources::perception(robot, cycler),
+        latest: sources::latest(robot, cycler),
+        previous: previous(cycler),
         renews: frame::renews_from_frame(cycler),
         setup: calls(schedule, &nodes, true),
         cycle: calls(schedule, &nodes, false),
-        creation_hardware: union(surroundings.creation_is_generic, &|node| node.new_bounds.clone()),
-        restore_hardware: union(surroundings.creation_is_generic, &|node| {
-            node.restore_bounds.clone()
+        creation_hardware: union(cycler, created, |node| vec![&node.new_bounds]),
+        restore_hardware: union(cycler, created, |node| vec![&node.restore_bounds]),
+        hardware: union(cycler, touched, |node| {
+            vec![&node.new_bounds, &node.cycle_bounds, &node.restore_bounds]
         }),
-        hardware: union(generic, &|node| {
-            [&node.new_bounds[..], &node.cycle_bounds, &node.restore_bounds].concat()
-        }),
+        additional_outputs,
         instance_parameters,
         frame,
         creation,
@@ -262,154 +265,33 @@ pub fn describe(
     }
 }
 
-fn outputs(cycler: &Cycler) -> Vec<OutputField> {
-    let outputs = cycler.outputs.iter().map(|output| {
-        let producer = &cycler.nodes[output.producer];
-        OutputField {
-            name: plain(&output.name).to_owned(),
-            data: output.data.text.clone(),
-            node: producer.path.clone(),
-            shared: output.shared,
-            historic: output.historic,
-            setup: producer.setup,
-        }
-    });
-    outputs.collect()
+/// What all nodes together ask of the hardware, if there is a type parameter for it.
+fn union(
+    cycler: &Cycler,
+    generic: bool,
+    bounds: impl Fn(&Node) -> Vec<&Vec<Interface>>,
+) -> Hardware {
+    let bounds = cycler.nodes.iter().flat_map(bounds).flatten();
+    asked(generic, &bounds.cloned().collect::<Vec<_>>())
 }
 
-fn output_names(cycler: &Cycler) -> Vec<String> {
-    let mut outputs: Vec<_> = cycler.outputs.iter().collect();
-    outputs.sort_by_key(|output| output.producer);
-    outputs.into_iter().map(|output| plain(&output.name).to_owned()).collect()
-}
-
-fn structs<U>(
-    robot: &Robot,
-    root: &str,
-    tree: &Tree<U>,
-    docs: &dyn Fn(&[U]) -> String,
-) -> Vec<Struct> {
-    if tree.branches.is_empty() {
-        return Vec::new();
+fn previous(cycler: &Cycler) -> Previous {
+    let reads = |shared: bool| {
+        let mut outputs = cycler.outputs.iter();
+        outputs.any(|output| output.previous && output.shared == shared)
+    };
+    Previous {
+        own: reads(false),
+        shared: reads(true),
     }
-    Structs::new(robot, root, docs).describe(root, tree)
-}
-
-fn writers(writers: &[Writer]) -> String {
-    sentences::list(writers.iter().map(|writer| writer.node.as_str()))
-}
-
-fn users(users: &[StateUse]) -> String {
-    let readers: Vec<String> =
-        users.iter().filter(|one| one.shared).map(|one| format!("{} (reads)", one.node)).collect();
-    let writers = users.iter().filter(|one| !one.shared).map(|one| one.node.as_str());
-    sentences::list(writers.chain(readers.iter().map(String::as_str)))
-}
-
-/// Every additional output by its path as written.
-fn additional_outputs(cycler: &Cycler) -> Vec<(String, AdditionalOutput)> {
-    let instances: Vec<String> =
-        cycler.instances.iter().map(|instance| snake_case(&instance.name)).collect();
-    let mut flags = Names::default();
-    let mut found: Vec<(String, AdditionalOutput)> = Vec::new();
-    for field in cycler.nodes.iter().flat_map(|node| &node.cycle) {
-        let CycleBinding::AdditionalOutput { access, .. } = &field.binding else {
-            continue;
-        };
-        if found.iter().any(|(path, _)| *path == access.written) {
-            continue;
-        }
-        let place: Vec<String> = access.segments.iter().map(|segment| segment.name.clone()).collect();
-        let by_instance = access.segments.iter().any(|segment| segment.instance);
-        let whose = if by_instance { &instances[..] } else { &instances[..1] };
-        let names = whose.iter().map(|instance| {
-            let segments = access.segments.iter();
-            let names: Vec<&str> = segments
-                .map(|segment| if segment.instance { instance } else { plain(&segment.name) })
-                .collect();
-            names.join(".")
-        });
-        let names = names.collect();
-        let output = AdditionalOutput { flag: flags.give(&place.join("_")), names, place };
-        found.push((access.written.clone(), output));
-    }
-    found.sort_by(|left, right| left.1.place.cmp(&right.1.place));
-    found
-}
-
-fn procedures(cycler: &Cycler) -> Vec<ProcedureField> {
-    let mut procedures: Vec<ProcedureField> = cycler
-        .nodes
-        .iter()
-        .flat_map(|node| node.cycle.iter().map(move |field| (node, field)))
-        .filter_map(|(node, field)| match &field.binding {
-            CycleBinding::Procedure { name, request, response } => Some(ProcedureField {
-                name: name.clone(),
-                request: request.text.clone(),
-                response: response.text.clone(),
-                node: node.path.clone(),
-            }),
-            _ => None,
-        })
-        .collect();
-    procedures.sort_by(|left, right| left.name.cmp(&right.name));
-    procedures
-}
-
-/// Every perception instance that any node consumes, once.
-fn perception(robot: &Robot, cycler: &Cycler) -> Option<Perception> {
-    let mut lanes = BTreeSet::new();
-    let mut cyclers = BTreeSet::new();
-    for field in cycler.nodes.iter().flat_map(|node| &node.cycle) {
-        if let CycleBinding::Perception { instances, .. } = &field.binding {
-            lanes.extend(instances.iter().copied());
-            if let [first, _, ..] = instances.as_slice() {
-                cyclers.insert(first.cycler);
-            }
-        }
-    }
-    if lanes.is_empty() {
-        return None;
-    }
-    let lanes: Vec<Source> = lanes.into_iter().map(|id| source(robot, id)).collect();
-    let interleavings = cyclers.into_iter().map(|cycler| Interleaving {
-        field: snake_case(&robot.cyclers[cycler].name),
-        lanes: lanes
-            .iter()
-            .filter(|lane| lane.id.cycler == cycler)
-            .map(|lane| lane.field.clone())
-            .collect(),
-    });
-    Some(Perception { interleavings: interleavings.collect(), lanes })
-}
-
-fn latest(robot: &Robot, cycler: &Cycler) -> Vec<Source> {
-    let instances: BTreeSet<InstanceId> = cycler
-        .nodes
-        .iter()
-        .flat_map(|node| &node.cycle)
-        .filter_map(|field| match &field.binding {
-            CycleBinding::OutputOf { instance, .. }
-            | CycleBinding::RequiredOutputOf { instance, .. }
-            | CycleBinding::Latest { instance, .. } => Some(*instance),
-            _ => None,
-        })
-        .collect();
-    let mut names = Names::with(FIELDS_OF_BODIES.map(str::to_owned));
-    let sources = instances.into_iter().map(|id| source(robot, id));
-    sources.map(|source| Source { reader: names.give(&source.field), ..source }).collect()
-}
-
-/// An instance as those name it who read it.
-fn source(robot: &Robot, id: InstanceId) -> Source {
-    let cycler = &robot.cyclers[id.cycler];
-    let instance = cycler.instances[id.instance].name.clone();
-    let field = snake_case(&instance);
-    Source { id, reader: field.clone(), field, instance, module: snake_case(&cycler.name) }
 }
 
 fn calls(schedule: &CyclerSchedule, nodes: &[NodeModel], setup: bool) -> Calls {
-    let called = schedule.order.iter().map(|node| &nodes[*node]).filter(|node| node.setup == setup);
+    let called = schedule
+        .order
+        .iter()
+        .map(|node| &nodes[*node])
+        .filter(|node| node.setup == setup);
     let mut hardware = Hardware::Absent;
     for node in called.clone() {
         hardware = match (hardware, node.step.hardware.clone()) {
@@ -423,5 +305,8 @@ fn calls(schedule: &CyclerSchedule, nodes: &[NodeModel], setup: bool) -> Calls {
             (one, Hardware::Absent) => one,
         };
     }
-    Calls { nodes: called.map(|node| node.name.clone()).collect(), hardware }
+    Calls {
+        nodes: called.map(|node| node.name.clone()).collect(),
+        hardware,
+    }
 }

@@ -2,17 +2,20 @@
 //!
 //! One line per fact, so that a change of a node changes the lines that say so and no others.
 
-use std::collections::BTreeMap;
+mod buffers;
+mod nodes;
+
 use std::time::Duration;
 
 use serde::Serialize;
 
 use super::{package, sentences};
 use crate::resolve::robot::{
-    Access, Content, CreationBinding, CycleBinding, Cycler, InstanceId, Node, OnFailure, Robot,
-    Tree,
+    Content, Cycler, CyclerKind, InstanceId, OnFailure, Reader, Robot, Tree,
 };
-use crate::schedule::{CyclerSchedule, Edge, Reason, Schedule};
+use crate::schedule::{CyclerSchedule, Schedule};
+use buffers::{instance_text, shared_outputs};
+use nodes::node_facts;
 
 /// Who reads and writes what, in words.
 #[derive(Clone, Debug, Serialize)]
@@ -24,6 +27,7 @@ pub struct Dataflow {
     pub targets: Vec<TargetText>,
 }
 
+/// A section: one cycler.
 #[derive(Clone, Debug, Serialize)]
 pub struct CyclerText {
     pub name: String,
@@ -36,6 +40,7 @@ pub struct CyclerText {
     pub outputs: Vec<OutputText>,
 }
 
+/// A row: one instance.
 #[derive(Clone, Debug, Serialize)]
 pub struct InstanceText {
     pub name: String,
@@ -44,6 +49,7 @@ pub struct InstanceText {
     pub slots: String,
 }
 
+/// A section: one node.
 #[derive(Clone, Debug, Serialize)]
 pub struct NodeText {
     pub path: String,
@@ -61,6 +67,7 @@ pub struct OutputText {
     pub readers: Vec<String>,
 }
 
+/// A row: one parameter.
 #[derive(Clone, Debug, Serialize)]
 pub struct ParameterText {
     pub path: String,
@@ -68,6 +75,7 @@ pub struct ParameterText {
     pub readers: Vec<String>,
 }
 
+/// A row: one target.
 #[derive(Clone, Debug, Serialize)]
 pub struct TargetText {
     pub name: String,
@@ -95,7 +103,10 @@ pub fn describe(robot: &Robot, schedule: &Schedule) -> Dataflow {
                 name: target.name.clone(),
                 hardware: target.hardware.clone(),
                 feature: package::feature(&target.name),
-                triple: target.triple.clone().unwrap_or_else(|| "the host's".to_owned()),
+                triple: target
+                    .triple
+                    .clone()
+                    .unwrap_or_else(|| "the host's".to_owned()),
             })
             .collect(),
     }
@@ -113,7 +124,13 @@ fn cycler_text(
         facts: node_facts(robot, cycler, schedule, *node),
     });
     let instances = cycler.instances.iter().enumerate().map(|(instance, _)| {
-        instance_text(robot, InstanceId { cycler: position, instance })
+        instance_text(
+            robot,
+            InstanceId {
+                cycler: position,
+                instance,
+            },
+        )
     });
     CyclerText {
         name: cycler.name.clone(),
@@ -126,11 +143,13 @@ fn cycler_text(
 }
 
 fn cycler_facts(cycler: &Cycler) -> Vec<String> {
-    use crate::resolve::robot::CyclerKind;
     let mut facts = vec![format!("on failure: {}", on_failure(cycler.on_failure))];
     match cycler.kind {
         CyclerKind::Perception => {
-            facts.push(format!("pending timeout: {}", duration(cycler.pending_timeout)));
+            facts.push(format!(
+                "pending timeout: {}",
+                duration(cycler.pending_timeout)
+            ));
             facts.push(format!("queue: {} cycles", cycler.queue));
         }
         CyclerKind::RealTime => {
@@ -146,221 +165,36 @@ fn cycler_facts(cycler: &Cycler) -> Vec<String> {
     facts
 }
 
-fn instance_text(robot: &Robot, id: InstanceId) -> InstanceText {
-    let cycler = &robot.cyclers[id.cycler];
-    let instance = &cycler.instances[id.instance];
-    let mut facts = Vec::new();
-    if let Some(deadline) = instance.deadline {
-        facts.push(format!("deadline {}", duration(deadline)));
-    }
-    if let Some(policy) = &instance.scheduling.policy {
-        let priority = instance.scheduling.priority;
-        facts.push(match priority {
-            Some(priority) => format!("scheduled {policy} {priority}"),
-            None => format!("scheduled {policy}"),
-        });
-    }
-    if !instance.scheduling.cores.is_empty() {
-        let cores: Vec<String> = instance.scheduling.cores.iter().map(ToString::to_string).collect();
-        facts.push(format!("on cores {}", cores.join(", ")));
-    }
-    InstanceText { name: instance.name.clone(), facts, slots: slots(robot, id) }
-}
-
-/// 2 (being written, newest) and one per reader, and the window of each consumer.
-fn slots(robot: &Robot, id: InstanceId) -> String {
-    let count = |reads: &dyn Fn(&CycleBinding) -> bool| {
-        let reading = robot.cyclers.iter().filter(|cycler| {
-            cycler.nodes.iter().flat_map(|node| &node.cycle).any(|field| reads(&field.binding))
-        });
-        reading.map(|cycler| cycler.instances.len()).sum::<usize>()
-    };
-    let readers = count(&|binding| latest_of(binding).is_some_and(|(read, _)| *read == id));
-    let consumers = count(&|binding| {
-        matches!(binding, CycleBinding::Perception { instances, .. } if instances.contains(&id))
-    });
-    let queue = robot.cyclers[id.cycler].queue;
-    let total = 2 + readers + consumers * queue;
-    let mut sum = "2".to_owned();
-    if readers > 0 {
-        sum.push_str(&format!(" + {}", counted(readers, "reader")));
-    }
-    if consumers > 0 {
-        sum.push_str(&format!(" + {} of {queue}", counted(consumers, "window")));
-    }
-    if sum == "2" { sum } else { format!("{total} = {sum}") }
-}
-
-fn counted(count: usize, what: &str) -> String {
-    if count == 1 { format!("1 {what}") } else { format!("{count} {what}s") }
-}
-
-/// The newest cycle of which instance is read, and what of it.
-fn latest_of(binding: &CycleBinding) -> Option<(&InstanceId, &Access)> {
-    match binding {
-        CycleBinding::OutputOf { instance, access, .. }
-        | CycleBinding::RequiredOutputOf { instance, access, .. }
-        | CycleBinding::Latest { instance, access, .. } => Some((instance, access)),
-        _ => None,
-    }
-}
-
-fn node_facts(
-    robot: &Robot,
-    cycler: &Cycler,
-    schedule: &CyclerSchedule,
-    position: usize,
-) -> Vec<String> {
-    let node = &cycler.nodes[position];
-    let mut facts = Vec::new();
-    for field in &node.creation {
-        if let CreationBinding::Parameter { access, .. } = &field.binding {
-            facts.push(format!("reads parameter `{}` when it is created", access.written));
-        }
-    }
-    for field in &node.cycle {
-        facts.extend(field_fact(robot, cycler, &field.name, &field.binding));
-    }
-    for field in &node.outputs {
-        facts.push(match &field.binding {
-            crate::resolve::robot::OutputBinding::MainOutput { data } => {
-                format!("writes `{}`: `{}`", field.name, data.text)
-            }
-            crate::resolve::robot::OutputBinding::CaptureTime => {
-                "gives the cycle its timestamp".to_owned()
-            }
-        });
-    }
-    for interface in node.cycle_bounds.iter().chain(&node.new_bounds) {
-        let fact = format!("asks the hardware for `{}`", interface.path);
-        if !facts.contains(&fact) {
-            facts.push(fact);
-        }
-    }
-    if node.on_failure != cycler.on_failure {
-        facts.push(format!("on failure: {}", on_failure(node.on_failure)));
-    }
-    facts.push(place(cycler, schedule, position, node));
-    facts
-}
-
-/// What one field of the cycle context reads or writes, and from whom.
-fn field_fact(robot: &Robot, cycler: &Cycler, name: &str, binding: &CycleBinding) -> Option<String> {
-    let instance = |id: &InstanceId| robot.cyclers[id.cycler].instances[id.instance].name.as_str();
-    let writer = |id: &InstanceId, producer: usize| &robot.cyclers[id.cycler].nodes[producer].path;
-    let own = |kind: &str, access: &Access, producer: usize| {
-        format!("reads {kind}`{}` from `{}`", access.written, cycler.nodes[producer].path)
-    };
-    Some(match binding {
-        CycleBinding::OwnOutput { access, producer, .. } => own("", access, *producer),
-        CycleBinding::RequiredOwnOutput { access, producer, .. } => own("required ", access, *producer),
-        CycleBinding::Previous { access, producer, .. } => own("previous ", access, *producer),
-        CycleBinding::Historic { access, producer, .. } => own("historic ", access, *producer),
-        CycleBinding::OutputOf { instance: id, access, producer, .. }
-        | CycleBinding::Latest { instance: id, access, producer, .. } => {
-            format!("reads latest `{}.{}` from `{}`", instance(id), access.written, writer(id, *producer))
-        }
-        CycleBinding::RequiredOutputOf { instance: id, access, producer, .. } => format!(
-            "reads required latest `{}.{}` from `{}`",
-            instance(id),
-            access.written,
-            writer(id, *producer)
-        ),
-        CycleBinding::Perception { instances, access, producer, .. } => {
-            let from: Vec<String> =
-                instances.iter().map(|id| format!("`{}.{}`", instance(id), access.written)).collect();
-            let writer = writer(&instances[0], *producer);
-            format!("reads in order of time {} from `{writer}`", from.join(", "))
-        }
-        CycleBinding::Parameter { access, .. } => format!("reads parameter `{}`", access.written),
-        CycleBinding::CyclerState { access, shared: true, .. } => {
-            format!("reads state `{}`", access.written)
-        }
-        CycleBinding::CyclerState { access, .. } => format!("writes state `{}`", access.written),
-        CycleBinding::AdditionalOutput { access, data } => {
-            format!("writes when subscribed `{}`: `{}`", access.written, data.text)
-        }
-        CycleBinding::Procedure { name, .. } => format!("answers procedure `{name}`"),
-        CycleBinding::MainOutput { data } => format!("writes in place `{name}`: `{}`", data.text),
-        CycleBinding::CycleTime | CycleBinding::HardwareInterface => return None,
-    })
-}
-
-/// Why a node stands where it stands.
-fn place(cycler: &Cycler, schedule: &CyclerSchedule, position: usize, node: &Node) -> String {
-    let mut reasons: BTreeMap<usize, Vec<&Edge>> = BTreeMap::new();
-    for edge in schedule.reasons(position) {
-        reasons.entry(edge.from).or_default().push(edge);
-    }
-    if reasons.is_empty() {
-        let part = if node.setup { "setup nodes" } else { "nodes" };
-        return format!("waits for none of the {part}: stands here by the order of the manifest");
-    }
-    let reasons = reasons.into_iter().map(|(from, edges)| {
-        let fields: Vec<String> = edges.into_iter().map(reason).collect();
-        format!("`{}` ({})", cycler.nodes[from].path, fields.join(", "))
-    });
-    format!("after {}", reasons.collect::<Vec<_>>().join(", "))
-}
-
-fn reason(edge: &Edge) -> String {
-    match edge.reason {
-        Reason::CyclerState => format!("state `{}`", edge.path),
-        Reason::Input | Reason::RequiredInput | Reason::HistoricInput => format!("`{}`", edge.path),
-    }
-}
-
-/// Every output that other instances read, with its readers.
-fn shared_outputs(robot: &Robot, position: usize, cycler: &Cycler) -> Vec<OutputText> {
-    let outputs = cycler.outputs.iter().filter(|output| output.shared);
-    outputs
-        .map(|output| OutputText {
-            name: output.name.clone(),
-            data: output.data.text.clone(),
-            writer: cycler.nodes[output.producer].path.clone(),
-            readers: readers(robot, position, &output.name),
-        })
-        .collect()
-}
-
-fn readers(robot: &Robot, producing: usize, output: &str) -> Vec<String> {
-    let mut readers = Vec::new();
-    for cycler in &robot.cyclers {
-        for node in &cycler.nodes {
-            let reads = node.cycle.iter().filter_map(|field| match &field.binding {
-                CycleBinding::Perception { instances, access, .. } => {
-                    Some((instances.first()?.cycler, access, "in order of time"))
-                }
-                binding => latest_of(binding).map(|(id, access)| (id.cycler, access, "latest")),
-            });
-            for (from, access, how) in reads {
-                let reader = format!("`{}` in `{}` ({how})", node.path, cycler.name);
-                if from == producing && access.segments[0].name == output && !readers.contains(&reader) {
-                    readers.push(reader);
-                }
-            }
-        }
-    }
-    readers
-}
-
-fn list_parameters(
-    tree: &Tree<crate::resolve::robot::Reader>,
-    above: &str,
-    parameters: &mut Vec<ParameterText>,
-) {
+fn list_parameters(tree: &Tree<Reader>, above: &str, parameters: &mut Vec<ParameterText>) {
     for branch in &tree.branches {
-        let path = if above.is_empty() { branch.name.clone() } else { format!("{above}.{}", branch.name) };
+        let path = if above.is_empty() {
+            branch.name.clone()
+        } else {
+            format!("{above}.{}", branch.name)
+        };
         match &branch.content {
             Content::Leaf { data, users } => {
-                let mut readers: Vec<String> = users.iter().map(|reader| format!("`{}`", reader.node)).collect();
+                let mut readers: Vec<String> = users
+                    .iter()
+                    .map(|reader| format!("`{}`", reader.node))
+                    .collect();
                 readers.sort();
                 readers.dedup();
-                parameters.push(ParameterText { path, data: data.text.clone(), readers });
+                parameters.push(ParameterText {
+                    path,
+                    data: data.text.clone(),
+                    readers,
+                });
             }
-            Content::Inner(tree) | Content::Instance { tree, .. } => list_parameters(tree, &path, parameters),
+            Content::Inner(tree) | Content::Instance { tree, .. } => {
+                list_parameters(tree, &path, parameters)
+            }
         }
     }
+}
+
+fn instance_name(robot: &Robot, id: InstanceId) -> &str {
+    &robot.cyclers[id.cycler].instances[id.instance].name
 }
 
 /// As the manifest writes it.
@@ -376,10 +210,15 @@ fn on_failure(on_failure: OnFailure) -> &'static str {
 /// In the largest unit that says it in whole numbers.
 fn duration(duration: Duration) -> String {
     let nanoseconds = duration.as_nanos();
-    let units = [("s", 1_000_000_000), ("ms", 1_000_000), ("us", 1_000), ("ns", 1)];
+    let units = [
+        ("s", 1_000_000_000),
+        ("ms", 1_000_000),
+        ("us", 1_000),
+        ("ns", 1),
+    ];
     let (unit, length) = units
         .into_iter()
-        .find(|(_, length)| nanoseconds % length == 0)
+        .find(|(_, length)| nanoseconds.is_multiple_of(*length))
         .unwrap_or(("ns", 1));
     format!("{} {unit}", nanoseconds / length)
 }

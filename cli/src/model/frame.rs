@@ -87,8 +87,14 @@ pub fn instance_parameters(cycler: &Cycler, parameters: &Parameters) -> Vec<Inst
         .nodes
         .iter()
         .flat_map(|node| {
-            let created = node.creation.iter().filter_map(|field| created_from(&field.binding));
-            let cycled = node.cycle.iter().filter_map(|field| read_from(&field.binding));
+            let created = node
+                .creation
+                .iter()
+                .filter_map(|field| created_from(&field.binding));
+            let cycled = node
+                .cycle
+                .iter()
+                .filter_map(|field| read_from(&field.binding));
             created.chain(cycled)
         })
         .filter_map(instance_prefix)
@@ -99,22 +105,37 @@ pub fn instance_parameters(cycler: &Cycler, parameters: &Parameters) -> Vec<Inst
         .into_iter()
         .map(|prefix| {
             let path = prefix.iter().chain([&instance]);
-            let content = parameters.content(path).expect("declared paths are in the tree");
+            let content = parameters
+                .content(path)
+                .expect("declared paths are in the tree");
             let whose = prefix.join("_");
             let (field, select) = if only || whose.is_empty() {
                 ("instance_parameters".to_owned(), "select".to_owned())
             } else {
                 (format!("instance_{whose}"), format!("select_{whose}"))
             };
-            InstanceParameters { field, select, prefix, content }
+            InstanceParameters {
+                field,
+                select,
+                prefix,
+                content,
+            }
         })
         .collect()
 }
 
 /// What stands in front of `$cycler_instance`, if that is part of the path.
 pub fn instance_prefix(access: &Access) -> Option<Vec<String>> {
-    let position = access.segments.iter().position(|segment| segment.instance)?;
-    Some(access.segments[..position].iter().map(|segment| segment.name.clone()).collect())
+    let position = access
+        .segments
+        .iter()
+        .position(|segment| segment.instance)?;
+    Some(
+        access.segments[..position]
+            .iter()
+            .map(|segment| segment.name.clone())
+            .collect(),
+    )
 }
 
 fn created_from(binding: &CreationBinding) -> Option<&Access> {
@@ -155,7 +176,11 @@ pub fn frame_fields(cycler: &Cycler, parts: &[InstanceParameters]) -> Vec<FrameF
     }
     for output in &cycler.outputs {
         fields.push(FrameField::Injections);
-        fields.push(if output.shared { FrameField::Shared } else { FrameField::Own });
+        fields.push(if output.shared {
+            FrameField::Shared
+        } else {
+            FrameField::Own
+        });
         if output.previous {
             fields.push(FrameField::Previous);
         }
@@ -164,9 +189,8 @@ pub fn frame_fields(cycler: &Cycler, parts: &[InstanceParameters]) -> Vec<FrameF
         for field in &node.cycle {
             fields.extend(cycle_fields(&field.binding, parts));
         }
-        let captures = |field: &Field<OutputBinding>| {
-            matches!(field.binding, OutputBinding::CaptureTime)
-        };
+        let captures =
+            |field: &Field<OutputBinding>| matches!(field.binding, OutputBinding::CaptureTime);
         if node.outputs.iter().any(captures) {
             fields.push(FrameField::CaptureTime);
         }
@@ -181,7 +205,10 @@ pub fn renews(node: &Node) -> bool {
 
 /// Whether something of `Frame` is needed to create a node anew.
 pub fn renews_from_frame(cycler: &Cycler) -> bool {
-    cycler.nodes.iter().any(|node| renews(node) && !node.creation.is_empty())
+    cycler
+        .nodes
+        .iter()
+        .any(|node| renews(node) && !node.creation.is_empty())
 }
 
 fn cycle_fields(binding: &CycleBinding, parts: &[InstanceParameters]) -> Vec<FrameField> {
@@ -207,9 +234,11 @@ fn cycle_fields(binding: &CycleBinding, parts: &[InstanceParameters]) -> Vec<Fra
 }
 
 fn parameter_field(access: &Access, parts: &[InstanceParameters]) -> FrameField {
-    let part = instance_prefix(access)
-        .and_then(|prefix| parts.iter().find(|part| part.prefix == prefix));
-    part.map_or(FrameField::Parameters, |part| FrameField::Instance(part.clone()))
+    let part =
+        instance_prefix(access).and_then(|prefix| parts.iter().find(|part| part.prefix == prefix));
+    part.map_or(FrameField::Parameters, |part| {
+        FrameField::Instance(part.clone())
+    })
 }
 
 fn sorted(fields: impl IntoIterator<Item = FrameField>) -> Vec<FrameField> {

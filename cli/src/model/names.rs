@@ -33,7 +33,11 @@ pub fn upper_camel_case(name: &str) -> String {
     name.split('_')
         .flat_map(|word| {
             let mut letters = word.chars();
-            letters.next().into_iter().flat_map(char::to_uppercase).chain(letters)
+            letters
+                .next()
+                .into_iter()
+                .flat_map(char::to_uppercase)
+                .chain(letters)
         })
         .collect()
 }
@@ -52,7 +56,9 @@ pub struct Names {
 impl Names {
     /// Names that stand already.
     pub fn with(given: impl IntoIterator<Item = String>) -> Self {
-        Self { given: given.into_iter().collect() }
+        Self {
+            given: given.into_iter().collect(),
+        }
     }
 
     /// The wanted name, or the wanted name and the first number that makes it new.
@@ -78,7 +84,11 @@ pub fn name_nodes(nodes: &[Node]) -> Vec<String> {
         .zip(&shorts)
         .map(|(node, short)| {
             let unique = shorts.iter().filter(|other| *other == short).count() == 1;
-            if unique { short.clone() } else { node.path.replace("r#", "").replace("::", "_") }
+            if unique {
+                short.clone()
+            } else {
+                node.path.replace("r#", "").replace("::", "_")
+            }
         })
         .collect();
     let created: BTreeSet<String> = wanted.iter().map(|name| format!("create_{name}")).collect();
@@ -86,7 +96,11 @@ pub fn name_nodes(nodes: &[Node]) -> Vec<String> {
         .iter()
         .map(|name| {
             let taken = FUNCTIONS_OF_NODES.contains(&name.as_str()) || created.contains(name);
-            names.give(&if taken { format!("{name}_node") } else { name.clone() })
+            names.give(&if taken {
+                format!("{name}_node")
+            } else {
+                name.clone()
+            })
         })
         .collect()
 }

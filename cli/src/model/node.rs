@@ -1,6 +1,7 @@
 //! One node of a cycler: how it is created, and its step in a cycle.
 
 use super::accessor::Accessor;
+use super::cycler::AdditionalOutput;
 use super::frame::{Hardware, InstanceParameters, instance_prefix, renews};
 use super::names::snake_case;
 use super::{frame, sentences};
@@ -76,6 +77,7 @@ pub struct Required {
     pub source: RequiredSource,
 }
 
+/// Where a required input comes from.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum RequiredSource {
     /// Something on the path may be absent.
@@ -101,15 +103,35 @@ pub enum Value {
     /// A required input, which is a variable by now.
     Variable(String),
     /// `frame.latest.control.latest(…)`.
-    Latest { latest: String, path: Accessor },
+    Latest {
+        latest: String,
+        path: Accessor,
+    },
     /// The output by time, and its value of this cycle.
-    Historic { variable: String, output: String, path: Accessor, current: Accessor },
+    Historic {
+        variable: String,
+        output: String,
+        path: Accessor,
+        current: Accessor,
+    },
     /// One perception instance.
-    Perception { variable: String, lane: String, path: Accessor },
+    Perception {
+        variable: String,
+        lane: String,
+        path: Accessor,
+    },
     /// All instances of a perception cycler in one order.
-    Interleaved { variable: String, order: String, lanes: Vec<String>, path: Accessor },
+    Interleaved {
+        variable: String,
+        order: String,
+        lanes: Vec<String>,
+        path: Accessor,
+    },
     CycleTime,
-    AdditionalOutput { flag: String, place: Vec<String> },
+    AdditionalOutput {
+        flag: String,
+        place: Vec<String>,
+    },
     Procedure(String),
     HardwareInterface,
 }
@@ -140,8 +162,7 @@ pub struct Surroundings<'a> {
     pub robot: &'a Robot,
     pub cycler: &'a Cycler,
     pub instance_parameters: &'a [InstanceParameters],
-    /// Flags of additional outputs by the path as written.
-    pub flags: &'a [(String, String)],
+    pub additional_outputs: &'a [AdditionalOutput],
     pub frame_is_generic: bool,
     pub creation_is_generic: bool,
 }
@@ -187,7 +208,10 @@ impl Surroundings<'_> {
                     }
                     None => self.cycle_value(&field.name, &field.binding),
                 };
-                ContextField { name: field.name.clone(), value }
+                ContextField {
+                    name: field.name.clone(),
+                    value,
+                }
             })
             .collect();
         let capture_time = node
@@ -252,18 +276,26 @@ impl Surroundings<'_> {
             CycleBinding::RequiredOwnOutput { access, .. } => {
                 RequiredSource::Option(self.own_output("frame", access))
             }
-            CycleBinding::RequiredOutputOf { instance, access, .. } => {
+            CycleBinding::RequiredOutputOf {
+                instance, access, ..
+            } => {
                 let accessor = self.output_of(*instance, access);
                 if accessor.may_be_absent() {
                     RequiredSource::Option(accessor)
                 } else {
                     let path = Accessor::below(&["outputs"], &access.segments);
-                    RequiredSource::Written { latest: self.instance(*instance), path }
+                    RequiredSource::Written {
+                        latest: self.instance(*instance),
+                        path,
+                    }
                 }
             }
             _ => return None,
         };
-        Some(Required { variable: variable(field), source })
+        Some(Required {
+            variable: variable(field),
+            source,
+        })
     }
 
     fn cycle_value(&self, field: &str, binding: &CycleBinding) -> Value {
@@ -273,16 +305,24 @@ impl Surroundings<'_> {
             | CycleBinding::RequiredOwnOutput { access, .. } => {
                 Value::Read(self.own_output("frame", access))
             }
-            CycleBinding::OutputOf { instance, access, .. }
-            | CycleBinding::RequiredOutputOf { instance, access, .. } => {
-                Value::Read(self.output_of(*instance, access))
+            CycleBinding::OutputOf {
+                instance, access, ..
             }
-            CycleBinding::Latest { instance, access, .. } => {
-                Value::Latest { latest: self.instance(*instance), path: in_outputs(access) }
-            }
+            | CycleBinding::RequiredOutputOf {
+                instance, access, ..
+            } => Value::Read(self.output_of(*instance, access)),
+            CycleBinding::Latest {
+                instance, access, ..
+            } => Value::Latest {
+                latest: self.instance(*instance),
+                path: in_outputs(access),
+            },
             CycleBinding::Previous { access, .. } => {
                 let home = home(self.is_shared(&access.segments[0].name));
-                Value::Read(Accessor::below(&["frame", "previous", home], &access.segments))
+                Value::Read(Accessor::below(
+                    &["frame", "previous", home],
+                    &access.segments,
+                ))
             }
             CycleBinding::Historic { access, .. } => Value::Historic {
                 variable: variable(field),
@@ -290,9 +330,12 @@ impl Surroundings<'_> {
                 path: Accessor::in_variable(&access.segments),
                 current: self.own_output("frame", access),
             },
-            CycleBinding::Perception { instances, interleaved, access, .. } => {
-                self.perception(field, instances, *interleaved, in_outputs(access))
-            }
+            CycleBinding::Perception {
+                instances,
+                interleaved,
+                access,
+                ..
+            } => self.perception(field, instances, *interleaved, in_outputs(access)),
             CycleBinding::Parameter { access, .. } => self.parameter("frame", access),
             CycleBinding::CyclerState { access, shared, .. } => state("frame", access, *shared),
             CycleBinding::CycleTime => Value::CycleTime,
@@ -316,26 +359,46 @@ impl Surroundings<'_> {
         let variable = variable(field);
         let lanes: Vec<String> = instances.iter().map(|id| self.instance(*id)).collect();
         match lanes.as_slice() {
-            [lane] => Value::Perception { variable, lane: lane.clone(), path },
+            [lane] => Value::Perception {
+                variable,
+                lane: lane.clone(),
+                path,
+            },
             _ => {
                 debug_assert!(interleaved, "only a cycler's name means several instances");
                 let cycler = &self.robot.cyclers[instances[0].cycler];
-                Value::Interleaved { variable, order: snake_case(&cycler.name), lanes, path }
+                Value::Interleaved {
+                    variable,
+                    order: snake_case(&cycler.name),
+                    lanes,
+                    path,
+                }
             }
         }
     }
 
     fn additional(&self, access: &Access) -> Value {
-        let flag = self.flags.iter().find(|(path, _)| *path == access.written);
-        let (_, flag) = flag.expect("every declared additional output has a flag");
-        let mut place = vec!["frame".to_owned(), "additional_outputs".to_owned()];
-        place.extend(access.segments.iter().map(|segment| segment.name.clone()));
-        Value::AdditionalOutput { flag: flag.clone(), place }
+        let known = self
+            .additional_outputs
+            .iter()
+            .find(|known| known.written == access.written);
+        let known = known.expect("every declared additional output is known");
+        let base = ["frame", "additional_outputs"].map(str::to_owned);
+        Value::AdditionalOutput {
+            flag: known.flag.clone(),
+            place: base
+                .into_iter()
+                .chain(known.place.iter().cloned())
+                .collect(),
+        }
     }
 
     fn parameter(&self, base: &str, access: &Access) -> Value {
-        let part = instance_prefix(access)
-            .and_then(|prefix| self.instance_parameters.iter().find(|part| part.prefix == prefix));
+        let part = instance_prefix(access).and_then(|prefix| {
+            self.instance_parameters
+                .iter()
+                .find(|part| part.prefix == prefix)
+        });
         Value::Read(match part {
             Some(part) => {
                 let below = &access.segments[part.prefix.len() + 1..];
@@ -351,11 +414,17 @@ impl Surroundings<'_> {
     }
 
     fn output_of(&self, instance: InstanceId, access: &Access) -> Accessor {
-        Accessor::below(&["frame", "latest", &self.instance(instance)], &access.segments)
+        Accessor::below(
+            &["frame", "latest", &self.instance(instance)],
+            &access.segments,
+        )
     }
 
     fn is_shared(&self, output: &str) -> bool {
-        self.cycler.outputs.iter().any(|known| known.name == output && known.shared)
+        self.cycler
+            .outputs
+            .iter()
+            .any(|known| known.name == output && known.shared)
     }
 
     fn instance(&self, id: InstanceId) -> String {
@@ -365,7 +434,11 @@ impl Surroundings<'_> {
 
 /// The variable that a field of a context is bound to before the context is made.
 fn variable(field: &str) -> String {
-    if VARIABLES.contains(&field) { format!("{field}_input") } else { field.to_owned() }
+    if VARIABLES.contains(&field) {
+        format!("{field}_input")
+    } else {
+        field.to_owned()
+    }
 }
 
 fn state(base: &str, access: &Access, shared: bool) -> Value {
@@ -373,7 +446,10 @@ fn state(base: &str, access: &Access, shared: bool) -> Value {
     if shared {
         Value::Read(Accessor::below(&base, &access.segments))
     } else {
-        let names = access.segments.iter().map(|Segment { name, .. }| name.clone());
+        let names = access
+            .segments
+            .iter()
+            .map(|Segment { name, .. }| name.clone());
         Value::Write(base.map(str::to_owned).into_iter().chain(names).collect())
     }
 }
@@ -383,7 +459,10 @@ pub fn asked(generic: bool, bounds: &[Interface]) -> Hardware {
     if !generic {
         return frame::Hardware::Absent;
     }
-    let mut traits: Vec<String> = bounds.iter().map(|interface| interface.path.clone()).collect();
+    let mut traits: Vec<String> = bounds
+        .iter()
+        .map(|interface| interface.path.clone())
+        .collect();
     traits.sort();
     traits.dedup();
     Hardware::Asked(traits)

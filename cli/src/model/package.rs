@@ -21,6 +21,7 @@ pub struct Package {
     pub targets: Vec<PackageTarget>,
 }
 
+/// A binary behind its feature.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct PackageTarget {
     pub name: String,
@@ -49,9 +50,17 @@ pub fn describe(robot: &Robot) -> Package {
         robot: robot.name.clone(),
         header: super::DO_NOT_EDIT,
         name: library(robot),
-        inherited: INHERITED.iter().filter(|key| inherits(key)).map(|key| (*key).to_owned()).collect(),
+        inherited: INHERITED
+            .iter()
+            .filter(|key| inherits(key))
+            .map(|key| (*key).to_owned())
+            .collect(),
         // Generated code is written in this edition.
-        own: if inherits(&"edition") { Vec::new() } else { vec!["edition = \"2024\""] },
+        own: if inherits(&"edition") {
+            Vec::new()
+        } else {
+            vec!["edition = \"2024\""]
+        },
         dependencies: robot.crates.iter().map(line).collect(),
         targets: robot.targets.iter().map(target).collect(),
     }
@@ -69,9 +78,16 @@ pub fn feature(target: &str) -> String {
 
 /// A dependency's line; one that belongs to targets only is optional.
 fn line(dependency: &Dependency) -> String {
-    let Dependency { key, requirement, targets, .. } = dependency;
+    let Dependency {
+        key,
+        requirement,
+        targets,
+        ..
+    } = dependency;
     let requirement = requirement.trim();
-    let table = requirement.strip_prefix('{').and_then(|table| table.strip_suffix('}'));
+    let table = requirement
+        .strip_prefix('{')
+        .and_then(|table| table.strip_suffix('}'));
     match table.map(str::trim) {
         Some("workspace = true") if targets.is_empty() => format!("{key}.workspace = true"),
         _ if targets.is_empty() => format!("{key} = {requirement}"),

@@ -28,7 +28,12 @@ impl Parameters {
                 return None;
             };
             let level = self.structs.iter().find(|known| known.name == level)?;
-            content = level.fields.iter().find(|field| field.name == *name)?.content.clone();
+            content = level
+                .fields
+                .iter()
+                .find(|field| field.name == *name)?
+                .content
+                .clone();
         }
         Some(content)
     }

@@ -10,8 +10,13 @@ use super::node::asked;
 use crate::resolve::robot::{Cycler, CyclerKind, InstanceId, OnFailure, Robot, Scheduling};
 
 /// Names that `create` uses itself.
-const VARIABLES_OF_CREATE: [&str; 5] =
-    ["creation", "cycler_state", "hardware", "parameters", "start"];
+const VARIABLES_OF_CREATE: [&str; 5] = [
+    "creation",
+    "cycler_state",
+    "hardware",
+    "parameters",
+    "start",
+];
 
 /// Everything that `create` puts together.
 #[derive(Clone, Debug)]
@@ -61,8 +66,10 @@ pub struct Description {
 /// Decides how the instances are connected.
 pub fn describe(robot: &Robot, cyclers: &[CyclerModel]) -> Runtime {
     let variables = variables(robot);
-    let instances =
-        variables.keys().map(|id| instance_model(robot, cyclers, &variables, *id)).collect();
+    let instances = variables
+        .keys()
+        .map(|id| instance_model(robot, cyclers, &variables, *id))
+        .collect();
     let bounds: Vec<_> = robot
         .cyclers
         .iter()
@@ -89,7 +96,10 @@ fn variables(robot: &Robot) -> BTreeMap<InstanceId, String> {
     let mut variables = BTreeMap::new();
     for (position, cycler) in robot.cyclers.iter().enumerate() {
         for (instance, named) in cycler.instances.iter().enumerate() {
-            let id = InstanceId { cycler: position, instance };
+            let id = InstanceId {
+                cycler: position,
+                instance,
+            };
             variables.insert(id, names.give(&snake_case(&named.name)));
         }
     }
@@ -107,13 +117,18 @@ fn instance_model(
     let variable = &variables[&id];
     // Variables of the instances whose cycler reads this one, in manifest order.
     let reading = |sources: &dyn Fn(&CyclerModel) -> bool| -> Vec<&String> {
-        let reading = variables.iter().filter(|(id, _)| sources(&cyclers[id.cycler]));
+        let reading = variables
+            .iter()
+            .filter(|(id, _)| sources(&cyclers[id.cycler]));
         reading.map(|(_, variable)| variable).collect()
     };
     let is_this = |source: &Source| source.id == id;
     let readers = reading(&|cycler| cycler.latest.iter().any(is_this));
     let consumers = reading(&|cycler| {
-        cycler.perception.iter().any(|perception| perception.lanes.iter().any(is_this))
+        cycler
+            .perception
+            .iter()
+            .any(|perception| perception.lanes.iter().any(is_this))
     });
     InstanceModel {
         id,
@@ -121,8 +136,14 @@ fn instance_model(
         variable: variable.clone(),
         constant: constant_case(&instance.name),
         description: description(cycler, id.instance),
-        readers: readers.into_iter().map(|reader| end(variable, reader)).collect(),
-        consumers: consumers.into_iter().map(|consumer| queue(variable, consumer)).collect(),
+        readers: readers
+            .into_iter()
+            .map(|reader| end(variable, reader))
+            .collect(),
+        consumers: consumers
+            .into_iter()
+            .map(|consumer| queue(variable, consumer))
+            .collect(),
         queue: cycler.queue,
     }
 }

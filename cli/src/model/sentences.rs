@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::resolve::robot::{
-    CyclerKind, Cycler, CycleBinding, Interface, Node, OutputBinding, Robot,
+    CycleBinding, Cycler, CyclerKind, Interface, Node, OutputBinding, Robot,
 };
 
 /// Words joined by commas, sorted and each once.
@@ -14,15 +14,22 @@ pub(super) fn list<'a>(words: impl IntoIterator<Item = &'a str>) -> String {
 
 /// `Cycler `Vision` (perception), instances `VisionTop` and `VisionBottom`.`
 pub(super) fn cycler_title(cycler: &Cycler) -> String {
-    let names: Vec<String> =
-        cycler.instances.iter().map(|instance| format!("`{}`", instance.name)).collect();
+    let names: Vec<String> = cycler
+        .instances
+        .iter()
+        .map(|instance| format!("`{}`", instance.name))
+        .collect();
     let instances = match names.as_slice() {
         [_] if cycler.instances[0].name == cycler.name => "one instance".to_owned(),
         [only] => format!("instance {only}"),
         [all @ .., last] => format!("instances {} and {last}", all.join(", ")),
         [] => "no instance".to_owned(),
     };
-    format!("Cycler `{}` ({}), {instances}.", cycler.name, kind(cycler.kind))
+    format!(
+        "Cycler `{}` ({}), {instances}.",
+        cycler.name,
+        kind(cycler.kind)
+    )
 }
 
 /// The kind as the manifest writes it.
@@ -41,7 +48,11 @@ pub(super) fn flow(robot: &Robot, node: &Node) -> String {
     if asks(&node.cycle_bounds, |reading| reading == Some(true)) {
         reads.push("hardware".to_owned());
     }
-    for read in node.cycle.iter().filter_map(|field| read(robot, &field.binding)) {
+    for read in node
+        .cycle
+        .iter()
+        .filter_map(|field| read(robot, &field.binding))
+    {
         if !reads.contains(&read) {
             reads.push(read);
         }
@@ -57,9 +68,19 @@ pub(super) fn flow(robot: &Robot, node: &Node) -> String {
     if asks(&node.cycle_bounds, |reading| reading != Some(true)) {
         writes.push("hardware".to_owned());
     }
-    let writes = if writes.is_empty() { "nothing".to_owned() } else { writes.join(", ") };
-    let mut flow = format!("{} -> {writes}", reads.join(", ")).trim_start().to_owned();
-    let additional: Vec<&str> = node.cycle.iter().filter_map(|field| additional(&field.binding)).collect();
+    let writes = if writes.is_empty() {
+        "nothing".to_owned()
+    } else {
+        writes.join(", ")
+    };
+    let mut flow = format!("{} -> {writes}", reads.join(", "))
+        .trim_start()
+        .to_owned();
+    let additional: Vec<&str> = node
+        .cycle
+        .iter()
+        .filter_map(|field| additional(&field.binding))
+        .collect();
     if !additional.is_empty() {
         flow.push_str(&format!("; when subscribed: {}", additional.join(", ")));
     }
@@ -69,7 +90,9 @@ pub(super) fn flow(robot: &Robot, node: &Node) -> String {
 /// What a node reads through this field, if that is data of a cycle.
 fn read(robot: &Robot, binding: &CycleBinding) -> Option<String> {
     let instance_name = |id: &crate::resolve::robot::InstanceId| {
-        robot.cyclers[id.cycler].instances[id.instance].name.as_str()
+        robot.cyclers[id.cycler].instances[id.instance]
+            .name
+            .as_str()
     };
     let path = |written: &str| written.replace('?', "");
     Some(match binding {
@@ -77,16 +100,35 @@ fn read(robot: &Robot, binding: &CycleBinding) -> Option<String> {
         CycleBinding::RequiredOwnOutput { access, .. } => {
             format!("{} (required)", path(&access.written))
         }
-        CycleBinding::OutputOf { instance, access, .. }
-        | CycleBinding::Latest { instance, access, .. } => {
-            format!("latest {}.{}", instance_name(instance), path(&access.written))
+        CycleBinding::OutputOf {
+            instance, access, ..
         }
-        CycleBinding::RequiredOutputOf { instance, access, .. } => {
-            format!("latest {}.{} (required)", instance_name(instance), path(&access.written))
+        | CycleBinding::Latest {
+            instance, access, ..
+        } => {
+            format!(
+                "latest {}.{}",
+                instance_name(instance),
+                path(&access.written)
+            )
+        }
+        CycleBinding::RequiredOutputOf {
+            instance, access, ..
+        } => {
+            format!(
+                "latest {}.{} (required)",
+                instance_name(instance),
+                path(&access.written)
+            )
         }
         CycleBinding::Previous { access, .. } => format!("previous {}", path(&access.written)),
         CycleBinding::Historic { access, .. } => format!("historic {}", path(&access.written)),
-        CycleBinding::Perception { instances, interleaved, access, .. } => {
+        CycleBinding::Perception {
+            instances,
+            interleaved,
+            access,
+            ..
+        } => {
             let from = if *interleaved {
                 &robot.cyclers[instances[0].cycler].name
             } else {

@@ -12,6 +12,7 @@ pub struct Struct {
     pub fields: Vec<StructField>,
 }
 
+/// A name at one level of a tree.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct StructField {
     pub name: String,
@@ -20,6 +21,7 @@ pub struct StructField {
     pub content: FieldType,
 }
 
+/// What a field of the tree is.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum FieldType {
     /// A declared value: its absolute type.
@@ -42,7 +44,13 @@ pub struct Structs<'a, U> {
 impl<'a, U> Structs<'a, U> {
     /// `docs` makes the doc comment of a declared value from those who use it.
     pub fn new(robot: &'a Robot, prefix: &'a str, docs: &'a dyn Fn(&[U]) -> String) -> Self {
-        Self { robot, prefix, docs, names: Names::default(), instances: BTreeMap::new() }
+        Self {
+            robot,
+            prefix,
+            docs,
+            names: Names::default(),
+            instances: BTreeMap::new(),
+        }
     }
 
     /// The structs of this tree, whose root has this name.
@@ -73,7 +81,11 @@ impl<'a, U> Structs<'a, U> {
                     FieldType::Struct(name)
                 }
             };
-            fields.push(StructField { name: branch.name.clone(), docs, content });
+            fields.push(StructField {
+                name: branch.name.clone(),
+                docs,
+                content,
+            });
         }
         let mut structs = vec![Struct { name, fields }];
         structs.append(&mut below);
@@ -102,5 +114,8 @@ fn same_fields(left: &Struct, right: &Struct) -> bool {
         FieldType::Data(data) => (one.name.clone(), Some(data.clone())),
         FieldType::Struct(_) => (one.name.clone(), None),
     };
-    left.fields.iter().map(shape).eq(right.fields.iter().map(shape))
+    left.fields
+        .iter()
+        .map(shape)
+        .eq(right.fields.iter().map(shape))
 }

@@ -14,7 +14,11 @@ pub(crate) fn walker() -> Robot {
         perception("Vision", &["Top", "Bottom"])
             .setup(
                 node("vision::image_receiver")
-                    .new_parameter("position", "types::CameraPosition", "$cycler_instance.position")
+                    .new_parameter(
+                        "position",
+                        "types::CameraPosition",
+                        "$cycler_instance.position",
+                    )
                     .hardware(&[("hardware::CameraInterface", true)])
                     .in_place("image", "types::Image")
                     .capture_time("captured_at"),
@@ -22,7 +26,11 @@ pub(crate) fn walker() -> Robot {
             .node(
                 node("vision::ball_detection")
                     .input("image", "types::Image", "image")
-                    .required("camera_matrix", "Option<types::CameraMatrix>", "camera_matrix?")
+                    .required(
+                        "camera_matrix",
+                        "Option<types::CameraMatrix>",
+                        "camera_matrix?",
+                    )
                     .parameter("ball_radius", "f32", "field_dimensions.ball_radius")
                     .additional("candidates", "Vec<types::Ball>", "ball_candidates")
                     .output("balls", "Vec<types::Ball>")
@@ -134,8 +142,15 @@ fn nodes_that_end_in_the_same_name_are_called_by_their_whole_path() {
             .node(node("vision::cycle"))
             .node(node("vision::pose")),
     ]));
-    let names: Vec<&str> = model.cyclers[0].nodes.iter().map(|node| node.name.as_str()).collect();
-    assert_eq!(names, ["control_filter", "vision_filter", "cycle_node", "pose"]);
+    let names: Vec<&str> = model.cyclers[0]
+        .nodes
+        .iter()
+        .map(|node| node.name.as_str())
+        .collect();
+    assert_eq!(
+        names,
+        ["control_filter", "vision_filter", "cycle_node", "pose"]
+    );
 }
 
 #[test]
@@ -145,25 +160,41 @@ fn an_instance_called_like_a_field_of_the_body_gets_another_field() {
         real_time("Control").node(node("control::b").latest("a", "f32", "Perception", "a")),
     ]));
     let reader = &model.cyclers[1].latest[0];
-    assert_eq!((reader.field.as_str(), reader.reader.as_str()), ("perception", "perception2"));
+    assert_eq!(
+        (reader.field.as_str(), reader.reader.as_str()),
+        ("perception", "perception2")
+    );
 }
 
 #[test]
 fn instances_of_one_cycler_share_the_struct_of_their_parameters() {
     let model = model_of(&walker());
-    let names: Vec<&str> =
-        model.parameters.structs.iter().map(|one| one.name.as_str()).collect();
+    let names: Vec<&str> = model
+        .parameters
+        .structs
+        .iter()
+        .map(|one| one.name.as_str())
+        .collect();
     assert_eq!(names, ["Parameters", "FieldDimensions", "VisionInstance"]);
-    let selects: Vec<&str> =
-        model.cyclers[0].instance_parameters.iter().map(|part| part.select.as_str()).collect();
+    let selects: Vec<&str> = model.cyclers[0]
+        .instance_parameters
+        .iter()
+        .map(|part| part.select.as_str())
+        .collect();
     assert_eq!(selects, ["select"]);
 }
 
 #[test]
 fn a_node_is_called_after_the_nodes_it_reads() {
     let model = model_of(&walker());
-    assert_eq!(model.cyclers[0].cycle.nodes, ["camera_matrix_extractor", "ball_detection"]);
-    assert_eq!(model.cyclers[1].cycle.nodes, ["odometry", "ball_filter", "motion"]);
+    assert_eq!(
+        model.cyclers[0].cycle.nodes,
+        ["camera_matrix_extractor", "ball_detection"]
+    );
+    assert_eq!(
+        model.cyclers[1].cycle.nodes,
+        ["odometry", "ball_filter", "motion"]
+    );
 }
 
 #[test]

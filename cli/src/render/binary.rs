@@ -8,7 +8,13 @@ use crate::model::Binary;
 
 /// The binary of one target.
 pub(super) fn render_binary(binary: &Binary) -> String {
-    let Binary { name, robot, parameters, identities, .. } = binary;
+    let Binary {
+        name,
+        robot,
+        parameters,
+        identities,
+        ..
+    } = binary;
     let hardware = path(&binary.hardware);
     let library = path(&format!("{}::runtime", binary.library));
     let location = match &binary.location {
@@ -29,6 +35,9 @@ pub(super) fn render_binary(binary: &Binary) -> String {
         }
     };
     let title = format!("The robot `{robot}` on target `{name}`.");
-    let modules = [format!("{}::runtime", binary.library), "framework::launch".to_owned()];
+    let modules = [
+        format!("{}::runtime", binary.library),
+        "framework::launch".to_owned(),
+    ];
     layout::rust_file(&title, &modules, items)
 }

@@ -44,7 +44,10 @@ pub(super) fn render_body(cycler: &CyclerModel, runtime: &Runtime) -> String {
             #observe
         }
     };
-    let title = format!("Cycler `{}` between its buffers and its nodes.", cycler.name);
+    let title = format!(
+        "Cycler `{}` between its buffers and its nodes.",
+        cycler.name
+    );
     layout::rust_file(&title, &database_modules(cycler), items)
 }
 
@@ -55,7 +58,11 @@ fn own(cycler: &CyclerModel, name: &str) -> TokenStream {
 
 /// What a slot of the instance's buffer holds.
 fn quote_shared(cycler: &CyclerModel) -> TokenStream {
-    if cycler.has_shared() { own(cycler, "SharedOutputs") } else { quote!(()) }
+    if cycler.has_shared() {
+        own(cycler, "SharedOutputs")
+    } else {
+        quote!(())
+    }
 }
 
 /// Type parameters and type arguments of the body.
@@ -65,43 +72,17 @@ fn quote_generics(cycler: &CyclerModel, bounded: bool) -> (TokenStream, TokenStr
         Hardware::Asked(_) if !bounded => (quote!(<Hardware>), quote!(<Hardware>)),
         Hardware::Asked(traits) => {
             let traits = traits.iter().map(|bound| path(bound));
-            (quote!(<Hardware: #(#traits +)* Send + Sync>), quote!(<Hardware>))
+            (
+                quote!(<Hardware: #(#traits +)* Send + Sync>),
+                quote!(<Hardware>),
+            )
         }
     }
 }
 
 fn quote_body(cycler: &CyclerModel) -> TokenStream {
     let nodes = path(&format!("crate::cyclers::{}::Nodes", cycler.module));
-    let has = |field: &FrameField| cycler.has(field);
-    let field = |needed: bool, name: &str, content: TokenStream| {
-        let name = ident(name);
-        needed.then(|| quote!(pub #name: #content,))
-    };
-    let own = |name: &str| own(cycler, name);
-    let (own_outputs, injections) = (own("OwnOutputs"), own("Injections"));
-    let fields = [
-        field(true, "nodes", nodes),
-        field(has(&FrameField::AdditionalOutputs), "additional_outputs", own("AdditionalOutputs")),
-        field(has(&FrameField::CaptureTime), "capture_time", quote!(Option<::framework::Timestamp>)),
-        field(cycler.has_states(), "cycler_state", own("CyclerState")),
-        field(cycler.is_generic(), "hardware_interface", quote!(::std::sync::Arc<Hardware>)),
-        field(has(&FrameField::Historic), "historic", own("Historic")),
-        field(
-            has(&FrameField::Injections),
-            "injections",
-            quote!(::framework::Reader<::framework::Injected<#injections>>),
-        ),
-        field(cycler.has_own(), "own", quote!(::framework::Swap<#own_outputs>)),
-        field(
-            cycler.has_parameters(),
-            "parameters",
-            quote!(::framework::Reader<crate::parameters::Parameters>),
-        ),
-        field(has(&FrameField::Perception), "perception", own("Perception")),
-        field(has(&FrameField::Procedures), "procedures", own("Procedures")),
-        field(has(&FrameField::Subscribed), "subscribed", own("Subscribed")),
-        field(has(&FrameField::Subscribed), "subscriptions", quote!(::framework::Subscriptions)),
-    ];
+    let fields = quote_fields(cycler);
     let readers = cycler.latest.iter().map(|source| {
         let (name, shared) = (ident(&source.reader), quote_shared_of(source));
         quote!(pub #name: ::framework::Reader<#shared>,)
@@ -115,28 +96,74 @@ fn quote_body(cycler: &CyclerModel) -> TokenStream {
     quote! {
         #about
         pub struct #name #parameter {
-            #(#fields)*
+            pub nodes: #nodes,
+            #fields
             #(#readers)*
             #(#selects)*
         }
     }
 }
 
+/// What a body may have, as far as this one needs it.
+fn quote_fields(cycler: &CyclerModel) -> TokenStream {
+    let has = |field: FrameField| cycler.has(&field);
+    let own = |name: &str| own(cycler, name);
+    let (own_outputs, injections) = (own("OwnOutputs"), own("Injections"));
+    let capture_time = quote!(Option<::framework::Timestamp>);
+    let hardware = quote!(::std::sync::Arc<Hardware>);
+    let injections = quote!(::framework::Reader<::framework::Injected<#injections>>);
+    let swap = quote!(::framework::Swap<#own_outputs>);
+    let parameters = quote!(::framework::Reader<crate::parameters::Parameters>);
+    let subscriptions = quote!(::framework::Subscriptions);
+    let fields = [
+        (
+            has(FrameField::AdditionalOutputs),
+            "additional_outputs",
+            own("AdditionalOutputs"),
+        ),
+        (has(FrameField::CaptureTime), "capture_time", capture_time),
+        (cycler.has_states(), "cycler_state", own("CyclerState")),
+        (cycler.is_generic(), "hardware_interface", hardware),
+        (has(FrameField::Historic), "historic", own("Historic")),
+        (has(FrameField::Injections), "injections", injections),
+        (cycler.has_own(), "own", swap),
+        (cycler.has_parameters(), "parameters", parameters),
+        (has(FrameField::Perception), "perception", own("Perception")),
+        (has(FrameField::Procedures), "procedures", own("Procedures")),
+        (has(FrameField::Subscribed), "subscribed", own("Subscribed")),
+        (has(FrameField::Subscribed), "subscriptions", subscriptions),
+    ];
+    let needed = fields.into_iter().filter(|(needed, ..)| *needed);
+    let quoted = needed.map(|(_, name, content)| {
+        let name = ident(name);
+        quote!(pub #name: #content,)
+    });
+    quoted.collect()
+}
+
 /// The function that borrows everything the nodes may touch.
 fn quote_frame_function(cycler: &CyclerModel) -> TokenStream {
     let nodes = path(&format!("crate::cyclers::{}::Nodes", cycler.module));
     let frame = own(cycler, "Frame");
-    let hardware = cycler.has(&FrameField::HardwareInterface).then(|| quote!(, Hardware));
+    let hardware = cycler
+        .has(&FrameField::HardwareInterface)
+        .then(|| quote!(, Hardware));
     let arguments = cycler.frame_borrows().then(|| quote!(<'a #hardware>));
     let shared = quote_shared(cycler);
-    let slots = cycler.has_shared().then(|| quote!(slots: ::framework::Slots<'a, #shared>,));
-    let in_frame = |field: &FrameField| matches!(field, FrameField::Parameters | FrameField::Instance(_));
+    let slots = cycler
+        .has_shared()
+        .then(|| quote!(slots: ::framework::Slots<'a, #shared>,));
+    let in_frame =
+        |field: &FrameField| matches!(field, FrameField::Parameters | FrameField::Instance(_));
     let parameters = cycler
         .frame
         .iter()
         .any(in_frame)
         .then(|| quote!(let parameters = self.parameters.view().value();));
-    let split = cycler.previous.own.then(|| quote!(let (own, previous_own) = self.own.both();));
+    let split = cycler
+        .previous
+        .own
+        .then(|| quote!(let (own, previous_own) = self.own.both();));
     let fields = cycler.frame.iter().map(|field| quote_filled(cycler, field));
     let about = doc("The nodes, and everything they may touch in this cycle.");
     quote! {
@@ -180,7 +207,10 @@ fn quote_filled(cycler: &CyclerModel, field: &FrameField) -> TokenStream {
         FrameField::Previous => {
             let previous = own(cycler, "Previous");
             let own = cycler.previous.own.then(|| quote!(own: previous_own,));
-            let shared = cycler.previous.shared.then(|| quote!(shared: slots.previous,));
+            let shared = cycler
+                .previous
+                .shared
+                .then(|| quote!(shared: slots.previous,));
             quote!(#name: #previous { #own #shared },)
         }
         FrameField::Shared => quote!(#name: slots.current,),
@@ -190,5 +220,9 @@ fn quote_filled(cycler: &CyclerModel, field: &FrameField) -> TokenStream {
 
 /// A name for an argument, with an underscore in front where the function does not need it.
 fn argument(name: &str, needed: bool) -> proc_macro2::Ident {
-    if needed { ident(name) } else { ident(&format!("_{name}")) }
+    if needed {
+        ident(name)
+    } else {
+        ident(&format!("_{name}"))
+    }
 }

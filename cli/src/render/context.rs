@@ -31,21 +31,38 @@ fn quote_field(field: &ContextField, base: &str) -> TokenStream {
 
 /// What some fields refer to and must therefore live longer than the context.
 pub(super) fn quote_before(fields: &[ContextField]) -> TokenStream {
-    fields.iter().filter_map(|field| quote_variable(&field.value)).collect()
+    fields
+        .iter()
+        .filter_map(|field| quote_variable(&field.value))
+        .collect()
 }
 
 fn quote_variable(value: &Value) -> Option<TokenStream> {
     Some(match value {
-        Value::Historic { variable, output, path, .. } => {
+        Value::Historic {
+            variable,
+            output,
+            path,
+            ..
+        } => {
             let (variable, output) = (ident(variable), ident(output));
             let path = quote_accessor(path);
             quote!(let #variable = frame.historic.#output.project(|#output| #path);)
         }
-        Value::Perception { variable, lane, path } => {
+        Value::Perception {
+            variable,
+            lane,
+            path,
+        } => {
             let (variable, lane, path) = (ident(variable), ident(lane), quote_accessor(path));
             quote!(let #variable = frame.perception.#lane.project(|outputs| #path);)
         }
-        Value::Interleaved { variable, order, lanes, path } => {
+        Value::Interleaved {
+            variable,
+            order,
+            lanes,
+            path,
+        } => {
             let (variable, order) = (ident(variable), ident(order));
             let (lanes, path) = (lanes.iter().map(|lane| ident(lane)), quote_accessor(path));
             quote! {
@@ -75,7 +92,9 @@ fn quote_value(value: &Value, base: &str) -> TokenStream {
             let (latest, path) = (ident(latest), quote_accessor(path));
             quote!(#base.latest.#latest.latest(#base.cycle.time.start, |outputs| #path))
         }
-        Value::Historic { variable, current, .. } => {
+        Value::Historic {
+            variable, current, ..
+        } => {
             let (variable, current) = (ident(variable), quote_accessor(current));
             quote!(::framework::HistoricInput::new(&#variable, #base.cycle.time.start, #current))
         }

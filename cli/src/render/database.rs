@@ -13,7 +13,10 @@ use crate::model::structs::FieldType;
 
 /// The database of one cycler, and everything its nodes may touch.
 pub(super) fn render_database(cycler: &CyclerModel) -> String {
-    let title = format!("What cycler `{}` writes, and what its nodes see.", cycler.name);
+    let title = format!(
+        "What cycler `{}` writes, and what its nodes see.",
+        cycler.name
+    );
     let items = [
         quote_outputs(cycler),
         quote_additional_outputs(cycler),
@@ -27,19 +30,35 @@ pub(super) fn render_database(cycler: &CyclerModel) -> String {
         quote_creation(cycler),
         quote_frame(cycler),
     ];
-    layout::rust_file(&title, &database_modules(cycler), items.into_iter().collect())
+    layout::rust_file(
+        &title,
+        &database_modules(cycler),
+        items.into_iter().collect(),
+    )
 }
 
 /// Modules of other cyclers' databases, which are imported whole.
 pub(super) fn database_modules(cycler: &CyclerModel) -> Vec<String> {
-    let lanes = cycler.perception.iter().flat_map(|perception| &perception.lanes);
-    let sources = cycler.latest.iter().chain(lanes).filter(|source| source.module != cycler.module);
-    sources.map(|source| format!("crate::databases::{}", source.module)).collect()
+    let lanes = cycler
+        .perception
+        .iter()
+        .flat_map(|perception| &perception.lanes);
+    let sources = cycler
+        .latest
+        .iter()
+        .chain(lanes)
+        .filter(|source| source.module != cycler.module);
+    sources
+        .map(|source| format!("crate::databases::{}", source.module))
+        .collect()
 }
 
 /// The shared outputs of an instance that is read.
 pub(super) fn quote_shared_of(source: &Source) -> TokenStream {
-    path(&format!("crate::databases::{}::SharedOutputs", source.module))
+    path(&format!(
+        "crate::databases::{}::SharedOutputs",
+        source.module
+    ))
 }
 
 fn quote_outputs(cycler: &CyclerModel) -> TokenStream {
@@ -59,7 +78,10 @@ fn quote_outputs(cycler: &CyclerModel) -> TokenStream {
     let own = quote_part(
         false,
         "OwnOutputs",
-        format!("Main outputs that only nodes of `{}` read: they stay with the instance.", cycler.name),
+        format!(
+            "Main outputs that only nodes of `{}` read: they stay with the instance.",
+            cycler.name
+        ),
     );
     let shared = quote_part(
         true,
@@ -77,12 +99,24 @@ fn quote_output(output: &OutputField, wrap: &dyn Fn(TokenStream) -> TokenStream)
 }
 
 fn quote_additional_outputs(cycler: &CyclerModel) -> TokenStream {
-    let structs = cycler.additional_structs.iter().enumerate().map(|(position, definition)| {
-        let root = (position == 0).then(|| doc("Computed only while somebody listens."));
-        let head = quote!(#root #[derive(Debug, Default)]);
-        quote_struct(definition, &head, &|data| quote!(::framework::AdditionalSlot<#data>))
-    });
-    let flags: Vec<_> = cycler.additional_outputs.iter().map(|output| ident(&output.flag)).collect();
+    let structs = cycler
+        .additional_structs
+        .iter()
+        .enumerate()
+        .map(|(position, definition)| {
+            let root = (position == 0).then(|| doc("Computed only while somebody listens."));
+            let head = quote!(#root #[derive(Debug, Default)]);
+            quote_struct(
+                definition,
+                &head,
+                &|data| quote!(::framework::AdditionalSlot<#data>),
+            )
+        });
+    let flags: Vec<_> = cycler
+        .additional_outputs
+        .iter()
+        .map(|output| ident(&output.flag))
+        .collect();
     let about = doc("Who listens to which additional output, decided once per cycle.");
     let subscribed = (!flags.is_empty()).then(|| {
         quote! {
@@ -109,7 +143,10 @@ fn quote_injections(cycler: &CyclerModel) -> TokenStream {
     let (output, found) = if cycler.outputs.is_empty() {
         (quote!(_output), quote!(None))
     } else {
-        (quote!(output), quote!(match output { #(#arms)* _ => None, }))
+        (
+            quote!(output),
+            quote!(match output { #(#arms)* _ => None, }),
+        )
     };
     let about = doc("Values of clients in place of main outputs.");
     quote! {
@@ -146,7 +183,10 @@ fn quote_procedures(cycler: &CyclerModel) -> TokenStream {
     }
     let fields = cycler.procedures.iter().map(|procedure| {
         let (about, name) = (doc(&procedure.node), ident(&procedure.name));
-        let (request, response) = (data_type(&procedure.request), data_type(&procedure.response));
+        let (request, response) = (
+            data_type(&procedure.request),
+            data_type(&procedure.response),
+        );
         quote!(#about pub #name: ::framework::Answerer<#request, #response>,)
     });
     let about = doc("Calls that nodes answer, at most one of each in a cycle.");
@@ -158,15 +198,21 @@ fn quote_historic(cycler: &CyclerModel) -> TokenStream {
         .historic()
         .map(|output| quote_output(output, &|data| quote!(::framework::History<#data>)))
         .collect();
+    if fields.is_empty() {
+        return quote!();
+    }
     let about = doc("Main outputs that are read by time.");
-    (!fields.is_empty()).then(|| quote!(#about pub struct Historic { #(#fields)* })).unwrap_or_default()
+    quote!(#about pub struct Historic { #(#fields)* })
 }
 
 fn quote_perception(cycler: &CyclerModel) -> TokenStream {
     let Some(perception) = &cycler.perception else {
         return quote!();
     };
-    let interleavings = perception.interleavings.iter().map(|interleaving| ident(&interleaving.field));
+    let interleavings = perception
+        .interleavings
+        .iter()
+        .map(|interleaving| ident(&interleaving.field));
     let lanes = perception.lanes.iter().map(|lane| {
         let (name, shared) = (ident(&lane.field), quote_shared_of(lane));
         quote!(pub #name: ::framework::Consumer<#shared>,)
@@ -198,8 +244,14 @@ fn quote_previous(cycler: &CyclerModel) -> TokenStream {
     if !cycler.has(&FrameField::Previous) {
         return quote!();
     }
-    let own = cycler.previous.own.then(|| quote!(pub own: &'a OwnOutputs,));
-    let shared = cycler.previous.shared.then(|| quote!(pub shared: &'a SharedOutputs,));
+    let own = cycler
+        .previous
+        .own
+        .then(|| quote!(pub own: &'a OwnOutputs,));
+    let shared = cycler
+        .previous
+        .shared
+        .then(|| quote!(pub shared: &'a SharedOutputs,));
     let about = doc("What the last finished cycle wrote.");
     quote!(#about #[derive(Clone, Copy)] pub struct Previous<'a> { #own #shared })
 }
@@ -208,14 +260,19 @@ fn quote_creation(cycler: &CyclerModel) -> TokenStream {
     if cycler.creation.is_empty() {
         return quote!();
     }
-    let hardware = cycler.creation.contains(&FrameField::HardwareInterface).then(|| quote!(, Hardware));
+    let hardware = cycler
+        .creation
+        .contains(&FrameField::HardwareInterface)
+        .then(|| quote!(, Hardware));
     let fields = cycler.creation.iter().map(quote_frame_field);
     let about = doc("Everything a node may ask for when it is created.");
     quote!(#about pub struct Creation<'a #hardware> { #(#fields)* })
 }
 
 fn quote_frame(cycler: &CyclerModel) -> TokenStream {
-    let hardware = cycler.has(&FrameField::HardwareInterface).then(|| quote!(, Hardware));
+    let hardware = cycler
+        .has(&FrameField::HardwareInterface)
+        .then(|| quote!(, Hardware));
     let lifetime = cycler.frame_borrows().then(|| quote!(<'a #hardware>));
     let fields = cycler.frame.iter().map(quote_frame_field);
     let about = doc("Everything the nodes of one cycle may touch, borrowed.");

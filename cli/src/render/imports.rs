@@ -23,7 +23,10 @@ const PRELUDE: [&str; 16] = [
 /// imported as modules, so that `control::motion::CycleContext` stays `motion::CycleContext`.
 /// `use` items among them (of traits, whose names code does not say) join the others.
 pub(super) fn import(items: &mut Vec<Item>, modules: &[String]) -> Vec<Item> {
-    let mut collect = Collect { modules, found: take_uses(items) };
+    let mut collect = Collect {
+        modules,
+        found: take_uses(items),
+    };
     for item in items.iter_mut() {
         collect.visit_item_mut(item);
     }
@@ -31,11 +34,18 @@ pub(super) fn import(items: &mut Vec<Item>, modules: &[String]) -> Vec<Item> {
     let imported = choose(collect.found, &own_names);
     let mut names = own_names;
     names.extend(imported.iter().map(|path| last(path).to_owned()));
-    let mut shorten = Shorten { modules, imported: &imported, names: &names };
+    let mut shorten = Shorten {
+        modules,
+        imported: &imported,
+        names: &names,
+    };
     for item in items.iter_mut() {
         shorten.visit_item_mut(item);
     }
-    let mut uses: Vec<ItemUse> = imported.iter().map(|path| quote_use(path, &names)).collect();
+    let mut uses: Vec<ItemUse> = imported
+        .iter()
+        .map(|path| quote_use(path, &names))
+        .collect();
     uses.sort_by_key(|item| (origin_rank(origin(item)), imported_path(item)));
     uses.into_iter().map(Item::Use).collect()
 }
@@ -60,7 +70,10 @@ pub(super) fn origin(item: &ItemUse) -> &'static str {
 }
 
 fn origin_rank(origin: &str) -> usize {
-    ["std", "crates", "crate"].iter().position(|known| *known == origin).unwrap_or(0)
+    ["std", "crates", "crate"]
+        .iter()
+        .position(|known| *known == origin)
+        .unwrap_or(0)
 }
 
 /// The path of a `use` line without a leading `::`, which orders nothing.
@@ -76,7 +89,11 @@ fn quote_use(path: &str, names: &BTreeSet<String>) -> ItemUse {
 /// The path as code writes it: with a leading `::` where its first name means something else here.
 fn spelled(path: &str, names: &BTreeSet<String>) -> Path {
     let first = path.split("::").next().unwrap_or(path);
-    let text = if names.contains(first) { format!("::{path}") } else { path.to_owned() };
+    let text = if names.contains(first) {
+        format!("::{path}")
+    } else {
+        path.to_owned()
+    };
     syn::parse_str(&text).expect("an imported path is a path")
 }
 
@@ -90,7 +107,12 @@ fn choose(found: BTreeSet<String>, own_names: &BTreeSet<String>) -> BTreeSet<Str
             Some("framework" | "serde" | "std") => 1,
             _ => 2,
         };
-        by_name.entry(last(&path).to_owned()).or_default().entry(rank).or_default().push(path);
+        by_name
+            .entry(last(&path).to_owned())
+            .or_default()
+            .entry(rank)
+            .or_default()
+            .push(path);
     }
     let mut chosen = BTreeSet::new();
     for (name, ranks) in by_name {

@@ -72,7 +72,10 @@ fn quote_scheduling(scheduling: &Scheduling) -> TokenStream {
         let priority = Literal::u8_unsuffixed(priority);
         quote!(#priority)
     }));
-    let cores = scheduling.cores.iter().map(|core| Literal::usize_unsuffixed(*core));
+    let cores = scheduling
+        .cores
+        .iter()
+        .map(|core| Literal::usize_unsuffixed(*core));
     quote! {
         ::framework::Scheduling {
             policy: #policy,

@@ -85,7 +85,11 @@ pub(super) fn rust_file(title: &str, modules: &[String], items: TokenStream) -> 
 
 /// Text of an item, its empty lines in place.
 fn formatted(item: syn::Item) -> String {
-    let file = syn::File { shebang: None, attrs: Vec::new(), items: vec![item] };
+    let file = syn::File {
+        shebang: None,
+        attrs: Vec::new(),
+        items: vec![item],
+    };
     let mut text = String::new();
     for line in prettyplease::unparse(&file).lines() {
         if line.trim_start().strip_prefix("//") != Some(EMPTY_LINE) {
@@ -112,7 +116,9 @@ impl VisitMut for EmptyLines {
     fn visit_item_impl_mut(&mut self, item: &mut syn::ItemImpl) {
         for inner in item.items.iter_mut().skip(1) {
             if let syn::ImplItem::Fn(function) = inner {
-                function.attrs.insert(0, syn::parse_quote!(#[comment = #EMPTY_LINE]));
+                function
+                    .attrs
+                    .insert(0, syn::parse_quote!(#[comment = #EMPTY_LINE]));
             }
         }
     }

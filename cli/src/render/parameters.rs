@@ -12,10 +12,15 @@ pub(super) fn render_parameters(parameters: &Parameters) -> String {
         #[derive(Clone, Debug, ::serde::Deserialize, ::framework::Reflect, ::serde::Serialize)]
         #[serde(deny_unknown_fields)]
     };
-    let structs = parameters.structs.iter().enumerate().map(|(position, definition)| {
-        let root = (position == 0).then(|| doc("Everything that the parameter files say to nodes."));
-        quote_struct(definition, &quote!(#root #derive), &|data| data)
-    });
+    let structs = parameters
+        .structs
+        .iter()
+        .enumerate()
+        .map(|(position, definition)| {
+            let root =
+                (position == 0).then(|| doc("Everything that the parameter files say to nodes."));
+            quote_struct(definition, &quote!(#root #derive), &|data| data)
+        });
     layout::rust_file(
         "The parameter tree; each field names the nodes that read it.",
         &[],

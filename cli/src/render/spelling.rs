@@ -63,7 +63,11 @@ fn member(name: &str) -> syn::Member {
 pub(super) fn quote_accessor(accessor: &Accessor) -> TokenStream {
     let value = place(&accessor.place);
     if !accessor.optional {
-        return if accessor.reference { value } else { quote!(&#value) };
+        return if accessor.reference {
+            value
+        } else {
+            quote!(&#value)
+        };
     }
     let mut tokens = quote!(#value.as_ref());
     for look in &accessor.looks {

@@ -15,7 +15,11 @@ pub(super) fn quote_step(cycler: &CyclerModel, node: &NodeModel) -> TokenStream 
     let step = &node.step;
     let (about, name) = (doc(&step.flow), ident(&node.name));
     let (parameters, frame) = quote_frame(cycler, &step.hardware);
-    let clear = step.outputs.iter().filter(|output| output.in_place).map(quote_default);
+    let clear = step
+        .outputs
+        .iter()
+        .filter(|output| output.in_place)
+        .map(quote_default);
     let renew = step.renews.then(|| quote_renew(cycler, node));
     let call = quote_call(node);
     let called = if step.required.is_empty() {
@@ -28,7 +32,11 @@ pub(super) fn quote_step(cycler: &CyclerModel, node: &NodeModel) -> TokenStream 
         } else {
             "A required input is absent: the main outputs take their defaults."
         });
-        let defaults = step.outputs.iter().filter(|output| !output.in_place).map(quote_default);
+        let defaults = step
+            .outputs
+            .iter()
+            .filter(|output| !output.in_place)
+            .map(quote_default);
         quote! {
             #(#written)*
             if #(#required)&&* {
@@ -83,10 +91,7 @@ pub(super) fn quote_creation(
 }
 
 /// The type parameters of a function with a frame of this hardware, and the frame's type.
-pub(super) fn quote_frame(
-    cycler: &CyclerModel,
-    hardware: &Hardware,
-) -> (TokenStream, TokenStream) {
+pub(super) fn quote_frame(cycler: &CyclerModel, hardware: &Hardware) -> (TokenStream, TokenStream) {
     let (parameters, hardware) = quote_hardware(hardware);
     let frame = path(&format!("crate::databases::{}::Frame", cycler.module));
     let arguments = cycler.frame_borrows().then(|| quote!(<'_ #hardware>));
@@ -114,8 +119,11 @@ fn quote_written(required: &Required) -> TokenStream {
     let RequiredSource::Written { latest, path } = &required.source else {
         return quote!();
     };
-    let (variable, latest, path) =
-        (ident(&required.variable), ident(latest), quote_accessor(path));
+    let (variable, latest, path) = (
+        ident(&required.variable),
+        ident(latest),
+        quote_accessor(path),
+    );
     quote!(let #variable = frame.latest.#latest.written().map(|outputs| #path);)
 }
 
@@ -133,7 +141,10 @@ fn quote_renew(cycler: &CyclerModel, node: &NodeModel) -> TokenStream {
     let creation = if node.creation.context.is_empty() {
         quote!(Self::#create)
     } else {
-        debug_assert!(cycler.renews, "a node that is renewed has a creation to be renewed from");
+        debug_assert!(
+            cycler.renews,
+            "a node that is renewed has a creation to be renewed from"
+        );
         quote!(|| Self::#create(&mut frame.creation()))
     };
     quote!(self.#name.renew_if_broken(#creation)?;)
@@ -204,7 +215,11 @@ fn quote_holding(node: &NodeModel, call: &TokenStream, assign: &[TokenStream]) -
         quote!(frame.#home.#name.clone_from(&frame.previous.#home.#name);)
     });
     let defaults = outputs.iter().map(quote_default);
-    let written = if assign.is_empty() { quote!(_) } else { quote!(outputs) };
+    let written = if assign.is_empty() {
+        quote!(_)
+    } else {
+        quote!(outputs)
+    };
     quote! {
         let outputs = #call;
         match outputs {

@@ -14,7 +14,10 @@ pub(super) fn quote_struct(
     wrap: &dyn Fn(TokenStream) -> TokenStream,
 ) -> TokenStream {
     let name = ident(&definition.name);
-    let fields = definition.fields.iter().map(|field| quote_field(field, wrap));
+    let fields = definition
+        .fields
+        .iter()
+        .map(|field| quote_field(field, wrap));
     quote! {
         #head
         pub struct #name {

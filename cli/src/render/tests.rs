@@ -6,11 +6,17 @@ use crate::model::tests::{model_of, node, perception, real_time, robot, walker};
 fn assert_reviewed(path: &str) {
     let files = render(&model_of(&walker()));
     let mut settings = insta::Settings::clone_current();
-    settings.set_snapshot_path(concat!(env!("CARGO_MANIFEST_DIR"), "/../snapshots/render/walker"));
+    settings.set_snapshot_path(concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../snapshots/render/walker"
+    ));
     settings.set_prepend_module_to_snapshot(false);
     settings.set_omit_expression(true);
     settings.bind(|| {
-        insta::assert_snapshot!(path.replace('/', "__"), files[&Utf8PathBuf::from("generated").join(path)]);
+        insta::assert_snapshot!(
+            path.replace('/', "__"),
+            files[&Utf8PathBuf::from("generated").join(path)]
+        );
     });
 }
 
@@ -56,14 +62,24 @@ fn the_runtime_connects_all_instances() {
 #[test]
 fn every_file_names_its_origin_and_every_source_parses() {
     for (path, text) in render(&model_of(&walker())) {
-        assert!(text.contains(DO_NOT_EDIT), "{path} does not say where it comes from");
-        assert!(text.ends_with('\n') && !text.ends_with("\n\n"), "{path} ends oddly");
-        assert!(text.lines().all(|line| line == line.trim_end()), "{path} has trailing spaces");
+        assert!(
+            text.contains(DO_NOT_EDIT),
+            "{path} does not say where it comes from"
+        );
+        assert!(
+            text.ends_with('\n') && !text.ends_with("\n\n"),
+            "{path} ends oddly"
+        );
+        assert!(
+            text.lines().all(|line| line == line.trim_end()),
+            "{path} has trailing spaces"
+        );
         if path.extension() == Some("rs") {
             syn::parse_file(&text).unwrap_or_else(|error| panic!("{path}: {error}"));
         }
         if path.extension() == Some("toml") {
-            text.parse::<toml::Table>().unwrap_or_else(|error| panic!("{path}: {error}"));
+            text.parse::<toml::Table>()
+                .unwrap_or_else(|error| panic!("{path}: {error}"));
         }
     }
 }
@@ -87,15 +103,22 @@ fn another_node_adds_lines_and_changes_none() {
     };
     let (before, after) = (with(false), with(true));
     let diff = similar::TextDiff::from_lines(&before, &after);
-    let removed = diff.iter_all_changes().filter(|change| change.tag() == similar::ChangeTag::Delete);
+    let removed = diff
+        .iter_all_changes()
+        .filter(|change| change.tag() == similar::ChangeTag::Delete);
     assert_eq!(removed.count(), 0);
 }
 
 #[test]
 fn a_robot_of_one_node_without_any_field_is_still_a_robot() {
-    let files = render(&model_of(&robot(vec![real_time("Control").node(node("control::a"))])));
+    let files = render(&model_of(&robot(vec![
+        real_time("Control").node(node("control::a")),
+    ])));
     let database = &files[&Utf8PathBuf::from("generated/src/databases/control.rs")];
-    assert!(database.contains("pub struct Frame {\n    pub cycle: Cycle,\n}"), "{database}");
+    assert!(
+        database.contains("pub struct Frame {\n    pub cycle: Cycle,\n}"),
+        "{database}"
+    );
     assert!(!database.contains("OwnOutputs"), "{database}");
 }
 
@@ -110,5 +133,8 @@ fn keywords_are_names_like_others() {
     let nodes = &files[&Utf8PathBuf::from("generated/src/cyclers/type.rs")];
     assert!(nodes.contains("r#in: &frame.own.r#in"), "{nodes}");
     let database = &files[&Utf8PathBuf::from("generated/src/databases/type.rs")];
-    assert!(database.contains("\"in\" => Some(&mut self.r#in)"), "{database}");
+    assert!(
+        database.contains("\"in\" => Some(&mut self.r#in)"),
+        "{database}"
+    );
 }

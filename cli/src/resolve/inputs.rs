@@ -203,7 +203,7 @@ impl Inputs<'_, '_> {
             ),
             Agreement::Type { expected } => (
                 Code::TypeMismatch,
-                format!("`{path}` is a `{expected}`, but is read as a `{written}`"),
+                format!("`{path}` is `{expected}`, but is read as `{written}`"),
                 Some(format!(
                     "write `{expected}` here, or change the type of the output"
                 )),

@@ -45,7 +45,12 @@ pub fn check(
             });
         }
     }
-    let checker = Checker { sources, robot };
+    let default_location = layer::default_location(workspace, &robot.parameters);
+    let checker = Checker {
+        default_location,
+        sources,
+        robot,
+    };
     for layer in &layers {
         checker.check_hardware(layer, diagnostics);
         let root = Expected::Tree(&robot.parameter_tree);
@@ -62,6 +67,8 @@ pub fn check(
 }
 
 struct Checker<'a> {
+    /// Of targets that name none.
+    default_location: Option<String>,
     sources: &'a Sources<'a>,
     robot: &'a Robot,
 }
@@ -162,18 +169,21 @@ impl Checker<'_> {
         if self.robot.parameter_tree.branches.is_empty() {
             return;
         }
-        if !layers.iter().any(|layer| layer.file == default) {
+        let Some(first) = layers.iter().find(|layer| layer.file == default) else {
             // It does not exist or cannot be parsed; both are told.
             return;
-        }
-        let mut locations: BTreeSet<Option<&str>> = self
-            .robot
-            .targets
-            .iter()
-            .map(|target| target.location.as_deref())
+        };
+        let targets = self.robot.targets.iter();
+        let mut locations: BTreeSet<Option<&str>> = targets
+            .map(|target| {
+                target
+                    .location
+                    .as_deref()
+                    .or(self.default_location.as_deref())
+            })
             .collect();
         if locations.is_empty() {
-            locations.insert(None);
+            locations.insert(self.default_location.as_deref());
         }
         for location in locations {
             let location = location.map(|location| folder.join(location).join("default.toml"));
@@ -188,13 +198,13 @@ impl Checker<'_> {
                 .map(|layer| &layer.table)
                 .collect();
             let root = Expected::Tree(&self.robot.parameter_tree);
-            self.report_missing(&default, &tables, &root, &mut Vec::new(), diagnostics);
+            self.report_missing(first, &tables, &root, &mut Vec::new(), diagnostics);
         }
     }
 
     fn report_missing(
         &self,
-        file: &Utf8Path,
+        first: &Layer<'_>,
         tables: &[&DeTable<'_>],
         expected: &Expected<'_>,
         path: &mut Vec<String>,
@@ -211,21 +221,21 @@ impl Checker<'_> {
             path.push(name);
             let is_tree = matches!(child.expected, Expected::Tree(_));
             if is_tree || !below.is_empty() && below.len() == values.len() {
-                self.report_missing(file, &below, &child.expected, path, diagnostics);
+                self.report_missing(first, &below, &child.expected, path, diagnostics);
             } else if values.is_empty() && child.required {
-                diagnostics.add(self.missing(file, path));
+                diagnostics.add(self.missing(first, path));
             }
             path.pop();
         }
     }
 
-    fn missing(&self, file: &Utf8Path, path: &[String]) -> Diagnostic {
+    fn missing(&self, first: &Layer<'_>, path: &[String]) -> Diagnostic {
         let written = path.join(".");
         let error = Diagnostic::new(
             Code::MissingParameter,
             format!("no file gives the parameter `{written}`"),
         )
-        .at(file, 0..0, "")
+        .at(first.file, first.nearest(path), "")
         .help(format!("add `{written} = …`"));
         match self.declaration(path) {
             Some((file, range)) => error.at(&file, range, "read here"),

@@ -85,7 +85,7 @@ pub(super) fn check(
         Comparison::Same => Agreement::Same,
         Comparison::Unknown => Agreement::Unknown,
         Comparison::Different if is_option_of(&end, inner) => Agreement::Option {
-            message: format!("`{last}` is an `{}`", end.text),
+            message: format!("`{last}` is `{}`", end.text),
             help: format!("write `?` behind `{last}`, too"),
         },
         Comparison::Different => Agreement::Type {
@@ -99,14 +99,14 @@ fn without_mark(end: &Resolved, written: &Resolved, last: &str) -> Agreement {
         Comparison::Same => Agreement::Same,
         Comparison::Unknown => Agreement::Unknown,
         Comparison::Different if is_option_of(end, written) => Agreement::Option {
-            message: format!("`{last}` is an `{}`, not a `{}`", end.text, written.text),
+            message: format!("`{last}` is `{}`, not `{}`", end.text, written.text),
             help: format!(
                 "write `{0}` for `&{0}`, or `{0}` and `?` behind `{last}` for `Option<&{1}>`",
                 end.text, written.text
             ),
         },
         Comparison::Different if is_option_of(written, end) => Agreement::Option {
-            message: format!("`{last}` is a `{}`, not an `{}`", end.text, written.text),
+            message: format!("`{last}` is `{}`, not `{}`", end.text, written.text),
             help: format!("write `{}`", end.text),
         },
         Comparison::Different => Agreement::Type {
@@ -148,7 +148,7 @@ fn look_into(data: &Resolved, segment: &Segment) -> Result<Resolved, Agreement> 
         Agreement::Unknown
     } else {
         Agreement::Option {
-            message: format!("`{}` is a `{}`, no `Option`", segment.name, data.text),
+            message: format!("`{}` is `{}`, no `Option`", segment.name, data.text),
             help: format!("remove the `?` behind `{}`", segment.name),
         }
     })
@@ -176,7 +176,7 @@ fn enter(
     if data.option_argument().is_some() {
         return Err(Agreement::Option {
             message: format!(
-                "`{}` is an `{}`, so `{field}` may be absent",
+                "`{}` is `{}`, so `{field}` may be absent",
                 owner.name, data.text
             ),
             help: format!("write `?` behind `{}`", owner.name),

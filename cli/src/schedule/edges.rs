@@ -1,7 +1,7 @@
 //! Which fields make one node run after another.
 
 use super::{Edge, Reason};
-use crate::resolve::robot::{Access, Cycler, CycleBinding};
+use crate::resolve::robot::{Access, CycleBinding, Cycler};
 
 /// Every reason of one cycler, sorted.
 pub(super) fn edges(cycler: &Cycler) -> Vec<Edge> {
@@ -9,16 +9,26 @@ pub(super) fn edges(cycler: &Cycler) -> Vec<Edge> {
     for (to, node) in cycler.nodes.iter().enumerate() {
         for (field, declared) in node.cycle.iter().enumerate() {
             match &declared.binding {
-                CycleBinding::OwnOutput { access, producer, .. } => {
+                CycleBinding::OwnOutput {
+                    access, producer, ..
+                } => {
                     edges.push(edge(*producer, to, Reason::Input, field, access));
                 }
-                CycleBinding::RequiredOwnOutput { access, producer, .. } => {
+                CycleBinding::RequiredOwnOutput {
+                    access, producer, ..
+                } => {
                     edges.push(edge(*producer, to, Reason::RequiredInput, field, access));
                 }
-                CycleBinding::Historic { access, producer, .. } => {
+                CycleBinding::Historic {
+                    access, producer, ..
+                } => {
                     edges.push(edge(*producer, to, Reason::HistoricInput, field, access));
                 }
-                CycleBinding::CyclerState { access, shared: true, .. } => {
+                CycleBinding::CyclerState {
+                    access,
+                    shared: true,
+                    ..
+                } => {
                     edges.extend(
                         writers(cycler, to, access)
                             .map(|from| edge(from, to, Reason::CyclerState, field, access)),
@@ -64,5 +74,11 @@ fn overlap(left: &Access, right: &Access) -> bool {
 }
 
 fn edge(from: usize, to: usize, reason: Reason, field: usize, access: &Access) -> Edge {
-    Edge { from, to, reason, field, path: access.written.clone() }
+    Edge {
+        from,
+        to,
+        reason,
+        field,
+        path: access.written.clone(),
+    }
 }

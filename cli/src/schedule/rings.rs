@@ -28,7 +28,10 @@ fn ring_through(graph: &Graph, start: NodeIndex, knot: &BTreeSet<NodeIndex>) -> 
     let mut reached_by: BTreeMap<NodeIndex, &Edge> = BTreeMap::new();
     let mut queue = VecDeque::from([start]);
     while let Some(node) = queue.pop_front() {
-        let mut outgoing: Vec<_> = graph.edges(node).map(|edge| (edge.target(), edge.weight())).collect();
+        let mut outgoing: Vec<_> = graph
+            .edges(node)
+            .map(|edge| (edge.target(), edge.weight()))
+            .collect();
         outgoing.sort_by_key(|(_, edge)| *edge);
         for (target, edge) in outgoing {
             if !knot.contains(&target) || reached_by.contains_key(&target) {
@@ -65,7 +68,10 @@ pub(super) fn describe(cycler: &Cycler, ring: &[Edge]) -> Diagnostic {
     for edge in ring {
         whole.push_str(&format!(" → `{}`", path(edge.to)));
     }
-    let message = format!("nodes of cycler `{}` wait for each other: {whole}", cycler.name);
+    let message = format!(
+        "nodes of cycler `{}` wait for each other: {whole}",
+        cycler.name
+    );
     let mut diagnostic = Diagnostic::new(Code::DependencyCycle, message).help(
         "break the ring where a value of the cycle before is good enough: write `PreviousInput` \
          in place of one of these inputs",
@@ -83,6 +89,9 @@ fn label(cycler: &Cycler, edge: &Edge) -> Label {
     Label {
         file: to.file.clone(),
         range: to.cycle[edge.field].range.clone(),
-        text: format!("`{}` {what} `{}` after `{}` wrote it", to.path, edge.path, from.path),
+        text: format!(
+            "`{}` {what} `{}` after `{}` wrote it",
+            to.path, edge.path, from.path
+        ),
     }
 }

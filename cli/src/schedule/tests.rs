@@ -6,12 +6,21 @@ fn order_of(robot: &Robot) -> Vec<&str> {
     let mut diagnostics = Diagnostics::new();
     let schedule = schedule(robot, &mut diagnostics).expect("the robot has no ring");
     let nodes = &robot.cyclers[0].nodes;
-    schedule.cyclers[0].order.iter().map(|node| nodes[*node].path.as_str()).collect()
+    schedule.cyclers[0]
+        .order
+        .iter()
+        .map(|node| nodes[*node].path.as_str())
+        .collect()
 }
 
 #[test]
 fn nodes_without_reason_keep_the_order_of_the_manifest() {
-    let robot = robot(vec![real_time("Control").node(node("b")).setup(node("s")).node(node("a"))]);
+    let robot = robot(vec![
+        real_time("Control")
+            .node(node("b"))
+            .setup(node("s"))
+            .node(node("a")),
+    ]);
     assert_eq!(order_of(&robot), ["s", "b", "a"]);
 }
 
@@ -64,10 +73,20 @@ fn edges_keep_the_field_that_caused_them() {
     let robot = robot(vec![
         real_time("Control")
             .node(node("writer").output("x", "Option<f32>"))
-            .node(node("reader").cycle_time("time").required("x", "Option<f32>", "x?")),
+            .node(
+                node("reader")
+                    .cycle_time("time")
+                    .required("x", "Option<f32>", "x?"),
+            ),
     ]);
     let schedule = schedule(&robot, &mut Diagnostics::new()).expect("the robot has no ring");
-    let edge = Edge { from: 0, to: 1, reason: Reason::RequiredInput, field: 1, path: "x?".to_owned() };
+    let edge = Edge {
+        from: 0,
+        to: 1,
+        reason: Reason::RequiredInput,
+        field: 1,
+        path: "x?".to_owned(),
+    };
     assert_eq!(schedule.cyclers[0].reasons(1).collect::<Vec<_>>(), [&edge]);
     assert_eq!(schedule.cyclers[0].place(1), Some(1));
 }
@@ -77,8 +96,11 @@ fn rings_of(robot: &Robot) -> Vec<String> {
     let mut diagnostics = Diagnostics::new();
     schedule(robot, &mut diagnostics).expect_err("the robot has a ring");
     let text = |one: &&crate::diagnostics::Diagnostic| {
-        let places: Vec<String> =
-            one.spans.iter().map(|span| format!("{}: {}", span.file, span.text)).collect();
+        let places: Vec<String> = one
+            .spans
+            .iter()
+            .map(|span| format!("{}: {}", span.file, span.text))
+            .collect();
         format!("{}\n{}", one.message, places.join("\n"))
     };
     diagnostics.sorted().iter().map(text).collect()
@@ -89,8 +111,16 @@ fn a_ring_is_told_whole_with_the_field_of_every_edge() {
     let robot = robot(vec![
         real_time("Control")
             .node(node("control::a").input("z", "f32", "z").output("x", "f32"))
-            .node(node("control::b").historic("x", "f32", "x").state("s", "f32", "s"))
-            .node(node("control::c").reads_state("s", "f32", "s").output("z", "f32"))
+            .node(
+                node("control::b")
+                    .historic("x", "f32", "x")
+                    .state("s", "f32", "s"),
+            )
+            .node(
+                node("control::c")
+                    .reads_state("s", "f32", "s")
+                    .output("z", "f32"),
+            )
             .node(node("control::d").input("z", "f32", "z")),
     ]);
     assert_eq!(

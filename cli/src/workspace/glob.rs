@@ -4,25 +4,29 @@ use camino::{Utf8Path, Utf8PathBuf};
 
 use super::Workspace;
 
-/// The folders that a pattern names; a pattern without `*` and `?` names one, whether it exists or not.
-pub(super) fn expand(workspace: &Workspace, pattern: &str) -> Vec<Utf8PathBuf> {
+/// The folders that a pattern names, relative to `root`, to which `way` leads; a pattern without `*` and `?` names one,
+/// whether it exists or not.
+pub(super) fn expand(workspace: &Workspace, way: &Utf8Path, pattern: &str) -> Vec<Utf8PathBuf> {
     let mut folders = vec![Utf8PathBuf::new()];
     for part in pattern.split('/').filter(|part| !matches!(*part, "" | ".")) {
         folders = folders
             .into_iter()
-            .flat_map(|folder| step(workspace, &folder, part))
+            .flat_map(|folder| step(workspace, way, &folder, part))
             .collect();
     }
     folders
 }
 
-fn step(workspace: &Workspace, folder: &Utf8Path, part: &str) -> Vec<Utf8PathBuf> {
+fn step(workspace: &Workspace, way: &Utf8Path, folder: &Utf8Path, part: &str) -> Vec<Utf8PathBuf> {
     if !part.contains(['*', '?']) {
         return vec![folder.join(part)];
     }
-    let mut found = workspace.list(folder);
-    found.retain(|entry| entry.file_name().is_some_and(|name| matches(part, name)));
-    found
+    let found = workspace.list(&way.join(folder));
+    let names = found.iter().filter_map(|entry| entry.file_name());
+    names
+        .filter(|name| matches(part, name))
+        .map(|name| folder.join(name))
+        .collect()
 }
 
 /// Whether a name fits a pattern of `*` (anything) and `?` (one character).

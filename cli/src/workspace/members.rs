@@ -57,7 +57,8 @@ struct Entry {
 impl Members {
     pub(super) fn read(workspace: &Workspace) -> Self {
         let mut members = Self::default();
-        let Some(root) = members.parse(workspace, Utf8Path::new("Cargo.toml")) else {
+        let (way, own) = cargo_root(workspace);
+        let Some(root) = members.parse(workspace, &way.join("Cargo.toml")) else {
             return members;
         };
         let mut folders: Vec<Utf8PathBuf> = Vec::new();
@@ -65,8 +66,8 @@ impl Members {
             folders.push(Utf8PathBuf::new());
         }
         if let Some(table) = root.get("workspace").and_then(toml::Value::as_table) {
-            let excluded = patterns(workspace, table, "exclude");
-            folders.extend(patterns(workspace, table, "members"));
+            let excluded = patterns(workspace, table, "exclude", &way);
+            folders.extend(patterns(workspace, table, "members", &way));
             folders.retain(|folder| !excluded.contains(folder));
             members.shared = dependencies(table, "dependencies");
             let inherited = table.get("package").and_then(toml::Value::as_table);
@@ -78,9 +79,9 @@ impl Members {
             members.inherited.sort();
         }
         for folder in folders {
-            members.add(workspace, folder);
+            members.add(workspace, relative(&own, &normalized(&folder)));
         }
-        members.name_shared_libraries();
+        members.name_shared_libraries(&own);
         members
     }
 
@@ -113,7 +114,7 @@ impl Members {
             return Some((entry.key.clone(), "{ workspace = true }".to_owned()));
         }
         if let Some(member) = self.libraries.get(library) {
-            let path = relative(from, &member.folder);
+            let path = dotted(relative(from, &member.folder));
             return Some((member.package.clone(), format!("{{ path = \"{path}\" }}")));
         }
         users
@@ -127,7 +128,7 @@ impl Members {
                 let requirement = match &entry.path {
                     None => entry.requirement.clone(),
                     Some(path) => {
-                        let moved = relative(from, &normalized(&user.folder.join(path)));
+                        let moved = dotted(relative(from, &normalized(&user.folder.join(path))));
                         let path = |path: &str| format!("\"{path}\"");
                         entry
                             .requirement
@@ -171,7 +172,7 @@ impl Members {
     }
 
     /// A shared dependency on a member is known by the member's library name unless the root renames it.
-    fn name_shared_libraries(&mut self) {
+    fn name_shared_libraries(&mut self, own: &Utf8Path) {
         let by_folder: BTreeMap<&Utf8Path, &Member> = self
             .libraries
             .values()
@@ -183,7 +184,8 @@ impl Members {
                 let member = entry
                     .path
                     .as_deref()
-                    .and_then(|path| by_folder.get(normalized(Utf8Path::new(path)).as_path()));
+                    .map(|path| relative(own, &normalized(Utf8Path::new(path))))
+                    .and_then(|folder| by_folder.get(folder.as_path()));
                 match member {
                     Some(member) if member.package == entry.key => (member.library.clone(), entry),
                     _ => (name, entry),
@@ -249,12 +251,38 @@ fn dependencies(table: &toml::Table, name: &str) -> Dependencies {
 }
 
 /// The folders that `members` or `exclude` names, in the order of the list.
-fn patterns(workspace: &Workspace, table: &toml::Table, name: &str) -> Vec<Utf8PathBuf> {
+fn patterns(
+    workspace: &Workspace,
+    table: &toml::Table,
+    name: &str,
+    way: &Utf8Path,
+) -> Vec<Utf8PathBuf> {
     let list = table.get(name).and_then(toml::Value::as_array);
     let strings = list.into_iter().flatten().filter_map(toml::Value::as_str);
     strings
-        .flat_map(|pattern| glob::expand(workspace, pattern))
+        .flat_map(|pattern| glob::expand(workspace, way, pattern))
         .collect()
+}
+
+/// The folder whose Cargo.toml has `[workspace]`: the manifest's or the nearest above it, as a robot may be one of
+/// several in a workspace of cargo. First the way up there (`../..`), then the way from there back (`robots/zoo`).
+fn cargo_root(workspace: &Workspace) -> (Utf8PathBuf, Utf8PathBuf) {
+    let mut way = Utf8PathBuf::new();
+    for above in workspace.root().ancestors() {
+        let text = workspace.read(&way.join("Cargo.toml"));
+        let table = text
+            .ok()
+            .and_then(|text| toml::from_str::<toml::Table>(&text).ok());
+        if table.is_some_and(|table| table.contains_key("workspace")) {
+            let own = workspace
+                .root()
+                .strip_prefix(above)
+                .unwrap_or(Utf8Path::new(""));
+            return (way, own.to_owned());
+        }
+        way.push("..");
+    }
+    Default::default()
 }
 
 /// The way from one folder to another, both relative to the workspace root.
@@ -264,6 +292,15 @@ fn relative(from: &Utf8Path, to: &Utf8Path) -> Utf8PathBuf {
     let shared = from.iter().zip(&to).take_while(|(a, b)| a == b).count();
     let up = from[shared..].iter().map(|_| "..");
     let way: Utf8PathBuf = up.chain(to[shared..].iter().copied()).collect();
+    if way.as_str().is_empty() {
+        ".".into()
+    } else {
+        way
+    }
+}
+
+/// The empty way as Cargo.toml writes it.
+fn dotted(way: Utf8PathBuf) -> Utf8PathBuf {
     if way.as_str().is_empty() {
         ".".into()
     } else {

@@ -180,7 +180,8 @@ impl Nodes {
         Ok(())
     }
 
-    /// sensor_data.force_sensitive_resistors -> ground_contact, support_side; when subscribed: foot_pressure.sole_pressures
+    /// sensor_data.force_sensitive_resistors -> ground_contact, support_side; when subscribed:
+    /// foot_pressure.sole_pressures
     fn foot_pressure<Hardware>(
         &mut self,
         frame: &mut Frame<'_, Hardware>,
@@ -255,7 +256,8 @@ impl Nodes {
         Ok(())
     }
 
-    /// perception Vision.balls, historic orientation -> ball; when subscribed: ball_memory.persistent_ball
+    /// perception Vision.balls, historic orientation -> ball; when subscribed:
+    /// ball_memory.persistent_ball
     fn ball_memory<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
         let balls = Interleaved {
             order: &frame.perception.vision,
@@ -346,7 +348,8 @@ impl Nodes {
         Ok(())
     }
 
-    /// body_commands (required), head_command, previous motor_commands, sensor_data.positions -> motor_commands
+    /// body_commands (required), head_command, previous motor_commands, sensor_data.positions
+    /// -> motor_commands
     fn motor_commands_collector<Hardware>(
         &mut self,
         frame: &mut Frame<'_, Hardware>,
@@ -388,7 +391,7 @@ impl Nodes {
             };
             self.command_sender.call(frame.cycle, |node| node.cycle(context))?;
         } else {
-            // A required input is absent: the main outputs take their defaults.
+            // A required input is absent.
             self.command_sender.skip();
         }
         Ok(())

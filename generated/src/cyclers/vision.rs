@@ -130,7 +130,8 @@ impl Nodes {
         Ok(())
     }
 
-    /// image, image_segments, camera_matrix (required) -> balls; when subscribed: ball_candidates
+    /// image, image_segments, camera_matrix (required) -> balls; when subscribed:
+    /// ball_candidates
     fn ball_detection<Hardware>(
         &mut self,
         frame: &mut Frame<'_, Hardware>,

@@ -27,7 +27,7 @@ pub(super) struct Build<'a> {
 struct Message {
     reason: String,
     target: Option<MessageTarget>,
-    executable: Option<Utf8PathBuf>,
+    executable: Option<String>,
 }
 
 #[derive(Deserialize)]
@@ -94,7 +94,9 @@ impl Build<'_> {
             let line = line
                 .map_err(|error| Refusal::bad(format!("cannot read what cargo says: {error}")))?;
             match serde_json::from_str::<Message>(&line) {
-                Ok(message) if message.is_program(self.target) => executable = message.executable,
+                Ok(message) if message.is_program(self.target) => {
+                    executable = message.executable.map(Utf8PathBuf::from);
+                }
                 Ok(_) => {}
                 // A procedural macro or a wrapper printed something.
                 Err(_) => terminal.note(&format!("{line}\n")),

@@ -25,9 +25,13 @@ pub(super) fn quote_calls(cycler: &CyclerModel) -> TokenStream {
 
 fn quote_create(cycler: &CyclerModel) -> TokenStream {
     let nodes = path(&format!("crate::cyclers::{}::Nodes", cycler.module));
-    let take = cycler.has_parameters().then(|| quote!(self.parameters.take();));
+    let take = cycler
+        .has_parameters()
+        .then(|| quote!(self.parameters.take();));
     let state = own(cycler, "CyclerState");
-    let state = cycler.has_states().then(|| quote!(self.cycler_state = #state::default();));
+    let state = cycler
+        .has_states()
+        .then(|| quote!(self.cycler_state = #state::default();));
     let (before, creation) = quote_creation(cycler);
     quote! {
         fn create(&mut self) -> ::framework::Result<()> {
@@ -77,7 +81,9 @@ fn quote_wait(cycler: &CyclerModel) -> TokenStream {
     let shared = quote_shared(cycler);
     let slots = argument("slots", sets_up && cycler.has_shared());
     let cycle = argument("cycle", sets_up);
-    let take = cycler.has_parameters().then(|| quote!(self.parameters.take();));
+    let take = cycler
+        .has_parameters()
+        .then(|| quote!(self.parameters.take();));
     let captures = cycler.has(&FrameField::CaptureTime);
     let forget = captures.then(|| quote!(self.capture_time = None;));
     let setup = sets_up.then(|| {
@@ -87,7 +93,11 @@ fn quote_wait(cycler: &CyclerModel) -> TokenStream {
             nodes.setup(&mut frame)?;
         }
     });
-    let captured = if captures { quote!(self.capture_time) } else { quote!(None) };
+    let captured = if captures {
+        quote!(self.capture_time)
+    } else {
+        quote!(None)
+    };
     quote! {
         fn wait(
             &mut self,
@@ -111,11 +121,19 @@ fn quote_begin(cycler: &CyclerModel) -> TokenStream {
         (cycler.has_parameters(), "parameters"),
         (cycler.has(&FrameField::Injections), "injections"),
     ];
-    let takes = takes.into_iter().filter(|(needed, _)| *needed).map(|(_, name)| name);
-    let takes = takes.chain(cycler.latest.iter().map(|source| source.reader.as_str())).map(ident);
+    let takes = takes
+        .into_iter()
+        .filter(|(needed, _)| *needed)
+        .map(|(_, name)| name);
+    let takes = takes
+        .chain(cycler.latest.iter().map(|source| source.reader.as_str()))
+        .map(ident);
     let perception = quote_consume(cycler);
     let subscribed = quote_subscribed(cycler);
-    let procedures = cycler.procedures.iter().map(|procedure| ident(&procedure.name));
+    let procedures = cycler
+        .procedures
+        .iter()
+        .map(|procedure| ident(&procedure.name));
     let inject = injects.then(|| {
         let nodes = path(&format!("crate::cyclers::{}::Nodes", cycler.module));
         let frame = quote_frame_call(cycler);
@@ -156,11 +174,15 @@ fn quote_subscribed(cycler: &CyclerModel) -> TokenStream {
         return quote!();
     }
     let subscribed = own(cycler, "Subscribed");
-    let flags = cycler.additional_outputs.iter().enumerate().map(|(index, output)| {
-        let flag = ident(&output.flag);
-        let index = Literal::usize_unsuffixed(index);
-        quote!(#flag: self.subscriptions.contains(#index),)
-    });
+    let flags = cycler
+        .additional_outputs
+        .iter()
+        .enumerate()
+        .map(|(index, output)| {
+            let flag = ident(&output.flag);
+            let index = Literal::usize_unsuffixed(index);
+            quote!(#flag: self.subscriptions.contains(#index),)
+        });
     quote!(self.subscribed = #subscribed { #(#flags)* };)
 }
 
@@ -224,7 +246,10 @@ fn quote_abandon(cycler: &CyclerModel) -> TokenStream {
 }
 
 fn quote_close(cycler: &CyclerModel) -> TokenStream {
-    let procedures = cycler.procedures.iter().map(|procedure| ident(&procedure.name));
+    let procedures = cycler
+        .procedures
+        .iter()
+        .map(|procedure| ident(&procedure.name));
     quote!(#(self.procedures.#procedures.close();)*)
 }
 
@@ -248,5 +273,9 @@ fn quote_restore(cycler: &CyclerModel) -> TokenStream {
 }
 
 fn quote_frame_call(cycler: &CyclerModel) -> TokenStream {
-    if cycler.has_shared() { quote!(self.frame(slots, cycle)) } else { quote!(self.frame(cycle)) }
+    if cycler.has_shared() {
+        quote!(self.frame(slots, cycle))
+    } else {
+        quote!(self.frame(cycle))
+    }
 }

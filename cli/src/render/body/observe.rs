@@ -25,12 +25,17 @@ fn quote_references(cycler: &CyclerModel) -> TokenStream {
         let (instance, reader) = (&source.instance, ident(&source.reader));
         quote!(self.#reader.references(#instance, visit);)
     });
-    let parameters =
-        cycler.has_parameters().then(|| quote!(self.parameters.references("parameters", visit);));
-    let lanes = cycler.perception.iter().flat_map(|perception| &perception.lanes).map(|lane| {
-        let (instance, field) = (&lane.instance, ident(&lane.field));
-        quote!(self.perception.#field.references(#instance, visit);)
-    });
+    let parameters = cycler
+        .has_parameters()
+        .then(|| quote!(self.parameters.references("parameters", visit);));
+    let lanes = cycler
+        .perception
+        .iter()
+        .flat_map(|perception| &perception.lanes)
+        .map(|lane| {
+            let (instance, field) = (&lane.instance, ident(&lane.field));
+            quote!(self.perception.#field.references(#instance, visit);)
+        });
     let body = quote!(#(#latest)* #(#lanes)* #parameters);
     let visit = argument("visit", !body.is_empty());
     quote! {
@@ -81,7 +86,11 @@ fn quote_additional_output(cycler: &CyclerModel) -> TokenStream {
         let (names, slot) = (&output.names, place(&output.place));
         quote!(#(#names)|* => Some(self.additional_outputs.#slot.get(cycle)?),)
     });
-    let found = if needed { quote!(match name { #(#arms)* _ => None, }) } else { quote!(None) };
+    let found = if needed {
+        quote!(match name { #(#arms)* _ => None, })
+    } else {
+        quote!(None)
+    };
     quote! {
         fn additional_output(&self, #name: &str, #cycle: u64) -> Option<&dyn ::framework::Reflect> {
             #found
@@ -100,15 +109,19 @@ fn quote_nodes(cycler: &CyclerModel) -> TokenStream {
 
 fn quote_queues(cycler: &CyclerModel) -> TokenStream {
     let visit = argument("visit", cycler.perception.is_some());
-    let lanes = cycler.perception.iter().flat_map(|perception| &perception.lanes).map(|lane| {
-        let (from, field) = (&lane.instance, ident(&lane.field));
-        quote! {
-            visit(::framework::QueueReport {
-                from: #from,
-                counts: self.perception.#field.report(),
-            });
-        }
-    });
+    let lanes = cycler
+        .perception
+        .iter()
+        .flat_map(|perception| &perception.lanes)
+        .map(|lane| {
+            let (from, field) = (&lane.instance, ident(&lane.field));
+            quote! {
+                visit(::framework::QueueReport {
+                    from: #from,
+                    counts: self.perception.#field.report(),
+                });
+            }
+        });
     quote! {
         fn queues(&self, #visit: &mut dyn FnMut(::framework::QueueReport)) {
             #(#lanes)*
@@ -121,7 +134,9 @@ fn quote_states(cycler: &CyclerModel) -> TokenStream {
         let (path, name) = (&node.path, ident(&node.name));
         quote!(visit(#path, &mut self.nodes.#name);)
     });
-    let state = cycler.has_states().then(|| quote!(visit("cycler_state", &mut self.cycler_state);));
+    let state = cycler
+        .has_states()
+        .then(|| quote!(visit("cycler_state", &mut self.cycler_state);));
     quote! {
         fn states(&mut self, visit: &mut dyn FnMut(&'static str, &mut dyn ::framework::State)) {
             #(#nodes)*

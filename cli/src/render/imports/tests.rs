@@ -53,14 +53,27 @@ fn new() -> Result<()> {
 
 #[test]
 fn paths_that_end_in_the_same_name_stay_whole() {
-    let text = imported(quote!(struct A(::types::Ball, ::sounds::Ball);), &[]);
+    let text = imported(
+        quote!(
+            struct A(::types::Ball, ::sounds::Ball);
+        ),
+        &[],
+    );
     assert_eq!(text, "struct A(types::Ball, sounds::Ball);\n");
 }
 
 #[test]
 fn the_framework_keeps_its_names_and_others_stay_whole() {
-    let text = imported(quote!(struct A(::framework::Timestamp, ::types::Timestamp);), &[]);
-    assert_eq!(text, "use framework::Timestamp;\nstruct A(Timestamp, types::Timestamp);\n");
+    let text = imported(
+        quote!(
+            struct A(::framework::Timestamp, ::types::Timestamp);
+        ),
+        &[],
+    );
+    assert_eq!(
+        text,
+        "use framework::Timestamp;\nstruct A(Timestamp, types::Timestamp);\n"
+    );
 }
 
 #[test]
@@ -80,7 +93,9 @@ fn nothing_hides_the_prelude_or_an_item_of_the_file() {
 #[test]
 fn a_crate_called_like_an_imported_module_is_named_from_the_root() {
     let text = imported(
-        quote!(struct A(crate::databases::control::Frame, ::control::types::Pose);),
+        quote!(
+            struct A(crate::databases::control::Frame, ::control::types::Pose);
+        ),
         &["crate::databases::control"],
     );
     assert_eq!(
@@ -91,6 +106,12 @@ fn a_crate_called_like_an_imported_module_is_named_from_the_root() {
 
 #[test]
 fn traits_are_imported_where_items_say_so() {
-    let text = imported(quote!(use ::framework::InNode; struct A;), &[]);
+    let text = imported(
+        quote!(
+            use ::framework::InNode;
+            struct A;
+        ),
+        &[],
+    );
     assert_eq!(text, "use framework::InNode;\nstruct A;\n");
 }

@@ -4,7 +4,9 @@ use super::*;
 fn body(items: TokenStream) -> String {
     let text = rust_file("A file.", &[], items);
     let header = format!("//! A file.\n//!\n//! {DO_NOT_EDIT}\n\n");
-    text.strip_prefix(&header).expect("every file starts with its header").to_owned()
+    text.strip_prefix(&header)
+        .expect("every file starts with its header")
+        .to_owned()
 }
 
 #[test]
@@ -25,9 +27,15 @@ fn comments_stand_before_items_and_fields() {
 
 #[test]
 fn comments_stand_before_every_kind_of_statement() {
-    let [binding, call, assignment, deref, condition, last] =
-        ["A let.", "A call.", "An assignment.", "Through a reference.", "An if.", "The last."]
-            .map(comment);
+    let [binding, call, assignment, deref, condition, last] = [
+        "A let.",
+        "A call.",
+        "An assignment.",
+        "Through a reference.",
+        "An if.",
+        "The last.",
+    ]
+    .map(comment);
     let text = body(quote! {
         fn run(frame: &mut Frame) -> u64 {
             #binding

@@ -1,5 +1,6 @@
 //! Which parameter files there are.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use camino::{Utf8Path, Utf8PathBuf};
@@ -14,6 +15,32 @@ use crate::workspace::{MANIFEST, Workspace};
 pub(super) struct Layer<'a> {
     pub(super) file: &'a Utf8Path,
     pub(super) table: DeTable<'a>,
+}
+
+impl Layer<'_> {
+    /// The deepest key on the way to a path; the beginning of the file if there is none.
+    pub(super) fn nearest(&self, path: &[String]) -> Range<usize> {
+        let mut table = &self.table;
+        let mut place = 0..0;
+        for name in path {
+            let Some((key, value)) = table.get_key_value(name.as_str()) else {
+                break;
+            };
+            place = key.span();
+            let Some(below) = value.get_ref().as_table() else {
+                break;
+            };
+            table = below;
+        }
+        place
+    }
+}
+
+/// `location` in the folder's `parameters.toml`.
+pub(super) fn default_location(workspace: &Workspace, folder: &Utf8Path) -> Option<String> {
+    let text = workspace.read(&folder.join("parameters.toml")).ok()?;
+    let table: toml::Table = toml::from_str(&text).ok()?;
+    table.get("location")?.as_str().map(str::to_owned)
 }
 
 /// Every file that may be a layer of some robot: defaults of the folder and of its locations, and identities' files.

@@ -64,7 +64,7 @@ fn a_value_that_no_file_gives_is_named_with_its_reader() {
         "missing-parameter",
         &[
             "no file gives the parameter `a.b`",
-            "parameters/default.toml:1:1",
+            "parameters/default.toml:1:2",
             "a.rs:15:4",
             "read here",
             "add `a.b = …`",
@@ -83,6 +83,15 @@ fn a_value_of_another_location_does_not_count() {
         .file("parameters/default.toml", "")
         .file("parameters/field/default.toml", "a = 1\n")
         .expect("missing-parameter", &["`a`"]);
+}
+
+#[test]
+fn the_folder_may_name_the_location_of_targets_without_one() {
+    robot("a: Parameter<f32, \"a\">,", "")
+        .file("parameters/default.toml", "")
+        .file("parameters/parameters.toml", "location = \"field\"\n")
+        .file("parameters/field/default.toml", "a = 1\n")
+        .robot();
 }
 
 #[test]

@@ -86,7 +86,7 @@ fn written_type_and_path_agree_by_the_contract() {
 fn a_mismatch_shows_both_places() {
     let (_, text) = answer("Vec<Ball>", "PreviousInput<Vec<Point>, \"x\">");
     for part in [
-        "error[type-mismatch]: `x` is a `Vec<types::Ball>`, but is read as a `Vec<types::Point>`",
+        "error[type-mismatch]: `x` is `Vec<types::Ball>`, but is read as `Vec<types::Point>`",
         "crates/nodes/src/b.rs:15:4",
         "`nodes::b` reads it as `Vec<types::Point>`",
         "crates/nodes/src/a.rs:19:4",

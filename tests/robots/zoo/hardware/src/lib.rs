@@ -10,7 +10,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use framework::{Clock, Event, HardwareContext, Result, Stop, Stopped, Timestamp};
 use serde::Deserialize;
 use zoo_nodes::interfaces::{
-    BodyInterface, BumperInterface, EarInterface, EyeInterface, LampInterface, LegInterface, MetronomeInterface,
+    BodyInterface, BumperInterface, EarInterface, EyeInterface, LampInterface, LegInterface,
+    MetronomeInterface,
 };
 use zoo_nodes::types::{Camera, Image};
 
@@ -86,11 +87,18 @@ impl framework::Hardware for Hardware {
         let mut world = sources::locked(&self.world);
         let (source, number) = world.next();
         let at = source.time(number);
-        if self.settings.end.is_some_and(|end| (at - Timestamp::ZERO).as_secs_f64() > end) {
+        if self
+            .settings
+            .end
+            .is_some_and(|end| (at - Timestamp::ZERO).as_secs_f64() > end)
+        {
             return Ok(None);
         }
         world.advance(source, number);
-        Ok(Some(Event { at, instance: source.instance() }))
+        Ok(Some(Event {
+            at,
+            instance: source.instance(),
+        }))
     }
 }
 
@@ -102,9 +110,19 @@ impl EyeInterface for Hardware {
         };
         let (number, at) = self.next(source)?;
         // Every tenth image is dark.
-        let light = if self.settings.sees_spots && number % 10 != 9 { 255 } else { 0 };
+        let light = if self.settings.sees_spots && number % 10 != 9 {
+            255
+        } else {
+            0
+        };
         image.width = 16;
-        image.pixels.extend((0..16).map(|x| if (x + number) % 5 == 0 { light } else { light / 4 }));
+        image.pixels.extend((0..16).map(|x| {
+            if (x + number) % 5 == 0 {
+                light
+            } else {
+                light / 4
+            }
+        }));
         Ok(at)
     }
 }
@@ -113,7 +131,11 @@ impl EarInterface for Hardware {
     fn read_sound(&self) -> Result<(Timestamp, f32)> {
         let (number, at) = self.next(Source::Ear)?;
         // Every 25th piece is deafening.
-        let loudness = if number % 25 == 24 { 1.0 } else { (number % 10) as f32 / 10.0 };
+        let loudness = if number % 25 == 24 {
+            1.0
+        } else {
+            (number % 10) as f32 / 10.0
+        };
         Ok((at, loudness))
     }
 }

@@ -67,14 +67,18 @@ impl Sources {
     /// The source whose next data is ready first, and its number.
     pub(crate) fn next(&self) -> (Source, u64) {
         let numbered = ALL.into_iter().zip(self.next);
-        numbered.min_by_key(|(source, number)| source.time(*number)).unwrap_or((ALL[0], 0))
+        numbered
+            .min_by_key(|(source, number)| source.time(*number))
+            .unwrap_or((ALL[0], 0))
     }
 
     /// The newest data that is ready now and was not taken, else the next.
     pub(crate) fn next_after(&self, source: Source, now: Timestamp) -> u64 {
         let (first, period) = source.milliseconds();
         let elapsed = (now - Timestamp::ZERO).as_millis() as u64;
-        let newest = elapsed.checked_sub(first).map_or(0, |elapsed| elapsed / period);
+        let newest = elapsed
+            .checked_sub(first)
+            .map_or(0, |elapsed| elapsed / period);
         newest.max(self.next[source as usize])
     }
 

@@ -29,6 +29,9 @@ impl Body {
 
     pub fn cycle(&mut self, context: CycleContext<impl BodyInterface>) -> Result<MainOutputs> {
         let (measured_at, joints) = context.hardware_interface.read_joints()?;
-        Ok(MainOutputs { joints: joints.into(), measured_at: measured_at.into() })
+        Ok(MainOutputs {
+            joints: joints.into(),
+            measured_at: measured_at.into(),
+        })
     }
 }

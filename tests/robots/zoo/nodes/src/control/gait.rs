@@ -39,7 +39,10 @@ pub struct MainOutputs {
 impl Gait {
     pub fn new(context: CreationContext) -> Result<Self> {
         *context.phase = 0.0;
-        Ok(Self { speed: 0.0, table: table(*context.period) })
+        Ok(Self {
+            speed: 0.0,
+            table: table(*context.period),
+        })
     }
 
     pub fn restore(&mut self, context: CreationContext) -> Result<()> {
@@ -55,10 +58,16 @@ impl Gait {
         if let Some(call) = context.stop {
             call.refuse("it never stops");
         }
-        let wanted = context.target.map_or(*context.default_speed, |target| target.x);
+        let wanted = context
+            .target
+            .map_or(*context.default_speed, |target| target.x);
         *context.phase = (*context.phase + self.speed + wanted).fract();
-        context.plan.extend(self.table.iter().map(|angle| angle * *context.phase));
-        Ok(MainOutputs { speed: self.speed.into() })
+        context
+            .plan
+            .extend(self.table.iter().map(|angle| angle * *context.phase));
+        Ok(MainOutputs {
+            speed: self.speed.into(),
+        })
     }
 }
 

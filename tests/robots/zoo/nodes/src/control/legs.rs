@@ -28,7 +28,9 @@ pub struct MainOutputs {}
 
 impl Legs {
     pub fn new(context: CreationContext<impl BodyInterface>) -> Result<Self> {
-        Ok(Self { length: context.hardware_interface.leg_length() })
+        Ok(Self {
+            length: context.hardware_interface.leg_length(),
+        })
     }
 
     pub fn cycle(&mut self, context: CycleContext<impl LegInterface>) -> Result<MainOutputs> {

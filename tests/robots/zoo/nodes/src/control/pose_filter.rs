@@ -35,6 +35,12 @@ impl PoseFilter {
         context.drift.x += elapsed * context.joints[0];
         context.drift.y += elapsed * context.joints[1];
         let position = (*context.gain > 0.2).then_some(*context.drift);
-        Ok(MainOutputs { pose: Pose { position, heading: context.joints[2] }.into() })
+        Ok(MainOutputs {
+            pose: Pose {
+                position,
+                heading: context.joints[2],
+            }
+            .into(),
+        })
     }
 }

@@ -42,18 +42,49 @@ impl SpotFilter {
             let pose = context.pose.get(timestamp).copied().unwrap_or_default();
             let position = context.position.get(timestamp).flatten();
             let heading = context.heading.get(timestamp).copied().unwrap_or_default();
-            if let (Some(spot), Some(position)) = (spots.first(), position.or(pose.position.as_ref())) {
-                target = Some(Spot { x: spot.x + position.x - heading, ..*spot });
+            if let (Some(spot), Some(position)) =
+                (spots.first(), position.or(pose.position.as_ref()))
+            {
+                target = Some(Spot {
+                    x: spot.x + position.x - heading,
+                    ..*spot
+                });
             }
         }
-        let best = context.best.transient.last().and_then(|(_, best)| best).copied();
-        let whistles = context.whistle.persistent.iter().filter(|(_, whistle)| whistle.is_some());
+        let best = context
+            .best
+            .transient
+            .last()
+            .and_then(|(_, best)| best)
+            .copied();
+        let whistles = context
+            .whistle
+            .persistent
+            .iter()
+            .filter(|(_, whistle)| whistle.is_some());
         let nested = Nested {
-            deep: context.top.persistent.last().and_then(|(_, best)| best).map(|best| best.x),
+            deep: context
+                .top
+                .persistent
+                .last()
+                .and_then(|(_, best)| best)
+                .map(|best| best.x),
             plain: whistles.count() as f32,
         };
-        let loudness: f32 = context.loudness.transient.iter().map(|(_, loudness)| *loudness).sum();
-        let report = Report { best, nested: Some(nested), certainty: loudness };
-        Ok(MainOutputs { target: target.into(), report: report.into() })
+        let loudness: f32 = context
+            .loudness
+            .transient
+            .iter()
+            .map(|(_, loudness)| *loudness)
+            .sum();
+        let report = Report {
+            best,
+            nested: Some(nested),
+            certainty: loudness,
+        };
+        Ok(MainOutputs {
+            target: target.into(),
+            report: report.into(),
+        })
     }
 }

@@ -48,8 +48,12 @@ impl Watcher {
         ];
         let seen = options.iter().filter(|agree| **agree).count() as u32;
         let gain = *context.gain;
-        context.seen.fill_if_subscribed(|| vec![seen as f32, gain, context.drift.x]);
-        context.certainties.fill_if_subscribed(|| *context.certainty);
+        context
+            .seen
+            .fill_if_subscribed(|| vec![seen as f32, gain, context.drift.x]);
+        context
+            .certainties
+            .fill_if_subscribed(|| *context.certainty);
         Ok(MainOutputs { seen: seen.into() })
     }
 }

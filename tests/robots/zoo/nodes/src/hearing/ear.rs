@@ -32,6 +32,9 @@ impl Ear {
         Interface: EarInterface,
     {
         let (heard_at, loudness) = context.hardware_interface.read_sound()?;
-        Ok(MainOutputs { loudness: loudness.into(), heard_at: heard_at.into() })
+        Ok(MainOutputs {
+            loudness: loudness.into(),
+            heard_at: heard_at.into(),
+        })
     }
 }

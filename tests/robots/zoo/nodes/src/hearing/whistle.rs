@@ -29,6 +29,10 @@ impl Whistle {
     pub fn cycle(&mut self, context: CycleContext) -> Result<MainOutputs> {
         let loudness = *context.loudness;
         assert!(loudness < 0.99, "this is deafening");
-        Ok(MainOutputs { whistle: (loudness > 0.5).then_some(types::Whistle { loudness }).into() })
+        Ok(MainOutputs {
+            whistle: (loudness > 0.5)
+                .then_some(types::Whistle { loudness })
+                .into(),
+        })
     }
 }

@@ -26,9 +26,14 @@ impl Lamp {
         Ok(Self)
     }
 
-    pub fn cycle(&mut self, context: CycleContext<impl LampInterface + LegInterface>) -> Result<MainOutputs> {
+    pub fn cycle(
+        &mut self,
+        context: CycleContext<impl LampInterface + LegInterface>,
+    ) -> Result<MainOutputs> {
         if context.beat.is_multiple_of(2) {
-            context.hardware_interface.write_brightness(*context.heading);
+            context
+                .hardware_interface
+                .write_brightness(*context.heading);
         } else {
             context.hardware_interface.write_angles(&[])?;
         }

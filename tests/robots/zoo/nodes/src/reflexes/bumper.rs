@@ -27,6 +27,8 @@ impl Bumper {
     }
 
     pub fn cycle(&mut self, context: CycleContext<impl BumperInterface>) -> Result<MainOutputs> {
-        Ok(MainOutputs { pressed: context.hardware_interface.read_bumper()?.into() })
+        Ok(MainOutputs {
+            pressed: context.hardware_interface.read_bumper()?.into(),
+        })
     }
 }

@@ -29,9 +29,15 @@ impl Flinch {
     }
 
     pub fn cycle(&mut self, context: CycleContext<impl LampInterface>) -> Result<MainOutputs> {
-        let dazzled = context.bottom.transient.iter().any(|(_, spots)| spots.len() > 2);
+        let dazzled = context
+            .bottom
+            .transient
+            .iter()
+            .any(|(_, spots)| spots.len() > 2);
         if *context.pressed || dazzled {
-            context.hardware_interface.write_brightness(context.pose.map_or(0.0, |pose| pose.value.heading));
+            context
+                .hardware_interface
+                .write_brightness(context.pose.map_or(0.0, |pose| pose.value.heading));
         }
         Ok(MainOutputs {})
     }

@@ -29,6 +29,8 @@ impl Counter {
 
     pub fn cycle(&mut self, context: CycleContext) -> Result<MainOutputs> {
         *context.count += 1;
-        Ok(MainOutputs { cycles: (*context.count).into() })
+        Ok(MainOutputs {
+            cycles: (*context.count).into(),
+        })
     }
 }

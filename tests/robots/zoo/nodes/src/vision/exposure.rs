@@ -29,9 +29,17 @@ impl Exposure {
     }
 
     pub fn cycle(&mut self, context: CycleContext) -> Result<MainOutputs> {
-        let brightest = context.image.pixels.iter().max().copied().unwrap_or_default();
+        let brightest = context
+            .image
+            .pixels
+            .iter()
+            .max()
+            .copied()
+            .unwrap_or_default();
         let wanted = context.wanted * f32::from(brightest);
         *context.smoothed += 0.5 * (wanted - *context.smoothed);
-        Ok(MainOutputs { exposure: (*context.smoothed).into() })
+        Ok(MainOutputs {
+            exposure: (*context.smoothed).into(),
+        })
     }
 }

@@ -1,6 +1,8 @@
 //! Waits for an image: written in place, with the time at which it was taken.
 
-use framework::{AdditionalOutput, CaptureTime, HardwareInterface, MainOutput, Parameter, Result, context};
+use framework::{
+    AdditionalOutput, CaptureTime, HardwareInterface, MainOutput, Parameter, Result, context,
+};
 use serde::{Deserialize, Serialize};
 
 use crate::interfaces::EyeInterface;
@@ -30,13 +32,17 @@ pub struct MainOutputs {
 
 impl Eye {
     pub fn new(context: CreationContext) -> Result<Self> {
-        Ok(Self { camera: *context.camera })
+        Ok(Self {
+            camera: *context.camera,
+        })
     }
 
     pub fn cycle(&mut self, mut context: CycleContext<impl EyeInterface>) -> Result<MainOutputs> {
         let taken_at = context.hardware.read_image(self.camera, context.image)?;
         let width = context.image.width;
         context.width.fill_if_subscribed(|| width);
-        Ok(MainOutputs { taken_at: taken_at.into() })
+        Ok(MainOutputs {
+            taken_at: taken_at.into(),
+        })
     }
 }

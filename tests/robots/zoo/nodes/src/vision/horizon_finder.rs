@@ -37,6 +37,8 @@ impl HorizonFinder {
         let seen = context.target.or(context.whole_target.as_ref());
         let later = context.latest_target.and_then(|target| target.value);
         let nearest = seen.or(later).map_or(0.0, |spot| spot.x.min(1.0));
-        Ok(MainOutputs { horizon: Some(heading + context.position.x.abs() + nearest).into() })
+        Ok(MainOutputs {
+            horizon: Some(heading + context.position.x.abs() + nearest).into(),
+        })
     }
 }

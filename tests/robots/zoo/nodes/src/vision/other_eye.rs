@@ -30,8 +30,17 @@ impl OtherEye {
     }
 
     pub fn cycle(&mut self, context: CycleContext) -> Result<MainOutputs> {
-        let bottom = context.bottom.and_then(|latest| latest.value).map_or(0.0, |spot| spot.x);
-        let top = context.top.first().or(context.last_spots.last()).map_or(0.0, |spot| spot.x);
-        Ok(MainOutputs { agreement: (0.5 * (context.last_agreement + (top - bottom).abs())).into() })
+        let bottom = context
+            .bottom
+            .and_then(|latest| latest.value)
+            .map_or(0.0, |spot| spot.x);
+        let top = context
+            .top
+            .first()
+            .or(context.last_spots.last())
+            .map_or(0.0, |spot| spot.x);
+        Ok(MainOutputs {
+            agreement: (0.5 * (context.last_agreement + (top - bottom).abs())).into(),
+        })
     }
 }

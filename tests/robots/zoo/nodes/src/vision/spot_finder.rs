@@ -1,7 +1,8 @@
 //! Fails on dark images, which the manifest says to skip.
 
 use framework::{
-    AdditionalOutput, CyclerState, Error, Input, MainOutput, Parameter, RequiredInput, Result, context,
+    AdditionalOutput, CyclerState, Error, Input, MainOutput, Parameter, RequiredInput, Result,
+    context,
 };
 use serde::{Deserialize, Serialize};
 
@@ -39,7 +40,9 @@ impl SpotFinder {
         if *context.gain <= 0.0 {
             return Err(Error::new("the gain must be positive"));
         }
-        Ok(Self { brightest: *context.brightest })
+        Ok(Self {
+            brightest: *context.brightest,
+        })
     }
 
     pub fn cycle(&mut self, mut context: CycleContext) -> Result<MainOutputs, String> {
@@ -48,11 +51,17 @@ impl SpotFinder {
         }
         let mut spots: Vec<Spot> = (context.image.pixels.iter().enumerate())
             .filter(|(x, pixel)| *x as f32 >= *context.horizon && *pixel >= context.threshold)
-            .map(|(x, pixel)| Spot { x: x as f32, brightness: context.gain * f32::from(*pixel) / *context.exposure })
+            .map(|(x, pixel)| Spot {
+                x: x as f32,
+                brightness: context.gain * f32::from(*pixel) / *context.exposure,
+            })
             .collect();
         context.candidates.fill_if_subscribed(|| spots.clone());
         spots.sort_by(|left, right| right.brightness.total_cmp(&left.brightness));
         spots.truncate(self.brightest);
-        Ok(MainOutputs { best: spots.first().copied().into(), spots: spots.into() })
+        Ok(MainOutputs {
+            best: spots.first().copied().into(),
+            spots: spots.into(),
+        })
     }
 }

@@ -1,0 +1,74 @@
+//! Which other instances a cycler reads.
+
+use std::collections::BTreeSet;
+
+use super::{FIELDS_OF_BODIES, Interleaving, Perception, Source};
+use crate::model::names::{Names, snake_case};
+use crate::resolve::robot::{CycleBinding, Cycler, InstanceId, Robot};
+
+/// Every perception instance that any node consumes, once.
+pub(super) fn perception(robot: &Robot, cycler: &Cycler) -> Option<Perception> {
+    let mut lanes = BTreeSet::new();
+    let mut cyclers = BTreeSet::new();
+    for field in cycler.nodes.iter().flat_map(|node| &node.cycle) {
+        if let CycleBinding::Perception { instances, .. } = &field.binding {
+            lanes.extend(instances.iter().copied());
+            if let [first, _, ..] = instances.as_slice() {
+                cyclers.insert(first.cycler);
+            }
+        }
+    }
+    if lanes.is_empty() {
+        return None;
+    }
+    let lanes: Vec<Source> = lanes.into_iter().map(|id| source(robot, id)).collect();
+    let interleavings = cyclers.into_iter().map(|cycler| Interleaving {
+        field: snake_case(&robot.cyclers[cycler].name),
+        lanes: lanes
+            .iter()
+            .filter(|lane| lane.id.cycler == cycler)
+            .map(|lane| lane.field.clone())
+            .collect(),
+    });
+    Some(Perception {
+        interleavings: interleavings.collect(),
+        lanes,
+    })
+}
+
+/// Every instance whose newest cycle any node reads, once.
+pub(super) fn latest(robot: &Robot, cycler: &Cycler) -> Vec<Source> {
+    let instances: BTreeSet<InstanceId> = cycler
+        .nodes
+        .iter()
+        .flat_map(|node| &node.cycle)
+        .filter_map(|field| match &field.binding {
+            CycleBinding::OutputOf { instance, .. }
+            | CycleBinding::RequiredOutputOf { instance, .. }
+            | CycleBinding::Latest { instance, .. } => Some(*instance),
+            _ => None,
+        })
+        .collect();
+    let mut names = Names::with(FIELDS_OF_BODIES.map(str::to_owned));
+    let sources = instances.into_iter().map(|id| source(robot, id));
+    sources
+        .map(|source| Source {
+            reader: names.give(&source.field),
+            ..source
+        })
+        .collect()
+}
+
+/// An instance as those name it who read it.
+fn source(robot: &Robot, id: InstanceId) -> Source {
+    let cycler = &robot.cyclers[id.cycler];
+    let instance = cycler.instances[id.instance].name.clone();
+    let field = snake_case(&instance);
+    Source {
+        id,
+        reader: field.clone(),
+        field,
+        instance,
+        module: snake_case(&cycler.name),
+    }
+}

@@ -1,0 +1,22 @@
+//! The robot `zoo` on target `loud`.
+//!
+//! Written by `hulkgen generate` from hulk.toml and the nodes it names. Do not edit.
+
+use std::process::ExitCode;
+
+use framework::Target;
+use framework::launch;
+use zoo_hardware::Hardware;
+use zoo_runtime::runtime;
+
+const TARGET: Target = Target {
+    robot: "zoo",
+    name: "loud",
+    parameters: "parameters",
+    location: None,
+    identities: &["body"],
+};
+
+fn main() -> ExitCode {
+    launch::main::<Hardware, _>(TARGET, runtime::create)
+}

@@ -1,0 +1,55 @@
+//! The parameter tree; each field names the nodes that read it.
+//!
+//! Written by `hulkgen generate` from hulk.toml and the nodes it names. Do not edit.
+
+use framework::Reflect;
+use serde::Deserialize;
+use serde::Serialize;
+use zoo_nodes::types::Camera;
+
+/// Everything that the parameter files say to nodes.
+#[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Parameters {
+    pub exposure: Exposure,
+    pub gait: Gait,
+    pub spot_finder: SpotFinder,
+    pub vision_bottom: VisionInstance,
+    pub vision_top: VisionInstance,
+    /// zoo_nodes::control::gait
+    pub walking_speed: f32,
+}
+
+#[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Exposure {
+    /// zoo_nodes::vision::exposure
+    pub vision_bottom: f32,
+    /// zoo_nodes::vision::exposure
+    pub vision_top: f32,
+}
+
+#[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Gait {
+    /// zoo_nodes::control::gait
+    pub period: f32,
+}
+
+#[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct SpotFinder {
+    /// zoo_nodes::vision::spot_finder
+    pub brightest: usize,
+    /// zoo_nodes::vision::spot_finder
+    pub threshold: u8,
+}
+
+#[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct VisionInstance {
+    /// zoo_nodes::vision::eye
+    pub camera: Camera,
+    /// zoo_nodes::vision::spot_finder
+    pub gain: f32,
+}

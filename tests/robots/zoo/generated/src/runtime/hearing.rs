@@ -1,0 +1,149 @@
+//! Cycler `Hearing` between its buffers and its nodes.
+//!
+//! Written by `hulkgen generate` from hulk.toml and the nodes it names. Do not edit.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use framework::Body;
+use framework::Cycle;
+use framework::Injected;
+use framework::InstanceDescription;
+use framework::Kind;
+use framework::NodeReport;
+use framework::OnFailure;
+use framework::QueueReport;
+use framework::Reader;
+use framework::Reference;
+use framework::Reflect;
+use framework::Result;
+use framework::Scheduling;
+use framework::Slots;
+use framework::State;
+use framework::Timestamp;
+use zoo_nodes::interfaces::EarInterface;
+
+use crate::cyclers::hearing::Nodes;
+use crate::databases::hearing::Frame;
+use crate::databases::hearing::Injections;
+use crate::databases::hearing::Previous;
+use crate::databases::hearing::SharedOutputs;
+
+/// What the manifest says about `Hearing`.
+pub const HEARING: InstanceDescription = InstanceDescription {
+    name: "Hearing",
+    cycler: "Hearing",
+    kind: Kind::Perception,
+    on_failure: OnFailure::Stop,
+    deadline: None,
+    pending_timeout: Duration::from_secs(1),
+    watchdog: Duration::from_millis(300),
+    history: Duration::from_secs(1),
+    lockstep_duration: Some(Duration::from_millis(3)),
+    scheduling: Scheduling {
+        policy: None,
+        priority: None,
+        cores: &[],
+    },
+};
+
+/// One instance: its nodes, and its ends of all buffers.
+pub struct Hearing<Hardware> {
+    pub nodes: Nodes,
+    pub capture_time: Option<Timestamp>,
+    pub hardware_interface: Arc<Hardware>,
+    pub injections: Reader<Injected<Injections>>,
+}
+
+impl<Hardware> Hearing<Hardware> {
+    /// The nodes, and everything they may touch in this cycle.
+    fn frame<'a>(
+        &'a mut self,
+        slots: Slots<'a, SharedOutputs>,
+        cycle: Cycle,
+    ) -> (&'a mut Nodes, Frame<'a, Hardware>) {
+        let frame = Frame {
+            capture_time: &mut self.capture_time,
+            cycle,
+            hardware_interface: &self.hardware_interface,
+            injections: self.injections.view().value().get(),
+            previous: Previous { shared: slots.previous },
+            shared: slots.current,
+        };
+        (&mut self.nodes, frame)
+    }
+}
+
+impl<Hardware: EarInterface + Send + Sync> Body for Hearing<Hardware> {
+    type Shared = SharedOutputs;
+
+    fn create(&mut self) -> Result<()> {
+        self.nodes = Nodes::new()?;
+        Ok(())
+    }
+
+    fn wait(
+        &mut self,
+        slots: Slots<'_, SharedOutputs>,
+        cycle: Cycle,
+    ) -> Result<Option<Timestamp>> {
+        self.capture_time = None;
+        let (nodes, mut frame) = self.frame(slots, cycle);
+        nodes.setup(&mut frame)?;
+        Ok(self.capture_time)
+    }
+
+    fn begin(&mut self, slots: Slots<'_, SharedOutputs>, cycle: Cycle) {
+        self.injections.take();
+        let (_, mut frame) = self.frame(slots, cycle);
+        Nodes::inject(&mut frame);
+    }
+
+    fn run(&mut self, slots: Slots<'_, SharedOutputs>, cycle: Cycle) -> Result<()> {
+        let (nodes, mut frame) = self.frame(slots, cycle);
+        nodes.cycle(&mut frame)
+    }
+
+    fn finish(&mut self, _shared: &SharedOutputs, _cycle: Cycle) {}
+
+    fn abandon(&mut self) {}
+
+    fn restore(&mut self) -> Result<()> {
+        // The states of all nodes are whole.
+        Ok(())
+    }
+
+    fn references(&self, _visit: &mut dyn FnMut(Reference)) {}
+
+    fn main_outputs(&self) -> &'static [&'static str] {
+        &["loudness", "whistle"]
+    }
+
+    fn main_output<'a>(
+        &'a self,
+        shared: &'a SharedOutputs,
+        name: &str,
+    ) -> Option<&'a dyn Reflect> {
+        match name {
+            "loudness" => Some(&shared.loudness),
+            "whistle" => Some(&shared.whistle),
+            _ => None,
+        }
+    }
+
+    fn additional_output(&self, _name: &str, _cycle: u64) -> Option<&dyn Reflect> {
+        None
+    }
+
+    fn nodes(&self, visit: &mut dyn FnMut(NodeReport)) {
+        visit(self.nodes.ear.report());
+        visit(self.nodes.whistle.report());
+    }
+
+    fn queues(&self, _visit: &mut dyn FnMut(QueueReport)) {}
+
+    fn states(&mut self, visit: &mut dyn FnMut(&'static str, &mut dyn State)) {
+        visit("zoo_nodes::hearing::ear", &mut self.nodes.ear);
+        visit("zoo_nodes::hearing::whistle", &mut self.nodes.whistle);
+    }
+}

@@ -1,0 +1,166 @@
+//! Cycler `Reflexes` between its buffers and its nodes.
+//!
+//! Written by `hulkgen generate` from hulk.toml and the nodes it names. Do not edit.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use framework::Body;
+use framework::Cycle;
+use framework::Injected;
+use framework::InstanceDescription;
+use framework::Kind;
+use framework::NodeReport;
+use framework::OnFailure;
+use framework::QueueReport;
+use framework::Reader;
+use framework::Reference;
+use framework::Reflect;
+use framework::Result;
+use framework::Scheduling;
+use framework::Slots;
+use framework::State;
+use framework::Swap;
+use framework::Timestamp;
+use zoo_nodes::interfaces::BumperInterface;
+use zoo_nodes::interfaces::LampInterface;
+
+use crate::cyclers::reflexes::Nodes;
+use crate::databases::control;
+use crate::databases::reflexes::Frame;
+use crate::databases::reflexes::Injections;
+use crate::databases::reflexes::Latest;
+use crate::databases::reflexes::OwnOutputs;
+use crate::databases::reflexes::Perception;
+
+/// What the manifest says about `Reflexes`.
+pub const REFLEXES: InstanceDescription = InstanceDescription {
+    name: "Reflexes",
+    cycler: "Reflexes",
+    kind: Kind::RealTime,
+    on_failure: OnFailure::Stop,
+    deadline: None,
+    pending_timeout: Duration::from_secs(1),
+    watchdog: Duration::from_millis(300),
+    history: Duration::from_secs(1),
+    lockstep_duration: None,
+    scheduling: Scheduling {
+        policy: None,
+        priority: None,
+        cores: &[],
+    },
+};
+
+/// One instance: its nodes, and its ends of all buffers.
+pub struct Reflexes<Hardware> {
+    pub nodes: Nodes,
+    pub hardware_interface: Arc<Hardware>,
+    pub injections: Reader<Injected<Injections>>,
+    pub own: Swap<OwnOutputs>,
+    pub perception: Perception,
+    pub control: Reader<control::SharedOutputs>,
+}
+
+impl<Hardware> Reflexes<Hardware> {
+    /// The nodes, and everything they may touch in this cycle.
+    fn frame<'a>(&'a mut self, cycle: Cycle) -> (&'a mut Nodes, Frame<'a, Hardware>) {
+        let frame = Frame {
+            cycle,
+            hardware_interface: &self.hardware_interface,
+            injections: self.injections.view().value().get(),
+            latest: Latest {
+                control: self.control.view(),
+            },
+            own: self.own.both().0,
+            perception: &self.perception,
+        };
+        (&mut self.nodes, frame)
+    }
+}
+
+impl<Hardware: BumperInterface + LampInterface + Send + Sync> Body
+for Reflexes<Hardware> {
+    type Shared = ();
+
+    fn create(&mut self) -> Result<()> {
+        self.nodes = Nodes::new()?;
+        Ok(())
+    }
+
+    fn wait(
+        &mut self,
+        _slots: Slots<'_, ()>,
+        cycle: Cycle,
+    ) -> Result<Option<Timestamp>> {
+        let (nodes, mut frame) = self.frame(cycle);
+        nodes.setup(&mut frame)?;
+        Ok(None)
+    }
+
+    fn begin(&mut self, _slots: Slots<'_, ()>, cycle: Cycle) {
+        self.injections.take();
+        self.control.take();
+        self.perception
+            .horizon
+            .consume(cycle.time.start, [&mut self.perception.vision_bottom]);
+        let (_, mut frame) = self.frame(cycle);
+        Nodes::inject(&mut frame);
+    }
+
+    fn run(&mut self, _slots: Slots<'_, ()>, cycle: Cycle) -> Result<()> {
+        let (nodes, mut frame) = self.frame(cycle);
+        nodes.cycle(&mut frame)
+    }
+
+    fn finish(&mut self, _shared: &(), _cycle: Cycle) {
+        self.own.swap();
+    }
+
+    fn abandon(&mut self) {}
+
+    fn restore(&mut self) -> Result<()> {
+        // The states of all nodes are whole.
+        Ok(())
+    }
+
+    fn references(&self, visit: &mut dyn FnMut(Reference)) {
+        self.control.references("Control", visit);
+        self.perception.vision_bottom.references("VisionBottom", visit);
+    }
+
+    fn main_outputs(&self) -> &'static [&'static str] {
+        &["pressed"]
+    }
+
+    fn main_output<'a>(
+        &'a self,
+        _shared: &'a (),
+        name: &str,
+    ) -> Option<&'a dyn Reflect> {
+        match name {
+            "pressed" => Some(&self.own.previous().pressed),
+            _ => None,
+        }
+    }
+
+    fn additional_output(&self, _name: &str, _cycle: u64) -> Option<&dyn Reflect> {
+        None
+    }
+
+    fn nodes(&self, visit: &mut dyn FnMut(NodeReport)) {
+        visit(self.nodes.bumper.report());
+        visit(self.nodes.flinch.report());
+    }
+
+    fn queues(&self, visit: &mut dyn FnMut(QueueReport)) {
+        visit(QueueReport {
+            from: "VisionBottom",
+            counts: self.perception.vision_bottom.report(),
+        });
+    }
+
+    fn states(&mut self, visit: &mut dyn FnMut(&'static str, &mut dyn State)) {
+        visit("zoo_nodes::reflexes::bumper", &mut self.nodes.bumper);
+        visit("zoo_nodes::reflexes::flinch", &mut self.nodes.flinch);
+    }
+}

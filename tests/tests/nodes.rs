@@ -1,0 +1,97 @@
+//! Every node of the NAO is needed: without any one of them the generator or a named robot-level test complains.
+
+use std::fs;
+
+use hulkgen::diagnostics::Diagnostics;
+use hulkgen::pipeline;
+use hulkgen::workspace::Workspace;
+use support::{root, sources};
+
+/// Nodes whose absence the generator cannot see, and the test that does.
+const SEEN_BY_TESTS: &[(&str, &str)] = &[];
+
+/// What `check --deny-warnings` says first about the NAO with this manifest; `None` if nothing.
+fn complaint(files: &[(String, String)], manifest: &str) -> Option<String> {
+    let files = files
+        .iter()
+        .cloned()
+        .chain([("hulk.toml".to_owned(), manifest.to_owned())]);
+    let workspace = Workspace::in_memory(files);
+    let mut diagnostics = Diagnostics::new();
+    let _understood = pipeline::understand(&workspace, &mut diagnostics);
+    let sorted = diagnostics.sorted();
+    sorted
+        .first()
+        .map(|one| format!("{}: {}", one.code.name(), one.message))
+}
+
+/// The files of the workspace that hulkgen reads, without the manifest.
+fn files() -> Vec<(String, String)> {
+    let mut files: Vec<_> = sources(&["framework", "robotics"], ".rs")
+        .into_iter()
+        .chain(sources(
+            &[
+                "cli",
+                "framework",
+                "generated",
+                "robotics",
+                "schema",
+                "templates",
+                "tests",
+                "web",
+            ],
+            ".toml",
+        ))
+        .map(|source| (source.path, source.text))
+        .collect();
+    let cargo = fs::read_to_string(root().join("Cargo.toml")).expect("the root has a Cargo.toml");
+    files.push(("Cargo.toml".to_owned(), cargo));
+    files
+}
+
+/// The manifest's nodes, each with the manifest without it.
+fn without_each_node(manifest: &str) -> Vec<(String, String)> {
+    let mut found = Vec::new();
+    let mut rest = manifest;
+    while let Some(start) = rest.find("::").and_then(|colons| rest[..colons].rfind('"')) {
+        let node = rest[start + 1..]
+            .split('"')
+            .next()
+            .expect("a quoted name ends");
+        let quoted = format!("\"{node}\"");
+        rest = &rest[start + quoted.len()..];
+        let is_node = node.starts_with("control::") || node.starts_with("vision::");
+        if is_node {
+            let without = manifest
+                .replace(&format!("    {quoted},\n"), "")
+                .replace(&format!("[{quoted}]"), "[]");
+            assert_ne!(without, manifest, "{node} was removed");
+            found.push((node.to_owned(), without));
+        }
+    }
+    found
+}
+
+#[test]
+fn the_robot_without_any_one_node_is_noticed() {
+    let files = files();
+    let manifest = fs::read_to_string(root().join("hulk.toml")).expect("the NAO has a manifest");
+    assert_eq!(
+        complaint(&files, &manifest),
+        None,
+        "the whole robot is fine"
+    );
+    let nodes = without_each_node(&manifest);
+    assert!(nodes.len() >= 12, "{} nodes", nodes.len());
+    let mut unnoticed = Vec::new();
+    for (node, manifest) in nodes {
+        match complaint(&files, &manifest) {
+            Some(complaint) => println!("| `{node}` | {complaint} |"),
+            None => match SEEN_BY_TESTS.iter().find(|(seen, _)| *seen == node) {
+                Some((_, test)) => println!("| `{node}` | test `{test}` |"),
+                None => unnoticed.push(node),
+            },
+        }
+    }
+    assert!(unnoticed.is_empty(), "nobody misses {unnoticed:?}");
+}
