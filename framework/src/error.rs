@@ -54,7 +54,7 @@ impl Error {
         self
     }
 
-    /// The node that failed: `vision::ball_detection`.
+    /// The node that failed: `sensing::edge_finder`.
     pub fn node(&self) -> Option<&'static str> {
         self.0.node
     }

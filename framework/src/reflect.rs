@@ -1,6 +1,6 @@
 //! Reflection: any value that a node exchanges, by path.
 //!
-//! Clients name values by path (`ball.position.x`) and get only what they name: [`at`] walks by reference, copies nothing
+//! Clients name values by path (`lamp.position.x`) and get only what they name: [`at`] walks by reference, copies nothing
 //! and serialises nothing; [`Reflect::as_serialize`] of what it found serialises just that. Names below a value are those
 //! that serde gives them. [`Shape`] tells the same tree without a value, with documentation and units.
 

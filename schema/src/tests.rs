@@ -1,3 +1,5 @@
+//! What a manifest may say, and the JSON schema that says it.
+
 use std::time::Duration as Time;
 
 use super::*;

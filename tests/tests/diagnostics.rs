@@ -86,11 +86,11 @@ const MISTAKES: &[Mistake] = &[
         wrong: "parameters = \"elsewhere\"",
     },
     Mistake {
-        code: "unread-outputs",
-        robot: "perception_and_real_time",
+        code: "state-of-one-node",
+        robot: "cycler_state",
         file: "hulk.toml",
-        right: ", \"nodes::pace\"]",
-        wrong: ", \"nodes::pace\", \"nodes::detector\"]",
+        right: "\"nodes::reader\", ",
+        wrong: "",
     },
 ];
 

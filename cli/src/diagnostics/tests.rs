@@ -1,3 +1,5 @@
+//! How diagnostics are collected, sorted and printed.
+
 use camino::Utf8Path;
 
 use super::{Code, Diagnostic, Diagnostics, listed, nearest, position, render, to_json};

@@ -1,3 +1,5 @@
+//! What is compared with the disk, written and removed.
+
 use super::*;
 
 fn files(texts: &[(&str, &str)]) -> GeneratedFiles {

@@ -2,7 +2,7 @@
 
 use super::{Edge, EdgeKind, Sink, Source};
 use crate::resolve::robot::{
-    Access, CycleBinding, Cycler, DataType, Field, InstanceId, Node, Robot,
+    Access, CycleBinding, Cycler, DataType, Field, Node, OutputRead, Robot,
 };
 
 pub(crate) fn describe_edges(robot: &Robot) -> Vec<Edge> {
@@ -33,123 +33,51 @@ struct Reader<'a> {
 
 impl Reader<'_> {
     fn add_edges(&self, edges: &mut Vec<Edge>) {
-        match &self.field.binding {
-            CycleBinding::OwnOutput {
-                access,
-                producer,
-                checked,
-                ..
+        let binding = &self.field.binding;
+        if let Some(read) = binding.read() {
+            let kind = match binding {
+                CycleBinding::Previous { .. } => EdgeKind::Previous,
+                CycleBinding::Historic { .. } => EdgeKind::Historic,
+                CycleBinding::Perception { .. } => EdgeKind::Perception,
+                _ if read.instances.is_empty() => EdgeKind::Input,
+                _ => EdgeKind::Latest,
+            };
+            if read.instances.is_empty() {
+                edges.push(self.edge(kind, self.cycler, None, read));
             }
-            | CycleBinding::RequiredOwnOutput {
-                access,
-                producer,
-                checked,
-                ..
-            } => {
-                edges.push(self.own(EdgeKind::Input, access, *producer, *checked));
-            }
-            CycleBinding::Previous {
-                access,
-                producer,
-                checked,
-                ..
-            } => {
-                edges.push(self.own(EdgeKind::Previous, access, *producer, *checked));
-            }
-            CycleBinding::Historic {
-                access,
-                producer,
-                checked,
-                ..
-            } => {
-                edges.push(self.own(EdgeKind::Historic, access, *producer, *checked));
-            }
-            CycleBinding::OutputOf {
-                instance,
-                access,
-                producer,
-                checked,
-                ..
-            }
-            | CycleBinding::RequiredOutputOf {
-                instance,
-                access,
-                producer,
-                checked,
-                ..
-            }
-            | CycleBinding::Latest {
-                instance,
-                access,
-                producer,
-                checked,
-                ..
-            } => {
-                edges.push(self.across(EdgeKind::Latest, *instance, access, *producer, *checked));
-            }
-            CycleBinding::Perception {
-                instances,
-                access,
-                producer,
-                checked,
-                ..
-            } => {
-                edges.extend(instances.iter().map(|&instance| {
-                    self.across(EdgeKind::Perception, instance, access, *producer, *checked)
-                }));
-            }
-            CycleBinding::CyclerState {
-                access,
-                data,
-                shared: true,
-            } => {
-                self.add_state_edges(access, data, edges);
-            }
-            CycleBinding::CyclerState { shared: false, .. }
-            | CycleBinding::Parameter { .. }
-            | CycleBinding::CycleTime
-            | CycleBinding::AdditionalOutput { .. }
-            | CycleBinding::Procedure { .. }
-            | CycleBinding::HardwareInterface
-            | CycleBinding::MainOutput { .. } => {}
+            edges.extend(read.instances.iter().map(|&id| {
+                let cycler = &self.robot.cyclers[id.cycler];
+                let instance = cycler.instances[id.instance].name.clone();
+                self.edge(kind, cycler, Some(instance), read)
+            }));
+        } else if let CycleBinding::CyclerState {
+            access,
+            data,
+            shared: true,
+        } = binding
+        {
+            self.add_state_edges(access, data, edges);
         }
     }
 
-    fn own(&self, kind: EdgeKind, access: &Access, producer: usize, checked: bool) -> Edge {
-        let from = Source {
-            cycler: self.cycler.name.clone(),
-            instance: None,
-            node: self.cycler.nodes[producer].path.clone(),
-            output: root(access),
-        };
-        Edge {
-            from,
-            to: self.sink(),
-            kind,
-            checked,
-        }
-    }
-
-    fn across(
+    fn edge(
         &self,
         kind: EdgeKind,
-        instance: InstanceId,
-        access: &Access,
-        producer: usize,
-        checked: bool,
+        cycler: &Cycler,
+        instance: Option<String>,
+        read: OutputRead<'_>,
     ) -> Edge {
-        let cycler = &self.robot.cyclers[instance.cycler];
         let from = Source {
             cycler: cycler.name.clone(),
-            instance: Some(cycler.instances[instance.instance].name.clone()),
-            node: cycler.nodes[producer].path.clone(),
-            output: root(access),
+            instance,
+            node: cycler.nodes[read.producer].path.clone(),
+            output: root(read.access),
         };
         Edge {
             from,
             to: self.sink(),
             kind,
-            checked,
+            checked: read.checked,
         }
     }
 

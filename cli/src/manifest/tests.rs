@@ -1,3 +1,5 @@
+//! Manifests with one mistake each.
+
 use super::load;
 use crate::diagnostics::{Code, Diagnostics, render};
 use crate::workspace::Workspace;

@@ -1,3 +1,5 @@
+//! What is rendered for the walker, and what holds for every robot.
+
 use super::*;
 use crate::model::DO_NOT_EDIT;
 use crate::model::tests::{model_of, node, perception, real_time, robot, walker};

@@ -6,6 +6,8 @@ use std::time::Duration;
 
 use camino::Utf8PathBuf;
 
+pub use crate::scan::traits::Interface;
+
 /// A robot: its cyclers, what they exchange, and the targets it runs on.
 #[derive(Clone, Debug)]
 pub struct Robot {
@@ -138,15 +140,6 @@ pub struct Field<B> {
     pub line: usize,
     /// Byte range of the field's type in the node's file.
     pub range: std::ops::Range<usize>,
-}
-
-/// A hardware trait that a node asks for.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Interface {
-    /// Absolute path: `hardware::CameraInterface`.
-    pub path: String,
-    /// Whether a method returns anything but nothing; `None` where the trait was not found.
-    pub reading: Option<bool>,
 }
 
 /// A type as the generated crate names it.

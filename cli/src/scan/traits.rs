@@ -9,7 +9,15 @@ use super::lookup::{Found, ItemId};
 use super::module::Module;
 use super::types::written;
 use crate::diagnostics::listed;
-use crate::resolve::robot::Interface;
+
+/// A hardware trait that a node asks for.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Interface {
+    /// Absolute path: `hardware::CameraInterface`.
+    pub path: String,
+    /// Whether a method returns anything but nothing; `None` where the trait was not found.
+    pub reading: Option<bool>,
+}
 
 /// A trait that a node asks of the hardware.
 #[derive(Clone, Debug)]

@@ -1,3 +1,5 @@
+//! Orders, reasons and rings.
+
 use super::*;
 use crate::model::tests::{node, real_time, robot};
 

@@ -1,3 +1,5 @@
+//! Workspaces on disk and in memory.
+
 use camino::Utf8Path;
 
 use super::{Workspace, glob};

@@ -17,7 +17,7 @@ pub struct Name {
     pub span: Span,
 }
 
-/// Where a value lies below an output, a state or the parameters: `ball.position?.x`.
+/// Where a value lies below an output, a state or the parameters: `lamp.position?.x`.
 ///
 /// `Display` gives the written form.
 #[derive(Clone, Debug)]

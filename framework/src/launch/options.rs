@@ -172,7 +172,7 @@ mod tests {
             "there",
             "--",
             "--for",
-            "ball",
+            "lamp",
         ]);
         let expected = Options {
             duration: Some(Duration::from_millis(1500)),
@@ -184,7 +184,7 @@ mod tests {
                 ("c".to_owned(), "x=y".to_owned()),
             ],
             run_folder: Some("there".into()),
-            hardware: vec!["--for".to_owned(), "ball".to_owned()],
+            hardware: vec!["--for".to_owned(), "lamp".to_owned()],
         };
         assert_eq!(options.expect("all options are valid"), expected);
     }

@@ -33,8 +33,8 @@ mod tests {
 
     #[test]
     fn a_slip_is_recognised_and_another_word_is_not() {
-        let names = ["ball_radius", "field_length", "step"];
-        assert_eq!(nearest("bal_radius", names), Some("ball_radius"));
+        let names = ["lamp_radius", "field_length", "step"];
+        assert_eq!(nearest("bal_radius", names), Some("lamp_radius"));
         assert_eq!(nearest("stpe", names), Some("step"));
         assert_eq!(nearest("whistle", names), None);
         assert_eq!(nearest("step", []), None);

@@ -1,3 +1,5 @@
+//! How absolute paths become `use` lines.
+
 use proc_macro2::TokenStream;
 use quote::quote;
 

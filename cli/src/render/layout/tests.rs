@@ -1,3 +1,5 @@
+//! Every position of a comment that rendering relies on.
+
 use super::*;
 
 /// The text of a file with only these items, without its header.

@@ -88,17 +88,17 @@ mod tests {
     #[test]
     fn names_are_joined_as_serde_joins_them() {
         for (case, field, variant) in [
-            ("camelCase", "ballRadius2", "walkFast"),
-            ("kebab-case", "ball-radius2", "walk-fast"),
-            ("lowercase", "ball_radius2", "walkfast"),
-            ("PascalCase", "BallRadius2", "WalkFast"),
-            ("SCREAMING-KEBAB-CASE", "BALL-RADIUS2", "WALK-FAST"),
-            ("SCREAMING_SNAKE_CASE", "BALL_RADIUS2", "WALK_FAST"),
-            ("snake_case", "ball_radius2", "walk_fast"),
-            ("UPPERCASE", "BALL_RADIUS2", "WALKFAST"),
+            ("camelCase", "lampRadius2", "walkFast"),
+            ("kebab-case", "lamp-radius2", "walk-fast"),
+            ("lowercase", "lamp_radius2", "walkfast"),
+            ("PascalCase", "LampRadius2", "WalkFast"),
+            ("SCREAMING-KEBAB-CASE", "LAMP-RADIUS2", "WALK-FAST"),
+            ("SCREAMING_SNAKE_CASE", "LAMP_RADIUS2", "WALK_FAST"),
+            ("snake_case", "lamp_radius2", "walk_fast"),
+            ("UPPERCASE", "LAMP_RADIUS2", "WALKFAST"),
         ] {
             let found = Case::from_name(case).expect(case);
-            assert_eq!(found.field("ball_radius2"), field, "{case}");
+            assert_eq!(found.field("lamp_radius2"), field, "{case}");
             assert_eq!(found.variant("WalkFast"), variant, "{case}");
         }
         assert!(Case::from_name("Camel_Case").is_none());
