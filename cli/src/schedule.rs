@@ -8,6 +8,7 @@
 
 mod edges;
 mod rings;
+mod writers;
 
 use petgraph::graph::{DiGraph, NodeIndex};
 use petgraph::visit::EdgeRef;
@@ -82,6 +83,7 @@ pub fn schedule(robot: &Robot, diagnostics: &mut Diagnostics) -> Result<Schedule
         for ring in rings::rings(&graph) {
             reported = Some(diagnostics.fail(rings::describe(cycler, &ring)));
         }
+        writers::warn(cycler, &graph, diagnostics);
         cyclers.push(CyclerSchedule {
             order: order(cycler, &graph),
             edges,

@@ -66,7 +66,7 @@ fn writers<'a>(
 }
 
 /// Whether one path leads through the other.
-fn overlap(left: &Access, right: &Access) -> bool {
+pub(super) fn overlap(left: &Access, right: &Access) -> bool {
     left.segments
         .iter()
         .zip(&right.segments)
