@@ -67,7 +67,7 @@ impl<T> History<T> {
         self.len == 0
     }
 
-    /// Forgets the values and keeps the room, as after a restart.
+    /// Forgets the values and keeps the room.
     pub fn clear(&mut self) {
         self.len = 0;
     }

@@ -152,3 +152,24 @@ fn the_fixture_robots_have_no_mistakes() {
         assert!(understood.is_ok() && !found.has_errors(), "{name}: {text}");
     }
 }
+
+#[test]
+fn every_code_has_a_page() {
+    for code in diagnostics::Code::ALL {
+        assert!(
+            code.title().ends_with('.'),
+            "{}: {}",
+            code.name(),
+            code.title()
+        );
+        assert!(code.explanation().len() > 80, "{}", code.name());
+        assert_eq!(diagnostics::Code::from_name(code.name()), Some(*code));
+    }
+    for mistake in MISTAKES {
+        assert!(
+            diagnostics::Code::from_name(mistake.code).is_some(),
+            "{}",
+            mistake.code
+        );
+    }
+}

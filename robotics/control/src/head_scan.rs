@@ -96,8 +96,12 @@ impl HeadScan {
         };
         let goal = limits::clamp_head(goal);
         let way = Vector2::new(goal.yaw - from.yaw, goal.pitch - from.pitch);
+        // A parameter that is no number reaches nothing.
+        let reach = reach.max(0.0);
         if way.norm() <= reach {
-            self.next_way_point += 1;
+            if self.looking_at.is_none() {
+                self.next_way_point += 1;
+            }
             return goal;
         }
         let step = way.normalize() * reach;
@@ -177,6 +181,21 @@ mod tests {
         let positions = Joints::filled(0.0);
         let context = context(&positions, &MotionPhase::Rising, const { &Vec::new() });
         assert_eq!(node().cycle(context).unwrap().head_command.value, None);
+    }
+
+    #[test]
+    fn a_velocity_that_is_no_number_moves_nothing_and_is_forgotten() {
+        let mut node = node();
+        let positions = Joints::filled(0.0);
+        let way_points = vec![LEFT];
+        let mut angles = |velocity: &f32| {
+            let mut context = context(&positions, &MotionPhase::Ready, &way_points);
+            context.velocity = velocity;
+            let command = node.cycle(context).unwrap().head_command.value.unwrap();
+            command.angles
+        };
+        assert_eq!(angles(&f32::NAN), HeadAngles::default());
+        assert!(angles(&0.3).yaw > 0.0);
     }
 
     #[test]

@@ -57,7 +57,8 @@ impl MotorCommandsCollector {
             .since_last
             .as_secs_f32()
             .min(LONGEST_STEP);
-        let share = context.velocity_share.clamp(0.0, 1.0);
+        // `max` before `min`: a parameter that is no number moves nothing.
+        let share = context.velocity_share.max(0.0).min(1.0);
         let positions = Joints::from_fn(|joint| {
             let reach = limits::of(joint).velocity as f32 * share * step;
             approach(joint, last[joint], wanted.positions[joint], reach)
@@ -85,6 +86,7 @@ fn merge(body: &MotorCommands, head: Option<&HeadCommand>) -> MotorCommands {
 
 /// The angle nearest to `wanted` that is within `reach` of `last`, and within the joint's limits.
 fn approach(joint: JointName, last: f32, wanted: f32, reach: f32) -> f32 {
+    // What is no number is no reason to move; `clamp` would panic on it.
     let last = limits::clamp(joint, last);
     let wanted = if wanted.is_nan() { last } else { wanted };
     limits::clamp(joint, wanted.clamp(last - reach, last + reach))
@@ -141,6 +143,27 @@ mod tests {
             velocity_share: &0.5,
         };
         node.cycle(context).unwrap().motor_commands.value.unwrap()
+    }
+
+    #[test]
+    fn what_is_no_number_moves_nothing() {
+        for (wanted, last, share) in [(f32::NAN, 0.1, 0.5), (0.5, 0.1, f32::NAN)] {
+            let mut node = MotorCommandsCollector::new(CreationContext {}).unwrap();
+            let context = CycleContext {
+                body_commands: &everywhere(wanted),
+                head_command: None,
+                previous: Some(&everywhere(last)),
+                positions: &start(),
+                cycle_time: CycleTime {
+                    start: Timestamp::ZERO,
+                    since_last: Duration::from_millis(12),
+                },
+                velocity_share: &share,
+            };
+            let commands = node.cycle(context).unwrap().motor_commands.value.unwrap();
+            assert_eq!(commands.positions.left_knee_pitch, last);
+        }
+        assert!(approach(JointName::HeadYaw, f32::NAN, 0.1, 0.01).is_finite());
     }
 
     fn everywhere(angle: f32) -> MotorCommands {
