@@ -6,6 +6,7 @@
 mod command;
 
 use std::io::{ErrorKind, Read, Write};
+use std::os::unix::fs::FileTypeExt;
 use std::os::unix::net::{UnixListener, UnixStream};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -131,9 +132,14 @@ impl Drop for LolaServer {
 fn listen(path: &Path) -> std::io::Result<UnixListener> {
     let listener = match UnixListener::bind(path) {
         Err(error) if error.kind() == ErrorKind::AddrInUse => {
-            if UnixStream::connect(path).is_ok() {
-                return Err(std::io::Error::new(error.kind(), "the socket is in use"));
+            let refusal = |reason: &str| Err(std::io::Error::new(ErrorKind::AddrInUse, reason));
+            if !std::fs::symlink_metadata(path)?.file_type().is_socket() {
+                return refusal("there is a file that is no socket; name another path");
             }
+            if UnixStream::connect(path).is_ok() {
+                return refusal("the socket is in use; stop the other robot or name another path");
+            }
+            // Left over by a robot that did not stop in order.
             std::fs::remove_file(path)?;
             UnixListener::bind(path)?
         }
@@ -149,6 +155,16 @@ mod tests {
 
     fn serve(folder: &tempfile::TempDir) -> LolaServer {
         LolaServer::new(folder.path().join("lola"), MotorCommands::default()).unwrap()
+    }
+
+    #[test]
+    fn a_file_that_is_no_socket_is_kept() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("precious");
+        std::fs::write(&path, "precious").unwrap();
+        let error = LolaServer::new(path.clone(), MotorCommands::default()).unwrap_err();
+        assert!(error.to_string().contains("no socket"), "{error}");
+        assert_eq!(std::fs::read_to_string(path).unwrap(), "precious");
     }
 
     #[test]
