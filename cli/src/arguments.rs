@@ -222,7 +222,7 @@ pub struct Run {
     /// Folder for what the run writes
     #[arg(long, value_name = "FOLDER")]
     pub run_folder: Option<Utf8PathBuf>,
-    /// cargo's profile [default: `release`, or `dev` where hulkgen itself is a debug build]
+    /// cargo's profile [default: the target's, else `release`, or `dev` where hulkgen itself is a debug build]
     #[arg(long, value_name = "NAME")]
     pub profile: Option<String>,
     /// Folder for what cargo builds [default: cargo's]

@@ -4,7 +4,8 @@
 //! cargo builds nothing again; changed ones are replaced whole or not at all.
 //!
 //! Invariant: the generated folder has one owner. Everything in it that nobody writes is an orphan
-//! and goes, except for what cargo puts there (`target/`, `Cargo.lock`).
+//! and goes, except for what cargo puts there (`target/`, `Cargo.lock`). A folder with files of which none says that
+//! hulkgen wrote it is somebody else's, and nothing in it is touched.
 
 mod disk;
 
@@ -14,6 +15,7 @@ use std::io;
 use camino::{Utf8Path, Utf8PathBuf};
 use similar::TextDiff;
 
+use crate::model::DO_NOT_EDIT;
 use crate::render::GeneratedFiles;
 
 pub use disk::write_file;
@@ -63,6 +65,8 @@ impl Drift {
         files: &GeneratedFiles,
     ) -> Result<Self, DriftError> {
         own(root, folder)?;
+        let there = disk::files(root, folder)?;
+        recognize(root, folder, &there, files)?;
         let mut drift = Self::default();
         for (path, after) in files {
             match disk::read(&root.join(path))? {
@@ -75,7 +79,7 @@ impl Drift {
                 }),
             }
         }
-        drift.orphaned = disk::files(root, folder)?
+        drift.orphaned = there
             .into_iter()
             .filter(|path| !files.contains_key(path))
             .collect();
@@ -141,6 +145,12 @@ impl Drift {
     }
 }
 
+/// Whether a file says that hulkgen wrote it, by the part of the header that other versions have, too.
+pub fn says_generated(text: &str) -> bool {
+    let beginning = DO_NOT_EDIT.split_once(" from ").map(|(first, _)| first);
+    text.contains(beginning.unwrap_or(DO_NOT_EDIT))
+}
+
 /// Only a folder of its own below the root may be cleaned.
 fn own(root: &Utf8Path, folder: &Utf8Path) -> Result<(), DriftError> {
     let not_owned = |reason: String| DriftError::NotOwned {
@@ -160,6 +170,30 @@ fn own(root: &Utf8Path, folder: &Utf8Path) -> Result<(), DriftError> {
         .find(|mark| root.join(folder).join(mark).exists());
     found.map_or(Ok(()), |mark| {
         Err(not_owned(format!("there is `{mark}` in it")))
+    })
+}
+
+/// A folder with files is hulkgen's if one of those it would write there says so, perhaps between conflict marks.
+fn recognize(
+    root: &Utf8Path,
+    folder: &Utf8Path,
+    there: &[Utf8PathBuf],
+    files: &GeneratedFiles,
+) -> Result<(), DriftError> {
+    for path in there.iter().filter(|path| files.contains_key(*path)) {
+        let text = disk::read(&root.join(path))?.unwrap_or_default();
+        if says_generated(&String::from_utf8_lossy(&text)) {
+            return Ok(());
+        }
+    }
+    there.first().map_or(Ok(()), |first| {
+        Err(DriftError::NotOwned {
+            folder: folder.to_owned(),
+            reason: format!(
+                "it has files that hulkgen did not write, such as `{first}`; name another folder as `generated`, or \
+                 remove them"
+            ),
+        })
     })
 }
 

@@ -2,6 +2,7 @@
 //!
 //! Reports syntax, keys, spelling and names that stand twice; whether nodes exist is the matter of [`crate::scan`].
 
+mod folders;
 mod names;
 mod places;
 mod tolerant;
@@ -18,6 +19,8 @@ use crate::workspace::{MANIFEST, Workspace};
 #[derive(Clone, Debug)]
 pub struct Manifest {
     pub robot: schema::Robot,
+    /// Of the folder of the generated crate, or of `[robot]` where the manifest does not name it.
+    pub generated_range: Range<usize>,
     /// In manifest order.
     pub cyclers: Vec<Cycler>,
     /// In manifest order; the first is the default.
@@ -105,6 +108,7 @@ pub fn load(workspace: &Workspace, diagnostics: &mut Diagnostics) -> Result<Mani
     let declared = tolerant::read(&table, file, diagnostics)?;
     let manifest = places::locate(declared, table.get_ref(), text.clone());
     names::check(&manifest, diagnostics);
+    folders::check(workspace, &manifest, diagnostics);
     diagnostics.stop_at_errors()?;
     Ok(manifest)
 }

@@ -14,6 +14,7 @@ use crate::resolve::robot::{Robot, Target};
 pub(super) fn run(session: &mut Session<'_>, run: &arguments::Run) -> Result<Outcome, Failure> {
     let understood = session.understand()?;
     let target = choose_target(&understood.robot, run.target.as_deref())?;
+    refuse_other_machines(target)?;
     session.note_diagnostics();
     if session.diagnostics.has_errors() {
         return Ok(Outcome::Bad);
@@ -23,7 +24,7 @@ pub(super) fn run(session: &mut Session<'_>, run: &arguments::Run) -> Result<Out
         root: session.workspace.root(),
         package: &package::library(&understood.robot),
         target: &target.name,
-        profile: run.profile.as_deref(),
+        profile: profile(run.profile.as_deref(), target),
         target_dir: run.target_dir.as_deref(),
     };
     let Some(executable) = build.executable(session.terminal)? else {
@@ -46,7 +47,10 @@ fn choose_target<'r>(robot: &'r Robot, name: Option<&str>) -> Result<&'r Target,
         .iter()
         .find(|target| target.name == name)
         .ok_or_else(|| {
-            let list = format!("the targets are {}", listed(names()));
+            let list = match robot.targets.as_slice() {
+                [only] => format!("the only target is `{}`", only.name),
+                _ => format!("the targets are {}", listed(names())),
+            };
             Refusal::wrong_usage(format!("there is no target `{name}`")).help(
                 match nearest(name, names()) {
                     Some(nearest) => format!("did you mean `{nearest}`? {list}"),
@@ -56,9 +60,26 @@ fn choose_target<'r>(robot: &'r Robot, name: Option<&str>) -> Result<&'r Target,
         })
 }
 
+/// A target with a triple is built for another machine, so that its program cannot be started here.
+fn refuse_other_machines(target: &Target) -> Result<(), Refusal> {
+    let Some(triple) = &target.triple else {
+        return Ok(());
+    };
+    let name = &target.name;
+    Err(Refusal::bad(format!(
+        "target `{name}` is for `{triple}`: `run` builds for this machine only"
+    ))
+    .help("run a target without a `triple`; `hulkgen build`, which builds for others, is a later step"))
+}
+
+/// What is asked for, else what the target asks for.
+fn profile<'a>(asked: Option<&'a str>, target: &'a Target) -> Option<&'a str> {
+    asked.or(target.profile.as_deref())
+}
+
 #[cfg(test)]
 mod tests {
-    use super::choose_target;
+    use super::{choose_target, profile, refuse_other_machines};
     use crate::graph::fixture;
     use crate::outcome::Outcome;
 
@@ -84,6 +105,39 @@ mod tests {
             refusal.help.as_deref(),
             Some("did you mean `nao`? the targets are `nao` and `simulated`")
         );
+    }
+
+    #[test]
+    fn one_target_is_no_list() {
+        let mut robot = fixture::robot();
+        robot.targets.truncate(1);
+        let refusal = choose_target(&robot, Some("moon")).expect_err("there is none");
+        assert_eq!(
+            refusal.help.as_deref(),
+            Some("the only target is `simulated`")
+        );
+    }
+
+    #[test]
+    fn a_target_of_another_machine_is_not_run() {
+        let mut target = fixture::robot().targets.remove(0);
+        target.triple = None;
+        assert_eq!(refuse_other_machines(&target), Ok(()));
+        target.triple = Some("aarch64-unknown-linux-gnu".to_owned());
+        let refusal = refuse_other_machines(&target).expect_err("it is for another machine");
+        assert_eq!(refusal.outcome, Outcome::Bad);
+        let message = "`run` builds for this machine only";
+        assert!(refusal.message.ends_with(message), "{}", refusal.message);
+    }
+
+    #[test]
+    fn the_profile_is_what_is_asked_for_or_the_targets() {
+        let mut target = fixture::robot().targets.remove(0);
+        target.profile = Some("nao".to_owned());
+        assert_eq!(profile(None, &target), Some("nao"));
+        assert_eq!(profile(Some("dev"), &target), Some("dev"));
+        target.profile = None;
+        assert_eq!(profile(None, &target), None);
     }
 
     #[test]

@@ -93,13 +93,13 @@ catalogue! {
         "Names become identifiers of the generated crate. Cyclers and instance suffixes are UpperCamelCase, robots and identities are snake_case, targets may have hyphens, nodes are written `crate::module::path`. Rust's keywords are no names, also not in snake_case.";
     InvalidPath, "invalid-path", Error,
         "A data path cannot be read.",
-        "A path is a list of field names joined by `.`, each followed by `?` if that field is an `Option` to look into. `$cycler_instance` may stand once in the path of a `Parameter` or an `AdditionalOutput`. Paths of cycler states and additional outputs have no `?`.";
+        "A path is a list of field names joined by `.`, each followed by `?` if that field is an `Option` to look into. `$cycler_instance` may stand once in the path of a `Parameter` or an `AdditionalOutput`. Paths of cycler states and additional outputs have no `?`. A parameter's path does not begin with `hardware`, which belongs to the targets, and Rust's keywords stand in no path.";
     InvalidSignature, "invalid-signature", Error,
         "`new`, `cycle` or `restore` is not written as a node's functions are.",
         "A node has `pub fn new(context: CreationContext) -> Result<Self>`, `pub fn cycle(&mut self, context: CycleContext) -> Result<MainOutputs>` and, where its state has fields that are not stored, `pub fn restore(&mut self, context: CreationContext) -> Result<()>`. What it asks of the hardware is written as `CycleContext<impl Trait>`. Exactly one type of the file has them.";
     InvalidValue, "invalid-value", Error,
-        "A value of the manifest is not what its key takes.",
-        "The manifest's keys and their values are described by `hulkgen schema` and in the documentation. Durations are strings such as \"33ms\" or \"1.5s\", sizes such as \"2GiB\".";
+        "A value of the manifest or of parameters.toml is not what its key takes.",
+        "The manifest's keys and their values are described by `hulkgen schema` and in the documentation. Durations are strings such as \"33ms\" or \"1.5s\", sizes such as \"2GiB\". The `generated` folder lies below the workspace root and shares nothing with the parameters and with other packages, because whatever hulkgen does not write is removed from it.";
     MeasurementTakesDefault, "measurement-takes-default", Warning,
         "A perception input may receive a default in place of a measurement.",
         "The node that writes this output has `on_failure = \"skip\"`. When it fails, the cycle is completed all the same and its output is delivered with its default value, which the reader cannot tell from a measurement. Let the output be an `Option`, or let the node hold or stop.";
@@ -123,7 +123,7 @@ catalogue! {
         "Every path that a `Parameter` declares needs a value in `default.toml`, in the target's location, or in a layer of one of the robot's identities. Fields of type `Option` and fields with `#[serde(default)]` may be left out.";
     MissingParameterFile, "missing-parameter-file", Error,
         "A parameter file does not exist.",
-        "Parameters come from `default.toml` in the folder that the manifest names, and from `<location>/default.toml` for a target with a location. Create the file, or name another folder or location.";
+        "Parameters come from `default.toml` in the folder that the manifest names, and from `<location>/default.toml` for the location that a target or `parameters.toml` names. Create the file, or name another folder or location.";
     MistypedParameter, "mistyped-parameter", Error,
         "A parameter file has a value of the wrong type.",
         "A value has the type of the field that reads it: numbers for numbers, tables for structs, the name of a variant for an enum without data. Only what can be seen without rustc is checked here; the rest is validated when the robot starts.";
@@ -164,7 +164,7 @@ catalogue! {
         "An input names an instance that the robot does not have.",
         "Instances are called cycler name + suffix, as in `VisionTop`. A `PerceptionInput` may also name a cycler, which interleaves its instances.";
     UnknownKey, "unknown-key", Error,
-        "The manifest has a key that means nothing.",
+        "The manifest or parameters.toml has a key that means nothing.",
         "Only the keys of the documentation are read. A misspelled key would silently leave its default in place, so it is an error.";
     UnknownNode, "unknown-node", Error,
         "A node of the manifest cannot be found.",

@@ -9,6 +9,9 @@ fn files(texts: &[(&str, &str)]) -> GeneratedFiles {
         .collect()
 }
 
+/// What makes a folder hulkgen's.
+const HEADER: &str = "# Written by `hulkgen generate` from an older manifest.\n";
+
 struct Folder(tempfile::TempDir);
 
 impl Folder {
@@ -32,14 +35,14 @@ impl Folder {
 #[test]
 fn writing_what_differs_leaves_nothing_that_differs() {
     let folder = Folder::with(&[
-        ("generated/src/lib.rs", "old\n"),
+        ("generated/src/lib.rs", &format!("old\n{HEADER}")),
         ("generated/src/gone/orphan.rs", "\n"),
         ("generated/target/debug/huge", "\n"),
         ("generated/Cargo.lock", "\n"),
         ("elsewhere.rs", "\n"),
     ]);
     let files = files(&[
-        ("generated/Cargo.toml", "new\n"),
+        ("generated/Cargo.toml", HEADER),
         ("generated/src/lib.rs", "new\n"),
     ]);
     let drift = folder.compare(&files);
@@ -58,7 +61,7 @@ fn writing_what_differs_leaves_nothing_that_differs() {
 
 #[test]
 fn an_unchanged_file_is_not_touched() {
-    let folder = Folder::with(&[("generated/a", "same\n"), ("generated/b", "old\n")]);
+    let folder = Folder::with(&[("generated/a", HEADER), ("generated/b", "old\n")]);
     let written = |name: &str| {
         let metadata = folder.root().join("generated").join(name).metadata();
         metadata
@@ -66,7 +69,7 @@ fn an_unchanged_file_is_not_touched() {
             .expect("the file is there")
     };
     let before = written("a");
-    let files = files(&[("generated/a", "same\n"), ("generated/b", "new\n")]);
+    let files = files(&[("generated/a", HEADER), ("generated/b", "new\n")]);
     folder
         .compare(&files)
         .write(folder.root(), &files)
@@ -76,8 +79,13 @@ fn an_unchanged_file_is_not_touched() {
 
 #[test]
 fn the_diff_shows_changes_and_names_the_rest() {
-    let folder = Folder::with(&[("generated/a", "one\ntwo\n"), ("generated/c", "\n")]);
+    let folder = Folder::with(&[
+        ("generated/Cargo.toml", HEADER),
+        ("generated/a", "one\ntwo\n"),
+        ("generated/c", "\n"),
+    ]);
     let drift = folder.compare(&files(&[
+        ("generated/Cargo.toml", HEADER),
         ("generated/a", "one\nthree\n"),
         ("generated/b", "\n"),
     ]));
@@ -101,14 +109,36 @@ fn a_folder_of_others_is_never_cleaned() {
 }
 
 #[test]
+fn a_folder_with_files_that_hulkgen_did_not_write_is_never_cleaned() {
+    let files = files(&[
+        ("generated/Cargo.toml", "new\n"),
+        ("generated/src/lib.rs", "new\n"),
+    ]);
+    for foreign in ["generated/default.toml", "generated/src/lib.rs"] {
+        let folder = Folder::with(&[(foreign, "mine\n")]);
+        let error = Drift::compare(folder.root(), "generated".into(), &files)
+            .expect_err("somebody else's files are there");
+        let text = error.to_string();
+        assert!(
+            text.contains("`generated` cannot be the generated folder") && text.contains(foreign),
+            "{text}"
+        );
+    }
+    let text = format!("<<<<<<< ours\n{HEADER}=======\n{HEADER}>>>>>>> theirs\n");
+    for own in ["generated/Cargo.toml", "generated/src/lib.rs"] {
+        let drift = Folder::with(&[(own, &text), ("generated/mine", "\n")]).compare(&files);
+        assert_eq!(drift.orphaned, ["generated/mine"]);
+    }
+    let folder = Folder::with(&[("generated/target/debug/huge", "\n")]);
+    assert_eq!(folder.compare(&files).added.len(), 2);
+    std::fs::remove_dir_all(folder.root().join("generated")).expect("the folder is ours");
+    assert_eq!(folder.compare(&files).added.len(), 2);
+}
+
+#[test]
 fn text_that_is_no_utf_8_is_drift_and_no_failure() {
-    let folder = Folder::with(&[("generated/a", "")]);
+    let folder = Folder::with(&[("generated/Cargo.toml", HEADER), ("generated/a", "")]);
     std::fs::write(folder.root().join("generated/a"), [0xff]).expect("the file is writable");
-    assert_eq!(
-        folder
-            .compare(&files(&[("generated/a", "text\n")]))
-            .changed
-            .len(),
-        1
-    );
+    let files = files(&[("generated/Cargo.toml", HEADER), ("generated/a", "text\n")]);
+    assert_eq!(folder.compare(&files).changed.len(), 1);
 }

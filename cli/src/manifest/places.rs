@@ -12,8 +12,11 @@ use super::{Cycler, Instance, Manifest, NodeEntry, Target};
 pub(super) fn locate(declared: schema::Manifest, table: &DeTable<'_>, text: Arc<str>) -> Manifest {
     let cyclers = elements(table, "cycler");
     let targets = elements(table, "target");
+    let robot = table.get("robot");
+    let generated = robot.and_then(|robot| range_of(robot, "generated").or(Some(robot.span())));
     Manifest {
         robot: declared.robot,
+        generated_range: generated.unwrap_or(0..0),
         cyclers: zip(declared.cycler, cyclers, locate_cycler),
         targets: zip(declared.target, targets, locate_target),
         text,

@@ -162,6 +162,69 @@ fn empty_lists_and_numbers_out_of_range_are_errors() {
     }
 }
 
+/// What the manifest says about a generated folder, in a workspace with the members `nodes` and `tools/bench`.
+fn generated(folder: &str, package: &str) -> (Vec<&'static str>, String) {
+    let manifest =
+        format!("{ROBOT}generated = \"{folder}\"\nparameters = \"./robot/parameters\"\n");
+    let root = "[workspace]\nmembers = [\"nodes\", \"tools/bench\", \"generated\"]\n";
+    let workspace = Workspace::in_memory([
+        ("hulk.toml", manifest.as_str()),
+        ("Cargo.toml", root),
+        ("nodes/Cargo.toml", "[package]\nname = \"nodes\"\n"),
+        ("tools/bench/Cargo.toml", "[package]\nname = \"bench\"\n"),
+        ("generated/Cargo.toml", package),
+    ]);
+    let mut diagnostics = Diagnostics::new();
+    let _ = load(&workspace, &mut diagnostics);
+    let codes = diagnostics.sorted();
+    let codes = codes.iter().map(|one| one.code.name()).collect();
+    (codes, render(&diagnostics, &workspace, false))
+}
+
+#[test]
+fn the_generated_folder_is_nobody_elses() {
+    let own = "[package]\nname = \"x_runtime\"\n";
+    for (folder, part) in [
+        ("", "no plain path"),
+        (".", "no plain path"),
+        ("/tmp/x", "no plain path"),
+        ("../x", "no plain path"),
+        ("a/../b", "no plain path"),
+        ("robot/parameters", "it is the folder of the parameters"),
+        ("robot", "it contains the folder of the parameters"),
+        (
+            "robot/parameters/x",
+            "it lies in the folder of the parameters",
+        ),
+        ("nodes", "it is the package in `nodes`"),
+        ("nodes/src", "it lies in the package in `nodes`"),
+        ("tools", "it contains the package in `tools/bench`"),
+    ] {
+        let (codes, text) = generated(folder, own);
+        assert_eq!(codes, ["invalid-value"], "{folder}: {text}");
+        assert!(
+            text.contains(part) && text.contains("hulk.toml:3:13"),
+            "{folder}: {text}"
+        );
+    }
+    let (codes, text) = generated("generated", "[package]\nname = \"mine\"\n");
+    assert_eq!(codes, ["invalid-value"], "{text}");
+}
+
+#[test]
+fn the_generated_package_may_be_there_or_broken_or_renamed() {
+    for package in [
+        "[package]\nname = \"x_runtime\"\n",
+        "<<<<<<< ours\n",
+        "# Written by `hulkgen generate`\n[package]\nname = \"old_runtime\"\n",
+    ] {
+        for folder in ["generated", "other"] {
+            let (codes, text) = generated(folder, package);
+            assert!(codes.is_empty(), "{text}");
+        }
+    }
+}
+
 #[test]
 fn a_missing_manifest_is_an_error() {
     let workspace = Workspace::in_memory([("a", "")]);

@@ -4,7 +4,7 @@ mod outputs;
 mod sources;
 
 use super::frame::{self, FrameField, Hardware, InstanceParameters};
-use super::names::{name_nodes, snake_case};
+use super::names::{Names, PRELUDE, name_nodes, snake_case};
 use super::node::{NodeModel, StepOutput, Surroundings, asked};
 use super::parameters::Parameters;
 use super::sentences;
@@ -37,6 +37,8 @@ pub struct CyclerModel {
     pub name: String,
     /// `vision`.
     pub module: String,
+    /// The struct of its instances in `runtime/<cycler>.rs`: `Vision`.
+    pub body: String,
     /// Which kind and which instances, as a sentence.
     pub title: String,
     /// Main outputs, sorted by name.
@@ -240,6 +242,7 @@ pub fn describe(
     CyclerModel {
         name: cycler.name.clone(),
         module: snake_case(&cycler.name),
+        body: body(cycler),
         title: sentences::cycler_title(cycler),
         outputs: outputs::outputs(cycler),
         output_names: outputs::output_names(cycler),
@@ -247,7 +250,7 @@ pub fn describe(
         state_structs: outputs::state_structs(robot, cycler),
         procedures: outputs::procedures(cycler),
         perception: sources::perception(robot, cycler),
-        latest: sources::latest(robot, cycler),
+        latest: sources::latest(robot, cycler, &instance_parameters),
         previous: previous(cycler),
         renews: frame::renews_from_frame(cycler),
         setup: calls(schedule, &nodes, true),
@@ -263,6 +266,13 @@ pub fn describe(
         creation,
         nodes,
     }
+}
+
+/// What the struct of the instances is called: like the cycler, unless that hides the prelude's or
+/// the struct's own type parameter.
+fn body(cycler: &Cycler) -> String {
+    let taken = PRELUDE.into_iter().chain(["Hardware"]);
+    Names::with(taken.map(str::to_owned)).give(&cycler.name)
 }
 
 /// What all nodes together ask of the hardware, if there is a type parameter for it.

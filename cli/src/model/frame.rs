@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::names::snake_case;
+use super::names::{Names, joined, snake_case};
 use super::parameters::Parameters;
 use super::structs::FieldType;
 use crate::resolve::robot::{
@@ -100,6 +100,7 @@ pub fn instance_parameters(cycler: &Cycler, parameters: &Parameters) -> Vec<Inst
         .filter_map(instance_prefix)
         .collect();
     let only = prefixes.len() == 1;
+    let (mut fields, mut selects) = (Names::default(), Names::default());
     let instance = snake_case(&cycler.instances[0].name);
     prefixes
         .into_iter()
@@ -108,15 +109,15 @@ pub fn instance_parameters(cycler: &Cycler, parameters: &Parameters) -> Vec<Inst
             let content = parameters
                 .content(path)
                 .expect("declared paths are in the tree");
-            let whose = prefix.join("_");
+            let whose = joined(prefix.iter().map(String::as_str));
             let (field, select) = if only || whose.is_empty() {
                 ("instance_parameters".to_owned(), "select".to_owned())
             } else {
                 (format!("instance_{whose}"), format!("select_{whose}"))
             };
             InstanceParameters {
-                field,
-                select,
+                field: fields.give(&field),
+                select: selects.give(&select),
                 prefix,
                 content,
             }

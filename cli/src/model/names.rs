@@ -4,29 +4,17 @@ use std::collections::BTreeSet;
 
 use crate::resolve::robot::Node;
 
+pub use schema::snake_case;
+
+/// Names that mean the prelude's to every reader, and `Self`.
+pub const PRELUDE: [&str; 26] = [
+    "Box", "Clone", "Copy", "Debug", "Default", "Drop", "Eq", "Err", "Fn", "FnMut", "FnOnce",
+    "From", "Into", "Iterator", "None", "Ok", "Option", "Ord", "Result", "Self", "Send", "Some",
+    "String", "Sync", "ToString", "Vec",
+];
+
 /// Names that every file of nodes defines itself.
 const FUNCTIONS_OF_NODES: [&str; 6] = ["create", "cycle", "inject", "new", "restore", "setup"];
-
-/// `VisionTop` becomes `vision_top`, `SPLMessage` `spl_message`.
-pub fn snake_case(name: &str) -> String {
-    let letters: Vec<char> = name.chars().collect();
-    let mut snake = String::new();
-    for (position, letter) in letters.iter().enumerate() {
-        let before = position.checked_sub(1).map(|before| letters[before]);
-        let after = letters.get(position + 1);
-        let starts_word = letter.is_uppercase()
-            && before.is_some_and(|before| {
-                before.is_lowercase()
-                    || before.is_numeric()
-                    || before.is_uppercase() && after.is_some_and(|after| after.is_lowercase())
-            });
-        if starts_word {
-            snake.push('_');
-        }
-        snake.extend(letter.to_lowercase());
-    }
-    snake
-}
 
 /// `field_dimensions` becomes `FieldDimensions`.
 pub fn upper_camel_case(name: &str) -> String {
@@ -75,39 +63,55 @@ impl Names {
 
 /// What the nodes of one cycler are called there: the last name of their path, or the whole path
 /// where another node ends in the same name.
+///
+/// A node `x` has the functions `x` and `create_x`; no function of one node is another's.
 pub fn name_nodes(nodes: &[Node]) -> Vec<String> {
-    let short = |node: &Node| last(&node.path).to_owned();
-    let mut names = Names::with(FUNCTIONS_OF_NODES.map(str::to_owned));
-    let shorts: Vec<String> = nodes.iter().map(short).collect();
+    let shorts: Vec<&str> = nodes.iter().map(|node| plain(last(&node.path))).collect();
     let wanted: Vec<String> = nodes
         .iter()
         .zip(&shorts)
         .map(|(node, short)| {
             let unique = shorts.iter().filter(|other| *other == short).count() == 1;
             if unique {
-                short.clone()
+                (*short).to_owned()
             } else {
                 node.path.replace("r#", "").replace("::", "_")
             }
         })
         .collect();
-    let created: BTreeSet<String> = wanted.iter().map(|name| format!("create_{name}")).collect();
-    wanted
-        .iter()
-        .map(|name| {
-            let taken = FUNCTIONS_OF_NODES.contains(&name.as_str()) || created.contains(name);
-            names.give(&if taken {
-                format!("{name}_node")
-            } else {
-                name.clone()
-            })
-        })
-        .collect()
+    let created: BTreeSet<String> = wanted.iter().map(|name| create(name)).collect();
+    let mut taken: BTreeSet<String> = FUNCTIONS_OF_NODES.map(str::to_owned).into();
+    let mut names = Vec::new();
+    for wanted in wanted {
+        let mut name = wanted.clone();
+        let mut number = 1;
+        while created.contains(&name) || taken.contains(&name) || taken.contains(&create(&name)) {
+            name = match number {
+                1 => format!("{wanted}_node"),
+                _ => format!("{wanted}_node{number}"),
+            };
+            number += 1;
+        }
+        taken.extend([name.clone(), create(&name)]);
+        names.push(name);
+    }
+    names
 }
 
-/// The last name of a path.
+/// The function that creates a node of this name.
+fn create(node: &str) -> String {
+    format!("create_{node}")
+}
+
+/// Names as one, without underscores beside each other: `control` and `type_` are `control_type`.
+pub fn joined<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
+    let names = names.into_iter().map(|name| plain(name).trim_matches('_'));
+    names.collect::<Vec<_>>().join("_")
+}
+
+/// The last name of a path, as it is written.
 pub fn last(path: &str) -> &str {
-    plain(path.rsplit("::").next().unwrap_or(path))
+    path.rsplit("::").next().unwrap_or(path)
 }
 
 /// A name as people and clients know it, also where Rust writes it raw: `r#type` is `type`.
@@ -118,20 +122,6 @@ pub fn plain(name: &str) -> &str {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn instances_become_fields() {
-        let cases = [
-            ("VisionTop", "vision_top"),
-            ("Control", "control"),
-            ("SPLNetwork", "spl_network"),
-            ("Vision2Top", "vision2_top"),
-            ("already_snake", "already_snake"),
-        ];
-        for (name, expected) in cases {
-            assert_eq!(snake_case(name), expected);
-        }
-    }
 
     #[test]
     fn fields_become_types() {
@@ -146,5 +136,11 @@ mod tests {
         assert_eq!(names.give("a"), "a2");
         assert_eq!(names.give("b"), "b");
         assert_eq!(names.give("b"), "b2");
+    }
+    #[test]
+    fn joined_names_have_single_underscores() {
+        assert_eq!(joined(["control", "walk"]), "control_walk");
+        assert_eq!(joined(["control", "type_", "a"]), "control_type_a");
+        assert_eq!(joined(["r#type"]), "type");
     }
 }

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use super::cycler::{CyclerModel, Source};
 use super::frame::Hardware;
-use super::names::{Names, constant_case, snake_case};
+use super::names::{Names, constant_case, joined, snake_case};
 use super::node::asked;
 use crate::resolve::robot::{Cycler, CyclerKind, InstanceId, OnFailure, Robot, Scheduling};
 
@@ -17,6 +17,9 @@ const VARIABLES_OF_CREATE: [&str; 5] = [
     "parameters",
     "start",
 ];
+
+/// What `create` puts behind the variable of an instance.
+const SUFFIXES_OF_CREATE: [&str; 4] = ["injected", "injections", "subscriptions", "writer"];
 
 /// Everything that `create` puts together.
 #[derive(Clone, Debug)]
@@ -47,6 +50,17 @@ pub struct InstanceModel {
     pub consumers: Vec<String>,
     /// Cycles that a consumer may lag.
     pub queue: usize,
+    /// In the order of its cycler's procedures.
+    pub procedures: Vec<ProcedureEnds>,
+}
+
+/// The variables of one procedure of one instance.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ProcedureEnds {
+    /// What clients call.
+    pub caller: String,
+    /// What the node answers.
+    pub answerer: String,
 }
 
 /// What the manifest says about an instance.
@@ -66,10 +80,11 @@ pub struct Description {
 /// Decides how the instances are connected.
 pub fn describe(robot: &Robot, cyclers: &[CyclerModel]) -> Runtime {
     let variables = variables(robot);
-    let instances = variables
+    let mut instances: Vec<InstanceModel> = variables
         .keys()
         .map(|id| instance_model(robot, cyclers, &variables, *id))
         .collect();
+    name_procedures(&mut instances, cyclers);
     let bounds: Vec<_> = robot
         .cyclers
         .iter()
@@ -145,7 +160,31 @@ fn instance_model(
             .map(|consumer| queue(variable, consumer))
             .collect(),
         queue: cycler.queue,
+        procedures: Vec::new(),
     }
+}
+
+/// Gives every procedure variables of its own.
+fn name_procedures(instances: &mut [InstanceModel], cyclers: &[CyclerModel]) {
+    let fixed = VARIABLES_OF_CREATE.map(str::to_owned);
+    let given = instances.iter().flat_map(variables_of);
+    let mut names = Names::with(fixed.into_iter().chain(given));
+    for instance in instances {
+        for procedure in &cyclers[instance.id.cycler].procedures {
+            let caller = names.give(&joined([instance.variable.as_str(), &procedure.name]));
+            let answerer = names.give(&format!("{caller}_answerer"));
+            instance.procedures.push(ProcedureEnds { caller, answerer });
+        }
+    }
+}
+
+/// Variables of an instance, procedures aside.
+fn variables_of(instance: &InstanceModel) -> Vec<String> {
+    let variable = &instance.variable;
+    let mut variables = vec![variable.clone(), end("parameters", variable)];
+    variables.extend(SUFFIXES_OF_CREATE.map(|suffix| format!("{variable}_{suffix}")));
+    variables.extend(instance.readers.iter().chain(&instance.consumers).cloned());
+    variables
 }
 
 /// The variable of an instance's reading end of another instance's buffer.

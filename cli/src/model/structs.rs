@@ -2,8 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use super::names::{Names, upper_camel_case};
+use super::names::{Names, PRELUDE, upper_camel_case};
 use crate::resolve::robot::{Content, Robot, Tree};
+
+/// Traits that are derived for the structs and are not the prelude's.
+const DERIVED: [&str; 3] = ["Deserialize", "Reflect", "Serialize"];
 
 /// A struct of one level of a tree.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -48,7 +51,7 @@ impl<'a, U> Structs<'a, U> {
             robot,
             prefix,
             docs,
-            names: Names::default(),
+            names: Names::with(PRELUDE.into_iter().chain(DERIVED).map(str::to_owned)),
             instances: BTreeMap::new(),
         }
     }

@@ -154,6 +154,139 @@ fn nodes_that_end_in_the_same_name_are_called_by_their_whole_path() {
 }
 
 #[test]
+fn functions_of_one_node_are_not_those_of_another() {
+    let names_of = |paths: &[&str]| -> Vec<String> {
+        let cycler = paths
+            .iter()
+            .fold(real_time("Control"), |cycler, path| cycler.node(node(path)));
+        let model = model_of(&robot(vec![cycler]));
+        let nodes = model.cyclers[0].nodes.iter();
+        nodes.map(|node| node.name.clone()).collect()
+    };
+    assert_eq!(
+        names_of(&["control::create", "control::node"]),
+        ["create_node2", "node"]
+    );
+    assert_eq!(
+        names_of(&["control::pose", "control::create_pose"]),
+        ["pose", "create_pose_node"]
+    );
+    assert_eq!(
+        names_of(&["control::cycle", "control::cycle_node"]),
+        ["cycle_node", "cycle_node_node"]
+    );
+    assert_eq!(
+        names_of(&["control::create_cycle_node", "control::cycle"]),
+        ["create_cycle_node", "cycle_node2"]
+    );
+}
+
+#[test]
+fn structs_of_trees_do_not_hide_the_prelude() {
+    let model = model_of(&robot(vec![
+        real_time("Control").node(
+            node("control::a")
+                .parameter("a", "u8", "self_.x")
+                .parameter("b", "Option<String>", "option.x")
+                .parameter("c", "Vec<u8>", "vec.x")
+                .parameter("d", "f32", "reflect.x"),
+        ),
+    ]));
+    let names = model.parameters.structs.iter().map(|one| one.name.as_str());
+    assert_eq!(
+        names.collect::<Vec<_>>(),
+        ["Parameters", "Option2", "Reflect2", "Self2", "Vec2"]
+    );
+}
+
+#[test]
+fn a_cycler_called_like_the_prelude_has_a_body_that_is_not() {
+    let body = |name: &str| {
+        let model = model_of(&robot(vec![real_time(name).node(node("control::a"))]));
+        model.cyclers[0].body.clone()
+    };
+    assert_eq!(body("Control"), "Control");
+    assert_eq!(body("Option"), "Option2");
+    assert_eq!(body("Hardware"), "Hardware2");
+}
+
+#[test]
+fn prefixes_that_join_to_one_name_have_fields_of_their_own() {
+    let parts = |prefixes: [&str; 2]| -> Vec<(String, String)> {
+        let model = model_of(&robot(vec![
+            real_time("Control").node(
+                node("control::a")
+                    .parameter("a", "u8", &format!("{}$cycler_instance.x", prefixes[0]))
+                    .parameter("b", "f32", &format!("{}$cycler_instance.y", prefixes[1])),
+            ),
+        ]));
+        let parts = model.cyclers[0].instance_parameters.iter();
+        parts
+            .map(|part| (part.field.clone(), part.select.clone()))
+            .collect()
+    };
+    let pairs = |pairs: [(&str, &str); 2]| {
+        pairs.map(|(field, select)| (field.to_owned(), select.to_owned()))
+    };
+    assert_eq!(
+        parts(["a.b.", "a_b."]),
+        pairs([
+            ("instance_a_b", "select_a_b"),
+            ("instance_a_b2", "select_a_b2")
+        ])
+    );
+    assert_eq!(
+        parts(["", "parameters."]),
+        pairs([
+            ("instance_parameters", "select"),
+            ("instance_parameters2", "select_parameters")
+        ])
+    );
+}
+
+#[test]
+fn a_reader_is_not_called_like_what_selects_parameters() {
+    let model = model_of(&robot(vec![
+        perception("SelectA", &[]).setup(node("vision::a").output("a", "f32")),
+        real_time("Control").node(
+            node("control::b")
+                .latest("a", "f32", "SelectA", "a")
+                .parameter("x", "u8", "a.$cycler_instance.x")
+                .parameter("y", "u8", "b.$cycler_instance.y"),
+        ),
+    ]));
+    assert_eq!(model.cyclers[1].instance_parameters[0].select, "select_a");
+    assert_eq!(model.cyclers[1].latest[0].reader, "select_a2");
+}
+
+#[test]
+fn variables_of_procedures_are_snake_case_and_their_own() {
+    let model = model_of(&robot(vec![
+        real_time("Control").node(
+            node("control::a")
+                .procedure("a", "u8", "u8", "injections")
+                .procedure("b", "u8", "u8", "type")
+                .procedure("c", "u8", "u8", "type_"),
+        ),
+    ]));
+    let procedures = model.runtime.instances[0].procedures.iter();
+    let variables: Vec<&str> = procedures
+        .flat_map(|ends| [ends.caller.as_str(), ends.answerer.as_str()])
+        .collect();
+    assert_eq!(
+        variables,
+        [
+            "control_injections2",
+            "control_injections2_answerer",
+            "control_type",
+            "control_type_answerer",
+            "control_type2",
+            "control_type2_answerer",
+        ]
+    );
+}
+
+#[test]
 fn an_instance_called_like_a_field_of_the_body_gets_another_field() {
     let model = model_of(&robot(vec![
         perception("Perception", &[]).setup(node("vision::a").output("a", "f32")),

@@ -27,7 +27,7 @@ pub(super) fn render_body(cycler: &CyclerModel, runtime: &Runtime) -> String {
     let shared = quote_shared(cycler);
     let (parameter, argument) = quote_generics(cycler, false);
     let (bounded, _) = quote_generics(cycler, true);
-    let name = ident(&cycler.name);
+    let name = ident(&cycler.body);
     let items = quote! {
         #(#descriptions)*
 
@@ -92,7 +92,7 @@ fn quote_body(cycler: &CyclerModel) -> TokenStream {
         quote!(pub #name: fn(&crate::parameters::Parameters) -> &#content,)
     });
     let about = doc("One instance: its nodes, and its ends of all buffers.");
-    let (name, (parameter, _)) = (ident(&cycler.name), quote_generics(cycler, false));
+    let (name, (parameter, _)) = (ident(&cycler.body), quote_generics(cycler, false));
     quote! {
         #about
         pub struct #name #parameter {

@@ -11,11 +11,7 @@ use syn::punctuated::Punctuated;
 use syn::visit_mut::{self, VisitMut};
 use syn::{Item, ItemUse, Path, Token};
 
-/// Names that mean the prelude's to every reader.
-const PRELUDE: [&str; 16] = [
-    "Box", "Clone", "Copy", "Default", "Drop", "Err", "Fn", "Iterator", "None", "Ok", "Option",
-    "Result", "Send", "Some", "String", "Vec",
-];
+use crate::model::names::{PRELUDE, last};
 
 /// Shortens the absolute paths of these items and returns the `use` lines for them.
 ///
@@ -226,10 +222,6 @@ fn split(path: &Path, modules: &[String]) -> Option<(String, usize)> {
         }
     }
     Some((imported, path.segments.len()))
-}
-
-fn last(path: &str) -> &str {
-    path.rsplit("::").next().unwrap_or(path)
 }
 
 /// Visits the traits of a `derive`, which are mere tokens to syn.

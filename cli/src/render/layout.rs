@@ -92,7 +92,11 @@ fn formatted(item: syn::Item) -> String {
     };
     let mut text = String::new();
     for line in prettyplease::unparse(&file).lines() {
-        if line.trim_start().strip_prefix("//") != Some(EMPTY_LINE) {
+        // prettyplease breaks an empty struct literal in two lines.
+        if text.ends_with(" {\n") && matches!(line.trim_start(), "}" | "};" | "},") {
+            text.pop();
+            text.push_str(line.trim_start());
+        } else if line.trim_start().strip_prefix("//") != Some(EMPTY_LINE) {
             text.push_str(line);
         }
         text.push('\n');

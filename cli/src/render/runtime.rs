@@ -140,9 +140,8 @@ fn quote_ends(model: &RuntimeModel, instance: &InstanceModel) -> TokenStream {
         });
         quote!(let #subscriptions = ::framework::Subscriptions::new(&[#(#names),*]);)
     });
-    let procedures = cycler.procedures.iter().map(|procedure| {
-        let caller = ident(&format!("{variable}_{}", procedure.name));
-        let answerer = ident(&format!("{variable}_{}_answerer", procedure.name));
+    let procedures = instance.procedures.iter().map(|procedure| {
+        let (caller, answerer) = (ident(&procedure.caller), ident(&procedure.answerer));
         quote!(let (#caller, #answerer) = ::framework::procedure();)
     });
     quote! {
@@ -167,11 +166,9 @@ fn quote_access(model: &RuntimeModel, instance: &InstanceModel) -> TokenStream {
         let table = database(cycler, "Injections");
         quote!(::<#table>)
     });
-    let procedures = cycler.procedures.iter().map(|procedure| {
-        let (text, caller) = (
-            &procedure.name,
-            ident(&format!("{variable}_{}", procedure.name)),
-        );
+    let named = cycler.procedures.iter().zip(&instance.procedures);
+    let procedures = named.map(|(procedure, ends)| {
+        let (text, caller) = (&procedure.name, ident(&ends.caller));
         quote!((#text, Box::new(#caller)))
     });
     let procedures = if cycler.procedures.is_empty() {

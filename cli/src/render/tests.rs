@@ -140,3 +140,27 @@ fn keywords_are_names_like_others() {
         "{database}"
     );
 }
+
+#[test]
+fn names_of_the_prelude_are_names_like_others() {
+    let files = render(&model_of(&robot(vec![
+        real_time("Option").node(
+            node("control::a")
+                .parameter("x", "Option<u8>", "self_.x")
+                .parameter("y", "u8", "option.y")
+                .procedure("z", "u8", "u8", "type_"),
+        ),
+    ])));
+    let text = |path: &str| &files[&Utf8PathBuf::from("generated/src").join(path)];
+    let parameters = text("parameters.rs");
+    assert!(parameters.contains("pub self_: Self2,"), "{parameters}");
+    assert!(parameters.contains("pub option: Option2,"), "{parameters}");
+    let body = text("runtime/option.rs");
+    assert!(body.contains("impl Body for Option2 {"), "{body}");
+    let runtime = text("runtime.rs");
+    assert!(runtime.contains("option::Option2 {"), "{runtime}");
+    assert!(
+        runtime.contains("let (option_type, option_type_answerer) = procedure();"),
+        "{runtime}"
+    );
+}

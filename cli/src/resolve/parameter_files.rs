@@ -3,6 +3,7 @@
 //! Every target starts from `default.toml`, its location's `default.toml`, and files of identities that only the robot
 //! chooses: a value that some identity's file gives may be there, so it is not missed.
 
+mod choice;
 mod expected;
 mod layer;
 mod values;
@@ -30,7 +31,8 @@ pub fn check(
     robot: &Robot,
     diagnostics: &mut Diagnostics,
 ) {
-    let texts = layer::find(workspace, manifest, diagnostics);
+    let choice = choice::load(workspace, &robot.parameters, diagnostics);
+    let texts = layer::find(workspace, manifest, choice.as_ref(), diagnostics);
     let mut layers = Vec::new();
     for (file, text) in &texts {
         let (table, errors) = DeTable::parse_recoverable(text);
@@ -45,9 +47,8 @@ pub fn check(
             });
         }
     }
-    let default_location = layer::default_location(workspace, &robot.parameters);
     let checker = Checker {
-        default_location,
+        default_location: choice.map(|choice| choice.location),
         sources,
         robot,
     };
@@ -274,15 +275,6 @@ impl Checker<'_> {
             })
         })
     }
-}
-
-/// The manifest's place of a target's location, or of the robot's first cycler: where a missing file is asked for.
-fn asked_for(manifest: &Manifest, location: &str) -> Option<std::ops::Range<usize>> {
-    let target = manifest
-        .targets
-        .iter()
-        .find(|one| one.declared.location.as_deref() == Some(location))?;
-    target.location_range.clone()
 }
 
 #[cfg(test)]

@@ -70,6 +70,18 @@ pub enum OnFailure {
     Hold,
 }
 
+impl OnFailure {
+    /// As the manifest writes it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Stop => "stop",
+            Self::Restart => "restart",
+            Self::Skip => "skip",
+            Self::Hold => "hold",
+        }
+    }
+}
+
 /// Nodes that a driver runs again and again.
 #[derive(Clone, Debug)]
 pub struct Cycler {

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use camino::Utf8PathBuf;
+use syn::ext::IdentExt;
 use syn::{Attribute, Fields, Item, Meta};
 
 use super::library::Library;
@@ -29,6 +30,7 @@ pub struct StructFields {
 /// A named field.
 #[derive(Clone, Debug)]
 pub struct StructField {
+    /// Without `r#`, as serde and paths write it.
     pub name: String,
     pub data: Resolved,
     /// Of its name.
@@ -79,7 +81,7 @@ impl Library<'_> {
             .filter_map(|field| {
                 let name = field.ident.as_ref()?;
                 Some(StructField {
-                    name: name.to_string(),
+                    name: name.unraw().to_string(),
                     data: self.resolve_with(&item.module, &field.ty, &generics, 0),
                     range: range(name.span()),
                     public: matches!(field.vis, syn::Visibility::Public(_)),
@@ -116,7 +118,8 @@ impl Library<'_> {
         let unit = variants.clone().all(|variant| {
             matches!(variant.fields, Fields::Unit) && !has_any_serde(&variant.attrs)
         });
-        (plain && unit).then(|| variants.map(|variant| variant.ident.to_string()).collect())
+        let names = variants.map(|variant| variant.ident.unraw().to_string());
+        (plain && unit).then(|| names.collect())
     }
 
     /// The place of an item's name in its file.

@@ -14,6 +14,8 @@ pub struct Members {
     libraries: BTreeMap<String, Member>,
     /// `[workspace.dependencies]` of the root.
     shared: Dependencies,
+    /// Folders of all packages, also of those without a library, relative to the robot's root; `.` for a package there.
+    pub folders: Vec<Utf8PathBuf>,
     /// Keys of the root's `[workspace.package]`, sorted: packages may inherit them.
     pub inherited: Vec<String>,
     /// Cargo.toml files that cannot be read or parsed; the generated crate's may be among them.
@@ -79,7 +81,9 @@ impl Members {
             members.inherited.sort();
         }
         for folder in folders {
-            members.add(workspace, relative(&own, &normalized(&folder)));
+            let folder = relative(&own, &normalized(&folder));
+            members.folders.push(folder.clone());
+            members.add(workspace, folder);
         }
         members.name_shared_libraries(&own);
         members

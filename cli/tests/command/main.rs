@@ -191,6 +191,31 @@ fn generate_writes_once_and_check_mode_finds_drift() {
 }
 
 #[test]
+fn generate_never_removes_what_others_wrote() {
+    for (folder, file) in [
+        ("parameters", "parameters/default.toml"),
+        ("nodes", "nodes/src/clock.rs"),
+        ("nodes/src", "nodes/src/clock.rs"),
+        ("notes", "notes/today.md"),
+    ] {
+        let robot = Robot::tiny();
+        robot.write("notes/today.md", "the ball is red\n");
+        let name = "name = \"tiny\"\n";
+        robot.edit(
+            "hulk.toml",
+            name,
+            &format!("{name}generated = \"{folder}\"\n"),
+        );
+        let before = robot.read(file);
+        let stderr = robot.run("generate").expect(1).stderr;
+        let message = format!("`{folder}` cannot be the generated folder");
+        assert!(stderr.contains(&message), "{stderr}");
+        robot.run("generate --check").expect(1);
+        assert_eq!(robot.read(file), before, "{folder}");
+    }
+}
+
+#[test]
 fn errors_in_parameter_files_keep_nothing_from_being_generated_but_no_robot_runs_with_them() {
     let robot = Robot::tiny();
     robot.write("parameters/default.toml", "stepp = 1\n");
@@ -407,6 +432,26 @@ fn run_generates_builds_and_becomes_the_program() {
     assert!(ended.stderr.contains(build), "{}", ended.stderr);
     let options = ended.stdout.trim_end();
     assert_eq!(options, "--for 2s --format json -- --scene ball");
+}
+
+#[test]
+fn run_builds_for_this_machine_with_the_profile_of_the_target() {
+    let robot = Robot::tiny();
+    let cargo = fake_cargo(&robot, SAYS_BUILT);
+    fake_program(&robot, "true");
+    let name = "name = \"real\"\n";
+    robot.edit("hulk.toml", name, &format!("{name}profile = \"nao\"\n"));
+    for (arguments, profile) in [
+        ("run real", "--profile nao"),
+        ("run real --profile dev", "--profile dev"),
+    ] {
+        let ended = Ended::of(robot.command(arguments).env("CARGO", &cargo)).expect(0);
+        assert!(ended.stderr.contains(profile), "{}", ended.stderr);
+    }
+    robot.edit("hulk.toml", name, &format!("{name}triple = \"a-b-c\"\n"));
+    let ended = Ended::of(robot.command("run real").env("CARGO", &cargo)).expect(1);
+    let message = "target `real` is for `a-b-c`: `run` builds for this machine only";
+    assert!(ended.stderr.contains(message), "{}", ended.stderr);
 }
 
 #[test]

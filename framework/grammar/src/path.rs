@@ -3,7 +3,9 @@
 use std::fmt;
 
 use proc_macro2::Span;
-use syn::LitStr;
+use syn::ext::IdentExt;
+use syn::parse::Parser;
+use syn::{Ident, LitStr};
 
 use crate::mistake::{Mistake, Rule};
 
@@ -124,9 +126,18 @@ impl fmt::Display for SegmentName {
 
 /// Whether a field, an instance or a procedure may be called so.
 pub(crate) fn is_identifier(text: &str) -> bool {
-    // The parser alone would forgive blanks and comments around the name.
+    is_bare(text) && syn::parse_str::<Ident>(text).is_ok()
+}
+
+fn is_keyword(text: &str) -> bool {
+    let is_word = text != "_" && is_bare(text) && Ident::parse_any.parse_str(text).is_ok();
+    is_word && !is_identifier(text)
+}
+
+/// The parser alone would forgive blanks and comments around a name.
+fn is_bare(text: &str) -> bool {
     let bare = |character: char| character.is_alphanumeric() || character == '_';
-    text.chars().all(bare) && syn::parse_str::<syn::Ident>(text).is_ok()
+    text.chars().all(bare)
 }
 
 fn read_segment(part: &str) -> Result<Segment, String> {
@@ -149,6 +160,7 @@ fn read_segment(part: &str) -> Result<Segment, String> {
         }
         name if name.contains('?') => return Err("at most one `?` ends a name".into()),
         name if is_identifier(name) => SegmentName::Field(name.into()),
+        name if is_keyword(name) => return Err(format!("`{name}` is a keyword of Rust")),
         name => return Err(format!("`{name}` is no identifier")),
     };
     Ok(Segment { name, optional })

@@ -468,7 +468,7 @@ fn an_unknown_kind_is_told_with_the_nearest_or_all() {
 }
 
 #[test]
-fn a_field_is_neither_conditional_nor_a_keyword() {
+fn a_field_is_not_conditional_and_an_output_no_keyword() {
     let read = Read::field(ContextKind::Cycle, "#[cfg(test)] field: CycleTime");
     assert_eq!(
         (read.mistake().0, read.mistake().1),
@@ -479,6 +479,39 @@ fn a_field_is_neither_conditional_nor_a_keyword() {
         (read.mistake().0, read.mistake().1),
         (Rule::InvalidName, "r#type")
     );
+    for field in [
+        "r#type: Input<f32, \"x\">",
+        "r#type: Parameter<f32, \"x\">",
+        "r#type: CycleTime",
+    ] {
+        let read = Read::field(ContextKind::Cycle, field);
+        assert!(read.mistakes.is_empty(), "{field}");
+    }
+}
+
+#[test]
+fn no_parameter_lies_where_the_hardware_of_targets_does() {
+    for path in ["hardware", "hardware.x"] {
+        let field = format!("field: Parameter<f32, \"{path}\">");
+        let read = Read::field(ContextKind::Cycle, &field);
+        let (rule, marked, message, _) = read.mistake();
+        assert_eq!(
+            (rule, marked),
+            (Rule::InvalidPath, &*format!("\"{path}\"")),
+            "{message}"
+        );
+        assert!(
+            message.contains("`hardware` belongs to the targets"),
+            "{message}"
+        );
+    }
+    for field in [
+        "field: Parameter<f32, \"x.hardware\">",
+        "field: CyclerState<f32, \"hardware.x\">",
+    ] {
+        let read = Read::field(ContextKind::Cycle, field);
+        assert!(read.mistakes.is_empty(), "{field}");
+    }
 }
 
 #[test]

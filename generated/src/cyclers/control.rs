@@ -400,15 +400,13 @@ impl Nodes {
     fn create_sensor_data_receiver() -> Result<
         sensor_data_receiver::SensorDataReceiver,
     > {
-        let context = sensor_data_receiver::CreationContext {
-        };
+        let context = sensor_data_receiver::CreationContext {};
         sensor_data_receiver::SensorDataReceiver::new(context)
             .in_node("control::sensor_data_receiver")
     }
 
     fn create_orientation_filter() -> Result<orientation_filter::OrientationFilter> {
-        let context = orientation_filter::CreationContext {
-        };
+        let context = orientation_filter::CreationContext {};
         orientation_filter::OrientationFilter::new(context)
             .in_node("control::orientation_filter")
     }
@@ -419,15 +417,13 @@ impl Nodes {
     }
 
     fn create_forward_kinematics() -> Result<forward_kinematics::ForwardKinematics> {
-        let context = forward_kinematics::CreationContext {
-        };
+        let context = forward_kinematics::CreationContext {};
         forward_kinematics::ForwardKinematics::new(context)
             .in_node("control::forward_kinematics")
     }
 
     fn create_camera_matrices() -> Result<camera_matrices::CameraMatricesProvider> {
-        let context = camera_matrices::CreationContext {
-        };
+        let context = camera_matrices::CreationContext {};
         camera_matrices::CameraMatricesProvider::new(context)
             .in_node("control::camera_matrices")
     }
@@ -455,8 +451,7 @@ impl Nodes {
     fn create_motor_commands_collector() -> Result<
         motor_commands_collector::MotorCommandsCollector,
     > {
-        let context = motor_commands_collector::CreationContext {
-        };
+        let context = motor_commands_collector::CreationContext {};
         motor_commands_collector::MotorCommandsCollector::new(context)
             .in_node("control::motor_commands_collector")
     }

@@ -171,15 +171,13 @@ impl Nodes {
     fn create_camera_matrix_extractor() -> Result<
         camera_matrix_extractor::CameraMatrixExtractor,
     > {
-        let context = camera_matrix_extractor::CreationContext {
-        };
+        let context = camera_matrix_extractor::CreationContext {};
         camera_matrix_extractor::CameraMatrixExtractor::new(context)
             .in_node("vision::camera_matrix_extractor")
     }
 
     fn create_image_segmenter() -> Result<image_segmenter::ImageSegmenter> {
-        let context = image_segmenter::CreationContext {
-        };
+        let context = image_segmenter::CreationContext {};
         image_segmenter::ImageSegmenter::new(context).in_node("vision::image_segmenter")
     }
 

@@ -89,7 +89,7 @@ fn write_cycler(text: &mut String, robot: &Robot, cycler: &Cycler, edges: &[Edge
 }
 
 fn settings(cycler: &Cycler) -> Vec<String> {
-    let mut settings = vec![format!("on failure {}", on_failure(cycler.on_failure))];
+    let mut settings = vec![format!("on failure {}", cycler.on_failure.name())];
     match cycler.kind {
         CyclerKind::Perception => {
             settings.push(format!("pending timeout {:?}", cycler.pending_timeout));
@@ -123,7 +123,7 @@ fn write_node(text: &mut String, robot: &Robot, node: &Node, edges: &[&Edge]) {
         node.path, node.type_name, node.file
     ));
     if node.on_failure != OnFailure::Stop {
-        text.push_str(&format!("    on failure {}\n", on_failure(node.on_failure)));
+        text.push_str(&format!("    on failure {}\n", node.on_failure.name()));
     }
     let fields = describe_fields(robot, node);
     let sections = [
@@ -211,14 +211,5 @@ fn write_tree<U>(text: &mut String, tree: &Tree<U>, depth: usize, user: &dyn Fn(
                 write_tree(text, tree, depth + 1, user);
             }
         }
-    }
-}
-
-fn on_failure(on_failure: OnFailure) -> &'static str {
-    match on_failure {
-        OnFailure::Stop => "stop",
-        OnFailure::Restart => "restart",
-        OnFailure::Skip => "skip",
-        OnFailure::Hold => "hold",
     }
 }

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::{FIELDS_OF_BODIES, Interleaving, Perception, Source};
+use crate::model::frame::InstanceParameters;
 use crate::model::names::{Names, snake_case};
 use crate::resolve::robot::{CycleBinding, Cycler, InstanceId, Robot};
 
@@ -37,7 +38,7 @@ pub(super) fn perception(robot: &Robot, cycler: &Cycler) -> Option<Perception> {
 }
 
 /// Every instance whose newest cycle any node reads, once.
-pub(super) fn latest(robot: &Robot, cycler: &Cycler) -> Vec<Source> {
+pub(super) fn latest(robot: &Robot, cycler: &Cycler, parts: &[InstanceParameters]) -> Vec<Source> {
     let instances: BTreeSet<InstanceId> = cycler
         .nodes
         .iter()
@@ -49,7 +50,9 @@ pub(super) fn latest(robot: &Robot, cycler: &Cycler) -> Vec<Source> {
             _ => None,
         })
         .collect();
-    let mut names = Names::with(FIELDS_OF_BODIES.map(str::to_owned));
+    let selects = parts.iter().map(|part| part.select.clone());
+    let fields = FIELDS_OF_BODIES.map(str::to_owned);
+    let mut names = Names::with(fields.into_iter().chain(selects));
     let sources = instances.into_iter().map(|id| source(robot, id));
     sources
         .map(|source| Source {

@@ -2,7 +2,7 @@
 
 mod resolve;
 
-use crate::model::names::upper_camel_case;
+use crate::model::names::{last, plain, upper_camel_case};
 use crate::resolve::robot::{
     Access, CreationBinding, CycleBinding, CyclerKind, DataType, Field, InstanceId, Interface,
     Node, OnFailure, OutputBinding, Segment,
@@ -24,7 +24,7 @@ pub(crate) struct NodeBuilder {
 
 /// A node whose type is called like its module.
 pub(crate) fn node(path: &str) -> NodeBuilder {
-    let name = crate::model::names::last(path);
+    let name = plain(last(path));
     let node = Node {
         path: path.to_owned(),
         type_name: upper_camel_case(name),

@@ -149,6 +149,23 @@ impl Nodes {
 }
 
 #[test]
+fn empty_literals_and_blocks_are_one_line() {
+    let text = body(quote! {
+        fn run() {
+            let context = CreationContext {};
+            if context.is_empty() {}
+        }
+    });
+    let expected = "\
+fn run() {
+    let context = CreationContext {};
+    if context.is_empty() {}
+}
+";
+    assert_eq!(text, expected);
+}
+
+#[test]
 fn layout_does_not_count_as_meaning() {
     let bare = quote! { match a { B => c, _ => d } };
     let why = comment("Why.");

@@ -16,7 +16,7 @@ use crate::render::spelling::{ident, path, place};
 /// An instance around its body.
 pub(super) fn quote_instance(model: &RuntimeModel, instance: &InstanceModel) -> TokenStream {
     let cycler = &model.cyclers[instance.id.cycler];
-    let (module, name) = (ident(&cycler.module), ident(&cycler.name));
+    let (module, name) = (ident(&cycler.module), ident(&cycler.body));
     let (constant, variable) = (ident(&instance.constant), ident(&instance.variable));
     let writer = ident(&format!("{}_writer", instance.variable));
     let creation = quote_creation(cycler, instance);
@@ -212,12 +212,9 @@ fn quote_perception(
 
 fn quote_procedures(cycler: &CyclerModel, instance: &InstanceModel) -> TokenStream {
     let procedures = database(cycler, "Procedures");
-    let answerers = cycler.procedures.iter().map(|procedure| {
-        let name = ident(&procedure.name);
-        let answerer = ident(&format!(
-            "{}_{}_answerer",
-            instance.variable, procedure.name
-        ));
+    let named = cycler.procedures.iter().zip(&instance.procedures);
+    let answerers = named.map(|(procedure, ends)| {
+        let (name, answerer) = (ident(&procedure.name), ident(&ends.answerer));
         quote!(#name: #answerer,)
     });
     quote!(#procedures { #(#answerers)* })

@@ -6,8 +6,8 @@ use std::sync::Arc;
 use camino::{Utf8Path, Utf8PathBuf};
 use toml::de::DeTable;
 
-use super::asked_for;
-use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+use super::choice::Choice;
+use crate::diagnostics::{Code, Diagnostic, Diagnostics, nearest};
 use crate::manifest::Manifest;
 use crate::workspace::{MANIFEST, Workspace};
 
@@ -36,29 +36,64 @@ impl Layer<'_> {
     }
 }
 
-/// `location` in the folder's `parameters.toml`.
-pub(super) fn default_location(workspace: &Workspace, folder: &Utf8Path) -> Option<String> {
-    let text = workspace.read(&folder.join("parameters.toml")).ok()?;
-    let table: toml::Table = toml::from_str(&text).ok()?;
-    table.get("location")?.as_str().map(str::to_owned)
+/// A default that has to be there, and where it is asked for.
+struct Asked<'a> {
+    /// `None`: the default of all locations.
+    location: Option<&'a str>,
+    file: &'a Utf8Path,
+    range: Range<usize>,
+}
+
+impl Asked<'_> {
+    fn folder(&self, parameters: &Utf8Path) -> Utf8PathBuf {
+        self.location.map_or_else(
+            || parameters.to_owned(),
+            |location| parameters.join(location),
+        )
+    }
+
+    fn file(&self, parameters: &Utf8Path) -> Utf8PathBuf {
+        self.folder(parameters).join("default.toml")
+    }
+
+    /// The location's folder is missing, or the file in it.
+    fn missing(&self, workspace: &Workspace, parameters: &Utf8Path, reason: &str) -> Diagnostic {
+        let file = self.file(parameters);
+        let folder = self.folder(parameters);
+        let beside = workspace.list(folder.parent().unwrap_or(parameters));
+        let error = match self.location {
+            Some(location) if !beside.contains(&folder) => {
+                let locations = workspace.list(parameters);
+                let names = locations
+                    .iter()
+                    .filter(|entry| !workspace.is_file(entry))
+                    .filter_map(|entry| entry.file_name());
+                let near = nearest(location, names).map(|near| format!("did you mean `{near}`?"));
+                let message = format!("`{parameters}` has no location `{location}`");
+                Diagnostic::new(Code::MissingParameterFile, message)
+                    .help(format!("create `{file}`"))
+                    .help_if(near)
+            }
+            _ => {
+                Diagnostic::new(Code::MissingParameterFile, reason).help(format!("create `{file}`"))
+            }
+        };
+        error.at(self.file, self.range.clone(), "asked for here")
+    }
 }
 
 /// Every file that may be a layer of some robot: defaults of the folder and of its locations, and identities' files.
 ///
-/// A default that a target asks for and that is not there is a `missing-parameter-file`.
+/// A default that a target or `parameters.toml` asks for and that is not there is a `missing-parameter-file`.
 pub(super) fn find(
     workspace: &Workspace,
     manifest: &Manifest,
+    choice: Option<&Choice>,
     diagnostics: &mut Diagnostics,
 ) -> Vec<(Utf8PathBuf, Arc<str>)> {
     let folder = &manifest.robot.parameters;
-    let mut files = vec![folder.join("default.toml")];
-    for target in &manifest.targets {
-        if let Some(location) = &target.declared.location {
-            files.push(folder.join(location).join("default.toml"));
-        }
-    }
-    let asked = files.len();
+    let asked = asked(manifest, choice);
+    let mut files: Vec<Utf8PathBuf> = asked.iter().map(|one| one.file(folder)).collect();
     for entry in workspace.list(folder) {
         if is_of_identity(&entry, manifest) {
             files.push(entry);
@@ -77,13 +112,38 @@ pub(super) fn find(
         }
         match workspace.read(&file) {
             Ok(text) => found.push((file, text)),
-            Err(error) if index < asked => {
-                report_missing(manifest, &file, &error.to_string(), diagnostics)
+            Err(error) => {
+                if let Some(asked) = asked.get(index) {
+                    diagnostics.add(asked.missing(workspace, folder, &error.to_string()));
+                }
             }
-            Err(_) => {}
         }
     }
     found
+}
+
+fn asked<'a>(manifest: &'a Manifest, choice: Option<&'a Choice>) -> Vec<Asked<'a>> {
+    let file = Utf8Path::new(MANIFEST);
+    let key = "parameters";
+    let place = manifest.text.find(key);
+    let mut asked = vec![Asked {
+        location: None,
+        file,
+        range: place.map_or(0..0, |start| start..start + key.len()),
+    }];
+    asked.extend(manifest.targets.iter().filter_map(|target| {
+        Some(Asked {
+            location: Some(target.declared.location.as_deref()?),
+            file,
+            range: target.location_range.clone()?,
+        })
+    }));
+    asked.extend(choice.map(|choice| Asked {
+        location: Some(&choice.location),
+        file: &choice.file,
+        range: choice.range.clone(),
+    }));
+    asked
 }
 
 /// `head.P123.toml`.
@@ -99,30 +159,4 @@ fn is_of_identity(file: &Utf8Path, manifest: &Manifest) -> bool {
             .iter()
             .any(|one| one.as_str() == identity)
     })
-}
-
-fn report_missing(
-    manifest: &Manifest,
-    file: &Utf8Path,
-    reason: &str,
-    diagnostics: &mut Diagnostics,
-) {
-    let location = file
-        .strip_prefix(&manifest.robot.parameters)
-        .ok()
-        .and_then(Utf8Path::parent)
-        .map(Utf8Path::as_str)
-        .unwrap_or_default();
-    let place = asked_for(manifest, location).or_else(|| {
-        let key = manifest.text.find("parameters")?;
-        Some(key..key + "parameters".len())
-    });
-    let error = Diagnostic::new(Code::MissingParameterFile, reason)
-        .at(
-            Utf8Path::new(MANIFEST),
-            place.unwrap_or(0..0),
-            "asked for here",
-        )
-        .help(format!("create `{file}`"));
-    diagnostics.add(error);
 }

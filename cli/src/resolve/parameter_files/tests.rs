@@ -95,6 +95,96 @@ fn the_folder_may_name_the_location_of_targets_without_one() {
 }
 
 #[test]
+fn the_file_that_names_the_location_is_checked() {
+    let fixture = || {
+        robot("a: Parameter<f32, \"a\">,", "")
+            .file("parameters/default.toml", "a = 1\n")
+            .file("parameters/field/default.toml", "a = 2\n")
+    };
+    for (text, code, part) in [
+        ("location = \n", "syntax", "parameters/parameters.toml:1:"),
+        (
+            "locatoin = \"field\"\n",
+            "unknown-key",
+            "did you mean `location`?",
+        ),
+        (
+            "location = \"field\"\na = 1\n",
+            "unknown-key",
+            "parameters/parameters.toml:2:1",
+        ),
+        (
+            "location = 1\n",
+            "invalid-value",
+            "parameters/parameters.toml:1:12",
+        ),
+        (
+            "location = \"feild\"\n",
+            "missing-parameter-file",
+            "did you mean `field`?",
+        ),
+    ] {
+        fixture()
+            .file("parameters/parameters.toml", text)
+            .expect(code, &[part, "parameters/parameters.toml"]);
+    }
+    fixture()
+        .file("parameters/parameters.toml", "location = \"home\"\n")
+        .file("parameters/home/notes.md", "")
+        .expect(
+            "missing-parameter-file",
+            &["create `parameters/home/default.toml`"],
+        );
+    fixture()
+        .file("parameters/parameters.toml", "location = \"far/away\"\n")
+        .file("parameters/far/away/default.toml", "b = 1\n")
+        .expect(
+            "unknown-parameter",
+            &["parameters/far/away/default.toml:1:1"],
+        );
+}
+
+#[test]
+fn a_location_of_a_target_is_a_folder() {
+    robot(
+        "a: Parameter<f32, \"a\">,",
+        &NAO.replace("\"field\"", "\"feild\""),
+    )
+    .file("parameters/default.toml", "a = 1\n")
+    .file("parameters/field/default.toml", "a = 2\n")
+    .expect(
+        "missing-parameter-file",
+        &[
+            "`parameters` has no location `feild`",
+            "did you mean `field`?",
+            "hulk.toml:",
+        ],
+    );
+}
+
+#[test]
+fn a_field_may_be_called_like_a_keyword() {
+    let head = "#[derive(Deserialize)]\npub struct Filter { pub r#type: u8 }";
+    let manifest = cycler("Control", "real-time", "", &[], &["a"]);
+    let fixture = || {
+        Fixture::new(&manifest).node(
+            "a",
+            Node {
+                head,
+                cycle: "a: Parameter<Filter, \"filter\">,\nhardware: HardwareInterface,",
+                asks: "hardware::Motors",
+                ..Node::default()
+            },
+        )
+    };
+    let default = "parameters/default.toml";
+    fixture().file(default, "[filter]\ntype = 1\n").robot();
+    fixture()
+        .file(default, "[filter]\n")
+        .expect("missing-parameter", &["`filter.type`"]);
+}
+
+#[test]
 fn a_value_of_an_identity_counts() {
     robot("a: Parameter<f32, \"a\">,", "")
         .file("parameters/default.toml", "")

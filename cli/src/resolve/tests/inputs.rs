@@ -1,8 +1,31 @@
 //! Outputs, instances, kinds, setup nodes.
 
+use camino::Utf8Path;
+
 use super::{ACTS, two_cyclers, with_field, writes};
+use crate::diagnostics::Diagnostics;
+use crate::pipeline;
 use crate::resolve::robot::{CycleBinding, InstanceId, OutputBinding};
 use crate::scan::fixture::{Fixture, Node, cycler};
+use crate::workspace::Workspace;
+
+#[test]
+fn an_input_may_be_called_like_a_keyword() {
+    let fields = "r#type: Input<Option<u8>, \"x\">,\nr#match: CycleTime";
+    let writer = Fixture::control(&["a", "b"]).node("a", writes("x: MainOutput<Option<u8>>,"));
+    let fixture = with_field(writer, "b", fields);
+    let robot = fixture.robot();
+    let names = robot.cyclers[0].nodes[1].cycle.iter();
+    let names: Vec<&str> = names.map(|field| field.name.as_str()).collect();
+    assert_eq!(names, ["r#type", "r#match", "hardware"]);
+    let workspace = Workspace::in_memory(fixture.files());
+    let files = pipeline::generate(&workspace, &mut Diagnostics::new()).expect("it has no errors");
+    let cycler = &files[Utf8Path::new("generated/src/cyclers/control.rs")];
+    assert!(
+        cycler.contains("r#type: ") && cycler.contains("r#match: "),
+        "{cycler}"
+    );
+}
 
 #[test]
 fn every_field_is_bound() {

@@ -38,7 +38,6 @@ pub struct ReadField {
 pub fn read_field(field: &syn::Field, context: ContextKind) -> ReadField {
     let mut mistakes = Vec::new();
     mistakes.extend(rules::attribute_mistake(field));
-    mistakes.extend(rules::keyword_mistake(field));
     let Some((kind, written_kind)) = kind_of(&field.ty) else {
         mistakes.push(rules::unknown(&field.ty, context));
         return ReadField {
@@ -46,6 +45,7 @@ pub fn read_field(field: &syn::Field, context: ContextKind) -> ReadField {
             mistakes,
         };
     };
+    mistakes.extend(rules::keyword_mistake(kind, field));
     let mut content_mistakes = Vec::new();
     let read = read_kind(kind, written_kind, &mut content_mistakes);
     if kind.contexts().contains(&context) {
@@ -237,6 +237,7 @@ impl Reader {
         let path = DataPath::read(literal, mistakes);
         if mistakes.len() == before {
             mistakes.extend(rules::instance_mistake(self.kind, &path));
+            mistakes.extend(rules::hardware_mistake(self.kind, &path));
             let one_literal = self.arguments.literals.len() == 1;
             mistakes.extend(rules::option_mistake(self.kind, data, &path, one_literal));
         }

@@ -8,7 +8,7 @@ use super::{option_argument, peel, written};
 use crate::context::ContextKind;
 use crate::kind::Kind;
 use crate::mistake::{Mistake, Rule};
-use crate::path::DataPath;
+use crate::path::{DataPath, SegmentName};
 
 /// An attribute that generated code cannot know about.
 pub(super) fn attribute_mistake(field: &syn::Field) -> Option<Mistake> {
@@ -23,10 +23,10 @@ pub(super) fn attribute_mistake(field: &syn::Field) -> Option<Mistake> {
     ))
 }
 
-/// A name that no path can have.
-pub(super) fn keyword_mistake(field: &syn::Field) -> Option<Mistake> {
+/// A name that no path can have; only an output's name is one that paths begin with.
+pub(super) fn keyword_mistake(kind: Kind, field: &syn::Field) -> Option<Mistake> {
     let name = field.ident.as_ref()?;
-    (*name != name.unraw()).then(|| {
+    (kind == Kind::MainOutput && *name != name.unraw()).then(|| {
         let message = format!("`{name}` is a keyword, and no path can name it");
         Mistake::new(Rule::InvalidName, name.span(), message)
     })
@@ -83,6 +83,19 @@ pub(super) fn instance_mistake(kind: Kind, path: &DataPath) -> Option<Mistake> {
         ),
     };
     Some(Mistake::new(Rule::InvalidPath, path.span, message))
+}
+
+/// A parameter where the files hold what the hardware of targets reads.
+pub(super) fn hardware_mistake(kind: Kind, path: &DataPath) -> Option<Mistake> {
+    let SegmentName::Field(first) = &path.segments.first()?.name else {
+        return None;
+    };
+    (kind == Kind::Parameter && first == "hardware").then(|| {
+        let message =
+            format!("`{path}` is no path of a parameter: `hardware` belongs to the targets");
+        Mistake::new(Rule::InvalidPath, path.span, message)
+            .help("begin the path with another name: only a target's hardware reads `[hardware.…]`")
+    })
 }
 
 /// `?` and the written type disagree; `one_literal` says that no instance is named.

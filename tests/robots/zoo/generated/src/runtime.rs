@@ -82,6 +82,7 @@ where
         [parameters_for_vision_top,
         parameters_for_vision_bottom,
         parameters_for_control,
+        parameters_for_reflexes,
         ],
         [],
     ) = buffer_of(|| start.parameters.clone(), []);
@@ -103,6 +104,7 @@ where
     let (control_stop, control_stop_answerer) = procedure();
     let (control_walk, control_walk_answerer) = procedure();
     let (reflexes_injections, [reflexes_injected], []) = buffer([]);
+    let (reflexes_type, reflexes_type_answerer) = procedure();
     let (lights_injections, [], []) = buffer([]);
 
     let mut cycler_state = databases::vision::CyclerState::default();
@@ -226,6 +228,7 @@ where
             hardware_interface: hardware.clone(),
             injections: reflexes_injected,
             own: Swap::default(),
+            parameters: parameters_for_reflexes,
             perception: databases::reflexes::Perception {
                 horizon: Horizon::new(),
                 vision_bottom: Consumer::new(
@@ -233,7 +236,12 @@ where
                     Duration::from_millis(500),
                 ),
             },
+            procedures: databases::reflexes::Procedures {
+                type_: reflexes_type_answerer,
+            },
             control: control_for_reflexes,
+            select_a_b: |parameters| &parameters.a.b.reflexes,
+            select_a_b2: |parameters| &parameters.a_b.reflexes,
         },
         reflexes_writer,
         start.clock.clone(),
@@ -294,7 +302,7 @@ where
                 instance: "Reflexes",
                 subscriptions: Subscriptions::new(&[]),
                 injector: Box::new(Injector::new(reflexes_injections)),
-                procedures: Vec::new(),
+                procedures: vec![("type_", Box::new(reflexes_type))],
             },
             Access {
                 instance: "Lights",

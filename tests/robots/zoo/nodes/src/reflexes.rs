@@ -1,4 +1,6 @@
 //! Faster than thinking.
 
 pub mod bumper;
+pub mod create;
 pub mod flinch;
+pub mod node;

@@ -10,7 +10,9 @@ use framework::Result;
 use zoo_nodes::interfaces::BumperInterface;
 use zoo_nodes::interfaces::LampInterface;
 use zoo_nodes::reflexes::bumper;
+use zoo_nodes::reflexes::create;
 use zoo_nodes::reflexes::flinch;
+use zoo_nodes::reflexes::node;
 
 use crate::databases::reflexes::Frame;
 
@@ -18,6 +20,8 @@ use crate::databases::reflexes::Frame;
 pub struct Nodes {
     pub bumper: Guarded<bumper::Bumper>,
     pub flinch: Guarded<flinch::Flinch>,
+    pub create_node2: Guarded<create::Create>,
+    pub node: Guarded<node::Node>,
 }
 
 impl Nodes {
@@ -32,6 +36,16 @@ impl Nodes {
                 "zoo_nodes::reflexes::flinch",
                 OnFailure::Stop,
                 Self::create_flinch()?,
+            ),
+            create_node2: Guarded::new(
+                "zoo_nodes::reflexes::create",
+                OnFailure::Stop,
+                Self::create_create_node2()?,
+            ),
+            node: Guarded::new(
+                "zoo_nodes::reflexes::node",
+                OnFailure::Stop,
+                Self::create_node()?,
             ),
         })
     }
@@ -52,6 +66,8 @@ impl Nodes {
     /// Nodes: each call reads only what a call above it, or another cycler, wrote.
     pub fn cycle(&mut self, frame: &mut Frame<'_, impl LampInterface>) -> Result<()> {
         self.flinch(frame)?;
+        self.create_node2(frame)?;
+        self.node(frame)?;
         Ok(())
     }
 
@@ -81,6 +97,33 @@ impl Nodes {
         Ok(())
     }
 
+    /// -> sum
+    fn create_node2<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
+        let context = create::CycleContext {
+            own: &frame.parameters.self_.x,
+            perhaps: &frame.parameters.option.text,
+            many: &frame.parameters.vec.numbers,
+            nested: &frame.instance_a_b.x,
+            joined: &frame.instance_a_b2.y,
+        };
+        let outputs = self.create_node2.call(frame.cycle, |node| node.cycle(context))?;
+        frame.own.sum = outputs.sum.value;
+        if let Some(injections) = frame.injections {
+            injections.sum.replace(&mut frame.own.sum);
+        }
+        Ok(())
+    }
+
+    /// sum, procedure type_ -> nothing
+    fn node<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
+        let context = node::CycleContext {
+            sum: &frame.own.sum,
+            add: frame.procedures.type_.call(),
+        };
+        self.node.call(frame.cycle, |node| node.cycle(context))?;
+        Ok(())
+    }
+
     fn create_bumper() -> Result<bumper::Bumper> {
         let context = bumper::CreationContext {};
         bumper::Bumper::new(context).in_node("zoo_nodes::reflexes::bumper")
@@ -89,5 +132,15 @@ impl Nodes {
     fn create_flinch() -> Result<flinch::Flinch> {
         let context = flinch::CreationContext {};
         flinch::Flinch::new(context).in_node("zoo_nodes::reflexes::flinch")
+    }
+
+    fn create_create_node2() -> Result<create::Create> {
+        let context = create::CreationContext {};
+        create::Create::new(context).in_node("zoo_nodes::reflexes::create")
+    }
+
+    fn create_node() -> Result<node::Node> {
+        let context = node::CreationContext {};
+        node::Node::new(context).in_node("zoo_nodes::reflexes::node")
     }
 }
