@@ -15,8 +15,8 @@ use std::io;
 use camino::{Utf8Path, Utf8PathBuf};
 use similar::TextDiff;
 
-use crate::model::DO_NOT_EDIT;
 use crate::render::GeneratedFiles;
+use crate::workspace::says_generated;
 
 pub use disk::write_file;
 
@@ -143,12 +143,6 @@ impl Drift {
             .map(|(path, mark)| format!("{mark} {path}\n"))
             .collect()
     }
-}
-
-/// Whether a file says that hulkgen wrote it, by the part of the header that other versions have, too.
-pub fn says_generated(text: &str) -> bool {
-    let beginning = DO_NOT_EDIT.split_once(" from ").map(|(first, _)| first);
-    text.contains(beginning.unwrap_or(DO_NOT_EDIT))
 }
 
 /// Only a folder of its own below the root may be cleaned.

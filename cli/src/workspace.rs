@@ -24,6 +24,14 @@ pub use members::{Member, Members};
 /// Name of the manifest at the workspace root.
 pub const MANIFEST: &str = "hulk.toml";
 
+/// How the header of every generated file begins, whatever the version of hulkgen.
+pub const SIGNATURE: &str = "Written by `hulkgen generate`";
+
+/// Whether a file says that hulkgen wrote it.
+pub fn says_generated(text: &str) -> bool {
+    text.contains(SIGNATURE)
+}
+
 /// A robot's workspace, on disk or in memory.
 #[derive(Debug)]
 pub struct Workspace {

@@ -83,6 +83,8 @@ pub struct Cycle {
     pub time: CycleTime,
     /// Whether its nodes are timed.
     pub timed: bool,
+    /// Whether it has not begun: setup nodes are waiting for what it will be about.
+    pub in_setup: bool,
 }
 
 /// Where a body writes what others read, and what it wrote there in its last finished cycle.

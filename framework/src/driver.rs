@@ -1,8 +1,10 @@
 //! Two ways to turn the same instances: [`threads`] in the real world, [`lockstep`] on a virtual clock.
 
 pub mod lockstep;
+pub mod observer;
 pub mod safe_state;
 pub mod threads;
 
 pub use lockstep::Lockstep;
+pub use observer::Observer;
 pub use safe_state::SafeState;

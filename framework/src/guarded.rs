@@ -10,7 +10,7 @@ use serde::de::DeserializeOwned;
 
 use crate::cycler::Cycle;
 use crate::error::{Error, Result};
-use crate::report::NodeReport;
+use crate::report::{NodeReport, tell};
 use crate::time::Timestamp;
 use crate::timing::{Histogram, Tally};
 
@@ -58,6 +58,8 @@ pub struct Guarded<N> {
     node: N,
     /// It panicked: its state cannot be trusted until it is created anew.
     broken: bool,
+    /// Why it could not be created anew.
+    not_renewed: Option<String>,
     /// Timestamp of the last cycle in which it did not fail.
     good_at: Option<Timestamp>,
     calls: u64,
@@ -75,6 +77,7 @@ impl<N> Guarded<N> {
             on_failure,
             node,
             broken: false,
+            not_renewed: None,
             good_at: None,
             calls: 0,
             skipped: 0,
@@ -90,10 +93,10 @@ impl<N> Guarded<N> {
         cycle: Cycle,
         call: impl FnOnce(&mut N) -> Result<O, E>,
     ) -> Result<O> {
-        if self.broken {
-            return Err(self.failed(Error::new("it panicked and could not be created anew")));
-        }
         self.calls += 1;
+        if self.broken {
+            return Err(self.refused(cycle));
+        }
         let stopwatch = cycle.timed.then(Stopwatch::start);
         let inside = panics::enter(self.name);
         let node = &mut self.node;
@@ -111,8 +114,8 @@ impl<N> Guarded<N> {
                 self.good_at = Some(cycle.time.start);
                 Ok(outputs)
             }
-            Some(Err(error)) => Err(self.failed(error.into())),
-            None => Err(self.panicked(caught)),
+            Some(Err(error)) => Err(self.failed(error.into(), cycle)),
+            None => Err(self.panicked(caught, cycle)),
         }
     }
 
@@ -125,7 +128,7 @@ impl<N> Guarded<N> {
     ) -> Result<Option<O>> {
         match self.call(cycle, call) {
             Ok(outputs) => Ok(Some(outputs)),
-            Err(error) if ends_cycle(&error) => Err(error),
+            Err(error) if ends_cycle(&error, cycle) => Err(error),
             Err(_) => Ok(None),
         }
     }
@@ -139,7 +142,7 @@ impl<N> Guarded<N> {
     ) -> Result<Held<O>> {
         match self.call(cycle, call) {
             Ok(outputs) => Ok(Held::Written(outputs)),
-            Err(error) if ends_cycle(&error) => Err(error),
+            Err(error) if ends_cycle(&error, cycle) => Err(error),
             Err(_) => Ok(match self.good_at {
                 Some(good_at) if cycle.time.start - good_at <= LONGEST_HOLD => Held::Hold,
                 _ => Held::Skip,
@@ -170,6 +173,7 @@ impl<N> Guarded<N> {
     pub fn renew(&mut self, node: N) {
         self.node = node;
         self.broken = false;
+        self.not_renewed = None;
     }
 
     /// The node, for its `restore` in a replay.
@@ -196,30 +200,44 @@ impl<N> Guarded<N> {
                 Ok(())
             }
             Err(error) => {
-                let error = error.of_node(self.name, Some(self.on_failure));
                 match self.on_failure {
-                    OnFailure::Skip | OnFailure::Hold if !ends_cycle(&error) => Ok(()),
-                    _ => Err(error),
+                    OnFailure::Skip | OnFailure::Hold if !error.is_stopped() => {
+                        // The next failure names the node itself.
+                        self.not_renewed = Some(Error::from(error.into_boxed()).to_string());
+                        Ok(())
+                    }
+                    on_failure => Err(error.of_node(self.name, Some(on_failure))),
                 }
             }
         }
     }
 
     #[cold]
-    fn panicked(&mut self, caught: std::thread::Result<()>) -> Error {
+    fn panicked(&mut self, caught: std::thread::Result<()>, cycle: Cycle) -> Error {
         self.broken = true;
-        self.failed(panics::of_caught(caught))
+        self.failed(panics::of_caught(caught), cycle)
+    }
+
+    /// The failure of a call that cannot be made.
+    #[cold]
+    fn refused(&mut self, cycle: Cycle) -> Error {
+        let message = match &self.not_renewed {
+            Some(reason) => format!("it panicked and could not be created anew: {reason}"),
+            None => "it panicked and was not created anew".to_owned(),
+        };
+        self.failed(Error::new(message), cycle)
     }
 
     #[cold]
-    fn failed(&mut self, error: Error) -> Error {
+    fn failed(&mut self, error: Error, cycle: Cycle) -> Error {
         let error = error.of_node(self.name, Some(self.on_failure));
-        if !ends_cycle(&error) {
+        if !ends_cycle(&error, cycle) {
             self.failures += 1;
             Tally::change(|tally| tally.failures += 1);
             // Every failure is counted; a node that fails in every cycle must not flood the terminal.
             if self.failures.is_power_of_two() {
-                eprintln!("{error} (failure {} of this node)", self.failures);
+                let failures = self.failures;
+                tell(format_args!("{error} (failure {failures} of this node)"));
             }
         }
         error
@@ -259,8 +277,10 @@ pub(crate) fn contain<T>(what: &'static str, run: impl FnOnce() -> Result<T>) ->
 }
 
 /// Whether the error is no failure of the node but says that this cycle is not to be.
-fn ends_cycle(error: &Error) -> bool {
-    error.is_stopped() || error.is_no_event()
+///
+/// Only setup nodes can find that nothing came: once a cycle has begun, it is about something.
+fn ends_cycle(error: &Error, cycle: Cycle) -> bool {
+    error.is_stopped() || (cycle.in_setup && error.is_no_event())
 }
 
 /// Measures a node without what it is blocked inside the hardware interface.

@@ -23,7 +23,7 @@ use crate::driver::threads;
 use crate::error::{Error, Result};
 use crate::hardware::{Hardware, HardwareContext};
 use crate::parameters::{Layers, Parameters};
-use crate::report::RobotReport;
+use crate::report::{RobotReport, tell};
 use crate::robot::{Robot, Start};
 use crate::stop::Stop;
 use crate::timing;
@@ -79,7 +79,7 @@ where
         Ok(Command::Run(options)) => *options,
         Ok(Command::Help) => return status_of(write!(output, "{}", options::help(&target))),
         Err(error) => {
-            eprintln!("error: {error}\n\n{}", options::help(&target));
+            tell(format_args!("error: {error}\n\n{}", options::help(&target)));
             return WRONG_USAGE;
         }
     };
@@ -89,7 +89,8 @@ where
         let supervisor = Supervisor::start(signals.clone(), stop.clone())?;
         let result = start_and_run(&target, &options, &stop, &supervisor, output, create);
         stop.request();
-        supervisor.join();
+        // The robot's own error comes first: the supervisor's may be its consequence.
+        let result = result.and(supervisor.join());
         // What fails while the user interrupts is mostly the interruption.
         if signals.interrupted() && result.as_ref().is_err_and(Error::is_stopped) {
             return Ok(INTERRUPTED);
@@ -103,7 +104,7 @@ where
         })
     });
     result.unwrap_or_else(|error| {
-        eprintln!("error: {error}");
+        tell(format_args!("error: {error}"));
         FAILED
     })
 }
@@ -134,15 +135,24 @@ where
     };
     let mut robot = create(&hardware, start)?;
 
+    tell(format_args!(
+        "robot {} on target {}; Ctrl-C stops it",
+        target.robot, target.name
+    ));
     supervisor.watch(&robot, options.duration);
     let started = clock.now();
-    let result = threads::run(&mut robot, hardware.as_ref(), stop);
+    let result = threads::run(&mut robot.instances, &clock, hardware.as_ref(), stop);
     let report = RobotReport::new(target.name, clock.now() - started, &robot);
-    match options.format {
-        Format::Json => writeln!(output, "{}", report.to_json())?,
-        Format::Text => eprint!("{report}"),
-    }
-    result
+    let written = match options.format {
+        Format::Json => writeln!(output, "{}", report.to_json()),
+        Format::Text => {
+            tell(format_args!("{}", report.to_string().trim_end()));
+            Ok(())
+        }
+    };
+    // Why the robot failed matters more than a reader who left.
+    result?;
+    written.map_err(|error| Error::from(error).context("cannot write the report"))
 }
 
 fn connect<H: Hardware>(

@@ -3,6 +3,8 @@
 mod json;
 mod text;
 
+use std::fmt;
+use std::io::Write;
 use std::time::Duration;
 
 use crate::cycler::{Counts, InstanceDescription};
@@ -73,6 +75,12 @@ pub struct QueueReport {
     pub from: &'static str,
     /// Its cycles, as far as this consumer is concerned.
     pub counts: QueueCounts,
+}
+
+/// Tells whoever watches standard error, in one piece; if nobody can read it, the robot goes on.
+pub(crate) fn tell(message: fmt::Arguments<'_>) {
+    let text = format!("{message}\n");
+    let _ = std::io::stderr().lock().write_all(text.as_bytes());
 }
 
 impl RobotReport {

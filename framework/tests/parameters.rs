@@ -193,6 +193,29 @@ fn the_directory_may_choose_the_location() {
 }
 
 #[test]
+fn a_location_that_is_not_there_is_an_error_with_those_that_are() {
+    let files = [
+        ("default.toml", DEFAULT),
+        ("lab/default.toml", ""),
+        ("cup/default.toml", ""),
+    ];
+    let message = error(&files, |layers| layers.location = Some("lap".to_owned()));
+    assert!(
+        message.ends_with("has no location `lap`: there are cup, lab; did you mean `lab`?"),
+        "{message}"
+    );
+    let chosen = [
+        ("default.toml", DEFAULT),
+        ("parameters.toml", "location = \"outside\"\n"),
+    ];
+    let message = error(&chosen, |_| ());
+    assert!(
+        message.ends_with("has no location `outside`: it has none"),
+        "{message}"
+    );
+}
+
+#[test]
 fn every_value_knows_its_place() {
     let (directory, mut layers) = layers(&[("default.toml", DEFAULT)]);
     layers.settings = pairs(&[("ball.mass", "1")]);

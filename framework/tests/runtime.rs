@@ -8,6 +8,10 @@ mod clients;
 mod failures;
 #[path = "runtime/lockstep.rs"]
 mod lockstep;
+#[path = "runtime/observer.rs"]
+mod observer;
+#[path = "runtime/process.rs"]
+mod process;
 #[path = "runtime/reports.rs"]
 mod reports;
 #[path = "runtime/scripted.rs"]

@@ -4,8 +4,7 @@ use camino::{Utf8Component, Utf8Path, Utf8PathBuf};
 
 use super::Manifest;
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
-use crate::drift::says_generated;
-use crate::workspace::{MANIFEST, Workspace};
+use crate::workspace::{MANIFEST, Workspace, says_generated};
 
 pub(super) fn check(workspace: &Workspace, manifest: &Manifest, diagnostics: &mut Diagnostics) {
     if let Some(message) = mistake(workspace, manifest) {

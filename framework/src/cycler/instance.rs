@@ -24,7 +24,8 @@ pub trait Instance: Send {
     /// Lets the setup nodes wait for the outside world; `Err` if the robot has to stop.
     fn wait(&mut self) -> Result<Waited>;
 
-    /// Gives the cycle its timestamp, announces it or consumes, and takes everything it may read.
+    /// Gives the cycle its timestamp, announces it or consumes, and takes everything it may read; a cycle that began before
+    /// and was not finished is abandoned.
     fn begin(&mut self);
 
     /// Runs the nodes; a failure takes effect in `finish`.

@@ -113,6 +113,7 @@ impl<B: Body> Cycler<B> {
             number,
             time,
             timed,
+            ..
         } = self.cycle;
         self.writer.complete(number, time.start);
         self.finished = number;
@@ -162,6 +163,7 @@ impl<B: Body> Instance for Cycler<B> {
             number,
             time: self.cycle.time,
             timed: self.timed,
+            in_setup: true,
         };
         let Self {
             body,
@@ -184,9 +186,12 @@ impl<B: Body> Instance for Cycler<B> {
                 self.captured = captured;
                 Ok(Waited::Ready)
             }
+            Err(error) if error.is_no_event() && !error.is_stopped() => {
+                self.counters.no_events.add(1);
+                Ok(Waited::NoEvent)
+            }
             Err(error) => Ok(match self.judge(error, self.description.on_failure)? {
                 Consequence::Stopped => Waited::Stopped,
-                Consequence::NoEvent => Waited::NoEvent,
                 Consequence::StartOver => Waited::Failed,
                 Consequence::Restart { at } => Waited::Restarting { at },
             }),
@@ -195,6 +200,7 @@ impl<B: Body> Instance for Cycler<B> {
 
     #[inline]
     fn begin(&mut self) {
+        self.abandon();
         let (now, moment) = self.clock.read();
         self.stopwatch.begin(self.timed, moment);
         let start = self.timestamp(now);
@@ -206,6 +212,7 @@ impl<B: Body> Instance for Cycler<B> {
             number: self.cycle.number + 1,
             time: CycleTime { start, since_last },
             timed: self.timed,
+            in_setup: false,
         };
         self.phase = Phase::Begun {
             restarted: self.phase.restarted(),
@@ -276,7 +283,7 @@ impl<B: Body> Instance for Cycler<B> {
         self.give_up();
         Ok(match self.judge(error, self.description.on_failure)? {
             Consequence::Stopped => Finished::Stopped,
-            Consequence::NoEvent | Consequence::StartOver => Finished::Abandoned,
+            Consequence::StartOver => Finished::Abandoned,
             Consequence::Restart { at } => Finished::Restarting { at },
         })
     }
@@ -304,7 +311,7 @@ impl<B: Body> Instance for Cycler<B> {
             Err(error) => Ok(match self.judge(error, OnFailure::Restart)? {
                 Consequence::Stopped => Restarted::Stopped,
                 Consequence::Restart { at } => Restarted::Again { at },
-                Consequence::NoEvent | Consequence::StartOver => Restarted::Again {
+                Consequence::StartOver => Restarted::Again {
                     at: self.clock.now() + super::PAUSE_AFTER_SETUP_FAILURE,
                 },
             }),

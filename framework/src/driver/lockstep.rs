@@ -7,19 +7,22 @@
 //! At equal times: every `finish`, then restarts, then every `wait`, each in manifest order. An event of an instance that
 //! has not finished stays due. Same events, same bits.
 
-use super::SafeState;
-use crate::cycler::{Finished, Instance, Restarted, Waited};
+use super::observer::Observed;
+use super::{Observer, SafeState};
+use crate::cycler::{Finished, Instance, InstanceDescription, Restarted, Waited};
 use crate::error::{Error, Result};
 use crate::hardware::{Event, Hardware};
 use crate::robot::Robot;
 use crate::time::Timestamp;
 
-/// Turns the instances of one robot, step by step.
+/// Turns the instances of one robot, step by step. Dropping it abandons the cycles that are not finished.
 pub struct Lockstep<'robot, P> {
     robot: &'robot mut Robot<P>,
     hardware: &'robot dyn Hardware,
     safe_state: SafeState<'robot>,
     tracks: Vec<Track>,
+    /// In the order of the instances.
+    observers: Vec<Observed<'robot>>,
     /// Asked of the hardware, not done yet.
     ahead: Option<Arrival>,
     /// The hardware has no more events.
@@ -101,6 +104,11 @@ impl<'robot, P> Lockstep<'robot, P> {
         });
         Self {
             tracks: tracks.collect(),
+            observers: robot
+                .instances
+                .iter()
+                .map(|_| Observed::default())
+                .collect(),
             robot,
             hardware,
             safe_state: SafeState::new(hardware),
@@ -108,6 +116,18 @@ impl<'robot, P> Lockstep<'robot, P> {
             world_has_ended: false,
             stopped: false,
         }
+    }
+
+    /// The same with the observers that `observer_of` gives.
+    #[must_use]
+    pub fn observed<'observer: 'robot>(
+        mut self,
+        mut observer_of: impl FnMut(&InstanceDescription) -> Option<Box<dyn Observer + 'observer>>,
+    ) -> Self {
+        for (observed, instance) in self.observers.iter_mut().zip(&self.robot.instances) {
+            *observed = Observed::by(observer_of(instance.description()));
+        }
+        self
     }
 
     /// The robot between two steps.
@@ -149,13 +169,15 @@ impl<'robot, P> Lockstep<'robot, P> {
     pub fn stop(&mut self) {
         if !self.stopped {
             self.stopped = true;
-            self.robot
-                .instances
-                .iter_mut()
-                .for_each(|instance| instance.abandon());
+            self.abandon();
             self.safe_state.enter();
             self.hardware.stop();
         }
+    }
+
+    fn abandon(&mut self) {
+        let instances = self.robot.instances.iter_mut();
+        instances.for_each(|instance| instance.abandon());
     }
 
     fn next(&mut self) -> Result<Option<(Timestamp, Deed, usize)>> {
@@ -188,13 +210,17 @@ impl<'robot, P> Lockstep<'robot, P> {
         if self.ahead.is_some() || self.world_has_ended {
             return Ok(());
         }
-        match self.hardware.next_event() {
-            Ok(Some(event)) => self.ahead = Some(self.arrival(event)?),
+        let event = self
+            .hardware
+            .next_event()
+            .map_err(|error| error.context("the hardware has no next event"));
+        match event.and_then(|event| event.map(|event| self.arrival(event)).transpose()) {
+            Ok(Some(arrival)) => self.ahead = Some(arrival),
             Ok(None) => self.world_has_ended = true,
             Err(error) if error.is_stopped() => self.world_has_ended = true,
             Err(error) => {
                 self.stop();
-                return Err(error.context("the hardware has no next event"));
+                return Err(error);
             }
         }
         Ok(())
@@ -260,6 +286,7 @@ impl<'robot, P> Lockstep<'robot, P> {
         match instance.wait()? {
             Waited::Ready => {
                 instance.begin();
+                self.observers[index].begun(instance)?;
                 instance.run();
                 let until = at + instance.description().duration_in_lockstep();
                 track.state = State::Running { until };
@@ -281,8 +308,10 @@ impl<'robot, P> Lockstep<'robot, P> {
 
     fn finish(&mut self, at: Timestamp, index: usize) -> Result<Step> {
         self.become_idle(at, index);
-        let finished = self.robot.instances[index].finish()?;
-        let description = self.robot.instances[index].description();
+        let instance = self.robot.instances[index].as_mut();
+        let finished = instance.finish()?;
+        self.observers[index].finished(instance, finished)?;
+        let description = instance.description();
         match finished {
             Finished::Completed | Finished::Abandoned => {}
             Finished::Recovered => self.safe_state.leave_after_restart(description),
@@ -310,5 +339,11 @@ impl<'robot, P> Lockstep<'robot, P> {
         let track = &mut self.tracks[index];
         track.state = State::Idle;
         track.due = track.due.map(|_| now);
+    }
+}
+
+impl<P> Drop for Lockstep<'_, P> {
+    fn drop(&mut self) {
+        self.abandon();
     }
 }

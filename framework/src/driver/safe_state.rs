@@ -6,6 +6,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use crate::cycler::{InstanceDescription, Kind};
 use crate::guarded::contain;
 use crate::hardware::Hardware;
+use crate::report::tell;
 
 /// Calls [`Hardware::enter_safe_state`] at most once until it is re-armed, whoever asks.
 pub struct SafeState<'hardware> {
@@ -83,7 +84,7 @@ impl<'hardware> SafeState<'hardware> {
             Ok(())
         });
         if let Err(error) = changed {
-            eprintln!("{name}: {error}");
+            tell(format_args!("{name}: {error}"));
         }
     }
 }

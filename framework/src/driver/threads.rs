@@ -4,7 +4,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::Duration;
 
-use super::SafeState;
+use super::observer::Observed;
+use super::{Observer, SafeState};
 use crate::clock::Clock;
 use crate::cycler::{
     Counters, Finished, Instance, InstanceDescription, Kind, PAUSE_AFTER_SETUP_FAILURE, Restarted,
@@ -13,15 +14,32 @@ use crate::cycler::{
 use crate::error::{Error, Result};
 use crate::guarded::contain;
 use crate::hardware::Hardware;
-use crate::robot::Robot;
+use crate::report::tell;
 use crate::stop::Stop;
 use crate::time::Timestamp;
 
 /// Runs until the stop is requested or an instance fails for good, which is the error.
 ///
-/// Either way the robot stops in order: safe state, [`Hardware::stop`], then every thread ends its cycle.
-pub fn run<P>(robot: &mut Robot<P>, hardware: &dyn Hardware, stop: &Stop) -> Result<()> {
-    if robot.clock.is_stepped() {
+/// Either way the robot stops in order: safe state, [`Hardware::stop`], then every thread ends its cycle. It takes the
+/// instances and not the robot, so that clients may use the rest of it meanwhile.
+pub fn run(
+    instances: &mut [Box<dyn Instance>],
+    clock: &Clock,
+    hardware: &dyn Hardware,
+    stop: &Stop,
+) -> Result<()> {
+    run_observed(instances, clock, hardware, stop, |_| None)
+}
+
+/// As [`run`], with the observers that `observer_of` gives.
+pub fn run_observed<'run>(
+    instances: &mut [Box<dyn Instance>],
+    clock: &Clock,
+    hardware: &dyn Hardware,
+    stop: &Stop,
+    mut observer_of: impl FnMut(&InstanceDescription) -> Option<Box<dyn Observer + 'run>>,
+) -> Result<()> {
+    if clock.is_stepped() {
         return Err(Error::new("threads need a wall clock: Clock::wall()"));
     }
     let failure = Mutex::new(None);
@@ -29,33 +47,46 @@ pub fn run<P>(robot: &mut Robot<P>, hardware: &dyn Hardware, stop: &Stop) -> Res
         let mut failure = failure.lock().unwrap_or_else(PoisonError::into_inner);
         match *failure {
             // The first failure stops the robot; what follows may be its consequence.
-            Some(_) => eprintln!("{error}"),
+            Some(_) => tell(format_args!("{error}")),
             None => *failure = Some(error),
         }
         stop.request();
     };
     let safe_state = SafeState::new(hardware);
-    let watched = Watched::all(&robot.instances);
+    let watched = Watched::all(instances);
     thread::scope(|scope| {
-        for instance in &mut robot.instances {
+        for instance in instances {
             let description = *instance.description();
             let turning = Turning {
-                clock: &robot.clock,
+                clock,
                 stop,
                 safe_state: &safe_state,
             };
+            let mut observed = Observed::by(observer_of(&description));
             let spawned = thread::Builder::new()
                 .name(description.name.to_owned())
-                .spawn_scoped(scope, move || match turning.turn(instance.as_mut()) {
-                    Ok(()) => stop.request(),
-                    Err(error) => fail(error.context(format!("{} failed", description.name))),
+                .spawn_scoped(scope, move || {
+                    // Nodes keep their panics to themselves; this is for everything around them.
+                    let turned = contain(description.name, || {
+                        turning.turn(instance.as_mut(), &mut observed)
+                    });
+                    match turned {
+                        Ok(()) => stop.request(),
+                        Err(error) => fail(error.context(format!("{} failed", description.name))),
+                    }
+                    // What a panic has left.
+                    instance.abandon();
                 });
             if let Err(error) = spawned {
                 fail(Error::from(error).context(format!("no thread for {}", description.name)));
                 break;
             }
         }
-        watch(&watched, &robot.clock, stop, &safe_state);
+        let watching = contain("watchdog", || {
+            watch(&watched, clock, stop, &safe_state);
+            Ok(())
+        });
+        watching.unwrap_or_else(|error| fail(error.context("the watchdog failed")));
         safe_state.enter();
         let stopped = contain("Hardware::stop", || {
             hardware.stop();
@@ -76,13 +107,16 @@ struct Turning<'run> {
 
 impl Turning<'_> {
     /// Cycle after cycle until the robot stops.
-    fn turn(&self, instance: &mut dyn Instance) -> Result<()> {
+    fn turn(&self, instance: &mut dyn Instance, observed: &mut Observed<'_>) -> Result<()> {
         while !self.stop.is_requested() {
             let next = match instance.wait()? {
                 Waited::Ready => {
                     instance.begin();
+                    observed.begun(instance)?;
                     instance.run();
-                    instance.finish()?
+                    let finished = instance.finish()?;
+                    observed.finished(instance, finished)?;
+                    finished
                 }
                 Waited::NoEvent => Finished::Abandoned,
                 Waited::Failed => {
@@ -159,7 +193,9 @@ fn watch(watched: &[Watched], clock: &Clock, stop: &Stop, safe_state: &SafeState
             if now - begun_at > limit && *alarmed != Some(begun_at) {
                 *alarmed = Some(begun_at);
                 let name = watched.description.name;
-                eprintln!("{name} has not finished a cycle for {limit:?}: safe state");
+                tell(format_args!(
+                    "{name} has not finished a cycle for {limit:?}: safe state"
+                ));
                 safe_state.enter();
             }
         }

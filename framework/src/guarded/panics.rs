@@ -9,6 +9,7 @@ use std::panic::{PanicHookInfo, set_hook, take_hook};
 use std::sync::Once;
 
 use crate::error::Error;
+use crate::report::tell;
 
 thread_local! {
     static INSIDE: Cell<Option<&'static str>> = const { Cell::new(None) };
@@ -42,7 +43,7 @@ pub(super) fn install_hook() {
         set_hook(Box::new(move |panic| match INSIDE.get() {
             Some(name) => {
                 let message = describe(panic);
-                eprintln!("`{name}` {message}");
+                tell(format_args!("`{name}` {message}"));
                 LAST.set(Some(message));
             }
             None => before(panic),

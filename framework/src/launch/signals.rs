@@ -1,9 +1,10 @@
-//! Ctrl-C and the system's request to terminate: the first asks for an orderly stop, a second Ctrl-C ends the process.
+//! Ctrl-C, the system's request to terminate, the end of the terminal: the first asks for an orderly stop, a second Ctrl-C
+//! ends the process.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use signal_hook::consts::{SIGINT, SIGTERM};
+use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 use signal_hook::flag;
 
 use super::INTERRUPTED;
@@ -31,6 +32,8 @@ impl Signals {
         )?;
         flag::register(SIGINT, signals.interrupted.clone())?;
         flag::register(SIGTERM, signals.terminated.clone())?;
+        // The terminal or the connection to the robot is gone; the robot still has to stop in order.
+        flag::register(SIGHUP, signals.terminated.clone())?;
         Ok(signals)
     }
 

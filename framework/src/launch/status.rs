@@ -7,17 +7,20 @@ use std::time::{Duration, Instant};
 
 use super::signals::Signals;
 use crate::cycler::{Counters, Counts};
-use crate::error::Result;
+use crate::error::{Error, Result};
+use crate::guarded::contain;
+use crate::report::tell;
 use crate::robot::Robot;
 use crate::stop::Stop;
 
 const PERIOD: Duration = Duration::from_millis(20);
 const SHOWN_EVERY: Duration = Duration::from_secs(1);
 
-/// The thread that looks after the run.
+/// The thread that looks after the run. Dropping it requests the stop.
 pub(super) struct Supervisor {
+    stop: Stop,
     watched: Arc<Mutex<Option<Watched>>>,
-    thread: JoinHandle<()>,
+    thread: Option<JoinHandle<Result<()>>>,
 }
 
 /// What there is to look after once the robot was created.
@@ -39,18 +42,19 @@ impl Supervisor {
     pub(super) fn start(signals: Signals, stop: Stop) -> Result<Self> {
         let watched = Arc::new(Mutex::new(None));
         let seen = watched.clone();
+        let of_thread = stop.clone();
+        let is_over = move || {
+            let is_over = lock(&seen).as_mut().is_some_and(Watched::look);
+            is_over || signals.any()
+        };
         let thread = thread::Builder::new()
             .name("supervisor".to_owned())
-            .spawn(move || {
-                while stop.wait(PERIOD).is_ok() {
-                    let mut watched = lock(&seen);
-                    let is_over = watched.as_mut().is_some_and(Watched::look);
-                    if is_over || signals.any() {
-                        stop.request();
-                    }
-                }
-            })?;
-        Ok(Self { watched, thread })
+            .spawn(move || supervise(&of_thread, is_over))?;
+        Ok(Self {
+            stop,
+            watched,
+            thread: Some(thread),
+        })
     }
 
     /// From now on the robot's status is shown, and it is stopped after `duration`.
@@ -70,11 +74,33 @@ impl Supervisor {
     }
 
     /// Waits for the thread, which ends when the stop was requested.
-    pub(super) fn join(self) {
-        if self.thread.join().is_err() {
-            eprintln!("the supervisor panicked");
-        }
+    pub(super) fn join(mut self) -> Result<()> {
+        let joined = self.thread.take().map(JoinHandle::join);
+        // Its panics are errors already.
+        joined.map_or(Ok(()), |joined| {
+            joined.unwrap_or_else(|_| Err(Error::new("the supervisor panicked")))
+        })
     }
+}
+
+impl Drop for Supervisor {
+    fn drop(&mut self) {
+        self.stop.request();
+    }
+}
+
+/// Requests the stop when the run is over, and when it can no longer be told whether it is.
+fn supervise(stop: &Stop, mut is_over: impl FnMut() -> bool) -> Result<()> {
+    let supervised = contain("supervisor", || {
+        while stop.wait(PERIOD).is_ok() {
+            if is_over() {
+                stop.request();
+            }
+        }
+        Ok(())
+    });
+    stop.request();
+    supervised.map_err(|error| error.context("the supervisor failed"))
 }
 
 impl Watched {
@@ -88,7 +114,7 @@ impl Watched {
             for instance in &mut self.instances {
                 instance.write(since_shown, &mut line);
             }
-            eprintln!("{line}");
+            tell(format_args!("{line}"));
         }
         self.duration
             .is_some_and(|duration| now - self.started >= duration)
@@ -118,4 +144,33 @@ impl Line {
 
 fn lock(watched: &Mutex<Option<Watched>>) -> std::sync::MutexGuard<'_, Option<Watched>> {
     watched.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_supervisor_that_panics_stops_the_robot_with_an_error() {
+        let stop = Stop::new();
+        let error = supervise(&stop, || panic!("as the test wants")).expect_err("it panicked");
+        assert!(stop.is_requested());
+        let message = error.to_string();
+        assert!(
+            message.contains("supervisor failed") && message.contains("as the test wants"),
+            "{message}"
+        );
+    }
+
+    #[test]
+    fn a_supervisor_that_is_dropped_requests_the_stop() {
+        let stop = Stop::new();
+        let supervisor = Supervisor {
+            stop: stop.clone(),
+            watched: Arc::default(),
+            thread: None,
+        };
+        drop(supervisor);
+        assert!(stop.is_requested());
+    }
 }

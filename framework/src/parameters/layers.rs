@@ -8,6 +8,7 @@ use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
 use super::error::{Origin, ParameterError};
+use super::nearest::nearest;
 use super::tree::{self, Tree, Value};
 use super::{deserialize, from_text};
 use crate::error::{Error, Result};
@@ -51,6 +52,9 @@ impl Layers {
     /// Reads and merges all layers that are there.
     pub fn load(&self) -> Result<Parameters> {
         let location = self.location()?;
+        if let Some(location) = &location {
+            self.check_location(location)?;
+        }
         let mut parameters = Parameters {
             tree: Tree::empty(Origin::File {
                 path: display(&self.directory).into(),
@@ -110,6 +114,36 @@ impl Layers {
             .map(|text| from_text(&display(&path), &text))
             .transpose()?;
         Ok(choice.and_then(|choice| choice.location))
+    }
+
+    /// A location is a folder beside the layers; a misspelt one would change nothing and tell nobody.
+    fn check_location(&self, location: &str) -> Result<()> {
+        // Without the directory the first layer is missing, which says more.
+        if self.directory.join(location).is_dir() || !self.directory.is_dir() {
+            return Ok(());
+        }
+        let directory = display(&self.directory);
+        let known = self.known_locations();
+        let there_are = match known.as_slice() {
+            [] => "it has none".to_owned(),
+            _ => format!("there are {}", known.join(", ")),
+        };
+        let near = nearest(location, known.iter().map(String::as_str));
+        let hint = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+        Err(Error::new(format!(
+            "{directory} has no location `{location}`: {there_are}{hint}"
+        )))
+    }
+
+    /// Sorted; nothing if the directory cannot be read.
+    fn known_locations(&self) -> Vec<String> {
+        let entries = fs::read_dir(&self.directory).into_iter().flatten();
+        let folders = entries.flatten().filter(|entry| entry.path().is_dir());
+        let mut known: Vec<_> = folders
+            .map(|entry| entry.file_name().display().to_string())
+            .collect();
+        known.sort_unstable();
+        known
     }
 }
 

@@ -54,26 +54,30 @@ fn write_remarks(instance: &InstanceReport, formatter: &mut fmt::Formatter<'_>) 
     let name = instance.description.name;
     let counts = &instance.counts;
     let happened = [
-        (counts.abandoned, "cycles abandoned"),
-        (counts.restarts, "restarts"),
-        (counts.no_events, "waits without an event"),
-        (counts.corrected, "capture times replaced"),
-        (counts.missed, "events missed"),
+        (counts.abandoned, "cycle", "abandoned"),
+        (counts.restarts, "restart", ""),
+        (counts.no_events, "wait", "without an event"),
+        (counts.corrected, "capture time", "replaced"),
+        (counts.missed, "event", "missed"),
     ];
-    for (count, what) in happened.iter().filter(|(count, _)| *count > 0) {
-        writeln!(formatter, "{name}: {count} {what}")?;
+    for (count, what, how) in happened.into_iter().filter(|(count, ..)| *count > 0) {
+        let line = format!("{name}: {} {how}", plural(count, what));
+        writeln!(formatter, "{}", line.trim_end())?;
     }
     for (node, overruns) in &instance.slowest {
         writeln!(
             formatter,
-            "{name}: `{node}` took longest in {overruns} overruns"
+            "{name}: `{node}` took longest in {}",
+            plural(*overruns, "overrun")
         )?;
     }
     for node in instance.nodes.iter().filter(|node| node.failures > 0) {
         writeln!(
             formatter,
-            "{name}: `{}` failed in {} of {} calls",
-            node.node, node.failures, node.calls
+            "{name}: `{}` failed in {} of {}",
+            node.node,
+            node.failures,
+            plural(node.calls, "call")
         )?;
     }
     for queue in instance
@@ -89,6 +93,11 @@ fn write_remarks(instance: &InstanceReport, formatter: &mut fmt::Formatter<'_>) 
         )?;
     }
     Ok(())
+}
+
+fn plural(count: u64, what: &str) -> String {
+    let ending = if count == 1 { "" } else { "s" };
+    format!("{count} {what}{ending}")
 }
 
 fn quantile(histogram: &Histogram, share: f64) -> String {

@@ -77,7 +77,26 @@ pub(crate) struct Plan {
     pub(crate) captured: Option<fn(Timestamp) -> Timestamp>,
     /// A node that asks the real time: the mistake that lockstep runs must show.
     pub(crate) reads_instant: bool,
+    /// A panic outside of every node and of what the framework contains.
+    pub(crate) nodes_panic: bool,
     pub(crate) answer: Option<fn(u32) -> Result<u32, String>>,
+}
+
+/// The perception instances that an instance consumes, at most two, by name.
+#[derive(Default)]
+pub(crate) struct Perception {
+    horizon: Horizon,
+    consumers: Vec<(&'static str, Consumer<SharedOutputs>)>,
+}
+
+impl Perception {
+    fn consume(&mut self, now: Timestamp) {
+        match self.consumers.as_mut_slice() {
+            [] => {}
+            [(_, only)] => self.horizon.consume(now, [only]),
+            [(_, first), (_, second), ..] => self.horizon.consume(now, [first, second]),
+        }
+    }
 }
 
 pub(crate) struct TestBody {
@@ -92,7 +111,7 @@ pub(crate) struct TestBody {
     pub(crate) injections: Reader<Injected<Injections>>,
     pub(crate) subscriptions: Subscriptions,
     pub(crate) double: Answerer<u32, u32>,
-    pub(crate) perception: Option<(Horizon, Consumer<SharedOutputs>)>,
+    pub(crate) perception: Perception,
     pub(crate) on_failure: OnFailure,
     pub(crate) plan: Plan,
 }
@@ -143,7 +162,7 @@ impl TestBody {
     fn perceive(&self, shared: &mut SharedOutputs) {
         shared.persistent.clear();
         shared.transient.clear();
-        if let Some((_, consumer)) = &self.perception {
+        for (_, consumer) in &self.perception.consumers {
             let projection = consumer.project(|outputs: &SharedOutputs| &outputs.value);
             let input = PerceptionInput::new(&projection);
             shared
@@ -191,9 +210,7 @@ impl Body for TestBody {
         self.injections.take();
         self.subscribed = self.subscriptions.contains(0);
         self.double.take();
-        if let Some((horizon, consumer)) = &mut self.perception {
-            horizon.consume(cycle.time.start, [consumer]);
-        }
+        self.perception.consume(cycle.time.start);
         if let Some(injections) = self.injections.view().get() {
             injections.raw.replace(&mut self.own.both().0.raw);
         }
@@ -231,8 +248,8 @@ impl Body for TestBody {
             cycle: self.parameters.view().cycle(),
             kind: ReferenceKind::Latest,
         });
-        if let Some((_, consumer)) = &self.perception {
-            consumer.references("Eye", visit);
+        for (name, consumer) in &self.perception.consumers {
+            consumer.references(name, visit);
         }
     }
 
@@ -269,14 +286,15 @@ impl Body for TestBody {
     }
 
     fn nodes(&self, visit: &mut dyn FnMut(NodeReport)) {
+        assert!(!self.plan.nodes_panic, "nodes cannot be told");
         visit(self.receiver.report());
         visit(self.worker.report());
     }
 
     fn queues(&self, visit: &mut dyn FnMut(QueueReport)) {
-        if let Some((_, consumer)) = &self.perception {
+        for (from, consumer) in &self.perception.consumers {
             visit(QueueReport {
-                from: "Eye",
+                from,
                 counts: consumer.report(),
             });
         }
@@ -292,18 +310,19 @@ impl Body for TestBody {
     }
 }
 
-/// What the manifest of the test robot says about the two instances.
+/// What the manifest of the test robot says about its instances.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Setting {
     pub(crate) eye: Plan,
     pub(crate) legs: Plan,
     pub(crate) on_failure: OnFailure,
     pub(crate) eye_takes: Option<Duration>,
+    /// There is an `Ear`, and its cycles take so long.
+    pub(crate) ear_takes: Option<Duration>,
     pub(crate) deadline: Option<Duration>,
 }
 
 fn description(name: &'static str, kind: Kind, setting: &Setting) -> InstanceDescription {
-    let is_eye = kind == Kind::Perception;
     InstanceDescription {
         name,
         cycler: name,
@@ -313,25 +332,38 @@ fn description(name: &'static str, kind: Kind, setting: &Setting) -> InstanceDes
         pending_timeout: Duration::from_secs(1),
         watchdog: Duration::from_millis(100),
         history: Duration::from_secs(1),
-        lockstep_duration: setting.eye_takes.filter(|_| is_eye),
+        lockstep_duration: match name {
+            "Eye" => setting.eye_takes,
+            "Ear" => setting.ear_takes,
+            _ => None,
+        },
         scheduling: Scheduling::default(),
     }
 }
 
-/// `Eye` and `Legs`, in this order.
+/// `Eye` and `Legs`, in this order; then `Ear` if the setting wants one.
 pub(crate) fn robot(hardware: &Arc<ScriptedHardware>, setting: &Setting) -> Robot<Parameters> {
     let (eye, [], [eye_for_legs]) = buffer([8]);
     let (legs, [], []) = buffer([]);
-    let (parameters, [of_eye, of_legs], []) = buffer_of(|| Parameters { gain: 1 }, []);
+    let (ear, [], [ear_for_legs]) = buffer([8]);
+    let (parameters, [of_eye, of_legs, of_ear], []) = buffer_of(|| Parameters { gain: 1 }, []);
     let (mut instances, mut access): (Vec<Box<dyn Instance>>, Vec<_>) = Default::default();
-    let seen = Some((
-        Horizon::new(),
-        Consumer::new(eye_for_legs, Duration::from_secs(1)),
-    ));
-    let parts = [
-        ("Eye", Kind::Perception, eye, None, of_eye, &setting.eye),
+    let mut seen = Perception::default();
+    let mut queues = vec![("Eye", eye_for_legs)];
+    queues.extend(setting.ear_takes.map(|_| ("Ear", ear_for_legs)));
+    for (name, queue) in queues {
+        let consumer = Consumer::new(queue, Duration::from_secs(1));
+        seen.consumers.push((name, consumer));
+    }
+    let (none, heard) = (Perception::default(), Perception::default());
+    let ear_plan = Plan::default();
+    let mut parts = vec![
+        ("Eye", Kind::Perception, eye, none, of_eye, &setting.eye),
         ("Legs", Kind::RealTime, legs, seen, of_legs, &setting.legs),
     ];
+    if setting.ear_takes.is_some() {
+        parts.push(("Ear", Kind::Perception, ear, heard, of_ear, &ear_plan));
+    }
     for (name, kind, writer, perception, parameters, plan) in parts {
         let subscriptions = Subscriptions::new(&["debug.raw"]);
         let (injector, [injections], []) = buffer([]);

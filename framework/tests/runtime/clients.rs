@@ -24,6 +24,7 @@ fn run(
             .run_until(millis(number * 10), |_| ())
             .expect("nothing stops the robot");
     }
+    drop(lockstep);
     robot
 }
 

@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use framework::driver::lockstep::Step;
-use framework::{Error, Finished, Lockstep, OnFailure, Robot, Timestamp, Waited};
+use framework::{Cycle, Error, Finished, Guarded, Lockstep, OnFailure, Robot, Timestamp, Waited};
 
 use crate::body::{Parameters, Plan, Setting, robot};
 use crate::scripted::{Act, Log, Script, ScriptedHardware, millis};
@@ -50,6 +50,7 @@ fn run(plan: &Plan, on_failure: OnFailure, cycles: u64) -> Ran {
             Err(error) => break Some(error),
         }
     };
+    drop(lockstep);
     Ran {
         robot,
         steps,
@@ -278,6 +279,55 @@ fn a_setup_node_that_fails_under_stop_or_restart_does_that() {
         )
     );
     assert_eq!(ran.legs().restarts, 1);
+}
+
+#[test]
+fn no_event_of_a_node_that_is_no_setup_node_is_its_failure() {
+    let plan = works([Act::Work, Act::NoEvent]);
+    let ran = run(&plan, OnFailure::Skip, 3);
+    assert!(ran.error.is_none());
+    assert_eq!(ran.values, [1, 0, 3]);
+    let legs = ran.legs();
+    assert_eq!((legs.failures, legs.no_events, legs.abandoned), (1, 0, 0));
+
+    let plan = works([Act::Work, Act::Work, Act::NoEvent]);
+    let ran = run(&plan, OnFailure::Hold, 3);
+    assert_eq!(ran.values, [1, 2, 2]);
+
+    let ran = run(&works([Act::NoEvent]), OnFailure::Stop, 3);
+    let error = ran.error.expect("the robot stopped");
+    assert_eq!(error.node(), Some("test::worker"));
+
+    let ran = run(&works([Act::NoEvent]), OnFailure::Restart, 20);
+    assert!(ran.error.is_none());
+    let legs = ran.legs();
+    assert_eq!((legs.restarts, legs.failures, legs.no_events), (1, 1, 0));
+}
+
+#[test]
+fn a_node_that_could_not_be_created_anew_says_why_in_its_next_failure() {
+    let mut node = Guarded::new("test::worker", OnFailure::Skip, 0_u32);
+    let cycle = Cycle::default();
+    let panicked = node.call(cycle, |_| -> framework::Result<()> { Act::Panic.perform() });
+    panicked.expect_err("it panicked");
+    node.renew_if_broken(|| Err(Error::new("no such camera")))
+        .expect("the next call fails");
+    let work = |node: &mut u32| -> framework::Result<u32> {
+        *node += 1;
+        Ok(*node)
+    };
+    let message = node
+        .call(cycle, work)
+        .expect_err("it is broken")
+        .to_string();
+    assert_eq!(
+        message,
+        "node `test::worker`: it panicked and could not be created anew: no such camera"
+    );
+    let report = node.report();
+    assert_eq!((report.calls, report.failures), (2, 2));
+    node.renew_if_broken(|| Ok(7)).expect("it can be created");
+    assert_eq!(node.call(cycle, work).expect("it works again"), 8);
 }
 
 #[test]

@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use framework::driver::lockstep::Step;
 use framework::{Digest, Finished, Lockstep, Timestamp, Waited};
+use serde_json::json;
 
 use crate::body::{Plan, Setting, robot};
 use crate::scripted::{Act, Script, ScriptedHardware, millis};
@@ -27,6 +28,7 @@ fn steps(
             stepped.step,
         ));
     }
+    drop(lockstep);
     let counts = [0, 1].map(|index| robot.instances[index].counters().read());
     (steps, counts)
 }
@@ -129,6 +131,7 @@ fn stopped_ends_the_run_in_order() {
         .run_until(Timestamp::NEVER, |_| ())
         .expect("a stop is no error");
     assert_eq!(lockstep.step().expect("a stop is no error"), None);
+    drop(lockstep);
     let legs = robot.instances[1].counters().read();
     assert_eq!((legs.cycles, legs.failures), (1, 0));
     assert_eq!(hardware.log.lines(), ["safe state", "stop"]);
@@ -138,12 +141,11 @@ fn stopped_ends_the_run_in_order() {
 fn others_see_a_cycle_only_from_its_finish_on_and_transient_before_persistent() {
     let setting = Setting {
         eye_takes: Some(Duration::from_millis(10)),
+        ear_takes: Some(Duration::from_millis(28)),
         ..Setting::default()
     };
-    let eyes = [0, 20, 40].map(|at| (at, "Eye"));
-    let mut events = [5, 10, 22, 29, 30, 31, 45].map(|at| (at, "Legs")).to_vec();
-    events.extend(eyes);
-    events.sort_unstable();
+    let mut events = vec![(10, "Ear"), (12, "Eye")];
+    events.extend([15, 22, 30, 38, 50].map(|at| (at, "Legs")));
     let hardware = ScriptedHardware::lockstep(events);
     let mut robot = robot(&hardware, &setting);
     let mut lockstep = Lockstep::new(&mut robot, hardware.as_ref());
@@ -151,18 +153,27 @@ fn others_see_a_cycle_only_from_its_finish_on_and_transient_before_persistent() 
     while let Some(stepped) = lockstep.step().expect("nothing stops the robot") {
         if stepped.instance == "Legs" && stepped.step == COMPLETED {
             let read = |path| lockstep.robot().read(path).expect("an output");
-            let count = |path| read(path).as_array().map_or(0, Vec::len);
             seen.push((
-                count("Legs.main_outputs.persistent"),
-                count("Legs.main_outputs.transient"),
+                stepped.at.as_nanos() / 1_000_000,
+                read("Legs.main_outputs.persistent"),
+                read("Legs.main_outputs.transient"),
             ));
         }
     }
-    // At 5 the first is pending; at 10 it has finished; at 22 and 29 the second is pending.
-    assert_eq!(
-        seen,
-        [(0, 0), (1, 0), (0, 0), (0, 0), (1, 0), (0, 0), (0, 0)]
-    );
+    // `Ear` read 0 and gives 1, `Eye` read 1 and gives 2; each instance stands in manifest order.
+    let expected = [
+        // Both are pending.
+        (15, json!([]), json!([])),
+        // `Eye` finishes now, but `Ear`, which began earlier, may still come before it.
+        (22, json!([]), json!([2])),
+        // Again, as long as that is so.
+        (30, json!([]), json!([2])),
+        // `Ear` finishes now: nothing can come before either of them any more.
+        (38, json!([2, 1]), json!([])),
+        // Persistent is delivered once.
+        (50, json!([]), json!([])),
+    ];
+    assert_eq!(seen, expected);
 }
 
 #[test]
@@ -186,7 +197,42 @@ fn events_for_nobody_or_in_the_past_are_errors() {
         let mut robot = robot(&hardware, &Setting::default());
         let mut lockstep = Lockstep::new(&mut robot, hardware.as_ref());
         assert!(lockstep.run_until(Timestamp::NEVER, |_| ()).is_err());
+        assert_eq!(hardware.log.lines(), ["safe state", "stop"]);
+        assert_eq!(lockstep.step().expect("it has stopped"), None);
     }
+}
+
+#[test]
+fn a_lockstep_that_is_dropped_abandons_what_has_begun() {
+    let eye = Plan::default();
+    let setting = Setting {
+        eye: eye.clone(),
+        eye_takes: Some(Duration::from_millis(10)),
+        ..Setting::default()
+    };
+    let hardware = ScriptedHardware::lockstep([(0, "Eye")]);
+    let mut robot = robot(&hardware, &setting);
+    Lockstep::new(&mut robot, hardware.as_ref())
+        .run_until(millis(5), |_| ())
+        .expect("nothing stops the robot");
+    let counts = robot.instances[0].counters().read();
+    assert_eq!((counts.cycles, counts.abandoned), (0, 1));
+    assert_eq!(eye.log.count("Eye abandon"), 1);
+}
+
+#[test]
+fn a_cycle_that_begins_abandons_the_one_that_was_not_finished() {
+    let hardware = ScriptedHardware::lockstep([]);
+    let mut robot = robot(&hardware, &Setting::default());
+    let eye = robot.instances[0].as_mut();
+    for _ in 0..3 {
+        assert_eq!(eye.wait().expect("data"), Waited::Ready);
+        eye.begin();
+        eye.run();
+    }
+    assert_eq!(eye.finish().expect("no failure"), Finished::Completed);
+    let counts = eye.counters().read();
+    assert_eq!((counts.cycles, counts.abandoned), (1, 2));
 }
 
 #[test]

@@ -4,7 +4,8 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use framework::driver::threads;
-use framework::{Hardware, OnFailure, Robot, Stop};
+use framework::{Hardware, OnFailure, Robot, Stop, Timestamp};
+use serde_json::json;
 
 use crate::body::{Parameters, Plan, Setting, robot};
 use crate::scripted::{Act, Script, ScriptedHardware};
@@ -36,7 +37,7 @@ fn run_until(
             while !enough() && stop.wait(Duration::from_millis(1)).is_ok() {}
             stop.request();
         });
-        threads::run(&mut robot, hardware.as_ref(), &stop)
+        threads::run(&mut robot.instances, &robot.clock, hardware.as_ref(), &stop)
     });
     (hardware, robot, result)
 }
@@ -95,6 +96,77 @@ fn a_failure_for_good_stops_all_and_is_the_error() {
     );
     assert_eq!(hardware.log.lines(), ["safe state", "stop"]);
     assert_eq!(robot.instances[1].counters().cycles.get(), 1);
+}
+
+#[test]
+fn a_panic_outside_of_every_node_stops_the_robot_with_an_error() {
+    let legs = Plan {
+        work: Script::new([Act::Work, Act::Fail]),
+        nodes_panic: true,
+        ..Plan::default()
+    };
+    let setting = Setting {
+        legs,
+        on_failure: OnFailure::Restart,
+        ..Setting::default()
+    };
+    let hardware = ScriptedHardware::threads();
+    let mut robot = robot(&hardware, &setting);
+    let stop = Stop::new();
+    let (result, stopped_itself) = std::thread::scope(|scope| {
+        let rescue = scope.spawn(|| {
+            let stopped = stop.wait(Duration::from_secs(5)).is_err();
+            stop.request();
+            stopped
+        });
+        let result = threads::run(&mut robot.instances, &robot.clock, hardware.as_ref(), &stop);
+        (result, rescue.join().expect("it only waits"))
+    });
+    let error = result.expect_err("an instance panicked").to_string();
+    assert!(
+        error.contains("Legs failed") && error.contains("nodes cannot be told"),
+        "{error}"
+    );
+    assert!(stopped_itself);
+    let lines = hardware.log.lines();
+    assert_eq!(lines.last().map(String::as_str), Some("stop"), "{lines:?}");
+}
+
+#[test]
+fn clients_inject_and_change_parameters_while_the_threads_run() {
+    let hardware = ScriptedHardware::threads();
+    let mut robot = robot(&hardware, &Setting::default());
+    let Robot {
+        instances,
+        access,
+        parameters,
+        clock,
+        ..
+    } = &mut robot;
+    let legs = instances[1].counters().clone();
+    let stop = Stop::new();
+    std::thread::scope(|scope| {
+        scope.spawn(|| {
+            let wait_for = |cycles| {
+                while legs.cycles.get() < cycles && stop.wait(Duration::from_millis(1)).is_ok() {}
+            };
+            wait_for(3);
+            let value = json!(4711);
+            let mut erased = <dyn erased_serde::Deserializer<'_>>::erase(&value);
+            let injected = access[1].injector.inject("value", &mut erased);
+            parameters.slots().0.gain = 9;
+            parameters.complete(1, Timestamp::ZERO);
+            // The cycle that runs meanwhile may have begun before.
+            wait_for(legs.cycles.get() + 2);
+            stop.request();
+            injected.expect("a valid value");
+        });
+        threads::run(instances, clock, hardware.as_ref(), &stop)
+            .expect("nothing stopped the robot");
+    });
+    let read = |path| robot.read(path).expect("an output");
+    assert_eq!(read("Legs.main_outputs.value"), json!(4711));
+    assert_eq!(read("Legs.main_outputs.gain"), json!(9));
 }
 
 #[test]
@@ -185,7 +257,8 @@ fn a_silent_hardware_is_no_hanging_cycle() {
             hardware.log.add("not in safe state yet");
             stop.request();
         });
-        threads::run(&mut robot, hardware.as_ref(), &stop).expect("nothing stopped the robot");
+        threads::run(&mut robot.instances, &robot.clock, hardware.as_ref(), &stop)
+            .expect("nothing stopped the robot");
     });
     assert_eq!(
         hardware.log.lines(),

@@ -4,12 +4,12 @@ use super::Cycler;
 use crate::cycler::Body;
 use crate::error::{Error, Result};
 use crate::guarded::{OnFailure, contain};
+use crate::report::tell;
 use crate::time::Timestamp;
 
 /// What a failure leads to, if the robot need not stop.
 pub(super) enum Consequence {
     Stopped,
-    NoEvent,
     StartOver,
     Restart { at: Timestamp },
 }
@@ -21,10 +21,6 @@ impl<B: Body> Cycler<B> {
         if error.is_stopped() {
             return Ok(Consequence::Stopped);
         }
-        if error.is_no_event() {
-            self.counters.no_events.add(1);
-            return Ok(Consequence::NoEvent);
-        }
         if error.on_failure().is_none() {
             // Nodes count their own failures.
             self.counters.failures.add(1);
@@ -34,7 +30,7 @@ impl<B: Body> Cycler<B> {
             OnFailure::Skip | OnFailure::Hold => Ok(Consequence::StartOver),
             OnFailure::Restart => match self.restarts.after_failure(self.clock.now()) {
                 Some(at) => {
-                    eprintln!("{} restarts: {error}", self.description.name);
+                    tell(format_args!("{} restarts: {error}", self.description.name));
                     Ok(Consequence::Restart { at })
                 }
                 None => Err(error.context("failed too often within a minute")),
@@ -55,10 +51,8 @@ impl<B: Body> Cycler<B> {
             Ok(())
         });
         if let Err(error) = abandoned {
-            eprintln!(
-                "{} while abandoning a cycle: {error}",
-                self.description.name
-            );
+            let name = self.description.name;
+            tell(format_args!("{name} while abandoning a cycle: {error}"));
         }
     }
 }

@@ -1,0 +1,141 @@
+//! Whole runs in processes of their own: what happens to a terminal happens to all of a process.
+
+use std::ffi::OsString;
+use std::fs::File;
+use std::io::{self, Read, Write};
+use std::process::{Command, ExitStatus, Stdio};
+use std::sync::Arc;
+use std::thread;
+use std::time::{Duration, Instant};
+
+use framework::launch::{self, Target};
+use framework::{OnFailure, Start};
+use signal_hook::consts::SIGHUP;
+use signal_hook::low_level::raise;
+
+use crate::body::{Parameters, Plan, Setting, robot};
+use crate::scripted::{Act, Script, ScriptedHardware};
+
+/// Tells a process of this test which of the runs below it is.
+const RUN: &str = "FRAMEWORK_TEST_RUN";
+
+/// A reader of the report who has left.
+struct Closed;
+
+impl Write for Closed {
+    fn write(&mut self, _: &[u8]) -> io::Result<usize> {
+        Err(io::ErrorKind::BrokenPipe.into())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+/// Runs the robot of the tests as a generated binary would, and ends the process with its status.
+fn launch(arguments: &[&str], setting: &Setting) -> ! {
+    let directory = tempfile::tempdir().expect("a temporary directory");
+    std::fs::write(directory.path().join("default.toml"), "gain = 1").expect("can be written");
+    let target = Target {
+        robot: "test",
+        name: "simulated",
+        parameters: "parameters",
+        location: None,
+        identities: &[],
+    };
+    let mut all = vec![OsString::from("--parameters"), directory.path().into()];
+    all.extend(arguments.iter().map(OsString::from));
+    let create =
+        |hardware: &Arc<ScriptedHardware>, _: Start<Parameters>| Ok(robot(hardware, setting));
+    let status = launch::run(target, all, &mut Closed, create);
+    drop(directory);
+    std::process::exit(status.into())
+}
+
+#[test]
+fn a_process_of_this_test_is_the_run_it_was_told_to_be() {
+    let failing = |on_failure, acts: &[Act]| Setting {
+        legs: Plan {
+            work: Script::new(acts.iter().copied()),
+            ..Plan::default()
+        },
+        on_failure,
+        ..Setting::default()
+    };
+    match std::env::var(RUN).as_deref() {
+        Ok("long enough for a line of status") => {
+            let setting = failing(OnFailure::Skip, &[Act::Fail, Act::Panic]);
+            launch(&["--for", "1200ms"], &setting)
+        }
+        Ok("hung up") => {
+            thread::spawn(|| {
+                thread::sleep(Duration::from_millis(100));
+                raise(SIGHUP).expect("a valid signal");
+            });
+            launch(&["--for", "10s"], &Setting::default())
+        }
+        Ok("failing") => {
+            let setting = failing(OnFailure::Stop, &[Act::Fail]);
+            launch(&["--format", "json"], &setting)
+        }
+        // Without a run it is one of many tests, and there is nothing to do.
+        _ => {}
+    }
+}
+
+/// How a run ends, by itself and in time.
+fn end_of(run: &str, errors: Stdio) -> (ExitStatus, String) {
+    let mut child = Command::new(std::env::current_exe().expect("this test"))
+        .args(["--exact", "--nocapture"])
+        .arg("process::a_process_of_this_test_is_the_run_it_was_told_to_be")
+        .env(RUN, run)
+        .stdout(Stdio::null())
+        .stderr(errors)
+        .spawn()
+        .expect("this test can be started");
+    let started = Instant::now();
+    let status = loop {
+        if let Some(status) = child.try_wait().expect("it is a child") {
+            break status;
+        }
+        if started.elapsed() > Duration::from_secs(8) {
+            child.kill().expect("it is a child");
+            child.wait().expect("it is a child");
+            panic!("`{run}` does not end by itself");
+        }
+        thread::sleep(Duration::from_millis(10));
+    };
+    let mut text = String::new();
+    if let Some(mut errors) = child.stderr.take() {
+        errors.read_to_string(&mut text).expect("text");
+    }
+    (status, text)
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_robot_whose_standard_error_cannot_be_written_runs_to_its_end() {
+    let full = File::options()
+        .write(true)
+        .open("/dev/full")
+        .expect("Linux has it");
+    let (status, _) = end_of("long enough for a line of status", full.into());
+    assert_eq!(status.code(), Some(0), "{status}");
+}
+
+#[test]
+fn a_robot_whose_terminal_is_gone_stops_in_order() {
+    let (status, errors) = end_of("hung up", Stdio::piped());
+    assert_eq!(status.code(), Some(0), "{status}: {errors}");
+    assert!(errors.contains("simulated ran for 0."), "{errors}");
+}
+
+#[test]
+fn why_the_robot_failed_is_told_even_if_nobody_reads_the_report() {
+    let (status, errors) = end_of("failing", Stdio::piped());
+    assert_eq!(status.code(), Some(1), "{status}: {errors}");
+    assert!(
+        errors.contains("error: node `test::worker`: Legs failed: as scripted"),
+        "{errors}"
+    );
+}
