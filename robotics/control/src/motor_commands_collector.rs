@@ -57,15 +57,14 @@ impl MotorCommandsCollector {
             .since_last
             .as_secs_f32()
             .min(LONGEST_STEP);
-        // `max` before `min`: a parameter that is no number moves nothing.
-        let share = context.velocity_share.max(0.0).min(1.0);
+        let share = zero_to_one(*context.velocity_share);
         let positions = Joints::from_fn(|joint| {
             let reach = limits::of(joint).velocity as f32 * share * step;
             approach(joint, last[joint], wanted.positions[joint], reach)
         });
         let commands = MotorCommands {
             positions: limit_head(positions),
-            stiffnesses: wanted.stiffnesses.map(limit_stiffness),
+            stiffnesses: wanted.stiffnesses.map(zero_to_one),
         };
         Ok(MainOutputs {
             motor_commands: Some(commands).into(),
@@ -103,12 +102,12 @@ fn limit_head(mut positions: Joints<f32>) -> Joints<f32> {
     positions
 }
 
-/// What is no number is limp.
-fn limit_stiffness(stiffness: f32) -> f32 {
-    if stiffness.is_nan() {
+/// What is no number counts as nothing: no movement, no stiffness.
+fn zero_to_one(share: f32) -> f32 {
+    if share.is_nan() {
         0.0
     } else {
-        stiffness.clamp(0.0, 1.0)
+        share.clamp(0.0, 1.0)
     }
 }
 
