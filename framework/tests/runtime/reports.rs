@@ -172,7 +172,7 @@ fn the_text_names_what_went_wrong() {
         "Eye",
         "Legs",
         "`test::worker` failed in 2 of 30 calls",
-        "1 waits without an event",
+        "1 wait without an event",
     ] {
         assert!(text.contains(part), "{part}: {text}");
     }
