@@ -1,5 +1,6 @@
 //! Two ways to turn the same instances: [`threads`] in the real world, [`lockstep`] on a virtual clock.
 
+mod chaos;
 pub mod lockstep;
 pub mod observer;
 pub mod safe_state;

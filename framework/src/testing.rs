@@ -21,6 +21,8 @@
 //! assert_eq!(candidates.value(), Some(&vec![0.05]));
 //! ```
 
+mod generated;
+mod skipped;
 mod temporal;
 
 use std::time::Duration;
@@ -31,6 +33,8 @@ use crate::context::{AdditionalOutput, AdditionalSlot};
 use crate::parameters;
 use crate::time::{CycleTime, Timestamp};
 
+pub use generated::assert_generated;
+pub use skipped::skip;
 pub use temporal::*;
 
 /// A point in time, in milliseconds since the start of the run.

@@ -205,8 +205,12 @@ impl<T> Lane for Consumer<T> {
     }
 
     #[inline]
-    fn order(&self, index: usize) -> Timestamp {
-        self.places[index].order
+    fn rank(&self, index: usize) -> (Timestamp, Timestamp) {
+        let entry = self
+            .queue
+            .get(index)
+            .expect("places are beside taken cycles");
+        (self.places[index].order, entry.timestamp)
     }
 }
 

@@ -21,8 +21,8 @@ pub trait Lane {
     /// How many cycles there can be.
     fn window(&self) -> usize;
 
-    /// The order of a visible cycle.
-    fn order(&self, index: usize) -> Timestamp;
+    /// Order and timestamp of a visible cycle.
+    fn rank(&self, index: usize) -> (Timestamp, Timestamp);
 }
 
 /// What one instance asks of the boundary between persistent and transient.

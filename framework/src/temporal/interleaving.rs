@@ -4,7 +4,7 @@ use super::horizon::Lane;
 use super::series::{Item, Items, Series, Timeline};
 use crate::time::Timestamp;
 
-/// The visible cycles of the instances of one cycler, sorted by order, instance and cycle number.
+/// The visible cycles of the instances of one cycler, sorted by order, timestamp, instance and cycle number.
 #[derive(Debug, Default)]
 pub struct Interleaving {
     positions: Vec<Position>,
@@ -32,10 +32,11 @@ impl Interleaving {
         self.persistent = lanes.iter().map(|lane| lane.persistent()).sum();
         let mut next = [0; N];
         loop {
-            // Of equal orders the first lane, and within a lane cycles are in order already.
+            // Several that came late together have the order of the horizon: the earlier capture goes first. Of equals
+            // the first lane; within a lane cycles are in order already.
             let first = (0..N)
                 .filter(|lane| next[*lane] < lanes[*lane].visible())
-                .min_by_key(|lane| lanes[*lane].order(next[*lane]));
+                .min_by_key(|lane| lanes[*lane].rank(next[*lane]));
             let Some(lane) = first else { return };
             self.positions.push(Position {
                 lane,
@@ -75,7 +76,7 @@ impl<V, const N: usize> Series<V> for Interleaved<'_, V, N> {
 /// Several timelines in one order:
 /// `for (timestamp, balls) in interleave([top.persistent, bottom.persistent])`.
 ///
-/// Of equal orders the earlier timeline of the array comes first.
+/// Of equal orders the earlier timestamp comes first, of equal timestamps the earlier timeline of the array.
 pub fn interleave<'c, V, const N: usize>(
     timelines: [Timeline<'c, V>; N],
 ) -> impl Iterator<Item = (Timestamp, V)> + use<'c, V, N> {
@@ -83,9 +84,12 @@ pub fn interleave<'c, V, const N: usize>(
     let mut heads = rest.each_mut().map(Items::next);
     std::iter::from_fn(move || {
         let first = (0..N)
-            .filter_map(|timeline| Some((heads[timeline].as_ref()?.order, timeline)))
+            .filter_map(|timeline| {
+                let head = heads[timeline].as_ref()?;
+                Some((head.order, head.timestamp, timeline))
+            })
             .min();
-        let (_, timeline) = first?;
+        let (_, _, timeline) = first?;
         let item = std::mem::replace(&mut heads[timeline], rest[timeline].next())?;
         Some((item.timestamp, item.value))
     })

@@ -360,3 +360,102 @@ fn a_capture_time_not_after_the_last_is_one_nanosecond_later() {
         .collect();
     assert_eq!(since_last, [0, 1, 1]);
 }
+
+/// The steps of two seconds under chaos, in nanoseconds, and what was counted.
+fn chaotic(
+    seed: u64,
+    deadline: Option<Duration>,
+) -> (
+    Vec<(u64, &'static str, Step)>,
+    [framework::cycler::Counts; 2],
+) {
+    let images = (0..60).map(|number| (number * 33, "Eye"));
+    let states = (0..166).map(|number| (number * 12, "Legs"));
+    let mut events: Vec<_> = images.chain(states).collect();
+    events.sort_by_key(|(at, _)| *at);
+    let hardware = ScriptedHardware::lockstep(events);
+    let setting = Setting {
+        deadline,
+        ..Setting::default()
+    };
+    let mut robot = robot(&hardware, &setting);
+    let mut lockstep = Lockstep::new(&mut robot, hardware.as_ref()).chaotic(seed);
+    let mut steps = Vec::new();
+    while let Some(stepped) = lockstep.step().expect("nothing stops the robot") {
+        steps.push((stepped.at.as_nanos(), stepped.instance, stepped.step));
+    }
+    drop(lockstep);
+    let counts = [0, 1].map(|index| robot.instances[index].counters().read());
+    (steps, counts)
+}
+
+#[test]
+fn chaos_delays_what_happens_and_loses_nothing() {
+    let (steps, [eye, legs]) = chaotic(7, None);
+    assert_eq!((eye.cycles, eye.missed), (60, 0));
+    assert_eq!((legs.cycles, legs.missed), (166, 0));
+    let began = |instance| {
+        let all = steps.iter();
+        let began = all.filter(move |(_, name, step)| *name == instance && *step == Step::Began);
+        began.map(|(at, ..)| *at)
+    };
+    let late = began("Eye")
+        .zip(0..)
+        .map(|(at, number)| at - number * millis(33).as_nanos());
+    let late: Vec<_> = late.collect();
+    assert!(
+        late.iter().all(|late| *late <= millis(2).as_nanos()),
+        "{late:?}"
+    );
+    assert!(
+        late.iter().any(|late| *late > millis(1).as_nanos()),
+        "{late:?}"
+    );
+    assert!(steps.is_sorted_by_key(|(at, ..)| *at));
+}
+
+#[test]
+fn one_seed_is_one_chaos() {
+    assert_eq!(chaotic(1, None).0, chaotic(1, None).0);
+    assert_ne!(chaotic(1, None).0, chaotic(2, None).0);
+}
+
+/// From `begin` to `finish` of each cycle.
+fn durations(steps: &[(u64, &'static str, Step)], instance: &str) -> Vec<Duration> {
+    let at = |wanted: Step| {
+        let steps = steps.iter();
+        let steps = steps.filter(move |(_, name, step)| *name == instance && *step == wanted);
+        steps.map(|(at, ..)| *at)
+    };
+    let cycles = at(Step::Began).zip(at(COMPLETED));
+    cycles
+        .map(|(began, finished)| Duration::from_nanos(finished - began))
+        .collect()
+}
+
+fn assert_drawn_up_to(greatest: Duration, durations: &[Duration]) {
+    let within = |from, to| durations.iter().any(|one| (from..=to).contains(one));
+    assert!(
+        durations.iter().all(|one| *one <= greatest),
+        "{durations:?}"
+    );
+    assert!(within(Duration::ZERO, greatest / 4), "{durations:?}");
+    assert!(within(greatest * 3 / 4, greatest), "{durations:?}");
+}
+
+#[test]
+fn cycles_in_chaos_take_up_to_the_deadline_or_half_of_it_in_real_time() {
+    let deadline = Duration::from_millis(12);
+    let (steps, [eye, legs]) = chaotic(7, Some(deadline));
+    assert_eq!((eye.missed, legs.missed), (0, 0));
+    let (eye, legs) = (durations(&steps, "Eye"), durations(&steps, "Legs"));
+    assert_eq!((eye.len(), legs.len()), (60, 166));
+    assert_drawn_up_to(deadline, &eye);
+    assert_drawn_up_to(deadline / 2, &legs);
+}
+
+#[test]
+fn cycles_in_chaos_without_deadline_take_up_to_20_ms() {
+    let (steps, _) = chaotic(7, None);
+    assert_drawn_up_to(Duration::from_millis(20), &durations(&steps, "Eye"));
+}

@@ -306,3 +306,29 @@ fn instances_of_one_cycler_are_sorted_by_order_then_manifest() {
     .collect::<Vec<_>>();
     assert_eq!(input, [(10, 1), (20, 2), (20, 101), (30, 102)]);
 }
+
+#[test]
+fn what_came_late_together_is_sorted_by_capture() {
+    let (mut ear, mut for_ear) = instance(4, PATIENT);
+    let (mut top, mut for_top) = instance(4, PATIENT);
+    let (mut bottom, mut for_bottom) = instance(4, PATIENT);
+    let mut horizon = Horizon::new();
+    perceive(&mut ear, 1, 30);
+    horizon.consume(time(31), [&mut for_ear, &mut for_top, &mut for_bottom]);
+    perceive(&mut top, 1, 20);
+    perceive(&mut bottom, 2, 10);
+    horizon.consume(time(40), [&mut for_ear, &mut for_top, &mut for_bottom]);
+    let mut order = Interleaving::new();
+    order.merge([&for_top, &for_bottom]);
+    let both = Interleaved {
+        order: &order,
+        instances: [
+            &for_top.project(|value| *value),
+            &for_bottom.project(|value| *value),
+        ],
+    };
+    let input = PerceptionInput::new(&both);
+    let values: Vec<_> = input.persistent.iter().collect();
+    assert_eq!(values, [(time(10), 2), (time(20), 1)]);
+    assert!(input.persistent.items().all(|item| item.order == time(30)));
+}

@@ -11,12 +11,12 @@ pub(crate) struct Cycle {
 }
 
 /// What a consumer shows of a cycle.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Shown {
     pub(crate) order: u64,
+    pub(crate) timestamp: u64,
     pub(crate) instance: usize,
     pub(crate) number: u64,
-    pub(crate) timestamp: u64,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -126,6 +126,30 @@ impl Instance {
     }
 }
 
+/// By order, timestamp, instance and number; but of one order and instance, by number alone.
+fn sort(shown: &mut [Shown]) {
+    shown.sort_by_key(|one| (one.order, one.instance, one.number));
+    let mut latest = (0, 0, 0);
+    let keys: Vec<_> = shown
+        .iter()
+        .map(|one| {
+            let before = match latest {
+                (order, instance, timestamp) if (order, instance) == (one.order, one.instance) => {
+                    timestamp
+                }
+                _ => 0,
+            };
+            latest = (one.order, one.instance, one.timestamp.max(before));
+            (one.order, latest.2, one.instance, one.number)
+        })
+        .collect();
+    let mut keyed: Vec<_> = keys.into_iter().zip(shown.to_vec()).collect();
+    keyed.sort_by_key(|(key, _)| *key);
+    for (place, (_, one)) in shown.iter_mut().zip(keyed) {
+        *place = one;
+    }
+}
+
 #[derive(Debug)]
 pub(crate) struct Model {
     pub(crate) instances: Vec<Instance>,
@@ -174,8 +198,8 @@ impl Model {
                 each.completed.insert(0, cycle);
             }
         }
-        persistent.sort();
-        transient.sort();
+        sort(&mut persistent);
+        sort(&mut transient);
         self.horizon = persistent
             .last()
             .map_or(horizon, |last| last.order.max(horizon));

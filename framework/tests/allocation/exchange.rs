@@ -1,9 +1,6 @@
 //! In the steady state the data exchange allocates nothing.
-#![expect(unsafe_code, reason = "the trait of allocators is unsafe")]
 
-use std::alloc::{GlobalAlloc, Layout, System};
 use std::hint::black_box;
-use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
 use framework::{
@@ -11,26 +8,7 @@ use framework::{
     Timestamp, Writer, buffer, interleave,
 };
 
-struct Counting;
-
-static ALLOCATIONS: AtomicU64 = AtomicU64::new(0);
-
-// SAFETY: the system allocator does everything; counting does not allocate.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        ALLOCATIONS.fetch_add(1, Ordering::Relaxed);
-        // SAFETY: as the caller promises.
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        // SAFETY: as the caller promises.
-        unsafe { System.dealloc(pointer, layout) }
-    }
-}
-
-#[global_allocator]
-static ALLOCATOR: Counting = Counting;
+use crate::counting::allocations;
 
 const PERIOD: u64 = 10;
 
@@ -46,7 +24,6 @@ fn write(writer: &mut Writer<Vec<u64>>, cycle: u64) {
     writer.complete(cycle, time(cycle));
 }
 
-// The only test of this file: another one would be counted, too.
 #[test]
 fn nothing_is_allocated_after_the_first_rounds() {
     let (mut top, [mut reader], [for_top]) = buffer::<Vec<u64>, 1, 1>([4]);
@@ -59,7 +36,7 @@ fn nothing_is_allocated_after_the_first_rounds() {
     let mut seen = 0;
     for cycle in 1..=1000 {
         if cycle == 100 {
-            allocated = ALLOCATIONS.load(Ordering::Relaxed);
+            allocated = allocations();
         }
         // Now and then one instance is late, so that windows fill and announcements expire.
         match cycle % 20 {
@@ -94,7 +71,7 @@ fn nothing_is_allocated_after_the_first_rounds() {
         black_box((historic.get(time(cycle - 1)), historic.iter().count()));
         history.push(time(cycle), value);
     }
-    assert_eq!(ALLOCATIONS.load(Ordering::Relaxed) - allocated, 0);
+    assert_eq!(allocations() - allocated, 0);
     assert!(seen > 10_000, "{seen}");
     assert!(for_top.report().expired > 40, "{:?}", for_top.report());
     assert!(

@@ -1,8 +1,5 @@
 //! In the steady state a cycle allocates nothing, timed or not.
-#![expect(unsafe_code, reason = "the trait of allocators is unsafe")]
 
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
 use framework::cycler::Reference;
@@ -13,26 +10,7 @@ use framework::{
     procedure, timing,
 };
 
-struct Counting;
-
-static ALLOCATIONS: AtomicU64 = AtomicU64::new(0);
-
-// SAFETY: the system allocator does everything; counting does not allocate.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        ALLOCATIONS.fetch_add(1, Ordering::Relaxed);
-        // SAFETY: as the caller promises.
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        // SAFETY: as the caller promises.
-        unsafe { System.dealloc(pointer, layout) }
-    }
-}
-
-#[global_allocator]
-static ALLOCATOR: Counting = Counting;
+use crate::counting::allocations;
 
 const NODES: usize = 20;
 
@@ -143,7 +121,6 @@ fn turn(instance: &mut dyn Instance, cycles: u64) {
     }
 }
 
-// The only test of this file: another one would be counted, too.
 #[test]
 fn a_cycle_allocates_nothing() {
     let (writer, [_reader], []) = buffer::<[f32; NODES], 1, 0>([]);
@@ -157,10 +134,10 @@ fn a_cycle_allocates_nothing() {
     };
     let mut cycler = Cycler::new(DESCRIPTION, body, writer, Clock::wall());
     turn(&mut cycler, 100);
-    let before = ALLOCATIONS.load(Ordering::Relaxed);
+    let before = allocations();
     turn(&mut cycler, 10_000);
     timing::time_every_cycle(true);
     turn(&mut cycler, 1_000);
-    assert_eq!(ALLOCATIONS.load(Ordering::Relaxed) - before, 0);
+    assert_eq!(allocations() - before, 0);
     assert_eq!(cycler.counters().cycles.get(), 11_100);
 }

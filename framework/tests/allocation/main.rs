@@ -1,0 +1,5 @@
+//! In the steady state nothing is allocated.
+
+mod counting;
+mod cycle;
+mod exchange;
