@@ -4,10 +4,12 @@
 //! that the nodes name. `read_…` belongs to setup nodes, since a recording keeps what they returned.
 
 use framework::{Result, Timestamp};
+use types::audio::{AudioBlock, Tone};
 use types::camera::CameraPosition;
 use types::image::YuyvImage;
 use types::leds::Leds;
 use types::motor_commands::MotorCommands;
+use types::network::{Datagram, Endpoint};
 use types::sensor_data::SensorData;
 
 /// Reads the sensors of the body.
@@ -41,4 +43,51 @@ pub trait CameraInterface {
     /// # Errors
     /// `Stopped` within 100 ms of a stop; `NoEvent` where no image came or it was garbled: ask again.
     fn read_image(&self, position: CameraPosition, image: &mut YuyvImage) -> Result<Timestamp>;
+}
+
+/// Reads the microphones of the head.
+pub trait MicrophoneInterface {
+    /// Waits for the next block of sound, writes it into `block`, and says when its last sample was taken.
+    ///
+    /// `block` keeps its heap, so that nothing is allocated once it has had its size.
+    ///
+    /// # Errors
+    /// `Stopped` within 100 ms of a stop; `NoEvent` where no sound came: ask again.
+    fn read_audio(&self, block: &mut AudioBlock) -> Result<Timestamp>;
+}
+
+/// Plays sound.
+pub trait SpeakerInterface {
+    /// Begins a tone, in place of the one that sounds, and does not wait for its end.
+    ///
+    /// # Errors
+    /// Where it cannot be played at all.
+    fn play_tone(&self, tone: &Tone) -> Result<()>;
+}
+
+/// Reads what comes over the network.
+pub trait NetworkInterface {
+    /// Waits for the next datagram on any channel, writes it into `datagram`, and says when it came.
+    ///
+    /// `datagram` keeps its heap. What is longer than any message of the game is cut, and a byte longer
+    /// than allowed remains, so that a strict parser refuses it.
+    ///
+    /// # Errors
+    /// `Stopped` within 100 ms of a stop; `NoEvent` where nothing came for a while: ask again.
+    fn read_datagram(&self, datagram: &mut Datagram) -> Result<Timestamp>;
+}
+
+/// Sends over the network.
+pub trait MessageInterface {
+    /// Answers the referee's computer that sent `to` its packet; the hardware knows its port for answers.
+    ///
+    /// # Errors
+    /// Where nothing can be sent at all; a computer that went away is no error.
+    fn send_to_game_controller(&self, to: Endpoint, bytes: &[u8]) -> Result<()>;
+
+    /// Tells the whole own team.
+    ///
+    /// # Errors
+    /// Where nothing can be sent at all.
+    fn send_to_team(&self, bytes: &[u8]) -> Result<()>;
 }

@@ -3,7 +3,7 @@
 use nalgebra::{
     Isometry3, Matrix3, RealField, Rotation3, Translation3, UnitQuaternion, Vector3, convert,
 };
-use types::camera::CameraPosition;
+use types::camera::{CameraCalibration, CameraPosition};
 
 /// Width and height of the images in px.
 pub const IMAGE_SIZE: [u32; 2] = [640, 480];
@@ -47,6 +47,17 @@ pub fn camera_to_head<T: RealField + Copy>(camera: CameraPosition) -> Isometry3<
         Translation3::from(Vector3::from(position.map(convert))),
         UnitQuaternion::from_axis_angle(&Vector3::y_axis(), convert(pitch)),
     )
+}
+
+/// From the optical frame of a camera as it is calibrated to the head frame.
+pub fn optical_to_head(camera: CameraPosition, calibration: &CameraCalibration) -> Isometry3<f32> {
+    let CameraCalibration {
+        roll, pitch, yaw, ..
+    } = *calibration;
+    let correction = UnitQuaternion::from_euler_angles(roll, pitch, yaw);
+    let mount = camera_to_head(camera);
+    let rotation = correction * mount.rotation * optical_to_camera();
+    Isometry3::from_parts(mount.translation, rotation)
 }
 
 /// From an optical frame (z forward, x right, y down) to the same camera's x forward, y left, z up.

@@ -77,11 +77,18 @@ impl From<&Poses<f32>> for RobotKinematics {
                 left: poses.sole(Side::Left),
                 right: poses.sole(Side::Right),
             },
+            knees_to_torso: Feet {
+                left: poses.link(LinkName::LeftTibia),
+                right: poses.link(LinkName::RightTibia),
+            },
+            elbows_to_torso: Hands {
+                left: poses.link(LinkName::LeftForearm),
+                right: poses.link(LinkName::RightForearm),
+            },
             hands_to_torso: Hands {
                 left: poses.hand(Side::Left),
                 right: poses.hand(Side::Right),
             },
-            center_of_mass: poses.center_of_mass(),
         }
     }
 }

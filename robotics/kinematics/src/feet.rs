@@ -1,6 +1,7 @@
 //! Owns the geometry of the soles: their outline and where they feel pressure.
 
-use types::feet::Feet;
+use nalgebra::{Point3, RealField, convert};
+use types::feet::{Feet, Side};
 
 /// From the axis of the ankle down to the sole, in m (NAO V6 URDF).
 pub const SOLE_BELOW_ANKLE: f64 = 0.04519;
@@ -40,3 +41,12 @@ pub const LEFT_SOLE: [[f64; 2]; 14] = [
     [-0.0312, 0.0517],
     [-0.0491, 0.0376],
 ];
+
+/// The outline of a sole in its own frame (below the ankle, on the ground), in m.
+pub fn sole_outline<T: RealField + Copy>(side: Side) -> [Point3<T>; LEFT_SOLE.len()] {
+    let outward = match side {
+        Side::Left => 1.0,
+        Side::Right => -1.0,
+    };
+    LEFT_SOLE.map(|[x, y]| Point3::new(convert(x), convert(outward * y), T::zero()))
+}

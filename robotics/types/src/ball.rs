@@ -1,7 +1,7 @@
 //! Owns balls: as an image shows them, and as the robot remembers them.
 
 use framework::{Clear, Reflect, Timestamp};
-use nalgebra::Point2;
+use nalgebra::{Point2, Vector2};
 use serde::{Deserialize, Serialize};
 
 /// A circle in an image that looks like a ball.
@@ -15,11 +15,22 @@ pub struct BallCandidate {
     pub position: Option<Point2<f32>>,
 }
 
+/// An image whose candidates a filter has learnt.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, PartialEq, Reflect, Serialize)]
+pub struct LearntImage {
+    /// When it was exposed.
+    pub captured_at: Timestamp,
+    /// How many candidates it had.
+    pub candidates: usize,
+}
+
 /// The ball as the robot remembers it.
 #[derive(Clear, Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
 pub struct Ball {
     /// Where it lies in the ground frame of this cycle in m: x forward, y left of the robot.
     pub position: Point2<f32>,
+    /// How it rolls over the ground, along the axes of that frame, m/s; zero while it rests.
+    pub velocity: Vector2<f32>,
     /// When a camera saw it last.
     pub seen_at: Timestamp,
 }

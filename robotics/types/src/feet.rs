@@ -14,7 +14,7 @@ pub enum Side {
 }
 
 /// One value for each foot.
-#[derive(Clear, Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
+#[derive(Clear, Clone, Copy, Debug, Default, Deserialize, Eq, PartialEq, Reflect, Serialize)]
 pub struct Feet<T> {
     /// Of the left foot.
     pub left: T,

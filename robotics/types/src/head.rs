@@ -25,7 +25,7 @@ pub struct HeadCommand {
 /// What a client asks the head to do.
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
 pub enum HeadRequest {
-    /// Look around again.
+    /// Do again what the behaviour says.
     #[default]
     Scan,
     /// Look there and stay.

@@ -38,6 +38,21 @@ pub struct Color {
     pub blue: f32,
 }
 
+/// The chest in every state of the game.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
+#[serde(deny_unknown_fields)]
+#[expect(missing_docs, reason = "the states of the game say it")]
+pub struct ChestColors {
+    pub unstiff: Color,
+    pub initial: Color,
+    pub standby: Color,
+    pub ready: Color,
+    pub set: Color,
+    pub playing: Color,
+    pub penalized: Color,
+    pub finished: Color,
+}
+
 impl Color {
     /// No light.
     pub const OFF: Self = Self::new(0.0, 0.0, 0.0);

@@ -1,4 +1,4 @@
-//! Owns what is asked of the motors, and how far the robot has risen.
+//! Owns what is asked of the motors.
 
 use framework::{Clear, Reflect};
 use serde::{Deserialize, Serialize};
@@ -12,14 +12,4 @@ pub struct MotorCommands {
     pub positions: Joints<f32>,
     /// Share of the motors' torque that may be used, 0 (limp) to 1.
     pub stiffnesses: Joints<f32>,
-}
-
-/// How far the robot has got on its way to its ready pose.
-#[derive(Clear, Clone, Copy, Debug, Default, Deserialize, Eq, PartialEq, Reflect, Serialize)]
-pub enum MotionPhase {
-    /// On the way from wherever it was.
-    #[default]
-    Rising,
-    /// In the ready pose.
-    Ready,
 }

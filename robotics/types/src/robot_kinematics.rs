@@ -1,7 +1,7 @@
 //! Owns where the robot's parts are, as the joint angles say.
 
 use framework::{Clear, Reflect};
-use nalgebra::{Isometry3, Point3};
+use nalgebra::Isometry3;
 use serde::{Deserialize, Serialize};
 
 use crate::feet::Feet;
@@ -15,10 +15,12 @@ pub struct RobotKinematics {
     pub head_to_torso: Isometry3<f32>,
     /// The soles: on the ground below the ankle.
     pub soles_to_torso: Feet<Isometry3<f32>>,
+    /// The tibiae, origin in the knee.
+    pub knees_to_torso: Feet<Isometry3<f32>>,
+    /// The forearms, origin in the elbow.
+    pub elbows_to_torso: Hands<Isometry3<f32>>,
     /// The centres of the hands.
     pub hands_to_torso: Hands<Isometry3<f32>>,
-    /// The centre of mass of the whole robot in m.
-    pub center_of_mass: Point3<f32>,
 }
 
 /// One value for each hand.

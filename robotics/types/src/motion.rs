@@ -1,0 +1,69 @@
+//! Owns what the behaviour wants body and head to do, which motion has the body, and when it can be left.
+
+use framework::{Clear, Reflect};
+use nalgebra::Point2;
+use serde::{Deserialize, Serialize};
+
+/// What the robot shall do with itself.
+#[derive(Clear, Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
+pub struct MotionCommand {
+    /// With arms and legs.
+    pub body: BodyMotion,
+    /// With the head.
+    pub head: HeadMotion,
+}
+
+/// A motion of arms and legs.
+#[derive(Clear, Clone, Copy, Debug, Default, Deserialize, Eq, PartialEq, Reflect, Serialize)]
+pub enum BodyMotion {
+    /// Limp at once, wherever the body is: nobody who falls waits for anything.
+    #[default]
+    Unstiff,
+    /// Down to the ground, then limp; a limp body stays as it is.
+    SitDown,
+    /// Ready to play, knees bent.
+    Stand,
+    /// Tall and still, as a penalised robot must.
+    Penalized,
+}
+
+/// A motion of the head.
+#[derive(Clear, Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
+pub enum HeadMotion {
+    /// With the body, as that one's pose says.
+    #[default]
+    WithBody,
+    /// Straight ahead.
+    Ahead,
+    /// Wherever something could be.
+    LookAround,
+    /// At a point on the floor of the ground frame, m.
+    LookAt(Point2<f32>),
+}
+
+/// Which motion has the body.
+#[derive(Clear, Clone, Copy, Debug, Default, Deserialize, Eq, PartialEq, Reflect, Serialize)]
+pub struct MotionSelection {
+    /// The motion that is carried out, or that the body is on its way to.
+    pub current: BodyMotion,
+    /// Whether the body is on its way from where it was to where `current` begins.
+    pub is_dispatching: bool,
+}
+
+impl MotionSelection {
+    /// Whether this motion has the body, which is no longer on its way to it.
+    pub fn is_at(&self, motion: BodyMotion) -> bool {
+        self.current == motion && !self.is_dispatching
+    }
+}
+
+/// Whether a motion can be left for another one, one value for each motion that has a say in it.
+///
+/// Poses that are only held can always be left.
+#[derive(Clear, Clone, Copy, Debug, Default, Deserialize, Eq, PartialEq, Reflect, Serialize)]
+pub struct SafeExits {
+    /// Sitting down: only once the body is limp, on the way another motion would make it fall.
+    pub sit_down: bool,
+    /// Dispatching: only in the pose where a motion begins.
+    pub dispatch: bool,
+}

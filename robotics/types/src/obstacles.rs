@@ -1,0 +1,37 @@
+//! Owns what stands in the way.
+
+use framework::{Clear, Reflect, Timestamp};
+use nalgebra::Point2;
+use serde::{Deserialize, Serialize};
+
+/// Something in an image that stands on the field.
+#[derive(Clear, Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
+pub struct ObstacleCandidate {
+    /// Where it touches the ground, px.
+    pub foot: Point2<f32>,
+    /// Where it touches the ground, in the ground frame, m.
+    pub position: Point2<f32>,
+}
+
+/// Something that the robot must not run into.
+#[derive(Clear, Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
+pub struct Obstacle {
+    /// Its middle in the ground frame of this cycle, m.
+    pub position: Point2<f32>,
+    /// In m.
+    pub radius: f32,
+    /// What it is.
+    pub kind: ObstacleKind,
+    /// When it was perceived last.
+    pub seen_at: Timestamp,
+}
+
+/// What an obstacle is.
+#[derive(Clear, Clone, Copy, Debug, Default, Deserialize, Eq, PartialEq, Reflect, Serialize)]
+pub enum ObstacleKind {
+    /// Something.
+    #[default]
+    Unknown,
+    /// Another robot.
+    Robot,
+}

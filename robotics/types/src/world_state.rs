@@ -1,0 +1,29 @@
+//! Owns everything that the behaviour decides on.
+
+use framework::{Clear, Reflect};
+use serde::{Deserialize, Serialize};
+
+use crate::ball::Ball;
+use crate::fall_state::FallState;
+use crate::game::{KickingTeam, PrimaryState};
+use crate::obstacles::Obstacle;
+use crate::team::Teammate;
+
+/// The robot and what is around it, in the ground frame of this cycle.
+#[derive(Clear, Clone, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
+pub struct WorldState {
+    /// What this robot does in the game.
+    pub primary_state: PrimaryState,
+    /// Who kicks first.
+    pub kicking_team: KickingTeam,
+    /// Whether the robot stands, falls, or lies.
+    pub fall_state: FallState,
+    /// Whether its soles carry it.
+    pub has_ground_contact: bool,
+    /// The ball; `None` where nobody has seen it lately.
+    pub ball: Option<Ball>,
+    /// What stands in the way, nearest first.
+    pub obstacles: Vec<Obstacle>,
+    /// The robots of the own team that were heard lately, by their number.
+    pub teammates: Vec<Teammate>,
+}
