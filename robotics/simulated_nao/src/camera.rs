@@ -2,13 +2,24 @@
 
 mod ball;
 mod color;
+mod development;
 mod exposure;
+pub(crate) mod figure;
 mod ground;
+mod hall;
+mod net;
+mod row;
+mod scenery;
+mod sprite;
 
-pub use exposure::Exposure;
+pub use exposure::{Exposure, OwnBody};
 
+use nalgebra::Point2;
 use types::image::YuyvImage;
 
+use self::development::Development;
+use self::row::Row;
+use self::scenery::Scenery;
 use crate::field::Field;
 
 /// Width of an image, pixels.
@@ -23,74 +34,30 @@ pub fn render(exposure: &Exposure, field: &Field, image: &mut YuyvImage) {
     image.width = WIDTH as u32;
     image.height = HEIGHT as u32;
     image.data.resize(WIDTH * HEIGHT * BYTES_PER_PIXEL, 0);
-    for (row, bytes) in image
-        .data
-        .chunks_exact_mut(WIDTH * BYTES_PER_PIXEL)
-        .enumerate()
-    {
-        ground::paint_row(exposure, field, row, bytes);
+    let scenery = Scenery::new(exposure);
+    let development = Development::new(&exposure.images);
+    let mut row = Row::new();
+    let rows = image.data.chunks_exact_mut(WIDTH * BYTES_PER_PIXEL);
+    for (number, bytes) in rows.enumerate() {
+        ground::paint(exposure, field, number, &mut row);
+        scenery.paint(exposure, number, &mut row);
+        development.develop(exposure.number, number, &row, bytes);
     }
-    if let Some(center) = exposure.ball_in_camera() {
-        ball::paint(exposure, &center, &mut image.data);
+}
+
+/// What of the ground and the ball an exposure cannot show.
+pub(crate) struct Cover(Scenery);
+
+impl Cover {
+    pub(crate) fn new(exposure: &Exposure) -> Self {
+        Self(Scenery::new(exposure))
+    }
+
+    /// How far away along the optical axis the nearest robot, own limb or goal post of a pixel is, m.
+    pub(crate) fn depth_at(&self, pixel: Point2<f32>) -> Option<f32> {
+        self.0.depth_at(pixel)
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::settings::Settings;
-    use crate::world::World;
-    use types::camera::CameraPosition;
-
-    fn image(number: u64, pose: [f64; 3]) -> YuyvImage {
-        let settings = Settings {
-            robot_pose: pose,
-            ..Settings::default()
-        };
-        let world = World::new(&settings);
-        let mut image = YuyvImage::default();
-        render(
-            &world.expose(CameraPosition::Top, number),
-            &world.field,
-            &mut image,
-        );
-        image
-    }
-
-    #[test]
-    fn the_same_exposure_gives_the_same_bits() {
-        let once = image(3, [2.0, 0.0, 0.0]);
-        assert!(once.is_complete());
-        assert!(once == image(3, [2.0, 0.0, 0.0]));
-        assert!(
-            once != image(4, [2.0, 0.0, 0.0]),
-            "every image has its own noise"
-        );
-        assert!(once != image(3, [2.001, 0.0, 0.0]));
-    }
-
-    #[test]
-    fn the_penalty_mark_is_white_where_the_truth_projects_it() {
-        let settings = Settings {
-            robot_pose: [1.9, 0.0, 0.0],
-            ..Settings::default()
-        };
-        let world = World::new(&settings);
-        let mut image = YuyvImage::default();
-        for camera in [CameraPosition::Top, CameraPosition::Bottom] {
-            let exposure = world.expose(camera, 0);
-            render(&exposure, &world.field, &mut image);
-            let mark = crate::ground_truth::ImageTruth::penalty_marks()[0];
-            let Some(pixel) = crate::ground_truth::ImageTruth::from(&exposure).project(mark) else {
-                continue;
-            };
-            let luminance = image.luminance(pixel.x.round() as u32, pixel.y.round() as u32);
-            assert!(
-                luminance > Some(150),
-                "{camera:?}: {luminance:?} at {pixel}"
-            );
-            return;
-        }
-        panic!("no camera sees the mark");
-    }
-}
+mod tests;

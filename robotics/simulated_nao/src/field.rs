@@ -3,6 +3,8 @@
 //! The origin is the centre mark, x points to one goal, y to the left of it. Dimensions are those
 //! of the RoboCup Standard Platform League rules 2023 to 2025, measured between line centres.
 
+use std::f32::consts::FRAC_1_SQRT_2;
+
 use nalgebra::{Point2, Vector2};
 
 /// Length of the field along x.
@@ -15,6 +17,15 @@ pub const LINE_WIDTH: f32 = 0.05;
 pub const PENALTY_MARK_DISTANCE: f32 = 1.3;
 /// Radius of the ball.
 pub const BALL_RADIUS: f32 = 0.05;
+/// Radius of the posts and of the crossbar of a goal.
+pub const GOAL_POST_RADIUS: f32 = 0.05;
+/// Height of the middle of the crossbar: 0.8 m are free below it.
+pub const CROSSBAR_HEIGHT: f32 = 0.85;
+/// How far the net reaches behind the posts.
+pub const GOAL_DEPTH: f32 = 0.5;
+
+/// Between the middles of the posts of a goal, which are 1.5 m apart.
+const GOAL_WIDTH: f32 = 1.6;
 
 const PENALTY_MARK_SIZE: f32 = 0.1;
 const GOAL_AREA: Vector2<f32> = Vector2::new(0.6, 2.2);
@@ -47,10 +58,14 @@ impl Stripe {
         outside.sup(&Vector2::zeros()).norm()
     }
 
-    /// Part of the box of these half extents around the point that is white.
-    fn coverage(&self, point: Point2<f32>, half: Vector2<f32>) -> f32 {
-        overlap(point.x, half.x, self.low.x, self.high.x)
-            * overlap(point.y, half.y, self.low.y, self.high.y)
+    /// How much of the box of these half extents around the point is white, m².
+    #[inline(always)]
+    fn overlap(&self, point: Point2<f32>, half: Vector2<f32>) -> f32 {
+        let inside = |at: f32, half: f32, low: f32, high: f32| {
+            ((at + half).min(high) - (at - half).max(low)).max(0.0)
+        };
+        inside(point.x, half.x, self.low.x, self.high.x)
+            * inside(point.y, half.y, self.low.y, self.high.y)
     }
 }
 
@@ -78,7 +93,7 @@ impl Default for Field {
                 let cell = Vector2::new((index % columns) as f32, (index / columns) as f32);
                 let center = Point2::from((cell + Vector2::repeat(0.5)) * CELL);
                 // From anywhere in the cell the marking is at least this far away.
-                distance(&stripes, center) - CELL
+                distance(&stripes, center) - FRAC_1_SQRT_2 * CELL
             })
             .collect();
         Self {
@@ -91,6 +106,7 @@ impl Default for Field {
 
 impl Field {
     /// A lower bound of the distance to the next marking, zero or less near one.
+    #[inline]
     pub(crate) fn distance_to_marking(&self, point: Point2<f32>) -> f32 {
         let column = (point.x.abs() / CELL) as usize;
         let row = (point.y.abs() / CELL) as usize;
@@ -112,6 +128,7 @@ impl Field {
         down: Vector2<f32>,
     ) -> f32 {
         let half = (to_right.abs() + down.abs()) / 2.0;
+        let share = 0.25 / (half.x * half.y);
         let mirrored = Point2::new(point.x.abs(), point.y.abs());
         let radius = point.coords.norm();
         let outward = point.coords / radius.max(1e-6);
@@ -124,14 +141,22 @@ impl Field {
         );
         self.stripes
             .iter()
-            .map(|stripe| stripe.coverage(mirrored, half))
+            .map(|stripe| stripe.overlap(mirrored, half) * share)
             .fold(circle, f32::max)
     }
 }
 
+/// Where the posts stand: their fronts are flush with the front edge of the goal line. First the goal
+/// at positive x, its left post first.
+pub fn goal_posts() -> [Point2<f32>; 4] {
+    let x = LENGTH / 2.0 - LINE_WIDTH / 2.0 + GOAL_POST_RADIUS;
+    [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)]
+        .map(|(goal, side)| Point2::new(goal * x, side * GOAL_WIDTH / 2.0))
+}
+
 /// How far the point lies inside the carpet, negative outside.
 pub(crate) fn depth_in_carpet(point: Point2<f32>) -> f32 {
-    (CARPET - point.coords.abs()).min()
+    (CARPET.x - point.x.abs()).min(CARPET.y - point.y.abs())
 }
 
 fn cells(length: f32) -> usize {

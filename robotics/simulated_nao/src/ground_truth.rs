@@ -1,17 +1,21 @@
 //! What is really the case in the world, for tests: nodes see only what sensors and cameras say.
 
+use std::f32::consts::TAU;
+
 use framework::Timestamp;
-use nalgebra::{Isometry3, Point2, Point3};
+use nalgebra::{Isometry3, Point2, Point3, Vector2};
 use types::camera::CameraMatrix;
+use types::feet::Feet;
 use types::joints::Joints;
 use types::motor_commands::MotorCommands;
 
-use crate::camera::{Exposure, HEIGHT, WIDTH};
-use crate::field::{BALL_RADIUS, LENGTH, PENALTY_MARK_DISTANCE};
+use crate::camera::{Cover, Exposure, HEIGHT, WIDTH};
+use crate::field::{BALL_RADIUS, LENGTH, PENALTY_MARK_DISTANCE, goal_posts};
+use crate::scene::{Robot, Team};
 use crate::world::World;
 
 /// The world at one moment.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct GroundTruth {
     /// The moment.
     pub now: Timestamp,
@@ -25,6 +29,10 @@ pub struct GroundTruth {
     pub ground_to_field: Isometry3<f32>,
     /// Centre of the ball in the field frame, m.
     pub ball: Option<Point3<f32>>,
+    /// The other robots.
+    pub robots: Vec<Robot>,
+    /// What the robot can run into: the middle of each obstacle in the field frame and its radius, m.
+    pub obstacles: Vec<(Point2<f64>, f64)>,
 }
 
 /// The body when a state was sent.
@@ -39,7 +47,7 @@ pub struct BodyTruth {
 }
 
 /// A camera at the exposure of an image.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct ImageTruth {
     /// The exposure; the timestamp of the cycle that is about this image.
     pub captured_at: Timestamp,
@@ -49,6 +57,7 @@ pub struct ImageTruth {
     pub ground_to_field: Isometry3<f32>,
     /// The ball, if some of it can be in front of the camera.
     pub ball: Option<BallTruth>,
+    exposure: Exposure,
 }
 
 /// Where an image shows the ball.
@@ -60,8 +69,30 @@ pub struct BallTruth {
     pub radius: f32,
     /// From the camera to its centre, m.
     pub distance: f32,
-    /// Whether all of it is in the image.
+    /// Whether all of it is in the image and nothing stands in front of it.
     pub is_whole: bool,
+}
+
+/// Another robot, and where an image shows it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RobotTruth {
+    /// On the floor midway between its soles, in the ground frame of the robot that looks, m.
+    pub position: Point2<f32>,
+    /// Whose it is.
+    pub team: Team,
+    /// Number of its shirt.
+    pub number: u8,
+    /// The origins of its soles' frames, px; `None` outside of the image.
+    pub feet: Feet<Option<Point2<f32>>>,
+}
+
+/// A post of a goal, and where an image shows it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GoalPostTruth {
+    /// Its middle on the floor in the ground frame, m.
+    pub position: Point2<f32>,
+    /// That place in the image, px.
+    pub foot: Point2<f32>,
 }
 
 impl GroundTruth {
@@ -74,6 +105,8 @@ impl GroundTruth {
             torso_to_field: body.torso_to_field.cast(),
             ground_to_field: body.ground_to_field().cast(),
             ball: world.ball().map(|ball| ball.cast()),
+            robots: world.robots().to_vec(),
+            obstacles: world.obstacles().collect(),
         }
     }
 }
@@ -85,6 +118,39 @@ impl ImageTruth {
             .camera_matrix
             .ground_to_pixel(self.ground_to_field.inverse() * point)?;
         is_inside(&pixel, 0.0).then_some(pixel)
+    }
+
+    /// The other robots, whether the image shows them or not.
+    pub fn robots(&self) -> impl Iterator<Item = RobotTruth> {
+        self.exposure.robots.iter().map(|robot| RobotTruth {
+            position: self.to_ground(robot.position.cast()),
+            team: robot.team,
+            number: robot.number,
+            feet: Feet {
+                left: self.project(robot.soles.left),
+                right: self.project(robot.soles.right),
+            },
+        })
+    }
+
+    /// The goal posts whose feet lie in the image, behind whatever else may be there.
+    pub fn goal_posts(&self) -> impl Iterator<Item = GoalPostTruth> {
+        goal_posts().into_iter().filter_map(|post| {
+            Some(GoalPostTruth {
+                position: self.to_ground(post),
+                foot: self.project(Point3::new(post.x, post.y, 0.0))?,
+            })
+        })
+    }
+
+    /// Whether a pixel shows a robot, a limb of the own or the frame of a goal. Nets are no cover.
+    pub fn covers(&self, pixel: Point2<f32>) -> bool {
+        Cover::new(&self.exposure).depth_at(pixel).is_some()
+    }
+
+    fn to_ground(&self, place: Point2<f32>) -> Point2<f32> {
+        let place = Point3::new(place.x, place.y, 0.0);
+        self.ground_to_field.inverse_transform_point(&place).xy()
     }
 
     /// The penalty marks, on the floor of the field frame.
@@ -103,7 +169,8 @@ impl From<&Exposure> for ImageTruth {
                 .max(1e-6)
                 .sqrt();
             let radius = exposure.intrinsics.focal.y * BALL_RADIUS / tangent;
-            let is_whole = is_inside(&pixel, 1.1 * radius);
+            let is_whole =
+                is_inside(&pixel, 1.1 * radius) && !is_hidden(exposure, &pixel, radius, center.z);
             Some(BallTruth {
                 center: pixel,
                 radius,
@@ -119,8 +186,18 @@ impl From<&Exposure> for ImageTruth {
             },
             ground_to_field: exposure.ground_to_field,
             ball,
+            exposure: exposure.clone(),
         }
     }
+}
+
+/// Whether something stands in front of the ball, by its middle and places on its rim.
+fn is_hidden(exposure: &Exposure, center: &Point2<f32>, radius: f32, depth: f32) -> bool {
+    let covers = Cover::new(exposure);
+    let rim = (0..12_u8).map(|hour| f32::from(hour) * (TAU / 12.0));
+    let rim = rim.map(|angle| center + Vector2::new(angle.cos(), angle.sin()) * radius);
+    let is_covered = |pixel| covers.depth_at(pixel).is_some_and(|cover| cover < depth);
+    rim.chain([*center]).any(is_covered)
 }
 
 fn is_inside(pixel: &Point2<f32>, margin: f32) -> bool {

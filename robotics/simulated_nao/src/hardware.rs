@@ -2,8 +2,13 @@
 //!
 //! With a wall clock a thread of its own turns the world. With a stepped clock
 //! `next_event` does, and nothing waits. Either way sensors and commands travel
-//! through LoLA's socket with the client that the real robot uses.
+//! through LoLA's socket with the client that the real robot uses, and messages through UDP sockets.
 
+mod network;
+mod sound;
+mod truth;
+
+use std::net::SocketAddr;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
@@ -18,7 +23,7 @@ use types::sensor_data::SensorData;
 
 use crate::camera::{self, Exposure};
 use crate::field::Field;
-use crate::ground_truth::{BodyTruth, GroundTruth, ImageTruth};
+use crate::network::RobotSockets;
 use crate::safety::Safety;
 use crate::settings::Settings;
 use crate::simulator::{Shared, Simulator};
@@ -35,6 +40,10 @@ pub struct Hardware {
     safety: Arc<Mutex<Safety>>,
     identities: Vec<(String, String)>,
     field: Arc<Field>,
+    sockets: Arc<RobotSockets>,
+    /// Where the referee's computer hears answers; 0 where there is none.
+    return_port: u16,
+    mate: Option<SocketAddr>,
     clock: Clock,
     stop: Stop,
 }
@@ -43,8 +52,10 @@ impl framework::Hardware for Hardware {
     fn new(context: HardwareContext) -> Result<Self> {
         let mut settings: Settings = context.parameters()?;
         settings.apply(&context.options)?;
-        let shared = Arc::new(Shared::new(&settings)?);
         let clock = context.clock;
+        let sockets = Arc::new(RobotSockets::new(&settings.network)?);
+        let shared = Shared::new(&settings, Some(Arc::clone(&sockets)), clock.is_stepped())?;
+        let shared = Arc::new(shared);
         let client = Arc::new(Client::connect(
             shared.socket(),
             clock.clone(),
@@ -65,7 +76,12 @@ impl framework::Hardware for Hardware {
             )?)
         };
         let configuration = first.configuration;
-        let field = Arc::clone(&shared.lock().world().field);
+        let (field, return_port, mate) = {
+            let simulation = shared.lock();
+            let network = &simulation.network;
+            let field = Arc::clone(&simulation.world().field);
+            (field, network.return_port()?, network.mate_address()?)
+        };
         Ok(Self {
             thread,
             client,
@@ -75,6 +91,9 @@ impl framework::Hardware for Hardware {
                 ("head".to_owned(), configuration.head_id.to_string()),
             ],
             field,
+            sockets,
+            return_port,
+            mate,
             shared,
             clock,
             stop: context.stop,
@@ -105,6 +124,11 @@ impl framework::Hardware for Hardware {
             ));
         }
         let mut simulation = self.shared.lock();
+        // Whoever has missed an event reads again at once.
+        if let Some(instance) = simulation.is_behind.pop_first() {
+            let at = self.clock.now();
+            return Ok(Some(Event { at, instance }));
+        }
         loop {
             if simulation.next_is_tick() {
                 let_down(
@@ -166,45 +190,6 @@ impl CameraInterface for Hardware {
 }
 
 impl Hardware {
-    /// What is really the case, for tests.
-    pub fn ground_truth(&self) -> GroundTruth {
-        self.shared.lock().ground_truth()
-    }
-
-    /// The body at each of LoLA's last 512 states, oldest first, for tests.
-    pub fn body_truths(&self) -> Vec<BodyTruth> {
-        self.shared.lock().bodies()
-    }
-
-    /// Where the camera was at one of its last 512 exposures and what it saw, for tests.
-    pub fn image_truth(
-        &self,
-        position: CameraPosition,
-        captured_at: Timestamp,
-    ) -> Option<ImageTruth> {
-        self.shared.lock().image_truth(position, captured_at)
-    }
-
-    /// Makes the next image that is read from one camera arrive garbled, for tests.
-    pub fn garble_next_image(&self, position: CameraPosition) {
-        *self.shared.lock().garble_image.of_mut(position) = true;
-    }
-
-    /// Makes the next state that LoLA sends arrive garbled, for tests.
-    pub fn garble_next_state(&self) {
-        self.shared.lock().garble_state = true;
-    }
-
-    /// What the client counted on its connection to LoLA.
-    pub fn counts(&self) -> lola::Counts {
-        self.client.counts()
-    }
-
-    /// How often LoLA received something that is no command.
-    pub fn rejected_commands(&self) -> u64 {
-        self.shared.lock().server().rejected()
-    }
-
     fn next_exposure(&self, position: CameraPosition) -> Result<Exposure> {
         let mut simulation = self.shared.lock();
         if self.thread.is_none() {

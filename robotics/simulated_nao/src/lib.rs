@@ -1,8 +1,10 @@
-//! A NAO V6 without a NAO: its body, cameras and low level interface, on a simulated field.
+//! A NAO V6 without a NAO: its body, cameras, microphones and low level interface, on a simulated
+//! field with a referee's computer and a team mate.
 //!
-//! In reading order: what can be chosen ([`settings`]), the world ([`field`], [`physics`], the
-//! cameras), LoLA's server, the thread that turns them in real time ([`Simulator`]), and the
-//! framework's hardware on top ([`Hardware`]). [`ground_truth`] tells tests what is really the case.
+//! In reading order: what can be chosen ([`settings`], [`scene`]), the world ([`field`], [`physics`], the
+//! cameras, sound), LoLA's server, the network, the thread that turns them in real time
+//! ([`Simulator`]), and the framework's hardware on top ([`Hardware`]). [`ground_truth`] and
+//! [`NetworkTruth`] tell tests what is really the case.
 //!
 //! The field frame has its origin at the centre mark, x towards one goal, y to the left, z up.
 
@@ -10,16 +12,21 @@ pub mod camera;
 pub mod field;
 pub mod ground_truth;
 pub mod physics;
+pub mod scene;
 pub mod settings;
 
 mod hardware;
+mod network;
 pub mod posture;
 mod safety;
 mod server;
 mod simulation;
 mod simulator;
+mod sound;
 mod world;
 
-pub use ground_truth::{BallTruth, BodyTruth, GroundTruth, ImageTruth};
+pub use ground_truth::{BallTruth, BodyTruth, GoalPostTruth, GroundTruth, ImageTruth, RobotTruth};
 pub use hardware::Hardware;
+pub use network::{NetworkTruth, Received};
 pub use simulator::Simulator;
+pub use sound::WhistleTruth;

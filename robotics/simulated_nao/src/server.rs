@@ -77,6 +77,11 @@ impl LolaServer {
         self.received.rejected()
     }
 
+    /// What clients have asked for, as far as it was received.
+    pub(crate) fn command(&self) -> &Command {
+        &self.command
+    }
+
     /// Everything that clients have asked for until now: the newest value of each key.
     pub(crate) fn receive(&mut self) -> MotorCommands {
         self.accept();

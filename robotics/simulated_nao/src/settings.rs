@@ -8,6 +8,18 @@
 //! | `--pose X,Y,HEADING` | puts the robot there (m, m, rad) |
 //! | `--ball X,Y` | puts the ball there (m) |
 //! | `--no-ball` | takes the ball away |
+//! | `--game STATE` | lets the referee's computer say one state for the whole run: `Initial`, `Ready`, `Set`, `Playing`, `Finished`, `Standby` |
+//! | `--no-referee` | takes the referee's computer off the network |
+//! | `--no-mate` | takes the team mate off the network |
+//! | `--free-ports` | takes free UDP ports instead of those of `[hardware.simulated.network]` |
+//! | `--no-buttons` | lets nobody press a button |
+//! | `--no-cameras` | takes the cameras away: no cycle of `Vision` |
+//! | `--no-sound` | takes the microphones away: no cycle of `Audio` |
+
+mod buttons;
+mod game;
+mod network;
+mod options;
 
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -16,6 +28,13 @@ use framework::{Error, Result};
 use serde::Deserialize;
 use types::identifier::{IDENTIFIER_LENGTH, Identifier};
 use types::sensor_data::RobotConfiguration;
+
+pub use self::buttons::{Button, Press};
+pub(crate) use self::game::PLAYERS_PER_TEAM;
+pub use self::game::{Announcement, GameSettings};
+pub use self::network::NetworkSettings;
+use crate::scene::{self, ImageSettings, RobotSettings};
+pub use crate::sound::SoundSettings;
 
 /// The choices; every key may be left out.
 #[derive(Clone, Debug, Deserialize)]
@@ -27,10 +46,26 @@ pub struct Settings {
     pub robot_pose: [f64; 3],
     /// The ball.
     pub ball: BallSettings,
+    /// The other robots.
+    pub robots: Vec<RobotSettings>,
+    /// How the cameras take it all.
+    pub images: ImageSettings,
     /// Serial number of the body, 20 characters.
     pub body_id: String,
     /// Serial number of the head, 20 characters.
     pub head_id: String,
+    /// Ports, and who is on the network.
+    pub network: NetworkSettings,
+    /// Who plays, and how the game goes.
+    pub game: GameSettings,
+    /// When somebody presses a button.
+    pub buttons: Vec<Press>,
+    /// What there is to be heard.
+    pub sound: SoundSettings,
+    /// Whether the cameras give images.
+    pub cameras: bool,
+    /// Whether the microphones give sound.
+    pub microphones: bool,
 }
 
 /// The ball of the world.
@@ -49,8 +84,16 @@ impl Default for Settings {
             socket: None,
             robot_pose: [2.0, 0.0, 0.0],
             ball: BallSettings::default(),
+            robots: Vec::new(),
+            images: ImageSettings::default(),
             body_id: "SIMULATED-BODY-00001".to_owned(),
             head_id: "SIMULATED-HEAD-00001".to_owned(),
+            network: NetworkSettings::default(),
+            game: GameSettings::default(),
+            buttons: Press::usual(),
+            sound: SoundSettings::default(),
+            cameras: true,
+            microphones: true,
         }
     }
 }
@@ -65,42 +108,6 @@ impl Default for BallSettings {
 }
 
 impl Settings {
-    /// Obeys the command line.
-    ///
-    /// # Errors
-    /// Names the option that is unknown, lacks its value, or has one that cannot be read.
-    pub fn apply(&mut self, options: &[String]) -> Result<()> {
-        let mut options = options.iter();
-        while let Some(option) = options.next() {
-            let mut value = || {
-                let missing = || {
-                    Error::new(format!(
-                        "option `{option}` of the simulated NAO needs a value"
-                    ))
-                };
-                options.next().ok_or_else(missing)
-            };
-            match option.as_str() {
-                "--socket" => self.socket = Some(value()?.into()),
-                "--pose" => self.robot_pose = numbers(option, value()?)?,
-                "--ball" => {
-                    self.ball = BallSettings {
-                        present: true,
-                        position: numbers(option, value()?)?,
-                    };
-                }
-                "--no-ball" => self.ball.present = false,
-                _ => {
-                    return Err(Error::new(format!(
-                        "unknown option `{option}` of the simulated NAO; it knows --socket PATH, \
-                         --pose X,Y,HEADING, --ball X,Y, --no-ball"
-                    )));
-                }
-            }
-        }
-        Ok(())
-    }
-
     /// Refuses values that no robot has.
     ///
     /// # Errors
@@ -120,7 +127,11 @@ impl Settings {
                 "hardware.simulated: {number} is no place on the field"
             )));
         }
-        Ok(())
+        self.network.check()?;
+        self.game.check()?;
+        self.sound.check()?;
+        scene::check(&self.robots, &self.images)?;
+        self.buttons.iter().try_for_each(Press::check)
     }
 
     pub(crate) fn ball_position(&self) -> Option<[f64; 2]> {
@@ -138,23 +149,10 @@ impl Settings {
     }
 }
 
-/// `1.5,-2` as numbers.
-fn numbers<const N: usize>(option: &str, text: &str) -> Result<[f64; N]> {
-    let numbers: Option<Vec<f64>> = text
-        .split(',')
-        .map(|part| part.trim().parse().ok())
-        .collect();
-    numbers
-        .and_then(|numbers| <[f64; N]>::try_from(numbers).ok())
-        .ok_or_else(|| {
-            Error::new(format!(
-                "option `{option}` needs {N} numbers joined by commas, not `{text}`"
-            ))
-        })
-}
-
 #[cfg(test)]
 mod tests {
+    use types::game::{GameState, KickingTeam, Penalty, SetPlay};
+
     use super::*;
 
     fn apply(options: &[&str]) -> Result<Settings> {
@@ -193,6 +191,104 @@ mod tests {
             let message = apply(options).unwrap_err().to_string();
             assert!(message.contains(expected), "{message}");
         }
+    }
+
+    #[test]
+    fn options_take_parts_of_the_world_away() {
+        let settings = apply(&[
+            "--no-referee",
+            "--no-mate",
+            "--no-buttons",
+            "--no-cameras",
+            "--no-sound",
+        ])
+        .unwrap();
+        assert!(!settings.network.referee && !settings.network.mate);
+        assert!(settings.buttons.is_empty());
+        assert!(!settings.cameras && !settings.microphones);
+    }
+
+    #[test]
+    fn one_state_can_be_held() {
+        let settings = apply(&["--game", "Playing"]).unwrap();
+        assert_eq!(
+            settings.game.schedule,
+            [Announcement::of(0.0, GameState::Playing)]
+        );
+        let message = apply(&["--game", "Play"]).unwrap_err().to_string();
+        assert!(
+            message.contains("option `--game`: unknown variant `Play`"),
+            "{message}"
+        );
+        assert!(message.contains("`Playing`"), "{message}");
+    }
+
+    #[test]
+    fn the_parameters_of_the_robot_fit_and_name_the_ports_of_a_real_field() {
+        let text = include_str!("../../parameters/simulated/default.toml");
+        let parameters: toml::Table = toml::from_str(text).unwrap();
+        let table = parameters["hardware"]["simulated"].clone();
+        let settings: Settings = table.try_into().unwrap();
+        settings.check().unwrap();
+        let network = &settings.network;
+        assert_eq!((network.control_port, network.return_port), (3838, 3939));
+        assert_eq!(network.team_port, 10_000 + u16::from(settings.game.team));
+        assert_eq!(settings.game.schedule, GameSettings::default().schedule);
+        assert_eq!(settings.buttons, Press::usual());
+    }
+
+    #[test]
+    fn free_ports_replace_chosen_ones() {
+        let mut settings: Settings = toml::from_str("[network]\ncontrol_port = 3838").unwrap();
+        settings.apply(&["--free-ports".to_owned()]).unwrap();
+        assert_eq!(settings.network.control_port, 0);
+    }
+
+    #[test]
+    fn what_cannot_be_is_refused_with_its_key() {
+        for (table, expected) in [
+            (
+                "[network]\nteam_port = 9\nmate_port = 9",
+                "network.mate_port: 9 is `team_port` already",
+            ),
+            (
+                "[game]\nteam = 3\nopponent = 3",
+                "game.opponent: both teams have number 3",
+            ),
+            ("[game]\nteam = 255", "game.team: no team has number 255"),
+            (
+                "[game]\nplayer_number = 21",
+                "game.player_number: shirts have numbers from 1 to 20, not 21",
+            ),
+            ("[game]\nmate_pose = [0, nan, 0]", "game.mate_pose"),
+            (
+                "[game]\nschedule = [{ at = 3, state = 'Set' }, { at = 2, state = 'Playing' }]",
+                "game.schedule: Playing at 2 s does not come after 3 s",
+            ),
+            (
+                "[game]\nschedule = [{ at = nan, state = 'Set' }]",
+                "game.schedule: Set at NaN s",
+            ),
+            (
+                "buttons = [{ at = 1, button = 'chest', lasts = 0 }]",
+                "buttons: nobody can press Chest",
+            ),
+        ] {
+            let settings: Settings = toml::from_str(table).unwrap();
+            let message = settings.check().unwrap_err().to_string();
+            assert!(message.contains(expected), "{message}");
+        }
+    }
+
+    #[test]
+    fn announcements_say_more_than_the_state() {
+        let table = "schedule = [{ at = 1, state = 'Ready', penalty = 'Manual', \
+                     kicking_team = 'Opponent', set_play = 'PenaltyKick' }]";
+        let game: GameSettings = toml::from_str(table).unwrap();
+        let announcement = &game.schedule[0];
+        assert_eq!(announcement.penalty, Penalty::Manual);
+        assert_eq!(announcement.kicking_team, KickingTeam::Opponent);
+        assert_eq!(announcement.set_play, SetPlay::PenaltyKick);
     }
 
     #[test]

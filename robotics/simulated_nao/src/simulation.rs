@@ -1,18 +1,22 @@
-//! The world together with what it offers: LoLA every 12 ms, images of both cameras at 30 Hz.
+//! The world together with what it offers: LoLA every 12 ms, images of both cameras at 30 Hz, blocks
+//! of sound every 46 ms, and whatever comes over the network.
 //!
 //! Whoever owns it turns it step by step, in real time or as fast as lockstep goes.
 
-use std::collections::VecDeque;
+use std::collections::{BTreeSet, VecDeque};
 use std::time::Duration;
 
 use framework::{Error, Event, Result, Timestamp};
+use types::audio::Tone;
 use types::camera::CameraPosition;
 
 use crate::camera::Exposure;
 use crate::ground_truth::{BodyTruth, GroundTruth, ImageTruth};
+use crate::network::{Network, Received};
 use crate::server::LolaServer;
 use crate::settings::Settings;
-use crate::world::{IMAGE_LATENCY, World};
+use crate::sound::{BLOCK_LENGTH, SAMPLE_RATE};
+use crate::world::{IMAGE_LATENCY, NO_ECHO, World};
 
 /// LoLA's cycle.
 pub(crate) const TICK: Duration = Duration::from_millis(12);
@@ -27,6 +31,8 @@ const FIRST_EXPOSURE: PerCamera<Duration> = PerCamera {
 const PATIENCE: Duration = Duration::from_millis(500);
 /// How many ticks and images are remembered for comparisons with the truth.
 const REMEMBERED: usize = 512;
+/// How many blocks of sound wait for a reader before the oldest is lost.
+const WAITING_BLOCKS: usize = 4;
 
 /// One value for each camera.
 #[derive(Clone, Copy, Debug, Default)]
@@ -56,25 +62,41 @@ impl<T> PerCamera<T> {
 enum Step {
     Expose(CameraPosition),
     ImageReady(CameraPosition),
+    RefereeSpeaks,
+    MateSpeaks,
+    DatagramArrives,
+    BlockReady,
     Tick,
 }
 
 /// At equal times in this order: whoever reads at that time sees what was exposed, and instances
 /// come as manifests name them, perception first.
-const STEPS: [Step; 5] = [
+const STEPS: [Step; 9] = [
     Step::Expose(CameraPosition::Top),
     Step::Expose(CameraPosition::Bottom),
     Step::ImageReady(CameraPosition::Top),
     Step::ImageReady(CameraPosition::Bottom),
+    Step::RefereeSpeaks,
+    Step::MateSpeaks,
+    Step::DatagramArrives,
+    Step::BlockReady,
     Step::Tick,
 ];
 
-/// World, LoLA and cameras at one moment.
+/// World, LoLA, cameras, microphones and network at one moment.
 pub(crate) struct Simulation {
     world: World,
     server: LolaServer,
+    pub(crate) network: Network,
+    has_cameras: bool,
+    has_microphones: bool,
+    /// The time of the last step.
+    now: Timestamp,
     state: Vec<u8>,
     ticks: u64,
+    blocks: u64,
+    /// Numbers of the blocks of sound that nobody has read, oldest first.
+    waiting_blocks: VecDeque<u64>,
     exposures: PerCamera<u64>,
     images: PerCamera<u64>,
     /// Images that nobody has read, oldest first.
@@ -83,6 +105,9 @@ pub(crate) struct Simulation {
     unread: VecDeque<Timestamp>,
     bodies: VecDeque<BodyTruth>,
     image_truths: PerCamera<VecDeque<ImageTruth>>,
+    tones: VecDeque<Received<Tone>>,
+    /// Instances that have more to read than they had events, since their cycles took too long.
+    pub(crate) is_behind: BTreeSet<&'static str>,
     pub(crate) garble_state: bool,
     pub(crate) garble_image: PerCamera<bool>,
 }
@@ -90,20 +115,29 @@ pub(crate) struct Simulation {
 impl Simulation {
     pub(crate) fn new(
         settings: &Settings,
+        network: Network,
         server: impl FnOnce(&World) -> Result<LolaServer>,
     ) -> Result<Self> {
         let world = World::new(settings);
         Ok(Self {
             server: server(&world)?,
             world,
+            network,
+            has_cameras: settings.cameras,
+            has_microphones: settings.microphones,
+            now: Timestamp::ZERO,
             state: Vec::new(),
             ticks: 0,
+            blocks: 0,
+            waiting_blocks: VecDeque::new(),
             exposures: PerCamera::default(),
             images: PerCamera::default(),
             waiting: PerCamera::default(),
             unread: VecDeque::new(),
             bodies: VecDeque::new(),
             image_truths: PerCamera::default(),
+            tones: VecDeque::new(),
+            is_behind: BTreeSet::new(),
             garble_state: false,
             garble_image: PerCamera::default(),
         })
@@ -152,8 +186,15 @@ impl Simulation {
             Timestamp::ZERO + *FIRST_EXPOSURE.of(camera) + times(IMAGE_PERIOD, number)
         };
         match step {
+            Step::Expose(_) | Step::ImageReady(_) if !self.has_cameras => Timestamp::NEVER,
             Step::Expose(camera) => exposure(camera, *self.exposures.of(camera)),
             Step::ImageReady(camera) => exposure(camera, *self.images.of(camera)) + IMAGE_LATENCY,
+            Step::RefereeSpeaks => self.network.referee_due(),
+            Step::MateSpeaks => self.network.mate_due(),
+            // Somebody may have sent it between two steps.
+            Step::DatagramArrives => self.network.flight_due().max(self.now),
+            Step::BlockReady if !self.has_microphones => Timestamp::NEVER,
+            Step::BlockReady => block_time(self.blocks),
             Step::Tick => Timestamp::ZERO + times(TICK, self.ticks + 1),
         }
     }
@@ -164,35 +205,48 @@ impl Simulation {
     /// Where the state cannot be encoded.
     pub(crate) fn step(&mut self) -> Result<Option<Event>> {
         let (at, step) = self.next();
-        match step {
+        self.now = at;
+        let instance = match step {
             Step::Expose(camera) => {
                 self.world.advance_to(at);
                 self.expose(camera);
-                Ok(None)
+                None
             }
             Step::ImageReady(camera) => {
                 *self.images.of_mut(camera) += 1;
-                let instance = match camera {
+                Some(match camera {
                     CameraPosition::Top => "VisionTop",
                     CameraPosition::Bottom => "VisionBottom",
-                };
-                Ok(Some(Event { at, instance }))
+                })
+            }
+            Step::RefereeSpeaks => self.network.referee_speaks(at)?.then_some("SplNetwork"),
+            Step::MateSpeaks => {
+                let truth = self.ground_truth();
+                let has_arrived = self.network.mate_speaks(at, &truth)?;
+                has_arrived.then_some("SplNetwork")
+            }
+            Step::DatagramArrives => self.network.datagram_arrives(at)?.then_some("SplNetwork"),
+            Step::BlockReady => {
+                self.record_block();
+                Some("Audio")
             }
             Step::Tick => {
                 self.world.advance_to(at);
                 self.tick()?;
-                Ok(Some(Event {
-                    at,
-                    instance: "Control",
-                }))
+                Some("Control")
             }
-        }
+        };
+        Ok(instance.map(|instance| Event { at, instance }))
     }
 
     /// Leaves out what should have happened while nobody turned the simulation.
     pub(crate) fn skip_to(&mut self, now: Timestamp) {
         let passed = now - Timestamp::ZERO;
         self.ticks = self.ticks.max(count(passed, TICK));
+        self.network.skip_to(now);
+        while block_time(self.blocks) <= now {
+            self.blocks += 1;
+        }
         for camera in [CameraPosition::Top, CameraPosition::Bottom] {
             let exposed = count(
                 passed.saturating_sub(*FIRST_EXPOSURE.of(camera)),
@@ -208,9 +262,18 @@ impl Simulation {
     fn tick(&mut self) -> Result<()> {
         self.ticks += 1;
         let now = self.world.now();
-        let sensors = self.world.sample();
+        self.network.collect(now);
+        let mut sensors = self.world.sample();
         let commands = self.server.receive();
         self.world.command(commands);
+        // A sonar that does not send hears nothing.
+        let [left, right] = self.server.command().sonars;
+        if !left {
+            sensors.sonar.left = NO_ECHO;
+        }
+        if !right {
+            sensors.sonar.right = NO_ECHO;
+        }
         lola::state::encode(&sensors, &mut self.state).map_err(Error::from)?;
         if std::mem::take(&mut self.garble_state) {
             self.state.fill(0xc1);
@@ -278,6 +341,33 @@ impl Simulation {
         is_ready.then(|| self.take_image(camera, now)).flatten()
     }
 
+    fn record_block(&mut self) {
+        if self.waiting_blocks.len() == WAITING_BLOCKS {
+            self.waiting_blocks.pop_front();
+        }
+        self.waiting_blocks.push_back(self.blocks);
+        self.blocks += 1;
+    }
+
+    /// The number of the oldest block of sound that was ready at `now` and not read; and whether the
+    /// one after it should have been read before `now` already.
+    pub(crate) fn take_block(&mut self, now: Timestamp) -> Option<(u64, bool)> {
+        let number = self
+            .waiting_blocks
+            .pop_front_if(|number| block_time(*number) <= now)?;
+        let next = self.waiting_blocks.front();
+        let is_behind = next.is_some_and(|number| block_time(*number) < now);
+        Some((number, is_behind))
+    }
+
+    pub(crate) fn play(&mut self, at: Timestamp, message: Tone) {
+        remember(&mut self.tones, Received { at, message });
+    }
+
+    pub(crate) fn tones(&self) -> Vec<Received<Tone>> {
+        self.tones.iter().copied().collect()
+    }
+
     /// How many states that were sent until `now` wait in the socket; they count as read.
     pub(crate) fn take_states(&mut self, now: Timestamp) -> usize {
         let states = self.unread.iter().take_while(|at| **at <= now).count();
@@ -302,8 +392,15 @@ impl Simulation {
         truths
             .iter()
             .rfind(|truth| truth.captured_at == captured_at)
-            .copied()
+            .cloned()
     }
+}
+
+/// When the last sample of a block of sound is taken.
+pub(crate) fn block_time(number: u64) -> Timestamp {
+    let samples = u128::from(number + 1) * BLOCK_LENGTH as u128;
+    let nanos = samples * 1_000_000_000 / u128::from(SAMPLE_RATE);
+    Timestamp::from_nanos(nanos as u64)
 }
 
 fn remember<T>(values: &mut VecDeque<T>, value: T) {

@@ -9,9 +9,11 @@ use framework::{Clock, Error, Result, Stop, Timestamp};
 use tempfile::TempDir;
 
 use crate::ground_truth::GroundTruth;
+use crate::network::{Network, NetworkTruth, RobotSockets};
 use crate::server::LolaServer;
 use crate::settings::Settings;
 use crate::simulation::Simulation;
+use crate::sound::{Sound, SoundSettings};
 
 /// Later than this the simulation leaves out what it has missed instead of catching up.
 const GREATEST_DELAY: Duration = Duration::from_millis(60);
@@ -19,15 +21,23 @@ const GREATEST_DELAY: Duration = Duration::from_millis(60);
 /// A simulation behind a lock.
 pub(crate) struct Shared {
     simulation: Mutex<Simulation>,
-    /// Wakes who waits for the next exposure.
+    pub(crate) sound: Sound,
+    pub(crate) sound_settings: SoundSettings,
+    /// Wakes who waits for the next exposure or block of sound.
     pub(crate) stepped: Condvar,
     /// The folder of the socket, if it is ours.
     _folder: Option<TempDir>,
 }
 
 impl Shared {
-    pub(crate) fn new(settings: &Settings) -> Result<Self> {
+    /// Around the robot's sockets; without them others may listen at the chosen ports.
+    pub(crate) fn new(
+        settings: &Settings,
+        robot: Option<Arc<RobotSockets>>,
+        is_stepped: bool,
+    ) -> Result<Self> {
         settings.check()?;
+        let network = Network::new(settings, robot, is_stepped)?;
         let (socket, folder) = match &settings.socket {
             Some(path) => (path.clone(), None),
             None => {
@@ -37,10 +47,13 @@ impl Shared {
                 (folder.path().join("lola"), Some(folder))
             }
         };
-        let simulation =
-            Simulation::new(settings, |world| LolaServer::new(socket, *world.commands()))?;
+        let simulation = Simulation::new(settings, network, |world| {
+            LolaServer::new(socket, *world.commands())
+        })?;
         Ok(Self {
             simulation: Mutex::new(simulation),
+            sound: Sound::new(&settings.sound),
+            sound_settings: settings.sound.clone(),
             stepped: Condvar::new(),
             _folder: folder,
         })
@@ -70,10 +83,12 @@ pub struct Simulator {
 impl Simulator {
     /// A world with its LoLA server; the clock must be a wall clock.
     ///
+    /// The referee's computer and the team mate send to the chosen ports, if they are not 0.
+    ///
     /// # Errors
     /// Names the setting that cannot be, or the socket that is in use.
     pub fn start(settings: &Settings, clock: Clock) -> Result<Self> {
-        Self::run(Arc::new(Shared::new(settings)?), clock, |_| {})
+        Self::run(Arc::new(Shared::new(settings, None, false)?), clock, |_| {})
     }
 
     /// Where LoLA is served.
@@ -84,6 +99,11 @@ impl Simulator {
     /// What is really the case, for tests.
     pub fn ground_truth(&self) -> GroundTruth {
         self.shared.lock().ground_truth()
+    }
+
+    /// What the referee's computer and the team mate have said and heard, for tests.
+    pub fn network_truth(&self) -> NetworkTruth {
+        self.shared.lock().network.truth()
     }
 
     /// Calls `before_tick` ahead of every state that LoLA sends.

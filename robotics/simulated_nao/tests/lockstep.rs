@@ -1,15 +1,24 @@
 //! The simulated NAO turned by `next_event`, as the lockstep driver does.
 
+use std::collections::BTreeSet;
+use std::net::UdpSocket;
 use std::time::Duration;
 
-use framework::{Clock, Hardware as _, HardwareContext, Stop};
-use hardware::{ActuatorInterface, CameraInterface, SensorInterface};
-use simulated_nao::Hardware;
+use framework::{Clock, Hardware as _, HardwareContext, Stop, Timestamp};
+use hardware::{
+    ActuatorInterface, CameraInterface, MessageInterface, MicrophoneInterface, NetworkInterface,
+    SensorInterface, SpeakerInterface,
+};
+use simulated_nao::{Hardware, Received};
+use spl_messages::{ReturnData, return_data, team_message};
+use types::audio::{AudioBlock, Tone};
 use types::camera::CameraPosition;
 use types::image::YuyvImage;
 use types::joints::Joints;
-use types::leds::Leds;
+use types::leds::{Color, Leds};
 use types::motor_commands::MotorCommands;
+use types::network::{Channel, Datagram, Endpoint};
+use types::team::TeamMessage;
 
 fn create(options: &[&str], table: &str) -> framework::Result<Hardware> {
     Hardware::new(HardwareContext {
@@ -22,9 +31,9 @@ fn create(options: &[&str], table: &str) -> framework::Result<Hardware> {
 }
 
 #[test]
-fn events_come_at_the_rates_of_lola_and_the_cameras() {
+fn events_come_at_the_rates_of_lola_the_cameras_the_network_and_the_microphones() {
     let hardware = create(&[], "").unwrap();
-    let mut counts = [0; 3];
+    let mut counts = [0; 5];
     let mut last = None;
     loop {
         let event = hardware.next_event().unwrap().unwrap();
@@ -33,13 +42,142 @@ fn events_come_at_the_rates_of_lola_and_the_cameras() {
         if event.at.as_nanos() > Duration::from_secs(3).as_nanos() as u64 {
             break;
         }
-        let names = ["Control", "VisionTop", "VisionBottom"];
+        let names = [
+            "Control",
+            "VisionTop",
+            "VisionBottom",
+            "SplNetwork",
+            "Audio",
+        ];
         counts[names
             .iter()
             .position(|name| *name == event.instance)
             .unwrap()] += 1;
     }
-    assert_eq!(counts, [250, 90, 89]);
+    // The referee's computer speaks twice a second, the team mate once.
+    assert_eq!(counts, [250, 90, 89, 6 + 3, 64]);
+}
+
+#[test]
+fn what_is_taken_away_has_no_events() {
+    let away = ["--no-cameras", "--no-sound", "--no-referee", "--no-mate"];
+    let hardware = create(&away, "").unwrap();
+    for _ in 0..250 {
+        assert_eq!(hardware.next_event().unwrap().unwrap().instance, "Control");
+    }
+    let hardware = create(&["--no-cameras", "--no-mate"], "").unwrap();
+    let instances = std::iter::repeat_with(|| hardware.next_event().unwrap().unwrap().instance);
+    let instances: BTreeSet<_> = instances.take(250).collect();
+    assert_eq!(
+        instances,
+        BTreeSet::from(["Audio", "Control", "SplNetwork"])
+    );
+}
+
+#[test]
+fn a_port_in_use_is_named_with_its_setting_and_the_way_out() {
+    let taken = UdpSocket::bind("127.0.0.1:0").unwrap();
+    let port = taken.local_addr().unwrap().port();
+    for key in ["control_port", "return_port", "team_port", "mate_port"] {
+        let table = format!("network.{key} = {port}");
+        let message = create(&[], &table).err().unwrap().to_string();
+        for part in [&format!("UDP port {port}"), key, "--free-ports"] {
+            assert!(message.contains(part), "{message}");
+        }
+        assert!(create(&["--free-ports"], &table).is_ok());
+    }
+}
+
+#[test]
+fn hostile_datagrams_are_events_and_are_read_as_they_are_but_cut() {
+    let hardware = create(&[], "").unwrap();
+    hardware.send_to_control_port(b"hello").unwrap();
+    hardware.send_to_team_port(&[7; 1000]).unwrap();
+    hardware.send_to_team_port(b"").unwrap();
+    let mut datagram = Datagram::default();
+    for (channel, bytes) in [
+        (Channel::GameController, b"hello".to_vec()),
+        (Channel::Team, vec![7; 129]),
+        (Channel::Team, Vec::new()),
+    ] {
+        let event = hardware.next_event().unwrap().unwrap();
+        assert_eq!((event.instance, event.at), ("SplNetwork", Timestamp::ZERO));
+        let captured_at = hardware.read_datagram(&mut datagram).unwrap();
+        assert_eq!(captured_at, event.at);
+        assert_eq!((datagram.channel, &datagram.bytes), (channel, &bytes));
+    }
+    let silence = hardware.read_datagram(&mut datagram).unwrap_err();
+    assert!(silence.is_no_event());
+}
+
+#[test]
+fn what_the_robot_says_is_heard_and_counted() {
+    let table = "game.team = 24\ngame.player_number = 4";
+    let hardware = create(&[], table).unwrap();
+    let referee = Endpoint {
+        address: [127, 0, 0, 1],
+        port: 3939,
+    };
+    let data = ReturnData {
+        player_number: 4,
+        team_number: 24,
+        ..ReturnData::default()
+    };
+    let stranger = ReturnData {
+        team_number: 25,
+        ..data
+    };
+    for bytes in [
+        &return_data::encode(&data).unwrap()[..],
+        &return_data::encode(&stranger).unwrap(),
+        b"hello",
+    ] {
+        hardware.send_to_game_controller(referee, bytes).unwrap();
+    }
+    let message = TeamMessage {
+        player_number: 4,
+        ..TeamMessage::default()
+    };
+    let mut bytes = Vec::new();
+    team_message::encode(&message, &mut bytes).unwrap();
+    hardware.send_to_team(&bytes).unwrap();
+    let truth = hardware.network_truth();
+    let at = Timestamp::ZERO;
+    assert_eq!(truth.return_data, [Received { at, message: data }]);
+    let counts = truth.return_data_counts;
+    assert_eq!((counts.accepted, counts.rejected), (1, 2));
+    assert_eq!(truth.team_messages, [Received { at, message }]);
+    // A broadcast comes back.
+    let event = hardware.next_event().unwrap().unwrap();
+    assert_eq!(
+        (event.instance, event.at.as_nanos()),
+        ("SplNetwork", 1_000_000)
+    );
+}
+
+#[test]
+fn tones_lights_and_whistles_can_be_inspected() {
+    let hardware = create(&[], "sound.whistles = [0.0, 12.0]").unwrap();
+    let whistles = hardware.whistles();
+    assert_eq!(whistles.len(), 1);
+    assert_eq!(whistles[0].begins_at, 0.0);
+    let message = Tone {
+        frequency: 440.0,
+        duration: 0.5,
+        volume: 0.5,
+    };
+    hardware.play_tone(&message).unwrap();
+    let at = Timestamp::ZERO;
+    assert_eq!(hardware.tones(), [Received { at, message }]);
+    let leds = Leds {
+        chest: Color::new(0.0, 1.0, 0.0),
+        ..Leds::default()
+    };
+    hardware
+        .write_command(&MotorCommands::default(), &leds)
+        .unwrap();
+    while hardware.next_event().unwrap().unwrap().instance != "Control" {}
+    assert_eq!(hardware.leds(), leds);
 }
 
 #[test]
@@ -67,6 +205,10 @@ fn nothing_is_read_before_it_is_there() {
     assert!(hardware.read_sensors().unwrap_err().is_no_event());
     let image = hardware.read_image(CameraPosition::Top, &mut YuyvImage::default());
     assert!(image.unwrap_err().is_no_event());
+    let datagram = hardware.read_datagram(&mut Datagram::default());
+    assert!(datagram.unwrap_err().is_no_event());
+    let sound = hardware.read_audio(&mut AudioBlock::default());
+    assert!(sound.unwrap_err().is_no_event());
 }
 
 #[test]

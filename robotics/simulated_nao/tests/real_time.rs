@@ -3,13 +3,17 @@
 use std::time::{Duration, Instant};
 
 use framework::{Clock, Hardware as _, HardwareContext, Stop};
-use hardware::{ActuatorInterface, CameraInterface, SensorInterface};
+use hardware::{
+    ActuatorInterface, CameraInterface, MicrophoneInterface, NetworkInterface, SensorInterface,
+};
 use simulated_nao::Hardware;
+use types::audio::AudioBlock;
 use types::camera::CameraPosition;
 use types::image::YuyvImage;
 use types::joints::Joints;
 use types::leds::Leds;
 use types::motor_commands::MotorCommands;
+use types::network::Datagram;
 
 fn create(stop: &Stop) -> Hardware {
     Hardware::new(HardwareContext {
@@ -41,6 +45,28 @@ fn sensors_are_sampled_every_12_ms_of_the_world() {
 }
 
 #[test]
+fn somebody_presses_the_chest_button() {
+    let hardware = create(&Stop::new());
+    let is_pressed = || hardware.read_sensors().unwrap().1.touch.chest_button;
+    assert!((0..500).any(|_| is_pressed()));
+    assert!((0..500).any(|_| !is_pressed()));
+}
+
+#[test]
+fn blocks_of_sound_come_one_after_the_other() {
+    let hardware = create(&Stop::new());
+    let mut block = AudioBlock::default();
+    let mut last = None;
+    for _ in 0..5 {
+        let captured_at = hardware.read_audio(&mut block).unwrap();
+        assert!(last < Some(captured_at));
+        last = Some(captured_at);
+        assert_eq!(block.sample_rate, 44_100);
+        assert!(block.channels.iter().all(|channel| channel.len() == 2048));
+    }
+}
+
+#[test]
 fn images_are_those_of_their_exposures() {
     let hardware = create(&Stop::new());
     let mut image = YuyvImage::default();
@@ -69,6 +95,20 @@ fn a_stop_ends_blocked_reads() {
         let reads = [
             scope.spawn(|| {
                 loop {
+                    if let Err(error) = hardware.read_datagram(&mut Datagram::default()) {
+                        break error;
+                    }
+                }
+            }),
+            scope.spawn(|| {
+                loop {
+                    if let Err(error) = hardware.read_audio(&mut AudioBlock::default()) {
+                        break error;
+                    }
+                }
+            }),
+            scope.spawn(|| {
+                loop {
                     if let Err(error) =
                         hardware.read_image(CameraPosition::Top, &mut YuyvImage::default())
                     {
@@ -90,7 +130,8 @@ fn a_stop_ends_blocked_reads() {
         for read in reads {
             assert!(read.join().unwrap().is_stopped());
         }
-        // 100 ms are promised; a busy machine may need longer to wake the threads.
+        // 100 ms are promised, and the constants of the readers are held below by unit tests; here
+        // a busy machine may need longer to wake the threads.
         assert!(
             begun.elapsed() < Duration::from_millis(500),
             "{:?}",

@@ -4,74 +4,84 @@ use std::ops::RangeInclusive;
 
 use nalgebra::{Point3, Vector3};
 
-use super::color::to_byte;
-use super::{BYTES_PER_PIXEL, Exposure, HEIGHT, WIDTH};
+use super::color::Color;
+use super::row::{Row, Touch};
+use super::{Exposure, HEIGHT, WIDTH};
 use crate::field::BALL_RADIUS;
 
-const WHITE: f32 = 225.0;
-const BLACK: f32 = 38.0;
+/// Luminance of a patch as a share of the white's.
+const BLACK: f32 = 0.17;
 /// Cosine of the angle that a patch spans around its centre: 0.33 rad.
 const PATCH: f32 = 0.946;
 /// Light that reaches even the underside.
 const AMBIENT: f32 = 0.55;
 
-/// Paints the ball over the image; `center` is in the optical frame.
-pub(super) fn paint(exposure: &Exposure, center: &Point3<f32>, image: &mut [u8]) {
-    let Some((columns, rows)) = bounds(exposure, center) else {
-        return;
-    };
-    let up = exposure
-        .camera_to_field
-        .inverse_transform_vector(&Vector3::z());
-    let patches =
-        icosahedron().map(|patch| exposure.camera_to_field.inverse_transform_vector(&patch));
-    let ball = Ball {
-        center: center.coords,
-        up,
-        patches,
-        pixel: exposure.intrinsics.focal.x.recip(),
-    };
-    for row in rows {
-        // Pairs of pixels share their chromaticity.
-        for pair in columns.start() / 2..=columns.end() / 2 {
-            let offset = (row * WIDTH + 2 * pair) * BYTES_PER_PIXEL;
-            let bytes = &mut image[offset..offset + 2 * BYTES_PER_PIXEL];
-            let covered = [0, 1].map(|side| {
-                let (covered, luminance) = ball.look(&exposure.ray(2 * pair + side, row));
-                mix(&mut bytes[2 * side], luminance, covered);
-                covered
-            });
-            let covered = (covered[0] + covered[1]) / 2.0;
-            mix(&mut bytes[1], 128.0, covered);
-            mix(&mut bytes[3], 128.0, covered);
-        }
-    }
-}
-
-struct Ball {
+/// The ball in the image.
+pub(super) struct Ball {
+    /// In the optical frame.
     center: Vector3<f32>,
     up: Vector3<f32>,
     patches: [Vector3<f32>; 12],
     /// Angle of a pixel.
     pixel: f32,
+    columns: RangeInclusive<usize>,
+    rows: RangeInclusive<usize>,
 }
 
 impl Ball {
-    /// How much of the pixel the ball covers, and its luminance there.
+    /// `center` is in the optical frame; `None` where the image shows nothing of it.
+    pub(super) fn new(exposure: &Exposure, center: &Point3<f32>) -> Option<Self> {
+        let (columns, rows) = bounds(exposure, center)?;
+        let turn =
+            |vector: Vector3<f32>| exposure.camera_to_field.inverse_transform_vector(&vector);
+        Some(Self {
+            center: center.coords,
+            up: turn(Vector3::z()),
+            patches: icosahedron().map(turn),
+            pixel: exposure.intrinsics.focal.x.recip(),
+            columns,
+            rows,
+        })
+    }
+
+    /// 1/m of its centre.
+    pub(super) fn nearness(&self) -> f32 {
+        self.center.z.recip()
+    }
+
+    /// Paints what of it lies in one row.
+    pub(super) fn paint(&self, exposure: &Exposure, number: usize, row: &mut Row) {
+        if !self.rows.contains(&number) {
+            return;
+        }
+        let nearness = self.nearness();
+        let first = exposure.ray(0, number);
+        let right = exposure.intrinsics.focal.x.recip();
+        row.span(self.columns.clone()).paint(Color::BALL, |x| {
+            let (part, light) = self.look(&Vector3::new(first.x + right * x, first.y, first.z));
+            Touch {
+                part,
+                light,
+                nearness,
+            }
+        });
+    }
+
+    /// How much of the pixel the ball covers, and its light there.
     fn look(&self, ray: &Vector3<f32>) -> (f32, f32) {
         let ray = ray.normalize();
         let along = ray.dot(&self.center);
         let miss = (self.center - ray * along).norm();
         let pixel = self.pixel * along;
-        let covered = ((BALL_RADIUS - miss) / pixel + 0.5).clamp(0.0, 1.0);
+        let part = ((BALL_RADIUS - miss) / pixel + 0.5).clamp(0.0, 1.0);
         let depth = (BALL_RADIUS * BALL_RADIUS - miss * miss).max(0.0).sqrt();
         let normal = (ray * (along - depth) - self.center).normalize();
         let facing = -normal.dot(&ray);
         let blur = pixel / BALL_RADIUS / facing.max(0.2);
         let light = AMBIENT + (1.0 - AMBIENT) * (normal.dot(&self.up) * 0.6 + 0.6).clamp(0.0, 1.0);
         (
-            covered,
-            light * (WHITE + (BLACK - WHITE) * self.blackness(&normal, blur)),
+            part,
+            light * (1.0 + (BLACK - 1.0) * self.blackness(&normal, blur)),
         )
     }
 
@@ -84,10 +94,6 @@ impl Ball {
         // The derivative of the cosine at the rim of a patch is the sine of its angle: 0.32.
         ((nearest - PATCH) / (0.32 * blur) + 0.5).clamp(0.0, 1.0)
     }
-}
-
-fn mix(byte: &mut u8, value: f32, part: f32) {
-    *byte = to_byte(f32::from(*byte) * (1.0 - part) + value * part);
 }
 
 /// Columns and rows that the ball can touch; none if it is behind the camera or beside the image.

@@ -1,7 +1,7 @@
 //! Colours of the world in full range YCbCr (BT.601), and the noise of the sensor.
 
 /// Luminance 0 to 255, chromaticities relative to grey.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Color {
     pub(crate) luminance: f32,
     pub(crate) blue: f32,
@@ -10,28 +10,32 @@ pub(crate) struct Color {
 
 impl Color {
     /// RGB (38, 128, 52).
-    pub(crate) const CARPET: Self = Self {
-        luminance: 92.4,
-        blue: -22.8,
-        red: -38.8,
-    };
-    pub(crate) const LINE: Self = Self {
-        luminance: 205.0,
-        blue: -1.0,
-        red: -1.0,
-    };
+    pub(crate) const CARPET: Self = Self::new(92.4, -22.8, -38.8);
+    pub(crate) const LINE: Self = Self::new(205.0, -1.0, -1.0);
     /// The floor around the carpet.
-    pub(crate) const FLOOR: Self = Self {
-        luminance: 118.0,
-        blue: -9.0,
-        red: 8.0,
-    };
-    /// Walls at the height of the horizon.
-    pub(crate) const HORIZON: Self = Self {
-        luminance: 150.0,
-        blue: 3.0,
-        red: -2.0,
-    };
+    pub(crate) const FLOOR: Self = Self::new(118.0, -9.0, 8.0);
+    /// The walls of the hall.
+    pub(crate) const WALL: Self = Self::new(150.0, 3.0, -2.0);
+    /// The boards before the walls.
+    pub(crate) const BOARD: Self = Self::new(96.0, 6.0, -1.0);
+    pub(crate) const GOAL: Self = Self::new(218.0, 0.0, 0.0);
+    pub(crate) const NET: Self = Self::new(196.0, 0.0, 0.0);
+    pub(crate) const SHELL: Self = Self::new(212.0, 1.0, -1.0);
+    pub(crate) const JOINT: Self = Self::new(120.0, 2.0, -1.0);
+    pub(crate) const DARK: Self = Self::new(45.0, 3.0, -2.0);
+    /// RGB (25, 60, 190).
+    pub(crate) const BLUE_SHIRT: Self = Self::new(64.4, 70.9, -28.1);
+    /// RGB (190, 30, 35).
+    pub(crate) const RED_SHIRT: Self = Self::new(78.4, -24.5, 79.6);
+    pub(crate) const BALL: Self = Self::new(225.0, 0.0, 0.0);
+
+    pub(crate) const fn new(luminance: f32, blue: f32, red: f32) -> Self {
+        Self {
+            luminance,
+            blue,
+            red,
+        }
+    }
 
     pub(crate) fn mixed(self, other: Self, part: f32) -> Self {
         Self {
@@ -56,11 +60,19 @@ impl Color {
             red: self.red * factor,
         }
     }
-}
 
-/// Rounds and saturates.
-pub(crate) fn to_byte(value: f32) -> u8 {
-    to_bits(value.clamp(0.0, 255.0)) as u8
+    /// With its red, green and blue multiplied.
+    pub(crate) fn balanced(self, [red, green, blue]: [f32; 3]) -> Self {
+        let red = red * (self.luminance + 1.402 * self.red);
+        let green = green * (self.luminance - 0.344_136 * self.blue - 0.714_136 * self.red);
+        let blue = blue * (self.luminance + 1.772 * self.blue);
+        let luminance = 0.299 * red + 0.587 * green + 0.114 * blue;
+        Self {
+            luminance,
+            blue: (blue - luminance) / 1.772,
+            red: (red - luminance) / 1.402,
+        }
+    }
 }
 
 /// The nearest integer in the low bits, for numbers up to four millions. `as` would look for
@@ -71,25 +83,72 @@ pub(crate) fn to_bits(value: f32) -> u32 {
     (value + UNIT_SPACED).to_bits()
 }
 
-/// Noise of the sensor: a sequence of small numbers fixed by where it starts.
+/// How many sequences of noise run side by side.
+pub(crate) const LANES: usize = 8;
+
+/// Noise of the sensor: numbers with variance 1, fixed by the seed, the image and the pixel.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Grain(u32);
+pub(crate) struct Grain([u32; LANES]);
 
 impl Grain {
-    pub(crate) fn new(image: u64, row: usize) -> Self {
-        let seed =
-            (image as u32).wrapping_mul(0x9e37_79b1) ^ (row as u32).wrapping_mul(0x85eb_ca77);
-        Self(seed | 1)
+    pub(crate) fn new(seed: u32, image: u64, row: usize) -> Self {
+        let start = hash(seed ^ hash(image as u32 ^ hash((image >> 32) as u32)));
+        let row = hash(start.wrapping_add(row as u32));
+        Self(std::array::from_fn(|lane| {
+            hash(row.wrapping_add(lane as u32)) | 1
+        }))
     }
 
-    /// Four values between -2.25 and 2.25.
-    pub(crate) fn next(&mut self) -> [f32; 4] {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 17;
-        self.0 ^= self.0 << 5;
+    /// Four numbers for each of the lanes.
+    pub(crate) fn next(&mut self) -> [[f32; LANES]; 4] {
+        // Marsaglia (2003), Xorshift RNGs.
+        for state in &mut self.0 {
+            *state ^= *state << 13;
+            *state ^= *state >> 17;
+            *state ^= *state << 5;
+        }
         [0, 8, 16, 24].map(|shift| {
-            let bits = self.0 >> shift;
-            ((bits & 3) + (bits >> 2 & 3)) as f32 * 0.75 - 2.25
+            self.0.map(|state| {
+                // Two even numbers from 0 to 15: their sum has mean 15 and variance 42.5.
+                let bits = state >> shift;
+                let sum = (bits & 15) + (bits >> 4 & 15);
+                (sum as i32 as f32 - 15.0) * 0.153_393
+            })
         })
+    }
+}
+
+/// Every bit depends on every bit (finaliser of MurmurHash3).
+fn hash(mut bits: u32) -> u32 {
+    bits ^= bits >> 16;
+    bits = bits.wrapping_mul(0x85eb_ca6b);
+    bits ^= bits >> 13;
+    bits = bits.wrapping_mul(0xc2b2_ae35);
+    bits ^ bits >> 16
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn noise_has_variance_one_and_no_mean() {
+        let mut grain = Grain::new(1, 2, 3);
+        let values: Vec<f32> = (0..10_000)
+            .flat_map(|_| grain.next().into_iter().flatten())
+            .collect();
+        let count = values.len() as f32;
+        let mean = values.iter().sum::<f32>() / count;
+        let variance = values.iter().map(|value| value * value).sum::<f32>() / count;
+        assert!(mean.abs() < 0.01, "{mean}");
+        assert!((variance - 1.0).abs() < 0.01, "{variance}");
+    }
+
+    #[test]
+    fn neutral_white_balance_changes_nothing() {
+        let color = Color::CARPET.balanced([1.0; 3]);
+        assert!((color.luminance - Color::CARPET.luminance).abs() < 1e-3);
+        assert!((color.blue - Color::CARPET.blue).abs() < 1e-3);
+        assert!((color.red - Color::CARPET.red).abs() < 1e-3);
     }
 }

@@ -1,11 +1,16 @@
 //! Everything an image depends on, taken at one moment.
 
+use std::sync::Arc;
+
 use framework::Timestamp;
 use nalgebra::{Isometry3, Point2, Point3, Vector3};
 use types::camera::Intrinsics;
+use types::joints::Joints;
+
+use crate::scene::{ImageSettings, Robot};
 
 /// What a camera sees at one moment.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Exposure {
     /// Counts the exposures of this camera from 0.
     pub number: u64,
@@ -21,6 +26,21 @@ pub struct Exposure {
     pub intrinsics: Intrinsics,
     /// Centre in the field frame.
     pub ball: Option<Point3<f32>>,
+    /// The other robots.
+    pub robots: Arc<[Robot]>,
+    /// The robot itself, which may stand in its own view; `None` leaves it out.
+    pub body: Option<OwnBody>,
+    /// How the camera takes it.
+    pub images: ImageSettings,
+}
+
+/// The robot that carries the camera.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OwnBody {
+    /// Angles in rad.
+    pub joints: Joints<f32>,
+    /// From the torso frame to the field frame.
+    pub torso_to_field: Isometry3<f32>,
 }
 
 impl Exposure {

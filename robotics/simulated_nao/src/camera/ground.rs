@@ -6,8 +6,9 @@
 
 use nalgebra::{Point2, Vector2, Vector3};
 
-use super::Exposure;
-use super::color::{Color, Grain, to_bits, to_byte};
+use super::color::{Color, to_bits};
+use super::row::Row;
+use super::{Exposure, WIDTH, hall};
 use crate::field::{self, BALL_RADIUS, Field};
 
 const BLOCK: usize = 16;
@@ -19,13 +20,12 @@ const BLOTCH_LUMINANCE: f32 = 7.0;
 /// Reach of the ball's shadow around its foot.
 const SHADOW: f32 = 3.0 * BALL_RADIUS;
 
-/// Paints one row of a YUYV image.
-pub(super) fn paint_row(exposure: &Exposure, field: &Field, row: usize, bytes: &mut [u8]) {
-    let rays = Rays::new(exposure, row);
-    let mut grain = Grain::new(exposure.number, row);
-    for (block, bytes) in bytes.chunks_exact_mut(2 * BLOCK).enumerate() {
-        let pixels = rays.block(field, block * BLOCK);
-        write(&pixels, &mut grain, bytes);
+/// Paints one row over whatever was there.
+pub(super) fn paint(exposure: &Exposure, field: &Field, number: usize, row: &mut Row) {
+    row.nearness.fill(0.0);
+    let rays = Rays::new(exposure, number);
+    for block in (0..WIDTH).step_by(BLOCK) {
+        rays.paint(field, block, row);
     }
 }
 
@@ -47,6 +47,16 @@ struct Footprint {
     down: Vector2<f32>,
 }
 
+/// What the pixels of a block have in common.
+struct Block {
+    /// What is left of the carpet's blotches.
+    blotches: f32,
+    /// Of a footprint, m.
+    size: f32,
+    /// The ball, if its shadow can be here.
+    ball: Option<Point2<f32>>,
+}
+
 impl Rays {
     fn new(exposure: &Exposure, row: usize) -> Self {
         let rotation = exposure.camera_to_field.rotation;
@@ -61,47 +71,64 @@ impl Rays {
     }
 
     fn direction(&self, column: usize) -> Vector3<f32> {
-        self.first + self.right * column as f32
+        self.first + self.right * column as u32 as i32 as f32
     }
 
-    fn block(&self, field: &Field, column: usize) -> [Color; BLOCK] {
+    /// Paints the pixels of a block that begins in this column.
+    fn paint(&self, field: &Field, column: usize, row: &mut Row) {
         let first = self.direction(column);
         let last = self.direction(column + BLOCK - 1);
         if first.z > FLATTEST && last.z > FLATTEST {
-            return std::array::from_fn(|index| background(&self.direction(column + index)));
+            for column in column..column + BLOCK {
+                row.set(column, hall::wall(&self.origin, &self.direction(column)));
+            }
+            return;
         }
-        if first.z <= FLATTEST && last.z <= FLATTEST && self.is_plain(field, &first, &last) {
-            return self.plain(first);
+        if first.z > FLATTEST || last.z > FLATTEST {
+            for column in column..column + BLOCK {
+                let direction = self.direction(column);
+                let color = if direction.z > FLATTEST {
+                    hall::wall(&self.origin, &direction)
+                } else {
+                    let footprint = self.footprint(&direction);
+                    self.pixel(field, &direction, &Block::new(&footprint, self.ball))
+                };
+                row.set(column, color);
+            }
+            return;
         }
-        std::array::from_fn(|index| self.pixel(field, &self.direction(column + index)))
+        let ends = [self.footprint(&first), self.footprint(&last)];
+        let middle = nalgebra::center(&ends[0].point, &ends[1].point);
+        let pixel = ends[0].size() + ends[1].size();
+        let reach = nalgebra::distance(&ends[0].point, &ends[1].point) / 2.0 + pixel;
+        let is_near = |ball: &Point2<f32>| nalgebra::distance(ball, &middle) <= reach + SHADOW;
+        let ball = self.ball.filter(is_near);
+        let block = Block::new(&ends[0], ball);
+        let is_plain = ball.is_none()
+            && field::depth_in_carpet(middle) > reach
+            && field.distance_to_marking(middle) > reach;
+        if is_plain {
+            self.paint_carpet(first, &block, column, row);
+            return;
+        }
+        for column in column..column + BLOCK {
+            row.set(column, self.pixel(field, &self.direction(column), &block));
+        }
     }
 
-    /// Whether there is nothing but carpet between two rays.
-    fn is_plain(&self, field: &Field, first: &Vector3<f32>, last: &Vector3<f32>) -> bool {
-        let first = self.footprint(first);
-        let last = self.footprint(last);
-        let middle = nalgebra::center(&first.point, &last.point);
-        let pixel =
-            first.to_right.norm() + first.down.norm() + last.to_right.norm() + last.down.norm();
-        let reach = nalgebra::distance(&first.point, &last.point) / 2.0 + pixel;
-        field::depth_in_carpet(middle) > reach
-            && field.distance_to_marking(middle) > reach
-            && self
-                .ball
-                .is_none_or(|ball| nalgebra::distance(&ball, &middle) > reach + SHADOW)
-    }
-
-    fn plain(&self, first: Vector3<f32>) -> [Color; BLOCK] {
-        let fade = blotch_luminance(&self.footprint(&first));
-        let mut luminances = [0.0; BLOCK];
+    /// Nothing but carpet.
+    fn paint_carpet(&self, first: Vector3<f32>, block: &Block, column: usize, row: &mut Row) {
+        let columns = column..column + BLOCK;
+        let luminances = &mut row.luminance[columns.clone()];
         for (index, luminance) in luminances.iter_mut().enumerate() {
-            let index = index as f32;
+            let index = index as u32 as i32 as f32;
             let scale = -self.origin.z / (first.z + self.right.z * index);
             let x = self.origin.x + scale * (first.x + self.right.x * index);
             let y = self.origin.y + scale * (first.y + self.right.y * index);
-            *luminance = fade * blotch(x, y);
+            *luminance = Color::CARPET.luminance + block.blotches * blotch(x, y);
         }
-        luminances.map(|luminance| Color::CARPET.brightened(luminance))
+        row.blue[columns.clone()].fill(Color::CARPET.blue);
+        row.red[columns].fill(Color::CARPET.red);
     }
 
     fn footprint(&self, direction: &Vector3<f32>) -> Footprint {
@@ -115,43 +142,58 @@ impl Rays {
         }
     }
 
-    fn pixel(&self, field: &Field, direction: &Vector3<f32>) -> Color {
-        if direction.z > FLATTEST {
-            return background(direction);
-        }
-        let footprint = self.footprint(direction);
-        let depth = field::depth_in_carpet(footprint.point);
-        let size = footprint.to_right.norm() + footprint.down.norm();
-        let on_carpet = (depth / size + 0.5).clamp(0.0, 1.0);
-        let floor = floor(nalgebra::distance(
-            &footprint.point,
-            &Point2::from(self.origin.xy()),
-        ));
-        if on_carpet == 0.0 {
-            return floor;
-        }
-        let white = if field.distance_to_marking(footprint.point) > size {
-            0.0
-        } else {
-            field.whiteness(footprint.point, footprint.to_right, footprint.down)
-        };
-        let carpet = Color::CARPET.brightened(
-            blotch_luminance(&footprint) * blotch(footprint.point.x, footprint.point.y),
-        );
-        let color = floor.mixed(carpet.mixed(Color::LINE, white), on_carpet);
-        color.shaded(self.light(&footprint.point))
-    }
-
-    /// What the ball leaves of the light on the carpet around it.
-    fn light(&self, point: &Point2<f32>) -> f32 {
-        self.ball.map_or(1.0, |ball| {
-            let distance = nalgebra::distance_squared(&ball, point);
-            if distance > SHADOW * SHADOW {
-                return 1.0;
+    fn pixel(&self, field: &Field, direction: &Vector3<f32>, block: &Block) -> Color {
+        let scale = -self.origin.z / direction.z;
+        let point = Point2::from(self.origin.xy() + direction.xy() * scale);
+        let on_carpet = (field::depth_in_carpet(point) / block.size + 0.5).clamp(0.0, 1.0);
+        let mut color = Color::CARPET;
+        if on_carpet > 0.0 {
+            color = color.brightened(block.blotches * blotch(point.x, point.y));
+            if field.distance_to_marking(point) <= block.size {
+                let Footprint { to_right, down, .. } = self.footprint(direction);
+                color = color.mixed(Color::LINE, field.whiteness(point, to_right, down));
             }
-            1.0 - 0.5 * (-distance / (BALL_RADIUS * BALL_RADIUS)).exp()
-        })
+        }
+        if on_carpet < 1.0 {
+            let behind = if hall::contains(point) {
+                hall::floor(nalgebra::distance(&point, &self.origin.xy().into()))
+            } else {
+                hall::wall(&self.origin, direction)
+            };
+            color = behind.mixed(color, on_carpet);
+        }
+        match block.ball {
+            Some(ball) => color.shaded(light(&ball, &point)),
+            None => color,
+        }
     }
+}
+
+impl Footprint {
+    fn size(&self) -> f32 {
+        self.to_right.norm() + self.down.norm()
+    }
+}
+
+impl Block {
+    fn new(footprint: &Footprint, ball: Option<Point2<f32>>) -> Self {
+        // Blotches smaller than a pixel blend.
+        let pixel = footprint.to_right.norm().max(footprint.down.norm());
+        Self {
+            blotches: BLOTCH_LUMINANCE * (BLOTCH / pixel).min(1.0),
+            size: footprint.size(),
+            ball,
+        }
+    }
+}
+
+/// What the ball leaves of the light on the carpet around it.
+fn light(ball: &Point2<f32>, point: &Point2<f32>) -> f32 {
+    let distance = nalgebra::distance_squared(ball, point);
+    if distance > SHADOW * SHADOW {
+        return 1.0;
+    }
+    1.0 - 0.5 * (-distance / (BALL_RADIUS * BALL_RADIUS)).exp()
 }
 
 /// A number between -1 and 1 for every blotch.
@@ -161,29 +203,4 @@ fn blotch(x: f32, y: f32) -> f32 {
     hash ^= hash >> 15;
     hash = hash.wrapping_mul(0x2c1b_3c6d);
     (hash >> 16) as i32 as f32 / 32_768.0 - 1.0
-}
-
-/// Blotches smaller than a pixel blend.
-fn blotch_luminance(footprint: &Footprint) -> f32 {
-    let size = footprint.to_right.norm().max(footprint.down.norm());
-    BLOTCH_LUMINANCE * (BLOTCH / size).min(1.0)
-}
-
-fn floor(distance: f32) -> Color {
-    Color::FLOOR.mixed(Color::HORIZON, (distance / 40.0).min(1.0))
-}
-
-fn background(direction: &Vector3<f32>) -> Color {
-    let slope = direction.z / direction.xy().norm();
-    Color::HORIZON.brightened(40.0 * slope.clamp(0.0, 1.0))
-}
-
-fn write(pixels: &[Color; BLOCK], grain: &mut Grain, bytes: &mut [u8]) {
-    for (pair, bytes) in pixels.chunks_exact(2).zip(bytes.chunks_exact_mut(4)) {
-        let noise = grain.next();
-        bytes[0] = to_byte(pair[0].luminance + noise[0]);
-        bytes[1] = to_byte(128.0 + (pair[0].blue + pair[1].blue + noise[1]) / 2.0);
-        bytes[2] = to_byte(pair[1].luminance + noise[2]);
-        bytes[3] = to_byte(128.0 + (pair[0].red + pair[1].red + noise[3]) / 2.0);
-    }
 }

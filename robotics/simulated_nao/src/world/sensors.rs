@@ -1,25 +1,13 @@
-//! What the sensors of a body report.
+//! What the sensors of a body report about its posture.
 //!
 //! Without noise: a test that compares with the truth shows the error of what it tests.
 
 use kinematics::inertial::GRAVITY;
 use nalgebra::Vector3;
 use types::joints::Joints;
-use types::sensor_data::{Battery, InertialMeasurement, RobotConfiguration, SensorData, Sonar};
+use types::sensor_data::{InertialMeasurement, RobotConfiguration, SensorData};
 
 use crate::physics::Body;
-
-/// Temperature of all motors, °C.
-const TEMPERATURE: f32 = 38.0;
-/// What the sonars report where nothing reflects, m.
-const NO_ECHO: f32 = 5.0;
-/// A full battery in use, as the published recording of a V6 has it.
-const BATTERY: Battery = Battery {
-    charge: 0.99,
-    status: -32_552.0,
-    current: -1.2,
-    temperature: 36.0,
-};
 
 /// One sample; `gyroscope` in rad/s in the torso frame.
 pub(super) fn sample(
@@ -34,7 +22,6 @@ pub(super) fn sample(
     SensorData {
         positions: body.joints.map(|angle| angle as f32),
         stiffnesses,
-        temperatures: Joints::filled(TEMPERATURE),
         inertial: InertialMeasurement {
             gyroscope: gyroscope.cast(),
             accelerometer: upwards.cast(),
@@ -44,11 +31,6 @@ pub(super) fn sample(
         force_sensitive_resistors: body
             .contact_forces
             .map(|forces| forces.map(|force| (force / GRAVITY) as f32)),
-        sonar: Sonar {
-            left: NO_ECHO,
-            right: NO_ECHO,
-        },
-        battery: BATTERY,
         configuration,
         ..SensorData::default()
     }

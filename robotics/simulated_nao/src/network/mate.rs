@@ -1,0 +1,84 @@
+//! A team mate: it tells the robot where it is and where the ball is, and keeps what the robot says.
+
+use std::net::{SocketAddr, UdpSocket};
+use std::time::Duration;
+
+use framework::{Result, Timestamp};
+use nalgebra::{Isometry2, Vector2};
+use spl_messages::team_message;
+use types::team::{TeamBall, TeamMessage};
+
+use super::rhythm::Rhythm;
+use super::robot::{BUFFER_LENGTH, bind, receive_from};
+use super::truth::Inbox;
+use crate::ground_truth::GroundTruth;
+use crate::settings::Settings;
+
+const PERIOD: Duration = Duration::from_secs(1);
+const FIRST: Duration = Duration::from_millis(650);
+
+/// A team mate that stands somewhere and knows where the ball is.
+pub(crate) struct Mate {
+    socket: UdpSocket,
+    number: u8,
+    ground_to_field: Isometry2<f32>,
+    pub(super) rhythm: Rhythm,
+    bytes: Vec<u8>,
+    pub(super) inbox: Inbox<TeamMessage>,
+}
+
+impl Mate {
+    pub(super) fn new(settings: &Settings) -> Result<Self> {
+        let [x, y, heading] = settings.game.mate_pose;
+        Ok(Self {
+            socket: bind(settings.network.mate_port, "mate_port")?,
+            number: settings.game.mate_number(),
+            ground_to_field: Isometry2::new(Vector2::new(x, y), heading).cast(),
+            rhythm: Rhythm::new(FIRST, PERIOD),
+            bytes: Vec::new(),
+            inbox: Inbox::default(),
+        })
+    }
+
+    pub(super) fn socket(&self) -> &UdpSocket {
+        &self.socket
+    }
+
+    pub(super) fn address(&self) -> Result<SocketAddr> {
+        Ok(self.socket.local_addr()?)
+    }
+
+    pub(super) fn speak(&mut self, truth: &GroundTruth) -> Result<Vec<u8>> {
+        self.rhythm.advance();
+        let message = TeamMessage {
+            player_number: self.number,
+            is_fallen: false,
+            ground_to_field: Some(self.ground_to_field),
+            ball: truth.ball.map(|ball| TeamBall {
+                position: self.ground_to_field.inverse_transform_point(&ball.xy()),
+                age: 0.0,
+            }),
+        };
+        team_message::encode(&message, &mut self.bytes)?;
+        Ok(self.bytes.clone())
+    }
+
+    /// Takes all that has come.
+    pub(super) fn collect(&mut self, now: Timestamp) {
+        while self.collect_one(now) {}
+    }
+
+    /// Takes what has come first; whether anything has.
+    pub(crate) fn collect_one(&mut self, now: Timestamp) -> bool {
+        let mut bytes = [0; BUFFER_LENGTH];
+        let Some((length, _)) = receive_from(&self.socket, &mut bytes) else {
+            return false;
+        };
+        self.keep(now, &bytes[..length]);
+        true
+    }
+
+    fn keep(&mut self, at: Timestamp, bytes: &[u8]) {
+        self.inbox.keep(at, team_message::decode(bytes).ok());
+    }
+}

@@ -1,0 +1,200 @@
+//! What comes when with a stepped clock.
+
+use std::time::Instant;
+
+use framework::Stop;
+use spl_messages::{control_data, team_message};
+use types::game::GameState;
+use types::network::Datagram;
+
+use super::*;
+use crate::settings::Settings;
+use crate::simulator::Shared;
+
+struct Lockstep {
+    shared: Shared,
+    sockets: Arc<RobotSockets>,
+}
+
+impl Lockstep {
+    fn new(options: &[&str]) -> Self {
+        let options: Vec<_> = options.iter().map(|&option| option.to_owned()).collect();
+        let mut settings = Settings::default();
+        settings.apply(&options).unwrap();
+        let sockets = Arc::new(RobotSockets::new(&settings.network).unwrap());
+        let shared = Shared::new(&settings, Some(Arc::clone(&sockets)), true).unwrap();
+        Self { shared, sockets }
+    }
+
+    /// When the next datagram arrives.
+    fn next(&self) -> Timestamp {
+        loop {
+            let event = self.shared.lock().step().unwrap();
+            if let Some(event) = event.filter(|event| event.instance == "SplNetwork") {
+                return event.at;
+            }
+        }
+    }
+
+    fn read(&self, now: Timestamp) -> Option<(Timestamp, bool, Datagram)> {
+        let (arrival, is_behind) = self.shared.lock().network.take_arrival(now)?;
+        let mut datagram = Datagram::default();
+        let is_there = self
+            .sockets
+            .receive_arrival(&arrival, &mut datagram, &Stop::new());
+        assert!(is_there.unwrap());
+        Some((arrival.at, is_behind, datagram))
+    }
+}
+
+/// Everything that comes in 30 s.
+fn datagrams(options: &[&str]) -> Vec<(Timestamp, Datagram)> {
+    let lockstep = Lockstep::new(options);
+    let mut datagrams = Vec::new();
+    loop {
+        let now = lockstep.next();
+        if now > Timestamp::ZERO + Duration::from_secs(30) {
+            return datagrams;
+        }
+        let (at, is_behind, datagram) = lockstep.read(now).unwrap();
+        assert_eq!((at, is_behind), (now, false));
+        assert!(lockstep.read(now).is_none());
+        datagrams.push((at, datagram));
+    }
+}
+
+#[test]
+fn datagrams_come_in_order_and_at_their_times() {
+    let datagrams = datagrams(&["--no-cameras"]);
+    let millis = |channel| {
+        let of_channel = datagrams
+            .iter()
+            .filter(move |(_, datagram)| datagram.channel == channel);
+        of_channel.map(|(at, _)| at.as_nanos() / 1_000_000)
+    };
+    let referee: Vec<_> = (0..60).map(|number| 100 + 500 * number).collect();
+    assert_eq!(millis(Channel::GameController).collect::<Vec<_>>(), referee);
+    let mate: Vec<_> = (0..30).map(|number| 650 + 1000 * number).collect();
+    assert_eq!(millis(Channel::Team).collect::<Vec<_>>(), mate);
+    assert!(datagrams.is_sorted_by_key(|(at, _)| *at));
+
+    let mut states = Vec::new();
+    let mut packets = 0;
+    for (at, datagram) in &datagrams {
+        if datagram.channel == Channel::Team {
+            team_message::decode(&datagram.bytes).unwrap();
+            continue;
+        }
+        let message = control_data::decode(&datagram.bytes).unwrap();
+        assert_eq!(message.packet_number, packets);
+        packets += 1;
+        if states
+            .last()
+            .is_none_or(|(_, state)| *state != message.game_state)
+        {
+            states.push((at.as_nanos() / 1_000_000, message.game_state));
+        }
+    }
+    let expected = [
+        (100, GameState::Initial),
+        (3100, GameState::Ready),
+        (8100, GameState::Set),
+        (27_100, GameState::Playing),
+    ];
+    assert_eq!(states, expected);
+}
+
+#[test]
+fn the_same_options_give_the_same_datagrams_whatever_ports_are_free() {
+    let once = datagrams(&["--no-cameras"]);
+    assert_eq!(once, datagrams(&["--no-cameras"]));
+    assert_ne!(once, datagrams(&["--no-cameras", "--game", "Set"]));
+    assert_ne!(once, datagrams(&["--no-cameras", "--ball", "1,1"]));
+}
+
+#[test]
+fn who_has_missed_events_reads_the_oldest_first_and_knows_that_there_is_more() {
+    let lockstep = Lockstep::new(&["--no-cameras", "--no-mate"]);
+    let times: Vec<_> = (0..4).map(|_| lockstep.next()).collect();
+    let read: Vec<_> = std::iter::from_fn(|| lockstep.read(times[3]))
+        .map(|(at, is_behind, _)| (at, is_behind))
+        .collect();
+    // The last one has an event at that time.
+    let expected = [true, true, false, false];
+    assert_eq!(read, times.into_iter().zip(expected).collect::<Vec<_>>());
+}
+
+#[test]
+fn what_nobody_reads_is_lost_in_the_end_and_no_more_an_event() {
+    let lockstep = Lockstep::new(&["--no-cameras", "--no-sound", "--no-referee", "--no-mate"]);
+    for number in 0..200_u8 {
+        let mut simulation = lockstep.shared.lock();
+        let network = &mut simulation.network;
+        network
+            .stranger_speaks(Timestamp::ZERO, Channel::Team, &[number])
+            .unwrap();
+    }
+    let mut simulation = lockstep.shared.lock();
+    let mut events = 0;
+    loop {
+        match simulation.step().unwrap() {
+            Some(event) if event.instance == "SplNetwork" => events += 1,
+            Some(_) => break,
+            None => {}
+        }
+    }
+    drop(simulation);
+    assert_eq!(events, MOST_UNREAD);
+    let read: Vec<_> = std::iter::from_fn(|| lockstep.read(Timestamp::ZERO))
+        .map(|(_, _, datagram)| datagram.bytes[0])
+        .collect();
+    assert_eq!(read, (0..MOST_UNREAD as u8).collect::<Vec<_>>());
+}
+
+#[test]
+fn foreign_programs_do_not_disturb_lockstep() {
+    let lockstep = Lockstep::new(&["--no-cameras"]);
+    let foreign = UdpSocket::bind(loopback(0)).unwrap();
+    let port = lockstep.sockets.control_address().unwrap();
+    for _ in 0..3 {
+        foreign.send_to(b"hello", port).unwrap();
+    }
+    let (_, _, datagram) = lockstep.read(lockstep.next()).unwrap();
+    assert_eq!(datagram.sender.port, 3939);
+    assert!(control_data::decode(&datagram.bytes).is_ok());
+}
+
+#[test]
+fn a_foreign_flood_does_not_keep_a_reader_waiting_for_what_is_lost() {
+    let lockstep = Lockstep::new(&["--no-cameras", "--no-sound"]);
+    let now = lockstep.next();
+    let (arrival, _) = lockstep.shared.lock().network.take_arrival(now).unwrap();
+    let mut datagram = Datagram::default();
+    assert!(
+        lockstep
+            .sockets
+            .receive(&mut datagram, LONGEST_FLIGHT)
+            .unwrap()
+    );
+    let port = lockstep.sockets.control_address().unwrap();
+    let end_of_flood = Stop::new();
+    std::thread::scope(|scope| {
+        scope.spawn(|| {
+            let foreign = UdpSocket::bind(loopback(0)).unwrap();
+            while end_of_flood.check().is_ok() {
+                foreign.send_to(b"flood", port).unwrap();
+            }
+        });
+        let begun = Instant::now();
+        let sockets = &lockstep.sockets;
+        let is_there = sockets.receive_arrival(&arrival, &mut datagram, &Stop::new());
+        end_of_flood.request();
+        assert!(!is_there.unwrap());
+        assert!(begun.elapsed() < 10 * LONGEST_FLIGHT);
+    });
+}
+
+#[test]
+fn sockets_look_for_a_stop_more_often_than_every_100_ms() {
+    assert!(robot::PATIENCE < Duration::from_millis(100));
+}

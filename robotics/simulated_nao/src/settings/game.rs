@@ -1,0 +1,137 @@
+//! The simulated game: who plays, and when the referee says what.
+
+use framework::{Error, Result};
+use serde::Deserialize;
+use serde::de::IntoDeserializer;
+use serde::de::value::Error as ValueError;
+use types::game::{GameState, KickingTeam, PLAYER_COUNT, Penalty, SetPlay};
+
+/// How many of a team are on the field (RoboCup SPL rules 2025, Champions Cup).
+pub(crate) const PLAYERS_PER_TEAM: u8 = 7;
+/// Longer than any game, s.
+const LONGEST: f64 = 1e6;
+
+/// Who plays, and how the game goes.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct GameSettings {
+    /// Number of the own team.
+    pub team: u8,
+    /// Number of the other team.
+    pub opponent: u8,
+    /// Number of the robot's shirt.
+    pub player_number: u8,
+    /// Where the team mate stands in the field frame: x and y in m, heading in rad.
+    pub mate_pose: [f64; 3],
+    /// What the referee's computer says, in the order of time.
+    pub schedule: Vec<Announcement>,
+}
+
+/// What the referee's computer says from a time on.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct Announcement {
+    /// When, s since the start.
+    pub at: f64,
+    /// What robots may do.
+    pub state: GameState,
+    /// Why this robot may not play; left out: it may.
+    #[serde(default)]
+    pub penalty: Penalty,
+    /// Who kicks first; left out: the own team.
+    #[serde(default = "own_team")]
+    pub kicking_team: KickingTeam,
+    /// How the game is resumed; left out: with a kick-off.
+    #[serde(default)]
+    pub set_play: SetPlay,
+}
+
+impl Announcement {
+    /// Only a state.
+    pub fn of(at: f64, state: GameState) -> Self {
+        Self {
+            at,
+            state,
+            penalty: Penalty::None,
+            kicking_team: own_team(),
+            set_play: SetPlay::None,
+        }
+    }
+}
+
+impl Default for GameSettings {
+    /// A kick-off. The whistle sounds at 12 s; the referee's computer says so 15 s later (RoboCup SPL
+    /// rules 2025).
+    fn default() -> Self {
+        Self {
+            team: 5,
+            opponent: 6,
+            player_number: 3,
+            mate_pose: [-1.0, 1.5, 0.0],
+            schedule: vec![
+                Announcement::of(0.0, GameState::Initial),
+                Announcement::of(3.0, GameState::Ready),
+                Announcement::of(8.0, GameState::Set),
+                Announcement::of(27.0, GameState::Playing),
+            ],
+        }
+    }
+}
+
+impl GameSettings {
+    /// Holds one state for the whole run.
+    pub(super) fn hold(&mut self, option: &str, state: &str) -> Result<()> {
+        let state: Result<GameState, ValueError> =
+            GameState::deserialize(IntoDeserializer::<ValueError>::into_deserializer(state));
+        let state =
+            state.map_err(|error| Error::from(error).context(format!("option `{option}`")))?;
+        self.schedule = vec![Announcement::of(0.0, state)];
+        Ok(())
+    }
+
+    /// The number of the team mate's shirt.
+    pub(crate) fn mate_number(&self) -> u8 {
+        if self.player_number == 2 { 3 } else { 2 }
+    }
+
+    /// Refuses a game that cannot be.
+    pub(super) fn check(&self) -> Result<()> {
+        let wrong = |key: &str, reason: String| {
+            Err(Error::new(format!(
+                "hardware.simulated.game.{key}: {reason}"
+            )))
+        };
+        if self.team == u8::MAX || self.opponent == u8::MAX {
+            return wrong("team", "no team has number 255".to_owned());
+        }
+        if self.team == self.opponent {
+            let number = self.team;
+            return wrong("opponent", format!("both teams have number {number}"));
+        }
+        if !(1..=PLAYER_COUNT).contains(&self.player_number.into()) {
+            let number = self.player_number;
+            return wrong(
+                "player_number",
+                format!("shirts have numbers from 1 to {PLAYER_COUNT}, not {number}"),
+            );
+        }
+        if self.mate_pose.iter().any(|number| !number.is_finite()) {
+            return wrong("mate_pose", "this is no place on the field".to_owned());
+        }
+        let mut before = 0.0;
+        for Announcement { at, state, .. } in &self.schedule {
+            if !(before..LONGEST).contains(at) {
+                return wrong(
+                    "schedule",
+                    format!("{state:?} at {at} s does not come after {before} s"),
+                );
+            }
+            before = *at;
+        }
+        Ok(())
+    }
+}
+
+fn own_team() -> KickingTeam {
+    KickingTeam::Own
+}

@@ -1,0 +1,68 @@
+//! What stands after `--` on the command line.
+
+use framework::{Error, Result};
+
+use super::{BallSettings, Settings};
+
+impl Settings {
+    /// Obeys the command line.
+    ///
+    /// # Errors
+    /// Names the option that is unknown, lacks its value, or has one that cannot be read.
+    pub fn apply(&mut self, options: &[String]) -> Result<()> {
+        let mut options = options.iter();
+        while let Some(option) = options.next() {
+            let mut value = || {
+                let missing = || {
+                    Error::new(format!(
+                        "option `{option}` of the simulated NAO needs a value"
+                    ))
+                };
+                options.next().ok_or_else(missing)
+            };
+            match option.as_str() {
+                "--socket" => self.socket = Some(value()?.into()),
+                "--pose" => self.robot_pose = numbers(option, value()?)?,
+                "--ball" => {
+                    self.ball = BallSettings {
+                        present: true,
+                        position: numbers(option, value()?)?,
+                    };
+                }
+                "--no-ball" => self.ball.present = false,
+                "--game" => self.game.hold(option, value()?)?,
+                "--no-referee" => self.network.referee = false,
+                "--no-mate" => self.network.mate = false,
+                "--free-ports" => self.network.free_ports(),
+                "--no-buttons" => self.buttons.clear(),
+                "--no-cameras" => self.cameras = false,
+                "--no-sound" => self.microphones = false,
+                _ => return Err(unknown(option)),
+            }
+        }
+        Ok(())
+    }
+}
+
+fn unknown(option: &str) -> Error {
+    Error::new(format!(
+        "unknown option `{option}` of the simulated NAO; it knows --socket PATH, --pose X,Y,HEADING, \
+         --ball X,Y, --no-ball, --game STATE, --no-referee, --no-mate, --free-ports, --no-buttons, \
+         --no-cameras, --no-sound"
+    ))
+}
+
+/// `1.5,-2` as numbers.
+fn numbers<const N: usize>(option: &str, text: &str) -> Result<[f64; N]> {
+    let numbers: Option<Vec<f64>> = text
+        .split(',')
+        .map(|part| part.trim().parse().ok())
+        .collect();
+    numbers
+        .and_then(|numbers| <[f64; N]>::try_from(numbers).ok())
+        .ok_or_else(|| {
+            Error::new(format!(
+                "option `{option}` needs {N} numbers joined by commas, not `{text}`"
+            ))
+        })
+}
