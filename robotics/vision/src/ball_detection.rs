@@ -1,11 +1,13 @@
 //! Finds the ball: a circle on the field, as large as a ball would be there, printed black and white.
 //!
+//! What lies flat on a known line or the penalty mark and what is beyond the border is not looked at.
 //! No learned classifier: a grid of places proposes, the rim and the print decide. Thresholds are
 //! parameters.
 
 mod circle;
 mod grid;
 mod inspection;
+mod known;
 mod view;
 
 use framework::{
@@ -15,10 +17,12 @@ use nalgebra::Point2;
 use serde::{Deserialize, Serialize};
 use types::ball::BallCandidate;
 use types::camera::CameraMatrix;
+use types::field_features::{FieldBorder, LineSegment, PenaltyMark};
 use types::image::YuyvImage;
 
 use self::grid::Grid;
 use self::inspection::{Finding, inspect};
+use self::known::Known;
 use self::view::View;
 use crate::field_color::FieldColor;
 use crate::segments::ImageSegments;
@@ -39,6 +43,8 @@ pub struct BallDetectionParameters {
     pub most_field_inside: f32,
     /// Least difference between the mean luminances of print and ground.
     pub least_contrast: f32,
+    /// Print is dark up to this share of the brightest luminance, 0 to 1.
+    pub dark_limit: f32,
     /// Least share of dark print, 0 to 1.
     pub least_dark: f32,
     /// Largest share of dark print, 0 to 1.
@@ -56,10 +62,14 @@ pub struct CreationContext {}
 pub struct CycleContext {
     image: Input<YuyvImage, "image">,
     image_segments: Input<ImageSegments, "image_segments">,
+    field_border: Input<FieldBorder, "field_border">,
+    lines: Input<Vec<LineSegment>, "lines">,
+    penalty_mark: Input<Option<PenaltyMark>, "penalty_mark?">,
     camera_matrix: RequiredInput<Option<CameraMatrix>, "camera_matrix?">,
     field_color: Parameter<FieldColor, "field_color">,
     parameters: Parameter<BallDetectionParameters, "ball_detection">,
     ball_radius: Parameter<f32, "field_dimensions.ball_radius">,
+    line_width: Parameter<f32, "field_dimensions.line_width">,
     /// Where a ball was looked for.
     ball_candidates: AdditionalOutput<Vec<BallCandidate>, "ball_candidates">,
     /// What passed every test, best first; no two of them overlap.
@@ -83,8 +93,15 @@ impl BallDetection {
             field_color: context.field_color,
             ball_radius: *context.ball_radius,
         };
+        let known = Known {
+            border: context.field_border,
+            lines: context.lines,
+            line_width: *context.line_width,
+            penalty_mark: context.penalty_mark,
+        };
         let mut grid = Grid::new(&view, context.parameters.least_radius.max(1.0));
-        grid.mark(context.image_segments);
+        let pieces = context.image_segments.segments.iter();
+        grid.mark(pieces.filter(|piece| !piece.is_field && !known.explains(&view, piece)));
         context.ball_candidates.fill_if_subscribed(|| {
             grid.cells()
                 .map(|(center, radius)| locate(&view, center, radius))
@@ -97,7 +114,8 @@ impl BallDetection {
         findings.sort_by(|one, other| other.score.total_cmp(&one.score));
         for Finding { circle, .. } in findings {
             let ball = locate(&view, circle.center, circle.radius);
-            if !context.balls.iter().any(|better| overlap(better, &ball)) {
+            let is_new = !context.balls.iter().any(|better| overlap(better, &ball));
+            if is_new && !known.refuses(&ball) {
                 context.balls.push(ball);
             }
         }
@@ -127,6 +145,7 @@ mod tests {
 
     use super::*;
     use crate::field_color::tests::{GREEN, field_color};
+    use crate::painting::border_at;
     use crate::segments::Segment;
 
     const WHITE: [u8; 3] = [220, 220, 220];
@@ -148,9 +167,9 @@ mod tests {
 
     fn parameters() -> BallDetectionParameters {
         parameter(
-            "{ least_radius = 3.5, radius_tolerance = 1.4, least_rim = 0.5, \
-             least_field_around = 0.5, most_field_inside = 0.15, least_contrast = 35.0, \
-             least_dark = 0.04, most_dark = 0.6 }",
+            "{ least_radius = 3.5, radius_tolerance = 1.35, least_rim = 0.6, \
+             least_field_around = 0.6, most_field_inside = 0.15, least_contrast = 35.0, \
+             dark_limit = 0.4, least_dark = 0.04, most_dark = 0.6 }",
         )
     }
 
@@ -189,6 +208,15 @@ mod tests {
         image: &YuyvImage,
         candidates: &mut AdditionalProbe<Vec<BallCandidate>>,
     ) -> Vec<BallCandidate> {
+        balls_besides(image, &FieldBorder::default(), None, candidates)
+    }
+
+    fn balls_besides(
+        image: &YuyvImage,
+        field_border: &FieldBorder,
+        penalty_mark: Option<&PenaltyMark>,
+        candidates: &mut AdditionalProbe<Vec<BallCandidate>>,
+    ) -> Vec<BallCandidate> {
         // Every fourth column as one piece that is not field: the grid then looks everywhere.
         let pieces = (2..640).step_by(4);
         let image_segments = ImageSegments {
@@ -208,10 +236,14 @@ mod tests {
             .cycle(CycleContext {
                 image,
                 image_segments: &image_segments,
+                field_border,
+                lines: &Vec::new(),
+                penalty_mark,
                 camera_matrix: &camera_matrix(),
                 field_color: &field_color(),
                 parameters: &parameters(),
                 ball_radius: &0.05,
+                line_width: &0.05,
                 ball_candidates: candidates.output(),
                 balls: &mut balls,
             })
@@ -219,16 +251,22 @@ mod tests {
         balls
     }
 
-    #[test]
-    fn a_printed_disc_of_the_right_size_is_the_ball() {
-        let (center, radius) = seen(0.2, 1.1);
+    fn printed(center: Point2<f32>, radius: f32) -> YuyvImage {
         let print = Vector2::new(0.4, -0.3) * radius;
-        let image = image(&[
+        image(&[
             (center, radius, WHITE),
             (center + print, radius * 0.3, BLACK),
             (center - print, radius * 0.3, BLACK),
-        ]);
-        let balls = balls(&image, &mut AdditionalProbe::unsubscribed());
+        ])
+    }
+
+    #[test]
+    fn a_printed_disc_of_the_right_size_is_the_ball() {
+        let (center, radius) = seen(0.2, 1.1);
+        let balls = balls(
+            &printed(center, radius),
+            &mut AdditionalProbe::unsubscribed(),
+        );
         assert_eq!(balls.len(), 1, "{balls:?}");
         assert!((balls[0].center - center).norm() < 2.0, "{balls:?}");
         assert!((balls[0].radius - radius).abs() < 2.0, "{balls:?}");
@@ -251,6 +289,24 @@ mod tests {
         let (center, radius) = seen(0.2, 1.1);
         let image = image(&[(center, radius * 2.0, WHITE), (center, radius * 0.7, BLACK)]);
         assert_eq!(balls(&image, &mut AdditionalProbe::unsubscribed()), []);
+    }
+
+    #[test]
+    fn beyond_the_border_and_on_the_penalty_mark_there_is_no_ball() {
+        let (center, radius) = seen(0.2, 1.1);
+        let image = printed(center, radius);
+        let found = |border: f32, mark: Point2<f32>| {
+            let mark = PenaltyMark {
+                center: mark,
+                ..PenaltyMark::default()
+            };
+            let mut candidates = AdditionalProbe::unsubscribed();
+            balls_besides(&image, &border_at(border), Some(&mark), &mut candidates).len()
+        };
+        let beside = center + Vector2::new(3.0 * radius, 0.0);
+        assert_eq!(found(center.y - radius, beside), 1);
+        assert_eq!(found(center.y + 2.0 * radius, beside), 0);
+        assert_eq!(found(center.y - radius, center), 0);
     }
 
     #[test]

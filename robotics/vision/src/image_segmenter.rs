@@ -1,11 +1,13 @@
 //! Cuts columns of the image into pieces that show the field and pieces that show something else.
 //!
-//! Only below the horizon, and only at every few pixels: what is smaller is too far away to matter.
+//! Only below the horizon and down to the robot's own limbs, and only at every few pixels: what is
+//! smaller is too far away to matter.
 
 use framework::{Input, MainOutput, Parameter, Reflect, Result, context};
 use serde::{Deserialize, Serialize};
 use types::camera::CameraMatrix;
 use types::image::YuyvImage;
+use types::limbs::LimbMask;
 
 use crate::field_color::FieldColor;
 use crate::segments::{ImageSegments, Segment};
@@ -31,6 +33,7 @@ pub struct CreationContext {}
 pub struct CycleContext {
     image: Input<YuyvImage, "image">,
     camera_matrix: Input<Option<CameraMatrix>, "camera_matrix?">,
+    limb_mask: Input<LimbMask, "limb_mask">,
     field_color: Parameter<FieldColor, "field_color">,
     steps: Parameter<ScanSteps, "$cycler_instance.scan_steps">,
     image_segments: MainOutput<ImageSegments>,
@@ -54,10 +57,13 @@ impl ImageSegmenter {
         // Not the first column: what is cut by the edge of the image is seen only in part.
         for column in (columns / 2..image.width).step_by(columns as usize) {
             let first = horizon.map_or(0.0, |horizon| horizon.at(column as f32).max(0.0).ceil());
+            let limb = context.limb_mask.first_row(column as f32);
+            let end = limb.map_or(image.height, |row| image.height.min(row as u32));
             let scan = Scan {
                 image,
                 color: context.field_color,
                 column,
+                end,
             };
             scan.cut(
                 first as u32,
@@ -74,6 +80,8 @@ struct Scan<'a> {
     image: &'a YuyvImage,
     color: &'a FieldColor,
     column: u32,
+    /// The row after the last.
+    end: u32,
 }
 
 impl Scan<'_> {
@@ -96,11 +104,10 @@ impl Scan<'_> {
             }
             row += step;
         }
-        let end = self.image.height;
         segments.push(Segment {
             column: self.column,
             start,
-            end,
+            end: self.end,
             is_field,
         });
     }
@@ -113,17 +120,17 @@ impl Scan<'_> {
     }
 
     fn is_field(&self, row: u32) -> Option<bool> {
-        self.image
-            .yuv(self.column, row)
-            .map(|color| self.color.matches(color))
+        let color = self.image.yuv(self.column, row)?;
+        (row < self.end).then(|| self.color.matches(color))
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector2};
+    use nalgebra::{Isometry3, Point2, Translation3, UnitQuaternion, Vector2};
     use types::camera::Intrinsics;
     use types::image::Yuv;
+    use types::limbs::LimbOutline;
 
     use super::*;
     use crate::field_color::tests::{GREEN, field_color};
@@ -147,12 +154,21 @@ mod tests {
     }
 
     fn cut(image: &YuyvImage, camera_matrix: Option<&CameraMatrix>) -> ImageSegments {
+        cut_above(image, camera_matrix, &LimbMask::default())
+    }
+
+    fn cut_above(
+        image: &YuyvImage,
+        camera_matrix: Option<&CameraMatrix>,
+        limb_mask: &LimbMask,
+    ) -> ImageSegments {
         let mut image_segments = ImageSegments::default();
         ImageSegmenter::new(CreationContext {})
             .unwrap()
             .cycle(CycleContext {
                 image,
                 camera_matrix,
+                limb_mask,
                 field_color: &field_color(),
                 steps: &ScanSteps {
                     columns: 16,
@@ -203,6 +219,17 @@ mod tests {
             (24..=26).contains(&first.0) && first.1 == 30 && !first.2,
             "{first:?}"
         );
+    }
+
+    #[test]
+    fn own_limbs_are_left_out() {
+        let limb = LimbOutline {
+            corners: vec![Point2::new(20.0, 25.0), Point2::new(30.0, 25.0)],
+        };
+        let limb_mask = LimbMask { limbs: vec![limb] };
+        let segments = cut_above(&image(), None, &limb_mask);
+        assert_eq!(column(&segments, 24), [(0, 20, true), (20, 25, false)]);
+        assert_eq!(column(&segments, 40).len(), 3);
     }
 
     #[test]

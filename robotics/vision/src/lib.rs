@@ -1,12 +1,25 @@
 //! What the cameras see: the nodes of cycler `Vision`, one instance for each camera.
 //!
-//! In the order of a cycle: [`image_receiver`], [`camera_matrix_extractor`], [`image_segmenter`],
-//! [`ball_detection`]. Beside them the data that they share: [`field_color`], [`segments`].
+//! In the order of a cycle: [`image_receiver`], [`camera_matrix_extractor`], [`limb_projector`],
+//! [`image_segmenter`], [`field_border`], [`line_detection`], [`penalty_mark_detection`],
+//! [`ball_detection`], [`obstacle_detection`]. Beside them the data that they share:
+//! [`field_color`], [`segments`].
 
 pub mod field_color;
 pub mod segments;
 
+mod border_distance;
+mod sampler;
+
 pub mod ball_detection;
 pub mod camera_matrix_extractor;
+pub mod field_border;
 pub mod image_receiver;
 pub mod image_segmenter;
+pub mod limb_projector;
+pub mod line_detection;
+pub mod obstacle_detection;
+pub mod penalty_mark_detection;
+
+#[cfg(test)]
+mod painting;

@@ -12,6 +12,14 @@ pub struct ImageSegments {
     pub segments: Vec<Segment>,
 }
 
+impl ImageSegments {
+    /// The pieces of each scanned column, from left to right; none of them is empty.
+    pub fn columns(&self) -> impl Iterator<Item = &[Segment]> {
+        self.segments
+            .chunk_by(|one, other| one.column == other.column)
+    }
+}
+
 /// A piece of a column whose pixels all are field or all are not.
 #[derive(Clear, Clone, Copy, Debug, Default, Deserialize, Eq, PartialEq, Reflect, Serialize)]
 pub struct Segment {

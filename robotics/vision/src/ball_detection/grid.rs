@@ -6,7 +6,7 @@
 use nalgebra::Point2;
 
 use super::view::View;
-use crate::segments::ImageSegments;
+use crate::segments::Segment;
 
 /// Cells in which a ball might be.
 pub(super) struct Grid {
@@ -45,9 +45,9 @@ impl Grid {
         Self { rows }
     }
 
-    /// Marks the cells that hold a good piece of something that is not field.
-    pub(super) fn mark(&mut self, segments: &ImageSegments) {
-        for segment in segments.segments.iter().filter(|segment| !segment.is_field) {
+    /// Marks the cells that hold a good part of one of these pieces.
+    pub(super) fn mark<'a>(&mut self, segments: impl Iterator<Item = &'a Segment>) {
+        for segment in segments {
             let (start, end) = (segment.start as f32, segment.end as f32);
             for row in self
                 .rows

@@ -12,6 +12,12 @@ use super::view::View;
 const RAYS: usize = 32;
 /// Samples along the diameter of a disc.
 const SAMPLES: i32 = 13;
+/// A disc with more field than this is not worth a search for its rim: even a ball smaller than
+/// expected fills half of it, a line less than a third.
+const MOST_FIELD_AT_FIRST: f32 = 0.6;
+
+/// From a middle that is not yet the circle's at least this part of the needed rim is found.
+const RIM_AT_FIRST: f32 = 0.5;
 
 /// A circle that passed every test.
 #[derive(Clone, Copy, Debug)]
@@ -29,7 +35,13 @@ pub(super) fn inspect(
     radius: f32,
 ) -> Option<Finding> {
     let middle = move_to_middle(view, center, radius)?;
+    if field_inside(view, middle, radius) > MOST_FIELD_AT_FIRST {
+        return None;
+    }
     let first = find_rim(view, parameters, middle)?;
+    if first.score < parameters.least_rim * RIM_AT_FIRST {
+        return None;
+    }
     // From the middle of the circle every ray meets the rim squarely.
     let finding = find_rim(view, parameters, first.circle.center)?;
     let is_ball = finding.score >= parameters.least_rim
@@ -56,6 +68,18 @@ fn move_to_middle(view: &View<'_>, start: Point2<f32>, radius: f32) -> Option<Po
         center += sum / count;
     }
     Some(center)
+}
+
+/// The share of a disc that is field.
+fn field_inside(view: &View<'_>, center: Point2<f32>, radius: f32) -> f32 {
+    let (mut field, mut count) = (0.0, 0.0);
+    for offset in disc(radius) {
+        count += 1.0;
+        if view.is_field(center + offset) == Some(true) {
+            field += 1.0;
+        }
+    }
+    field / count
 }
 
 /// The circle where, coming from outside, the field ends.
@@ -124,7 +148,7 @@ fn is_printed(view: &View<'_>, parameters: &BallDetectionParameters, circle: &Ci
     let brightest = inside()
         .filter_map(|point| view.luminance(point))
         .fold(0.0, f32::max);
-    let bright = |luminance: f32| luminance > brightest * 0.5;
+    let bright = |luminance: f32| luminance > brightest * parameters.dark_limit;
     let (dark_sum, dark, bright_sum, light) =
         inside().filter_map(|point| view.luminance(point)).fold(
             (0.0, 0.0, 0.0, 0.0),
