@@ -4,12 +4,14 @@
 //! heading. While the robot does not stand, the floor could be anywhere: there are no matrices.
 
 use framework::{Input, MainOutput, Parameter, RequiredInput, Result, context};
-use kinematics::cameras::{camera_to_head, optical_to_camera};
+use kinematics::cameras::optical_to_head;
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
 use types::camera::{CameraCalibration, CameraMatrices, CameraMatrix, CameraPosition};
 use types::feet::Side;
 use types::robot_kinematics::RobotKinematics;
+
+use crate::level::torso_to_level;
 
 /// Keeps nothing between cycles.
 #[derive(Debug, Deserialize, Serialize)]
@@ -69,25 +71,14 @@ fn torso_to_ground(
     kinematics: &RobotKinematics,
     orientation: &UnitQuaternion<f32>,
 ) -> Isometry3<f32> {
-    // The ground frame turns with the robot: only roll and pitch are left.
-    let (roll, pitch, _) = orientation.euler_angles();
-    let level = UnitQuaternion::from_euler_angles(roll, pitch, 0.0);
+    // The ground frame turns with the robot.
+    let level = torso_to_level(orientation);
     let soles = kinematics
         .soles_to_torso
         .map(|sole| level * sole.translation.vector);
     let middle = (soles.left + soles.right) / 2.0;
     let origin = Vector3::new(middle.x, middle.y, soles.on(support_side).z);
     Isometry3::from_parts(Translation3::from(-origin), level)
-}
-
-fn optical_to_head(position: CameraPosition, calibration: &CameraCalibration) -> Isometry3<f32> {
-    let CameraCalibration {
-        roll, pitch, yaw, ..
-    } = *calibration;
-    let correction = UnitQuaternion::from_euler_angles(roll, pitch, yaw);
-    let mount = camera_to_head(position);
-    let rotation = correction * mount.rotation * optical_to_camera();
-    Isometry3::from_parts(mount.translation, rotation)
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! Computes from the joint angles where head, soles, hands, and the centre of mass are.
+//! Computes from the joint angles where head, soles, knees, elbows, and hands are.
 
 use framework::{Input, MainOutput, Result, context};
 use serde::{Deserialize, Serialize};
@@ -74,5 +74,26 @@ mod tests {
         let ahead = kinematics.head_to_torso * Vector3::x();
         assert!((ahead.y - 0.5_f32.sin()).abs() < 1e-6);
         assert!(kinematics.soles_to_torso.left.rotation.angle() < 1e-6);
+    }
+
+    #[test]
+    fn elbows_and_knees_are_where_arms_and_legs_bend() {
+        let mut node = ForwardKinematics::new(CreationContext {}).unwrap();
+        let mut positions = Joints::filled(0.0);
+        positions.left_elbow_roll = -1.0;
+        positions.right_knee_pitch = 1.0;
+        let context = CycleContext {
+            positions: &positions,
+        };
+        let kinematics = node.cycle(context).unwrap().robot_kinematics.value;
+        let elbow = kinematics.elbows_to_torso.left;
+        let knee = kinematics.knees_to_torso.right;
+        // Lengths of upper arm and thigh, Aldebaran documentation.
+        let expected = Vector3::new(0.105, 0.113, 0.1);
+        assert!((elbow.translation.vector - expected).norm() < 1e-6);
+        assert!(((elbow * Vector3::x()).y + 1.0_f32.sin()).abs() < 1e-6);
+        let expected = Vector3::new(0.0, -0.05, -0.185);
+        assert!((knee.translation.vector - expected).norm() < 1e-6);
+        assert!(((knee * Vector3::z()).x - 1.0_f32.sin()).abs() < 1e-6);
     }
 }

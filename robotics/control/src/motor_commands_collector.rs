@@ -1,16 +1,17 @@
-//! Merges the commands for body and head into one that no joint is harmed by.
+//! Makes one command for all motors out of those for body and head, and one that harms no joint.
 //!
 //! Every joint moves from where it was sent last, no faster than allowed and within its limits,
-//! whatever anybody asks.
+//! whatever anybody asks. What nobody commands is limp.
 
-use framework::{
-    CycleTime, Input, MainOutput, Parameter, PreviousInput, RequiredInput, Result, context,
-};
+use framework::{CycleTime, Input, MainOutput, Parameter, PreviousInput, Result, context};
 use kinematics::limits;
 use serde::{Deserialize, Serialize};
 use types::head::{HeadAngles, HeadCommand};
 use types::joints::{JointName, Joints};
+use types::motion::{BodyMotion, MotionSelection};
 use types::motor_commands::MotorCommands;
+
+use crate::transition;
 
 /// A longer cycle does not allow a longer step, in s.
 const LONGEST_STEP: f32 = 0.1;
@@ -24,7 +25,11 @@ pub struct CreationContext {}
 
 #[context]
 pub struct CycleContext {
-    body_commands: RequiredInput<Option<MotorCommands>, "body_commands?">,
+    motion_selection: Input<MotionSelection, "motion_selection">,
+    dispatch_commands: Input<Option<MotorCommands>, "dispatch_commands?">,
+    stand_commands: Input<Option<MotorCommands>, "stand_commands?">,
+    penalized_commands: Input<Option<MotorCommands>, "penalized_commands?">,
+    sit_down_commands: Input<Option<MotorCommands>, "sit_down_commands?">,
     head_command: Input<Option<HeadCommand>, "head_command?">,
     previous: PreviousInput<Option<MotorCommands>, "motor_commands?">,
     positions: Input<Joints<f32>, "sensor_data.positions">,
@@ -36,7 +41,7 @@ pub struct CycleContext {
 
 #[context]
 pub struct MainOutputs {
-    /// What the motors shall do; `None` while nobody commands the body.
+    /// What the motors shall do; `None` only where this node failed.
     motor_commands: MainOutput<Option<MotorCommands>>,
 }
 
@@ -48,27 +53,55 @@ impl MotorCommandsCollector {
 
     /// Merges, then limits speed, then limits angles.
     pub fn cycle(&mut self, context: CycleContext) -> Result<MainOutputs> {
-        let wanted = merge(context.body_commands, context.head_command);
-        let last = context
-            .previous
-            .map_or(context.positions, |previous| &previous.positions);
+        let wanted = context.body_commands().map_or_else(
+            || limp(context.positions),
+            |body| merge(body, context.head_command),
+        );
         let step = context
             .cycle_time
             .since_last
             .as_secs_f32()
             .min(LONGEST_STEP);
-        let share = zero_to_one(*context.velocity_share);
+        let reach = zero_to_one(*context.velocity_share) * step;
+        let current = transition::current_pose(context.previous, context.positions);
+        let stiffnesses = wanted.stiffnesses.map(zero_to_one);
         let positions = Joints::from_fn(|joint| {
-            let reach = limits::of(joint).velocity as f32 * share * step;
-            approach(joint, last[joint], wanted.positions[joint], reach)
+            if stiffnesses[joint] > 0.0 {
+                let reach = limits::of(joint).velocity as f32 * reach;
+                approach(joint, current[joint], wanted.positions[joint], reach)
+            } else {
+                limp_angle(joint, context.positions[joint], current[joint])
+            }
         });
         let commands = MotorCommands {
             positions: limit_head(positions),
-            stiffnesses: wanted.stiffnesses.map(zero_to_one),
+            stiffnesses,
         };
         Ok(MainOutputs {
             motor_commands: Some(commands).into(),
         })
+    }
+}
+
+impl<'context> CycleContext<'context> {
+    /// What whoever has the body wants; `None` where nobody has it, or says nothing.
+    fn body_commands(&self) -> Option<&'context MotorCommands> {
+        if self.motion_selection.is_dispatching {
+            return self.dispatch_commands;
+        }
+        match self.motion_selection.current {
+            BodyMotion::Unstiff => None,
+            BodyMotion::SitDown => self.sit_down_commands,
+            BodyMotion::Stand => self.stand_commands,
+            BodyMotion::Penalized => self.penalized_commands,
+        }
+    }
+}
+
+fn limp(positions: &Joints<f32>) -> MotorCommands {
+    MotorCommands {
+        positions: *positions,
+        stiffnesses: Joints::filled(0.0),
     }
 }
 
@@ -81,6 +114,11 @@ fn merge(body: &MotorCommands, head: Option<&HeadCommand>) -> MotorCommands {
         commands.stiffnesses.head_pitch = *stiffness;
     }
     commands
+}
+
+/// A limp joint goes wherever it is pushed; commands follow it, so that it starts from there.
+fn limp_angle(joint: JointName, measured: f32, current: f32) -> f32 {
+    limits::clamp(joint, if measured.is_nan() { current } else { measured })
 }
 
 /// The angle nearest to `wanted` that is within `reach` of `last`, and within the joint's limits.
@@ -113,56 +151,18 @@ fn zero_to_one(share: f32) -> f32 {
 
 #[cfg(test)]
 mod tests {
-    use std::time::Duration;
-
-    use framework::Timestamp;
+    use framework::testing;
 
     use super::*;
+
+    const STAND: MotionSelection = MotionSelection {
+        current: BodyMotion::Stand,
+        is_dispatching: false,
+    };
 
     /// Where every joint may be.
     fn start() -> Joints<f32> {
         Joints::from_fn(|joint| limits::clamp(joint, 0.0))
-    }
-
-    fn collect(
-        body: &MotorCommands,
-        head: Option<&HeadCommand>,
-        previous: Option<&MotorCommands>,
-    ) -> MotorCommands {
-        let mut node = MotorCommandsCollector::new(CreationContext {}).unwrap();
-        let context = CycleContext {
-            body_commands: body,
-            head_command: head,
-            previous,
-            positions: &start(),
-            cycle_time: CycleTime {
-                start: Timestamp::ZERO,
-                since_last: Duration::from_millis(12),
-            },
-            velocity_share: &0.5,
-        };
-        node.cycle(context).unwrap().motor_commands.value.unwrap()
-    }
-
-    #[test]
-    fn what_is_no_number_moves_nothing() {
-        for (wanted, last, share) in [(f32::NAN, 0.1, 0.5), (0.5, 0.1, f32::NAN)] {
-            let mut node = MotorCommandsCollector::new(CreationContext {}).unwrap();
-            let context = CycleContext {
-                body_commands: &everywhere(wanted),
-                head_command: None,
-                previous: Some(&everywhere(last)),
-                positions: &start(),
-                cycle_time: CycleTime {
-                    start: Timestamp::ZERO,
-                    since_last: Duration::from_millis(12),
-                },
-                velocity_share: &share,
-            };
-            let commands = node.cycle(context).unwrap().motor_commands.value.unwrap();
-            assert_eq!(commands.positions.left_knee_pitch, last);
-        }
-        assert!(approach(JointName::HeadYaw, f32::NAN, 0.1, 0.01).is_finite());
     }
 
     fn everywhere(angle: f32) -> MotorCommands {
@@ -170,6 +170,112 @@ mod tests {
             positions: Joints::filled(angle),
             stiffnesses: Joints::filled(0.7),
         }
+    }
+
+    /// A robot that stands at `start`, and nobody commands it.
+    fn nobody<'context>(
+        motion_selection: &'context MotionSelection,
+        positions: &'context Joints<f32>,
+    ) -> CycleContext<'context> {
+        CycleContext {
+            motion_selection,
+            dispatch_commands: None,
+            stand_commands: None,
+            penalized_commands: None,
+            sit_down_commands: None,
+            head_command: None,
+            previous: None,
+            positions,
+            cycle_time: testing::cycle_time(0, 12),
+            velocity_share: &0.5,
+        }
+    }
+
+    fn collect(context: CycleContext) -> MotorCommands {
+        let mut node = MotorCommandsCollector::new(CreationContext {}).unwrap();
+        node.cycle(context).unwrap().motor_commands.value.unwrap()
+    }
+
+    fn collect_stand(
+        body: &MotorCommands,
+        head: Option<&HeadCommand>,
+        previous: Option<&MotorCommands>,
+    ) -> MotorCommands {
+        collect(CycleContext {
+            stand_commands: Some(body),
+            head_command: head,
+            previous,
+            ..nobody(&STAND, &start())
+        })
+    }
+
+    #[test]
+    fn the_body_obeys_the_motion_that_has_it() {
+        let [dispatch, stand, penalized, sit_down] =
+            [0.11, 0.12, 0.13, 0.14].map(|stiffness| MotorCommands {
+                positions: start(),
+                stiffnesses: Joints::filled(stiffness),
+            });
+        let stiffness = |current, is_dispatching| {
+            let selection = MotionSelection {
+                current,
+                is_dispatching,
+            };
+            let commands = collect(CycleContext {
+                dispatch_commands: Some(&dispatch),
+                stand_commands: Some(&stand),
+                penalized_commands: Some(&penalized),
+                sit_down_commands: Some(&sit_down),
+                ..nobody(&selection, &start())
+            });
+            commands.stiffnesses.left_knee_pitch
+        };
+        assert_eq!(stiffness(BodyMotion::Stand, true), 0.11);
+        assert_eq!(stiffness(BodyMotion::Stand, false), 0.12);
+        assert_eq!(stiffness(BodyMotion::Penalized, false), 0.13);
+        assert_eq!(stiffness(BodyMotion::SitDown, false), 0.14);
+        assert_eq!(stiffness(BodyMotion::Unstiff, false), 0.0);
+    }
+
+    #[test]
+    fn what_nobody_commands_is_limp_wherever_it_is_pushed() {
+        let mut pushed = start();
+        pushed.left_shoulder_pitch = 1.0;
+        for selection in [STAND, MotionSelection::default()] {
+            let commands = collect(CycleContext {
+                previous: Some(&limp(&start())),
+                ..nobody(&selection, &pushed)
+            });
+            assert_eq!(commands, limp(&pushed));
+        }
+    }
+
+    #[test]
+    fn a_joint_that_was_limp_starts_where_it_was_pushed() {
+        let mut pushed = start();
+        pushed.left_knee_pitch = 1.0;
+        let commands = collect(CycleContext {
+            stand_commands: Some(&everywhere(0.0)),
+            previous: Some(&limp(&start())),
+            ..nobody(&STAND, &pushed)
+        });
+        let reach = limits::of(JointName::LeftKneePitch).velocity as f32 * 0.5 * 0.012;
+        assert!((commands.positions.left_knee_pitch - (1.0 - reach)).abs() < 1e-6);
+    }
+
+    #[test]
+    fn what_is_no_number_moves_nothing() {
+        for (wanted, last, share) in [(f32::NAN, 0.1, 0.5), (0.5, 0.1, f32::NAN)] {
+            let commands = collect(CycleContext {
+                stand_commands: Some(&everywhere(wanted)),
+                previous: Some(&everywhere(last)),
+                velocity_share: &share,
+                ..nobody(&STAND, &start())
+            });
+            assert_eq!(commands.positions.left_knee_pitch, last);
+        }
+        assert!(approach(JointName::HeadYaw, f32::NAN, 0.1, 0.01).is_finite());
+        assert!(limp_angle(JointName::HeadYaw, f32::NAN, f32::NAN).is_finite());
     }
 
     #[test]
@@ -181,7 +287,7 @@ mod tests {
             },
             stiffness: 0.4,
         };
-        let commands = collect(&everywhere(0.0), Some(&head), None);
+        let commands = collect_stand(&everywhere(0.0), Some(&head), None);
         assert_eq!(commands.positions.head_yaw, 0.01);
         assert_eq!(commands.positions.head_pitch, -0.02);
         assert_eq!(commands.stiffnesses.head_pitch, 0.4);
@@ -190,7 +296,7 @@ mod tests {
 
     #[test]
     fn no_joint_moves_faster_than_its_share() {
-        let commands = collect(&everywhere(1.0), None, None);
+        let commands = collect_stand(&everywhere(1.0), None, None);
         for (joint, angle) in commands.positions.iter() {
             let reach = limits::of(joint).velocity as f32 * 0.5 * 0.012;
             assert!((angle - start()[joint]).abs() <= reach * 1.001, "{joint:?}");
@@ -201,7 +307,7 @@ mod tests {
     fn steps_start_at_the_previous_command_and_not_at_the_measured_angle() {
         let mut previous = everywhere(0.0);
         previous.positions.left_knee_pitch = 1.0;
-        let commands = collect(&everywhere(2.0), None, Some(&previous));
+        let commands = collect_stand(&everywhere(2.0), None, Some(&previous));
         assert!(commands.positions.left_knee_pitch > 1.0);
     }
 
@@ -209,7 +315,7 @@ mod tests {
     fn limits_come_last() {
         let mut previous = everywhere(0.0);
         previous.positions = Joints::filled(5.0);
-        let commands = collect(&everywhere(9.0), None, Some(&previous));
+        let commands = collect_stand(&everywhere(9.0), None, Some(&previous));
         for (joint, angle) in commands.positions.iter() {
             let limits = limits::of(joint);
             assert!(*angle <= limits.upper as f32, "{joint:?}");
@@ -222,7 +328,7 @@ mod tests {
     fn commands_that_are_no_numbers_move_nothing() {
         let mut wanted = everywhere(f32::NAN);
         wanted.stiffnesses.head_yaw = f32::NAN;
-        let commands = collect(&wanted, None, None);
+        let commands = collect_stand(&wanted, None, None);
         assert_eq!(commands.positions, start());
         assert_eq!(commands.stiffnesses.head_yaw, 0.0);
     }

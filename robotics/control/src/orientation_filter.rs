@@ -3,14 +3,17 @@
 //! A complementary filter after Valenti, Dryanovski and Xiao, "Keeping a Good Attitude" (Sensors
 //! 15(8), 2015): the gyroscope turns the estimate, and gravity pulls roll and pitch back. Yaw comes
 //! from the gyroscope alone, whose bias is learnt while the robot is still.
+//!
+//! Invariant: what is no number, a sample or a parameter, leaves the estimate as it was.
 
 use framework::{AdditionalOutput, CycleTime, Input, MainOutput, Parameter, Result, context};
+use kinematics::inertial::GRAVITY;
 use nalgebra::{UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
 use types::sensor_data::InertialMeasurement;
 
-/// Standard gravity in m/s² (CGPM 1901).
-const GRAVITY: f32 = 9.80665;
+use crate::level::torso_to_level;
+use crate::low_pass::share;
 
 /// A longer gap between samples is no measurement of a rotation any more, in s.
 const LONGEST_STEP: f32 = 0.1;
@@ -68,10 +71,11 @@ impl OrientationFilter {
             ..
         } = *context.inertial;
         let Some(last) = self.torso_to_world else {
-            let orientation = tilt(accelerometer);
-            self.torso_to_world = Some(orientation);
+            let is_sample = accelerometer.iter().all(|number| number.is_finite());
+            let orientation = is_sample.then(|| tilt(accelerometer));
+            self.torso_to_world = orientation.filter(is_number);
             return Ok(MainOutputs {
-                orientation: orientation.into(),
+                orientation: self.torso_to_world.unwrap_or_default().into(),
             });
         };
 
@@ -80,14 +84,15 @@ impl OrientationFilter {
             .since_last
             .as_secs_f32()
             .min(LONGEST_STEP);
-        let deviation = (accelerometer.norm() / GRAVITY - 1.0).abs();
+        let deviation = (accelerometer.norm() / GRAVITY as f32 - 1.0).abs();
         let trust = trust(
             deviation,
             *context.trusted_deviation,
             *context.refused_deviation,
         );
         let rotation = gyroscope - self.bias;
-        if trust > 0.0 && rotation.norm() < *context.still_rotation {
+        let still_rotation = *context.still_rotation;
+        if trust > 0.0 && still_rotation.is_finite() && rotation.norm() < still_rotation {
             self.bias += rotation * share(step, *context.bias_time);
         }
 
@@ -97,6 +102,9 @@ impl OrientationFilter {
         let gain = trust * share(step, *context.gravity_time);
         let mut orientation = correction.powf(gain) * predicted;
         orientation.renormalize();
+        if !is_number(&orientation) {
+            orientation = last;
+        }
         self.torso_to_world = Some(orientation);
         Ok(MainOutputs {
             orientation: orientation.into(),
@@ -104,10 +112,13 @@ impl OrientationFilter {
     }
 }
 
+fn is_number(orientation: &UnitQuaternion<f32>) -> bool {
+    orientation.coords.iter().all(|number| number.is_finite())
+}
+
 /// Roll and pitch that explain the acceleration as gravity; yaw is 0.
 fn tilt(acceleration: Vector3<f32>) -> UnitQuaternion<f32> {
-    let (roll, pitch, _) = to_vertical(acceleration).euler_angles();
-    UnitQuaternion::from_euler_angles(roll, pitch, 0.0)
+    torso_to_level(&to_vertical(acceleration))
 }
 
 /// The shortest rotation that makes `up` point up; upside down or without direction: none.
@@ -115,17 +126,18 @@ fn to_vertical(up: Vector3<f32>) -> UnitQuaternion<f32> {
     UnitQuaternion::rotation_between(&up, &Vector3::z()).unwrap_or_default()
 }
 
-/// 1 up to `trusted`, 0 from `refused` on, linear between.
+/// 1 up to `trusted`, 0 from `refused` on, linear between; 0 where one of them is no number.
 fn trust(deviation: f32, trusted: f32, refused: f32) -> f32 {
+    if ![deviation, trusted, refused]
+        .into_iter()
+        .all(f32::is_finite)
+    {
+        return 0.0;
+    }
     if deviation <= trusted {
         return 1.0;
     }
     ((refused - deviation) / (refused - trusted)).clamp(0.0, 1.0)
-}
-
-/// How much of a difference vanishes in a step, so that a third is left after `time`.
-fn share(step: f32, time: f32) -> f32 {
-    1.0 - (-step / time.max(f32::EPSILON)).exp()
 }
 
 #[cfg(test)]
@@ -136,10 +148,13 @@ mod tests {
 
     use super::*;
 
+    const PARAMETERS: [f32; 5] = [1.2, 0.1, 0.2, 5.0, 0.05];
+    const RUINED: [f32; 3] = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY];
+
     /// Gravity as a torso with that orientation feels it.
     fn at_rest(orientation: UnitQuaternion<f32>) -> InertialMeasurement {
         InertialMeasurement {
-            accelerometer: orientation.inverse() * Vector3::new(0.0, 0.0, GRAVITY),
+            accelerometer: orientation.inverse() * Vector3::new(0.0, 0.0, GRAVITY as f32),
             ..InertialMeasurement::default()
         }
     }
@@ -153,6 +168,22 @@ mod tests {
         node: &mut OrientationFilter,
         inertial: &InertialMeasurement,
     ) -> (UnitQuaternion<f32>, Option<f32>) {
+        cycle_with(node, inertial, &PARAMETERS)
+    }
+
+    /// With the parameters in the order of the context.
+    fn cycle_with(
+        node: &mut OrientationFilter,
+        inertial: &InertialMeasurement,
+        parameters: &[f32; 5],
+    ) -> (UnitQuaternion<f32>, Option<f32>) {
+        let [
+            gravity_time,
+            trusted_deviation,
+            refused_deviation,
+            bias_time,
+            still_rotation,
+        ] = parameters;
         let mut slot = AdditionalSlot::default();
         let context = CycleContext {
             inertial,
@@ -160,11 +191,11 @@ mod tests {
                 start: Timestamp::ZERO,
                 since_last: Duration::from_millis(12),
             },
-            gravity_time: &1.2,
-            trusted_deviation: &0.1,
-            refused_deviation: &0.2,
-            bias_time: &5.0,
-            still_rotation: &0.05,
+            gravity_time,
+            trusted_deviation,
+            refused_deviation,
+            bias_time,
+            still_rotation,
             innovation: AdditionalOutput::new(true, 1, &mut slot),
         };
         let orientation = node.cycle(context).unwrap().orientation.value;
@@ -234,6 +265,74 @@ mod tests {
         cycle(&mut node, &inertial);
         let drift = node.torso_to_world.unwrap().angle_to(&before) / 0.012;
         assert!(drift < 1e-3, "{drift} rad/s");
+    }
+
+    /// A node that has seen something wrong finds the truth and stays there.
+    fn assert_recovers(node: &mut OrientationFilter, case: &str) {
+        let truth = at_rest(UnitQuaternion::from_euler_angles(0.1, -0.2, 0.0));
+        for _ in 0..1000 {
+            cycle(node, &truth);
+        }
+        let before = node.torso_to_world.unwrap();
+        let (roll, pitch, _) = before.euler_angles();
+        assert!((roll - 0.1).abs() < 1e-2, "{case}: roll {roll}");
+        assert!((pitch + 0.2).abs() < 1e-2, "{case}: pitch {pitch}");
+        for _ in 0..100 {
+            cycle(node, &truth);
+        }
+        let drift = node.torso_to_world.unwrap().angle_to(&before) / 1.2;
+        assert!(drift < 5e-3, "{case}: {drift} rad/s");
+    }
+
+    #[test]
+    fn a_parameter_that_is_no_number_spoils_nothing_for_good() {
+        for index in 0..PARAMETERS.len() {
+            for ruined in RUINED {
+                let case = format!("parameter {index} is {ruined}");
+                let mut node = filter();
+                let mut moving = at_rest(UnitQuaternion::from_euler_angles(0.1, -0.1, 0.0));
+                // Between what is trusted and what is refused.
+                moving.accelerometer *= 1.15;
+                moving.gyroscope = Vector3::new(0.0, 0.0, 0.5);
+                cycle(&mut node, &moving);
+                let mut parameters = PARAMETERS;
+                parameters[index] = ruined;
+                for _ in 0..100 {
+                    let (orientation, _) = cycle_with(&mut node, &moving, &parameters);
+                    assert!(
+                        orientation.coords.iter().all(|number| number.is_finite()),
+                        "{case}: {orientation}"
+                    );
+                }
+                assert_recovers(&mut node, &case);
+            }
+        }
+    }
+
+    #[test]
+    fn a_sample_that_is_no_number_leaves_the_orientation_as_it_was() {
+        for axis in 0..3 {
+            for ruined in RUINED {
+                let truth = at_rest(UnitQuaternion::from_euler_angles(0.1, -0.2, 0.0));
+                let mut no_rotation = truth;
+                no_rotation.gyroscope[axis] = ruined;
+                let mut no_gravity = truth;
+                no_gravity.accelerometer[axis] = ruined;
+                for broken in [no_rotation, no_gravity] {
+                    let case = format!("{broken:?}");
+                    let mut node = filter();
+                    let (first, _) = cycle(&mut node, &broken);
+                    assert!(
+                        first.coords.iter().all(|number| number.is_finite()),
+                        "{case}: {first}"
+                    );
+                    let (before, _) = cycle(&mut node, &truth);
+                    let (after, _) = cycle(&mut node, &broken);
+                    assert!(after.angle_to(&before) < 1e-3, "{case}: {after}");
+                    assert_recovers(&mut node, &case);
+                }
+            }
+        }
     }
 
     #[test]

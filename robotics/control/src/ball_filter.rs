@@ -1,0 +1,237 @@
+//! Estimates where the ball lies and how it rolls, from what both cameras saw in order.
+//!
+//! A few hypotheses, each a Kalman filter (Kalman 1960) with the friction of the carpet in its
+//! prediction; a sighting belongs to the one that expected it most, if it is not too far away for all
+//! (gating as in Bar-Shalom and Li 1995). They live in the start frame of odometry, so that a ball
+//! at rest stays where it is while the robot walks, turns, or stands.
+//!
+//! Cycles of Vision that nothing older can overtake any more are learnt; younger ones only refine
+//! this cycle's answer.
+
+mod hypotheses;
+mod hypothesis;
+
+use framework::{
+    AdditionalOutput, CycleTime, HistoricInput, MainOutput, Parameter, PerceptionInput, Reflect,
+    Result, Timestamp, context,
+};
+use nalgebra::{Isometry2, Matrix2, Point2, Unit, Vector2};
+use serde::{Deserialize, Serialize};
+use types::ball::{Ball, BallCandidate, LearntImage};
+use types::odometry::Odometry;
+
+use self::hypotheses::Hypotheses;
+use self::hypothesis::{Hypothesis, Sighting};
+use crate::roll_back::RollBack;
+use crate::start_frame::ground_to_start;
+
+/// What is believed of balls and of those who see them.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct BallFilterParameters {
+    /// In s: a rolling ball keeps 1/e of its speed for so long.
+    pub rolling_time: f32,
+    /// In m/s: a slower ball rests.
+    pub resting_speed: f32,
+    /// In m/s: how fast a ball is that was seen for the first time or kicked, one standard deviation.
+    pub initial_speed: f32,
+    /// In m after 1 s: how far the ball gets without anybody knowing why, one standard deviation.
+    pub position_noise: f32,
+    /// In m/s after 1 s: how its speed changes without anybody knowing why, one standard deviation.
+    pub velocity_noise: f32,
+    /// In m: how wrong a sighting just in front of the robot is, one standard deviation.
+    pub least_noise: f32,
+    /// By how much more per m of distance, along the line of sight.
+    pub noise_along: f32,
+    /// By how much more per m of distance, across the line of sight.
+    pub noise_across: f32,
+    /// In standard deviations: a sighting farther away from a hypothesis belongs to another one.
+    pub gate: f32,
+    /// In m: nearer than this it belongs to it anyway, and was kicked; two hypotheses are one.
+    pub same_place: f32,
+    /// Sightings, old ones counted less, that make a hypothesis a ball.
+    pub least_validity: f32,
+    /// More than so many do not count.
+    pub most_validity: f32,
+    /// A hypothesis with fewer is forgotten.
+    pub discarded_validity: f32,
+    /// In s: a sighting so old counts 1/e.
+    pub validity_time: f32,
+    /// In s: a ball that nobody saw for so long is forgotten.
+    pub forget_after: f32,
+}
+
+/// A place where the ball may lie, in the ground frame.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
+pub struct BallHypothesis {
+    /// In m.
+    pub position: Point2<f32>,
+    /// In m/s.
+    pub velocity: Vector2<f32>,
+    /// Of the position, along the axes of the ground frame, in m².
+    pub covariance: Matrix2<f32>,
+    /// How many sightings speak for it, old ones counted less.
+    pub validity: f32,
+    /// When a camera saw it last.
+    pub seen_at: Timestamp,
+}
+
+/// What was learnt of the ball.
+#[derive(Debug, Deserialize, Serialize)]
+pub struct BallFilter {
+    hypotheses: RollBack<Hypotheses>,
+}
+
+#[context]
+pub struct CreationContext {}
+
+#[context]
+pub struct CycleContext {
+    balls: PerceptionInput<Vec<BallCandidate>, "Vision", "balls">,
+    odometry: HistoricInput<Odometry, "odometry">,
+    cycle_time: CycleTime,
+    parameters: Parameter<BallFilterParameters, "ball_filter">,
+
+    /// All places where the ball may lie, settled or not.
+    hypotheses: AdditionalOutput<Vec<BallHypothesis>, "ball_filter.hypotheses">,
+    /// The ball as it would be without what is not settled.
+    persistent_ball: AdditionalOutput<Option<Ball>, "ball_filter.persistent_ball">,
+    /// When the images were taken that this cycle learnt from, in that order.
+    delivered: AdditionalOutput<Vec<LearntImage>, "ball_filter.delivered">,
+}
+
+#[context]
+pub struct MainOutputs {
+    /// The ball in the ground frame of this cycle; `None` where nobody has seen it lately.
+    ball: MainOutput<Option<Ball>>,
+}
+
+impl BallFilter {
+    /// Knows nothing.
+    pub fn new(_context: CreationContext) -> Result<Self> {
+        Ok(Self {
+            hypotheses: RollBack::default(),
+        })
+    }
+
+    /// Learns from what is settled, then looks at what is not.
+    pub fn cycle(&mut self, mut context: CycleContext) -> Result<MainOutputs> {
+        let (odometry, parameters) = (context.odometry, context.parameters);
+        let see = |hypotheses: &mut Hypotheses, timestamp, candidates: &Vec<BallCandidate>| {
+            hypotheses.predict(timestamp, parameters);
+            if let Some(pose) = ground_to_start(&odometry, timestamp) {
+                for sighting in sightings(candidates, timestamp, pose, parameters) {
+                    hypotheses.learn(&sighting, parameters);
+                }
+                hypotheses.merge(parameters);
+            }
+        };
+        self.hypotheses.settle(context.balls.persistent, see);
+        let newest = self.hypotheses.with_transient(context.balls.transient, see);
+
+        let now = context.cycle_time.start;
+        let start_to_ground = ground_to_start(&odometry, now).map(|pose| pose.inverse());
+        let ball_of = |mut hypotheses: Hypotheses| {
+            hypotheses.predict(now, parameters);
+            let best = hypotheses.best(parameters)?;
+            Some(ball(best, start_to_ground?, parameters))
+        };
+        let settled = self.hypotheses.settled();
+        context
+            .persistent_ball
+            .fill_if_subscribed(|| ball_of(*settled));
+        context
+            .hypotheses
+            .fill_if_subscribed(|| describe(newest, now, start_to_ground, parameters));
+        let images = context.balls.persistent.iter();
+        context
+            .delivered
+            .fill_if_subscribed(|| images.map(learnt).collect());
+        Ok(MainOutputs {
+            ball: ball_of(newest).into(),
+        })
+    }
+}
+
+fn learnt((captured_at, candidates): (Timestamp, &Vec<BallCandidate>)) -> LearntImage {
+    LearntImage {
+        captured_at,
+        candidates: candidates.len(),
+    }
+}
+
+/// Candidates with a place on the ground, as seen from the start frame.
+fn sightings(
+    candidates: &[BallCandidate],
+    seen_at: Timestamp,
+    ground_to_start: Isometry2<f32>,
+    parameters: &BallFilterParameters,
+) -> impl Iterator<Item = Sighting> {
+    let places = candidates
+        .iter()
+        .filter_map(|candidate| candidate.position)
+        .filter(|position| position.coords.norm().is_finite());
+    places.map(move |position| {
+        let sight = ground_to_start * position.coords;
+        Sighting {
+            position: ground_to_start * position,
+            noise: noise(sight, parameters),
+            seen_at,
+        }
+    })
+}
+
+/// Covariance of a sighting: its distance is known less well than its direction.
+fn noise(sight: Vector2<f32>, parameters: &BallFilterParameters) -> Matrix2<f32> {
+    let direction = Unit::try_new(sight, f32::EPSILON).unwrap_or(Vector2::x_axis());
+    let variance = |share: f32| (parameters.least_noise + share * sight.norm()).powi(2);
+    let (along, across) = (
+        variance(parameters.noise_along),
+        variance(parameters.noise_across),
+    );
+    let along_sight = direction.into_inner() * direction.transpose();
+    along_sight * (along - across) + Matrix2::identity() * across
+}
+
+fn ball(
+    hypothesis: &Hypothesis,
+    start_to_ground: Isometry2<f32>,
+    parameters: &BallFilterParameters,
+) -> Ball {
+    Ball {
+        position: start_to_ground * hypothesis.position(),
+        velocity: start_to_ground * hypothesis.velocity(parameters),
+        seen_at: hypothesis.seen_at,
+    }
+}
+
+fn describe(
+    mut hypotheses: Hypotheses,
+    now: Timestamp,
+    start_to_ground: Option<Isometry2<f32>>,
+    parameters: &BallFilterParameters,
+) -> Vec<BallHypothesis> {
+    hypotheses.predict(now, parameters);
+    let Some(start_to_ground) = start_to_ground else {
+        return Vec::new();
+    };
+    let turn = start_to_ground.rotation.to_rotation_matrix().into_inner();
+    let described = hypotheses.iter().map(|hypothesis| {
+        let Ball {
+            position,
+            velocity,
+            seen_at,
+        } = ball(hypothesis, start_to_ground, parameters);
+        BallHypothesis {
+            position,
+            velocity,
+            covariance: turn * hypothesis.position_covariance() * turn.transpose(),
+            validity: hypothesis.validity,
+            seen_at,
+        }
+    });
+    described.collect()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,143 @@
+//! One place where the ball may lie: a Kalman filter for its position and velocity.
+
+use framework::Timestamp;
+use nalgebra::{Matrix2, Matrix2x4, Matrix4, Matrix4x2, Point2, Vector2, Vector4};
+use serde::{Deserialize, Serialize};
+
+use super::BallFilterParameters;
+
+/// A ball in the start frame, and how well it is known.
+#[derive(Clone, Copy, Debug, Deserialize, Serialize)]
+pub(super) struct Hypothesis {
+    /// Position in m, velocity in m/s.
+    mean: Vector4<f32>,
+    covariance: Matrix4<f32>,
+    /// How many sightings speak for it, older ones less.
+    pub(super) validity: f32,
+    pub(super) seen_at: Timestamp,
+}
+
+/// Where a camera saw a ball, in the start frame.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sighting {
+    /// In m.
+    pub(super) position: Point2<f32>,
+    /// Covariance in m².
+    pub(super) noise: Matrix2<f32>,
+    pub(super) seen_at: Timestamp,
+}
+
+impl Hypothesis {
+    /// At rest where it was seen, as far as anybody knows.
+    pub(super) fn seen_first(sighting: &Sighting, parameters: &BallFilterParameters) -> Self {
+        Self {
+            mean: Vector4::new(sighting.position.x, sighting.position.y, 0.0, 0.0),
+            covariance: covariance(sighting.noise, parameters),
+            validity: 1.0,
+            seen_at: sighting.seen_at,
+        }
+    }
+
+    /// In m.
+    pub(super) fn position(&self) -> Point2<f32> {
+        Point2::new(self.mean.x, self.mean.y)
+    }
+
+    /// In m/s; zero where it is so slow that it may as well be noise.
+    pub(super) fn velocity(&self, parameters: &BallFilterParameters) -> Vector2<f32> {
+        let velocity = Vector2::new(self.mean.z, self.mean.w);
+        if velocity.norm() >= parameters.resting_speed {
+            velocity
+        } else {
+            Vector2::zeros()
+        }
+    }
+
+    /// Of the position, in m².
+    pub(super) fn position_covariance(&self) -> Matrix2<f32> {
+        self.covariance.fixed_view::<2, 2>(0, 0).into_owned()
+    }
+
+    pub(super) fn is_finite(&self) -> bool {
+        let numbers = self.mean.iter().chain(&self.covariance);
+        numbers.copied().all(f32::is_finite) && self.validity.is_finite()
+    }
+
+    /// What becomes of it in so many seconds: it rolls, slower and slower, unless it rests.
+    pub(super) fn predict(&mut self, elapsed: f32, parameters: &BallFilterParameters) {
+        let kept = decay(elapsed, parameters.rolling_time);
+        let reach = parameters.rolling_time * (1.0 - kept);
+        let step = self.velocity(parameters) * reach;
+        self.mean.x += step.x;
+        self.mean.y += step.y;
+        self.mean.z *= kept;
+        self.mean.w *= kept;
+
+        let mut transition = Matrix4::identity();
+        (transition[(0, 2)], transition[(1, 3)]) = (reach, reach);
+        (transition[(2, 2)], transition[(3, 3)]) = (kept, kept);
+        self.covariance = transition * self.covariance * transition.transpose();
+        let position_noise = parameters.position_noise.powi(2) * elapsed;
+        let velocity_noise = parameters.velocity_noise.powi(2) * elapsed;
+        for (index, noise) in [
+            position_noise,
+            position_noise,
+            velocity_noise,
+            velocity_noise,
+        ]
+        .into_iter()
+        .enumerate()
+        {
+            self.covariance[(index, index)] += noise;
+        }
+        self.validity *= decay(elapsed, parameters.validity_time);
+    }
+
+    /// How far away the sighting is, in standard deviations of where it was expected.
+    pub(super) fn deviation(&self, sighting: &Sighting) -> Option<f32> {
+        let expected = (self.position_covariance() + sighting.noise).try_inverse()?;
+        let error = sighting.position - self.position();
+        Some(error.dot(&(expected * error)).sqrt())
+    }
+
+    /// Moves towards the sighting, and believes more in itself.
+    pub(super) fn learn(&mut self, sighting: &Sighting, parameters: &BallFilterParameters) {
+        if self
+            .deviation(sighting)
+            .is_some_and(|deviation| deviation > parameters.gate)
+        {
+            self.forget_velocity(parameters);
+        }
+        let expected = self.position_covariance() + sighting.noise;
+        let Some(inverse) = expected.try_inverse() else {
+            return;
+        };
+        let of_position: Matrix4x2<f32> = self.covariance.fixed_columns::<2>(0).into_owned();
+        let gain: Matrix4x2<f32> = of_position * inverse;
+        self.mean += gain * (sighting.position - self.position());
+        let by_position: Matrix2x4<f32> = of_position.transpose();
+        let covariance = self.covariance - gain * by_position;
+        self.covariance = (covariance + covariance.transpose()) * 0.5;
+        self.validity = (self.validity + 1.0).min(parameters.most_validity);
+        // An image that arrives late is no reason to forget a younger one.
+        self.seen_at = self.seen_at.max(sighting.seen_at);
+    }
+
+    /// A ball that was kicked or stopped: nobody knows how fast it is now.
+    fn forget_velocity(&mut self, parameters: &BallFilterParameters) {
+        let position = self.position_covariance();
+        self.covariance = covariance(position, parameters);
+    }
+}
+
+/// Of a ball with a velocity that nobody knows.
+fn covariance(position: Matrix2<f32>, parameters: &BallFilterParameters) -> Matrix4<f32> {
+    let speed_variance = parameters.initial_speed.powi(2);
+    let mut covariance = Matrix4::from_diagonal_element(speed_variance);
+    covariance.fixed_view_mut::<2, 2>(0, 0).copy_from(&position);
+    covariance
+}
+
+fn decay(elapsed: f32, time: f32) -> f32 {
+    (-elapsed / time.max(f32::EPSILON)).exp()
+}

@@ -1,0 +1,188 @@
+//! Lets one motion have the body, and changes it only where the robot does not fall over that.
+//!
+//! A motion that is not begun where the body is comes after a way there: the dispatching. Only limp
+//! is never waited for, and limp is where the body starts.
+
+use framework::{CyclerState, Input, MainOutput, Result, context};
+use serde::{Deserialize, Serialize};
+use types::motion::{BodyMotion, MotionCommand, MotionSelection, SafeExits};
+
+/// Which motion has the body.
+#[derive(Debug, Deserialize, Serialize)]
+pub struct MotionSelector {
+    selection: MotionSelection,
+}
+
+#[context]
+pub struct CreationContext {}
+
+#[context]
+pub struct CycleContext {
+    motion_command: Input<MotionCommand, "motion_command">,
+    // Written by motions later in the cycle: here stands what they said in the cycle before.
+    safe_exits: CyclerState<SafeExits, "safe_exits">,
+}
+
+#[context]
+pub struct MainOutputs {
+    /// Who may command the body in this cycle.
+    motion_selection: MainOutput<MotionSelection>,
+}
+
+impl MotionSelector {
+    /// Starts limp.
+    pub fn new(_context: CreationContext) -> Result<Self> {
+        Ok(Self {
+            selection: MotionSelection::default(),
+        })
+    }
+
+    /// Stays with the motion or goes on to the one that is commanded.
+    pub fn cycle(&mut self, context: CycleContext) -> Result<MainOutputs> {
+        let wanted = context.motion_command.body;
+        self.selection = next(self.selection, wanted, *context.safe_exits);
+        Ok(MainOutputs {
+            motion_selection: self.selection.into(),
+        })
+    }
+}
+
+fn next(selection: MotionSelection, wanted: BodyMotion, exits: SafeExits) -> MotionSelection {
+    let stay = selection;
+    let go = |current| MotionSelection {
+        current,
+        is_dispatching: current != BodyMotion::Unstiff,
+    };
+    match (selection.current, wanted) {
+        (_, BodyMotion::Unstiff) => go(BodyMotion::Unstiff),
+        // There is nothing to sit down from.
+        (BodyMotion::Unstiff, BodyMotion::SitDown) => stay,
+        (BodyMotion::Unstiff, _) => go(wanted),
+        _ if selection.is_dispatching => match (exits.dispatch, selection.current == wanted) {
+            (false, _) => stay,
+            (true, false) => go(wanted),
+            (true, true) => MotionSelection {
+                is_dispatching: false,
+                ..selection
+            },
+        },
+        (BodyMotion::SitDown, _) if !exits.sit_down => stay,
+        (BodyMotion::SitDown, BodyMotion::SitDown) => go(BodyMotion::Unstiff),
+        (current, _) if current == wanted => stay,
+        _ => go(wanted),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const NOWHERE: SafeExits = SafeExits {
+        sit_down: false,
+        dispatch: false,
+    };
+    const EVERYWHERE: SafeExits = SafeExits {
+        sit_down: true,
+        dispatch: true,
+    };
+
+    fn select(
+        node: &mut MotionSelector,
+        wanted: BodyMotion,
+        exits: SafeExits,
+    ) -> (BodyMotion, bool) {
+        let motion_command = MotionCommand {
+            body: wanted,
+            ..MotionCommand::default()
+        };
+        let context = CycleContext {
+            motion_command: &motion_command,
+            safe_exits: &mut exits.clone(),
+        };
+        let selection = node.cycle(context).unwrap().motion_selection.value;
+        (selection.current, selection.is_dispatching)
+    }
+
+    fn node() -> MotionSelector {
+        MotionSelector::new(CreationContext {}).unwrap()
+    }
+
+    /// Already at work, not on the way to it.
+    fn node_in(current: BodyMotion) -> MotionSelector {
+        let selection = MotionSelection {
+            current,
+            is_dispatching: false,
+        };
+        MotionSelector { selection }
+    }
+
+    #[test]
+    fn the_first_motion_comes_from_limp_by_dispatching() {
+        let mut node = node();
+        let stand = BodyMotion::Stand;
+        assert_eq!(
+            select(&mut node, BodyMotion::Unstiff, NOWHERE),
+            (BodyMotion::Unstiff, false)
+        );
+        assert_eq!(select(&mut node, stand, EVERYWHERE), (stand, true));
+        assert_eq!(select(&mut node, stand, NOWHERE), (stand, true));
+        assert_eq!(select(&mut node, stand, EVERYWHERE), (stand, false));
+    }
+
+    #[test]
+    fn a_limp_body_does_not_rise_to_sit_down() {
+        let limp = (BodyMotion::Unstiff, false);
+        assert_eq!(select(&mut node(), BodyMotion::SitDown, EVERYWHERE), limp);
+    }
+
+    #[test]
+    fn dispatching_goes_on_to_its_end_whatever_is_commanded() {
+        let mut node = node();
+        select(&mut node, BodyMotion::Stand, NOWHERE);
+        let penalized = BodyMotion::Penalized;
+        assert_eq!(
+            select(&mut node, penalized, NOWHERE),
+            (BodyMotion::Stand, true)
+        );
+        assert_eq!(select(&mut node, penalized, EVERYWHERE), (penalized, true));
+    }
+
+    #[test]
+    fn a_pose_is_left_at_once() {
+        let mut node = node_in(BodyMotion::Stand);
+        let sit_down = BodyMotion::SitDown;
+        assert_eq!(select(&mut node, sit_down, NOWHERE), (sit_down, true));
+    }
+
+    #[test]
+    fn nobody_stands_up_before_sitting_down_is_done() {
+        let mut node = node_in(BodyMotion::SitDown);
+        let (sit_down, stand) = (BodyMotion::SitDown, BodyMotion::Stand);
+        assert_eq!(select(&mut node, stand, NOWHERE), (sit_down, false));
+        assert_eq!(select(&mut node, stand, EVERYWHERE), (stand, true));
+    }
+
+    #[test]
+    fn after_sitting_down_the_body_is_limp_and_stays_so() {
+        let mut node = node_in(BodyMotion::SitDown);
+        let limp = (BodyMotion::Unstiff, false);
+        assert_eq!(select(&mut node, BodyMotion::SitDown, EVERYWHERE), limp);
+        assert_eq!(select(&mut node, BodyMotion::SitDown, NOWHERE), limp);
+    }
+
+    #[test]
+    fn limp_is_not_waited_for() {
+        for current in [
+            BodyMotion::SitDown,
+            BodyMotion::Stand,
+            BodyMotion::Penalized,
+        ] {
+            for is_dispatching in [false, true] {
+                let mut node = node_in(current);
+                node.selection.is_dispatching = is_dispatching;
+                let limp = (BodyMotion::Unstiff, false);
+                assert_eq!(select(&mut node, BodyMotion::Unstiff, NOWHERE), limp);
+            }
+        }
+    }
+}

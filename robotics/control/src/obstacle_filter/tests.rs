@@ -1,0 +1,254 @@
+//! Robots, posts, and hands in front of robots that stand and turn.
+
+use std::f32::consts::FRAC_PI_2;
+use std::sync::LazyLock;
+
+use framework::Timestamp;
+use framework::testing::{at_millis, cycle_time, history, parameter, perception};
+use nalgebra::{Point2, Vector2};
+
+use super::hypotheses::MOST_HYPOTHESES;
+use super::*;
+
+type Seen<'a> = Vec<(Timestamp, &'a Vec<ObstacleCandidate>)>;
+
+/// What the body feels in a cycle.
+#[derive(Clone, Copy, Default)]
+struct Felt {
+    sonar: SonarDistances,
+    bumpers: Feet<bool>,
+}
+
+const LEFT_ECHO: Felt = Felt {
+    sonar: SonarDistances {
+        left: Some(0.5),
+        right: None,
+    },
+    bumpers: Feet {
+        left: false,
+        right: false,
+    },
+};
+
+/// Those of the robot.
+fn parameters() -> ObstacleFilterParameters {
+    #[derive(Deserialize)]
+    struct Tree {
+        obstacle_filter: ObstacleFilterParameters,
+    }
+    static TREE: LazyLock<Tree> =
+        LazyLock::new(|| parameter(include_str!("../../../parameters/default.toml")));
+    TREE.obstacle_filter
+}
+
+fn node() -> ObstacleFilter {
+    ObstacleFilter::new(CreationContext {}).unwrap()
+}
+
+fn candidate(x: f32, y: f32) -> Vec<ObstacleCandidate> {
+    vec![ObstacleCandidate {
+        position: Point2::new(x, y),
+        ..ObstacleCandidate::default()
+    }]
+}
+
+/// A cycle at `now` ms of a robot that has turned by `yaw` since the start.
+fn cycle_at(
+    node: &mut ObstacleFilter,
+    (now, yaw): (u64, f32),
+    felt: Felt,
+    (persistent, transient): (Seen<'_>, Seen<'_>),
+) -> Vec<Obstacle> {
+    let start = Odometry::default();
+    let turned = Odometry {
+        ground_to_start: Isometry2::new(Vector2::zeros(), yaw),
+    };
+    let past = [(Timestamp::ZERO, &start)];
+    let mut obstacles = Vec::new();
+    let context = CycleContext {
+        candidates: perception(&persistent, &transient),
+        odometry: history(&past, at_millis(now), &turned),
+        sonar_distances: &felt.sonar,
+        bumpers: &felt.bumpers,
+        cycle_time: cycle_time(now, 12),
+        parameters: &parameters(),
+        obstacles: &mut obstacles,
+    };
+    node.cycle(context).unwrap();
+    obstacles
+}
+
+/// A cycle in which the robot stands and feels nothing.
+fn cycle(node: &mut ObstacleFilter, now: u64, seen: Seen<'_>) -> Vec<Obstacle> {
+    cycle_at(node, (now, 0.0), Felt::default(), (seen, vec![]))
+}
+
+fn images(from: u64, count: u64, seen: &Vec<ObstacleCandidate>) -> Seen<'_> {
+    let image = |index| (at_millis(from + 33 * index), seen);
+    (0..count).map(image).collect()
+}
+
+fn assert_near(found: Point2<f32>, x: f32, y: f32) {
+    let error = (found - Point2::new(x, y)).norm();
+    assert!(error <= 1e-5, "{found} is not ({x}, {y})");
+}
+
+#[test]
+fn a_robot_that_was_seen_often_enough_stands_behind_its_feet() {
+    let (mut node, seen) = (node(), candidate(1.0, 0.0));
+    assert_eq!(cycle(&mut node, 140, images(0, 4, &seen)), []);
+    let obstacles = cycle(&mut node, 200, images(132, 1, &seen));
+    assert_near(obstacles[0].position, 1.2, 0.0);
+    assert_eq!(obstacles.len(), 1);
+    assert_eq!(obstacles[0].kind, ObstacleKind::Robot);
+    assert_eq!(obstacles[0].radius, 0.2);
+    assert_eq!(obstacles[0].seen_at, at_millis(132));
+}
+
+#[test]
+fn an_obstacle_is_remembered_until_it_is_too_old() {
+    let (mut node, seen) = (node(), candidate(1.0, 0.0));
+    cycle(&mut node, 400, images(0, 10, &seen));
+    assert_eq!(cycle(&mut node, 5290, vec![]).len(), 1);
+    assert_eq!(cycle(&mut node, 5310, vec![]), []);
+}
+
+#[test]
+fn transient_candidates_answer_but_are_not_learnt() {
+    let (mut node, seen) = (node(), candidate(1.0, 0.0));
+    let transient = (vec![], images(0, 5, &seen));
+    let felt = Felt::default();
+    assert_eq!(cycle_at(&mut node, (200, 0.0), felt, transient).len(), 1);
+    assert_eq!(cycle(&mut node, 212, vec![]), []);
+}
+
+#[test]
+fn what_was_seen_before_a_turn_stands_beside_the_robot_after_it() {
+    let seen = candidate(1.0, 0.0);
+    let persistent = (images(0, 5, &seen), vec![]);
+    let felt = Felt::default();
+    let obstacles = cycle_at(&mut node(), (200, FRAC_PI_2), felt, persistent);
+    assert_near(obstacles[0].position, 0.0, -1.2);
+}
+
+#[test]
+fn the_nearest_stands_first() {
+    let far_and_near = [candidate(2.0, 0.0), candidate(0.5, 0.5)].concat();
+    let obstacles = cycle(&mut node(), 400, images(0, 10, &far_and_near));
+    assert_eq!(obstacles.len(), 2);
+    assert!(obstacles[0].position.x < 1.0 && obstacles[1].position.x > 2.0);
+}
+
+#[test]
+fn an_echo_on_one_side_is_something_on_that_side() {
+    let mut node = node();
+    let mut obstacles = Vec::new();
+    for index in 0..60 {
+        obstacles = cycle_at(&mut node, (12 * index, 0.0), LEFT_ECHO, (vec![], vec![]));
+    }
+    // The echo comes from its near side.
+    let (sine, cosine) = parameters().sonar_angle.sin_cos();
+    assert_near(obstacles[0].position, 0.625 * cosine, 0.625 * sine);
+    assert_eq!(obstacles[0].kind, ObstacleKind::Unknown);
+    assert_eq!(obstacles[0].radius, 0.125);
+}
+
+#[test]
+fn echoes_on_both_sides_are_one_thing_ahead_and_far_ones_nothing() {
+    for (distance, count) in [(0.5, 1), (2.0, 0), (f32::NAN, 0)] {
+        let mut node = node();
+        let mut obstacles = Vec::new();
+        let both = Felt {
+            sonar: SonarDistances {
+                left: Some(distance),
+                right: Some(distance + 0.1),
+            },
+            ..Felt::default()
+        };
+        for index in 0..60 {
+            obstacles = cycle_at(&mut node, (12 * index, 0.0), both, (vec![], vec![]));
+        }
+        assert_eq!(obstacles.len(), count, "at {distance} m");
+        for obstacle in obstacles {
+            assert_near(obstacle.position, 0.675, 0.0);
+        }
+    }
+}
+
+#[test]
+fn what_a_foot_touches_is_there_at_once() {
+    let touch = Felt {
+        bumpers: Feet {
+            left: false,
+            right: true,
+        },
+        ..Felt::default()
+    };
+    let obstacles = cycle_at(&mut node(), (12, 0.0), touch, (vec![], vec![]));
+    assert_eq!(obstacles.len(), 1);
+    // The foot touches its near side.
+    let distance = parameters().bumper_distance + parameters().unknown_radius;
+    let (sine, cosine) = parameters().bumper_angle.sin_cos();
+    assert_near(obstacles[0].position, distance * cosine, -distance * sine);
+}
+
+#[test]
+fn an_echo_from_a_robot_does_not_make_it_something_else() {
+    let mut node = node();
+    let angle = parameters().sonar_angle;
+    let seen = candidate(0.3 * angle.cos(), 0.3 * angle.sin());
+    cycle(&mut node, 400, images(0, 10, &seen));
+    let obstacles = cycle_at(&mut node, (412, 0.0), LEFT_ECHO, (vec![], vec![]));
+    assert_eq!(obstacles.len(), 1);
+    assert_eq!(obstacles[0].kind, ObstacleKind::Robot);
+}
+
+#[test]
+fn a_camera_moves_what_an_echo_repeats_in_every_cycle() {
+    let (mut node, seen) = (node(), candidate(0.75, 0.0));
+    let ahead = Felt {
+        sonar: SonarDistances {
+            left: Some(0.6),
+            right: Some(0.6),
+        },
+        ..Felt::default()
+    };
+    let mut obstacles = Vec::new();
+    for index in 0..200 {
+        let now = 12 * index;
+        let image = (index % 3 == 0).then_some((at_millis(now), &seen));
+        let seen = (image.into_iter().collect(), vec![]);
+        obstacles = cycle_at(&mut node, (now, 0.0), ahead, seen);
+    }
+    // Four fifths of the way from the echo's 0.725 m to the camera's 0.95 m.
+    assert_eq!(obstacles.len(), 1);
+    assert!(obstacles[0].position.x > 0.9, "{}", obstacles[0].position);
+}
+
+#[test]
+fn an_echo_counts_the_same_however_often_it_is_repeated() {
+    let variance = |step| {
+        let felt: Vec<_> = echoes(&LEFT_ECHO.sonar, step, &parameters()).collect();
+        felt[0].noise.powi(2) * step
+    };
+    assert!((variance(0.012) - variance(0.1)).abs() < 1e-6);
+    assert_eq!(echoes(&LEFT_ECHO.sonar, 0.0, &parameters()).count(), 0);
+}
+
+#[test]
+fn however_many_candidates_there_are_few_obstacles_are_kept() {
+    let many: Vec<_> = (0..40)
+        .flat_map(|index| candidate((index % 8) as f32, (index / 8) as f32))
+        .collect();
+    let obstacles = cycle(&mut node(), 400, images(0, 10, &many));
+    assert!(obstacles.len() <= MOST_HYPOTHESES, "{}", obstacles.len());
+}
+
+#[test]
+fn candidates_that_are_nowhere_are_no_obstacles() {
+    let nonsense = [candidate(f32::NAN, 0.0), candidate(f32::INFINITY, 1.0)].concat();
+    let mut node = node();
+    assert_eq!(cycle(&mut node, 400, images(0, 10, &nonsense)), []);
+    let seen = candidate(1.0, 0.0);
+    assert_eq!(cycle(&mut node, 800, images(400, 10, &seen)).len(), 1);
+}

@@ -1,0 +1,164 @@
+//! Knows what the other robots of the own team said last, from messages that come when they come.
+
+use framework::{CycleTime, MainOutput, Parameter, PerceptionInput, Result, Timestamp, context};
+use serde::{Deserialize, Serialize};
+use types::game::{PLAYER_COUNT, Player};
+use types::team::{TeamMessage, Teammate};
+
+use crate::roll_back::RollBack;
+
+/// By the number of the shirt, 1 first.
+type Team = [Option<Teammate>; PLAYER_COUNT];
+
+/// Who was heard so far.
+#[derive(Debug, Deserialize, Serialize)]
+pub struct TeamMessageFilter {
+    heard: RollBack<Team>,
+}
+
+#[context]
+pub struct CreationContext {}
+
+#[context]
+pub struct CycleContext {
+    messages: PerceptionInput<Option<TeamMessage>, "SplNetwork", "team_message">,
+    cycle_time: CycleTime,
+
+    /// Who this robot is in the game.
+    player: Parameter<Player, "player">,
+    /// In s: a robot that is silent for so long is not there.
+    forget_after: Parameter<f32, "team_message_filter.forget_after">,
+
+    /// The robots of the own team that were heard lately, by their number, this one left out.
+    teammates: MainOutput<Vec<Teammate>>,
+}
+
+#[context]
+pub struct MainOutputs {}
+
+impl TeamMessageFilter {
+    /// Has heard nobody.
+    pub fn new(_context: CreationContext) -> Result<Self> {
+        Ok(Self {
+            heard: RollBack::default(),
+        })
+    }
+
+    /// Learns from what is settled, then listens to what is not.
+    pub fn cycle(&mut self, context: CycleContext) -> Result<MainOutputs> {
+        let own_number = context.player.number;
+        let hear = |team: &mut Team, timestamp, message: &Option<TeamMessage>| {
+            if let Some(message) = message.filter(|message| message.player_number != own_number) {
+                remember(team, timestamp, message);
+            }
+        };
+        self.heard.settle(context.messages.persistent, hear);
+        let newest = self.heard.with_transient(context.messages.transient, hear);
+
+        let now = context.cycle_time.start;
+        let is_recent =
+            |teammate: &Teammate| (now - teammate.heard_at).as_secs_f32() <= *context.forget_after;
+        let recent = newest.into_iter().flatten().filter(is_recent);
+        context.teammates.extend(recent);
+        Ok(MainOutputs {})
+    }
+}
+
+/// A number that no shirt has is nobody's.
+fn remember(team: &mut Team, heard_at: Timestamp, message: TeamMessage) {
+    let index = usize::from(message.player_number).checked_sub(1);
+    if let Some(place) = index.and_then(|index| team.get_mut(index)) {
+        *place = Some(Teammate { message, heard_at });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use framework::testing::{at_millis, cycle_time, perception};
+
+    use super::*;
+
+    type Heard<'a> = Vec<(Timestamp, &'a Option<TeamMessage>)>;
+
+    fn message(player_number: u8, is_fallen: bool) -> Option<TeamMessage> {
+        Some(TeamMessage {
+            player_number,
+            is_fallen,
+            ..TeamMessage::default()
+        })
+    }
+
+    fn node() -> TeamMessageFilter {
+        TeamMessageFilter::new(CreationContext {}).unwrap()
+    }
+
+    fn cycle(
+        node: &mut TeamMessageFilter,
+        now: u64,
+        persistent: Heard<'_>,
+        transient: Heard<'_>,
+    ) -> Vec<Teammate> {
+        let mut teammates = Vec::new();
+        let context = CycleContext {
+            messages: perception(&persistent, &transient),
+            cycle_time: cycle_time(now, 12),
+            player: &Player {
+                number: 3,
+                team: 77,
+            },
+            forget_after: &10.0,
+            teammates: &mut teammates,
+        };
+        node.cycle(context).unwrap();
+        teammates
+    }
+
+    fn numbers(teammates: &[Teammate]) -> Vec<u8> {
+        let number = |teammate: &Teammate| teammate.message.player_number;
+        teammates.iter().map(number).collect()
+    }
+
+    #[test]
+    fn teammates_stand_in_the_order_of_their_numbers_and_the_newest_counts() {
+        let (five, two, later) = (message(5, false), message(2, false), message(5, true));
+        let heard = vec![
+            (at_millis(10), &five),
+            (at_millis(20), &two),
+            (at_millis(30), &later),
+        ];
+        let teammates = cycle(&mut node(), 40, heard, vec![]);
+        assert_eq!(numbers(&teammates), [2, 5]);
+        assert!(teammates[1].message.is_fallen);
+        assert_eq!(teammates[1].heard_at, at_millis(30));
+    }
+
+    #[test]
+    fn the_own_number_numbers_without_a_shirt_and_no_messages_are_ignored() {
+        let (own, zero, large, nothing) = (
+            message(3, false),
+            message(0, false),
+            message(21, false),
+            None,
+        );
+        let heard = [&own, &zero, &large, &nothing].map(|message| (at_millis(10), message));
+        assert_eq!(cycle(&mut node(), 20, heard.to_vec(), vec![]), []);
+    }
+
+    #[test]
+    fn a_silent_teammate_is_forgotten() {
+        let two = message(2, false);
+        let mut node = node();
+        cycle(&mut node, 10, vec![(at_millis(10), &two)], vec![]);
+        assert_eq!(numbers(&cycle(&mut node, 10_010, vec![], vec![])), [2]);
+        assert_eq!(cycle(&mut node, 10_020, vec![], vec![]), []);
+    }
+
+    #[test]
+    fn transient_messages_answer_but_are_not_learnt() {
+        let two = message(2, false);
+        let mut node = node();
+        let teammates = cycle(&mut node, 20, vec![], vec![(at_millis(10), &two)]);
+        assert_eq!(numbers(&teammates), [2]);
+        assert_eq!(cycle(&mut node, 30, vec![], vec![]), []);
+    }
+}

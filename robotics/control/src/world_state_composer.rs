@@ -1,0 +1,113 @@
+//! Puts everything into one place that the behaviour decides on.
+
+use framework::{Input, MainOutput, Result, context};
+use serde::{Deserialize, Serialize};
+use types::ball::Ball;
+use types::fall_state::FallState;
+use types::game::{GameControllerState, KickingTeam, PrimaryState};
+use types::obstacles::Obstacle;
+use types::team::Teammate;
+use types::world_state::WorldState;
+
+/// Keeps nothing between cycles.
+#[derive(Debug, Deserialize, Serialize)]
+pub struct WorldStateComposer {}
+
+#[context]
+pub struct CreationContext {}
+
+#[context]
+pub struct CycleContext {
+    primary_state: Input<PrimaryState, "primary_state">,
+    game_controller_state: Input<Option<GameControllerState>, "game_controller_state">,
+    fall_state: Input<FallState, "fall_state">,
+    has_ground_contact: Input<bool, "has_ground_contact">,
+    ball: Input<Option<Ball>, "ball">,
+    obstacles: Input<Vec<Obstacle>, "obstacles">,
+    teammates: Input<Vec<Teammate>, "teammates">,
+
+    /// The robot and what is around it.
+    world_state: MainOutput<WorldState>,
+}
+
+#[context]
+pub struct MainOutputs {}
+
+impl WorldStateComposer {
+    /// Nothing to prepare.
+    pub fn new(_context: CreationContext) -> Result<Self> {
+        Ok(Self {})
+    }
+
+    /// Copies; while no referee is heard, nobody kicks first.
+    pub fn cycle(&mut self, context: CycleContext) -> Result<MainOutputs> {
+        let kicking_team = context
+            .game_controller_state
+            .map_or(KickingTeam::Nobody, |referee| referee.kicking_team);
+        let world_state = context.world_state;
+        world_state.primary_state = *context.primary_state;
+        world_state.kicking_team = kicking_team;
+        world_state.fall_state = *context.fall_state;
+        world_state.has_ground_contact = *context.has_ground_contact;
+        world_state.ball = *context.ball;
+        world_state.obstacles.extend_from_slice(context.obstacles);
+        world_state.teammates.extend_from_slice(context.teammates);
+        Ok(MainOutputs {})
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use types::fall_state::Facing;
+
+    use super::*;
+
+    #[test]
+    fn everything_arrives_where_it_belongs() {
+        let mut world_state = WorldState::default();
+        let referee = GameControllerState {
+            kicking_team: KickingTeam::Own,
+            ..GameControllerState::default()
+        };
+        let mut node = WorldStateComposer::new(CreationContext {}).unwrap();
+        let context = CycleContext {
+            primary_state: &PrimaryState::Ready,
+            game_controller_state: &Some(referee),
+            fall_state: &FallState::Lying(Facing::Up),
+            has_ground_contact: &true,
+            ball: &Some(Ball::default()),
+            obstacles: &vec![Obstacle::default(); 2],
+            teammates: &vec![Teammate::default(); 3],
+            world_state: &mut world_state,
+        };
+        node.cycle(context).unwrap();
+        let expected = WorldState {
+            primary_state: PrimaryState::Ready,
+            kicking_team: KickingTeam::Own,
+            fall_state: FallState::Lying(Facing::Up),
+            has_ground_contact: true,
+            ball: Some(Ball::default()),
+            obstacles: vec![Obstacle::default(); 2],
+            teammates: vec![Teammate::default(); 3],
+        };
+        assert_eq!(world_state, expected);
+    }
+
+    #[test]
+    fn without_a_referee_nobody_kicks_first() {
+        let mut world_state = WorldState::default();
+        let mut node = WorldStateComposer::new(CreationContext {}).unwrap();
+        let context = CycleContext {
+            primary_state: &PrimaryState::Playing,
+            game_controller_state: &None,
+            fall_state: &FallState::Upright,
+            has_ground_contact: &false,
+            ball: &None,
+            obstacles: &vec![],
+            teammates: &vec![],
+            world_state: &mut world_state,
+        };
+        node.cycle(context).unwrap();
+        assert_eq!(world_state.kicking_team, KickingTeam::Nobody);
+    }
+}
