@@ -1,0 +1,140 @@
+//! A new node: its file with a test, its `mod` line, its place in the manifest.
+
+use std::collections::BTreeSet;
+
+use schema::NodePath;
+
+use super::files::{self, NodeFile};
+use super::{Changes, document, manifest_change, module, own_member, read, read_manifest, unknown};
+use crate::outcome::Refusal;
+use crate::resolve::robot::{Cycler, Robot};
+use crate::workspace::{MANIFEST, Member, Workspace};
+
+/// What is asked for.
+#[derive(Clone, Debug)]
+pub struct NewNode<'a> {
+    /// `crate::module::path`.
+    pub path: &'a str,
+    pub cycler: &'a str,
+    pub setup: bool,
+}
+
+/// Crates that every node file names.
+const NEEDED: [&str; 2] = ["framework", "serde"];
+
+/// Adds a node to a cycler of a robot that is right.
+pub fn add_node(
+    workspace: &Workspace,
+    robot: &Robot,
+    node: &NewNode<'_>,
+) -> Result<Changes, Refusal> {
+    let names = || robot.cyclers.iter().map(|cycler| cycler.name.as_str());
+    let cycler = robot
+        .cyclers
+        .iter()
+        .find(|cycler| cycler.name == node.cycler);
+    let cycler = cycler.ok_or_else(|| {
+        let message = format!("the robot has no cycler `{}`", node.cycler);
+        unknown(&message, node.cycler, names, "the cyclers are")
+    })?;
+    let paced = cycler.nodes.iter().any(|node| node.setup);
+    let mut changes = node_files(workspace, robot, node, paced, &outputs(cycler))?;
+    let mut manifest = read_manifest(workspace)?;
+    let key = if node.setup { "setup_nodes" } else { "nodes" };
+    let list =
+        document::cycler(&mut manifest, node.cycler).and_then(|table| document::list(table, key));
+    let list = list.ok_or_else(|| {
+        Refusal::bad(format!(
+            "cannot find `{key}` of `{}` in `{MANIFEST}`",
+            node.cycler
+        ))
+    })?;
+    document::push(list, node.path);
+    changes.extend([manifest_change(workspace, &manifest)?]);
+    Ok(changes)
+}
+
+/// Everything of a new node but its place in the manifest; `taken` are the outputs that its cycler has.
+pub(super) fn node_files(
+    workspace: &Workspace,
+    robot: &Robot,
+    node: &NewNode<'_>,
+    paced: bool,
+    taken: &BTreeSet<&str>,
+) -> Result<Changes, Refusal> {
+    let path: NodePath = node
+        .path
+        .parse()
+        .map_err(|error: schema::SpellingError| Refusal::wrong_usage(error.to_string()))?;
+    let mut segments = path.segments();
+    let library = segments.next().unwrap_or_default();
+    let names: Vec<&str> = segments.collect();
+    for name in &names {
+        files::check_module_name(name)?;
+    }
+    let member = own_member(workspace, &robot.generated, library)?;
+    let (mut changes, file) = module::declare(workspace, member, &names)?;
+    let last = names.last().copied().unwrap_or_default();
+    let output = if taken.contains(last) {
+        format!("{last}_output")
+    } else {
+        last.to_owned()
+    };
+    let text = files::render_node(
+        &NodeFile {
+            type_name: &files::upper_camel_case(last),
+            output: &output,
+            paces: !paced,
+        },
+        node.setup,
+    );
+    changes.insert(file, Some(text));
+    changes.extend(dependencies(workspace, member)?);
+    Ok(changes)
+}
+
+/// Names of a cycler's main outputs and of its other outputs.
+fn outputs(cycler: &Cycler) -> BTreeSet<&str> {
+    let main = cycler.outputs.iter().map(|output| output.name.as_str());
+    let additional = &cycler.additional_outputs.branches;
+    main.chain(additional.iter().map(|branch| branch.name.as_str()))
+        .collect()
+}
+
+/// The crate's Cargo.toml with what every node needs, if it lacks something.
+fn dependencies(
+    workspace: &Workspace,
+    member: &Member,
+) -> Result<Option<(camino::Utf8PathBuf, Option<String>)>, Refusal> {
+    let has = |library: &&str| member.dependencies().any(|known| known == *library);
+    let missing: Vec<&str> = NEEDED.into_iter().filter(|library| !has(library)).collect();
+    if missing.is_empty() {
+        return Ok(None);
+    }
+    let file = member.folder.join("Cargo.toml");
+    let before = read(workspace, &file)?;
+    let mut package = document::parse(&file, &before)?;
+    for library in missing {
+        let found = workspace
+            .members()
+            .requirement(library, &member.folder, &[]);
+        let (key, requirement) = found.ok_or_else(|| {
+            Refusal::bad(format!(
+                "`{file}` lacks the dependency `{library}` that every node needs"
+            ))
+            .help(format!("add `{library}` to its `[dependencies]`"))
+        })?;
+        let mut value: toml_edit::Value = requirement.parse().map_err(|error| {
+            Refusal::bad(format!("cannot read the dependency `{library}`: {error}"))
+        })?;
+        value.decor_mut().clear();
+        let table = package
+            .entry("dependencies")
+            .or_insert_with(toml_edit::table);
+        if let Some(table) = table.as_table_like_mut() {
+            table.insert(&key, toml_edit::Item::Value(value));
+        }
+    }
+    let text = document::written(&package, &before);
+    Ok(Some((file, Some(text))))
+}
