@@ -1,0 +1,286 @@
+//! Which part of the robot a place of the generated crate comes from.
+
+use std::ops::Range;
+
+use camino::Utf8Path;
+
+use super::Home;
+use super::rustc::Message;
+use super::surroundings::Surroundings;
+use crate::diagnostics::{Diagnostic, listed};
+use crate::resolve::robot::{CreationBinding, CycleBinding, Cycler, Node, Target};
+use crate::workspace::MANIFEST;
+
+/// A field of one of a node's contexts.
+struct Origin<'a> {
+    node: &'a Node,
+    name: &'a str,
+    range: Range<usize>,
+    /// The node that writes what the field reads.
+    writer: Option<&'a Node>,
+    /// What it writes.
+    output: &'a str,
+}
+
+impl Home<'_> {
+    /// Adds the places where an error of a generated file is mended, and the deed.
+    pub(super) fn at_origin(
+        &self,
+        error: Diagnostic,
+        file: &Utf8Path,
+        surroundings: &Surroundings,
+        message: &Message,
+    ) -> Diagnostic {
+        let below = file.strip_prefix(&self.robot.generated).unwrap_or(file);
+        let folder = below.parent().and_then(Utf8Path::file_name);
+        let stem = below.file_stem().unwrap_or_default();
+        if folder == Some("bin")
+            && let Some(target) = self.robot.targets.iter().find(|one| one.name == stem)
+        {
+            return self.at_target(error, target, message);
+        }
+        let models = self.model.cyclers.iter();
+        let position = models.clone().position(|one| one.module == stem);
+        let cycler = position.and_then(|position| self.robot.cyclers.get(position));
+        let node = position.and_then(|position| self.node(position, surroundings));
+        let nodes: Vec<(&Cycler, &Node)> = match (cycler, node) {
+            (Some(cycler), Some(node)) => vec![(cycler, node)],
+            _ => self.named_nodes(cycler, surroundings),
+        };
+        let field = nodes
+            .iter()
+            .find_map(|(cycler, node)| self.field(cycler, node, surroundings));
+        match (field, nodes.first(), cycler) {
+            (Some(origin), ..) => self.at_field(error, &origin),
+            (None, Some((cycler, node)), _) => self.at_node(error, cycler, node),
+            (None, None, Some(cycler)) => self.at_cycler(error, cycler),
+            (None, None, None) => error
+                .at(Utf8Path::new(MANIFEST), self.manifest.generated_range.clone(), "in what is generated from it")
+                .help("look at rustc's words below; if neither a node nor the hardware is to blame, report a bug in hulkgen"),
+        }
+    }
+
+    /// The node whose function this is.
+    fn node(&self, cycler: usize, surroundings: &Surroundings) -> Option<&Node> {
+        let function = surroundings.function.as_deref()?;
+        let models = &self.model.cyclers[cycler].nodes;
+        let position = models.iter().position(|node| {
+            function == node.name || function.strip_prefix("create_") == Some(&node.name)
+        })?;
+        let path = &models[position].path;
+        let mut nodes = self.robot.cyclers[cycler].nodes.iter();
+        nodes.find(|node| node.path == *path)
+    }
+
+    /// Nodes whose paths stand around the place.
+    fn named_nodes(
+        &self,
+        cycler: Option<&Cycler>,
+        surroundings: &Surroundings,
+    ) -> Vec<(&Cycler, &Node)> {
+        let all = self.robot.cyclers.iter();
+        let of_file = all.filter(|one| cycler.is_none_or(|cycler| cycler.name == one.name));
+        of_file
+            .flat_map(|cycler| cycler.nodes.iter().map(move |node| (cycler, node)))
+            .filter(|(_, node)| surroundings.texts.contains(&node.path))
+            .collect()
+    }
+
+    /// The field of the node that the surroundings name.
+    fn field<'a>(
+        &'a self,
+        cycler: &'a Cycler,
+        node: &'a Node,
+        surroundings: &Surroundings,
+    ) -> Option<Origin<'a>> {
+        let fields = self.fields(cycler, node);
+        let creates = surroundings
+            .function
+            .as_deref()
+            .is_some_and(|function| function == "restore" || function.starts_with("create_"));
+        surroundings.names.iter().find_map(|name| {
+            let plain = name.strip_suffix("_input").unwrap_or(name);
+            let plain = plain.strip_prefix("r#").unwrap_or(plain);
+            let is_it = |(in_creation, origin): &&(bool, Origin<'a>)| {
+                let is_named = [origin.name, origin.output]
+                    .iter()
+                    .any(|other| *other == plain || *other == name);
+                is_named && (*in_creation == creates || surroundings.function.is_none())
+            };
+            let found = fields.iter().find(is_it)?;
+            let (
+                _,
+                Origin {
+                    node,
+                    name,
+                    range,
+                    writer,
+                    output,
+                },
+            ) = found;
+            let range = range.clone();
+            Some(Origin {
+                node,
+                name,
+                range,
+                writer: *writer,
+                output,
+            })
+        })
+    }
+
+    /// Every field of a node, and whether it is one of the creation context.
+    fn fields<'a>(&'a self, own: &'a Cycler, node: &'a Node) -> Vec<(bool, Origin<'a>)> {
+        let creation = node.creation.iter().map(|field| {
+            let path = match &field.binding {
+                CreationBinding::Parameter { access, .. }
+                | CreationBinding::CyclerState { access, .. } => access.segments.last(),
+                CreationBinding::HardwareInterface => None,
+            };
+            let output = path.map_or(field.name.as_str(), |last| &last.name);
+            (true, node, &field.name, &field.range, None, output)
+        });
+        let cycle = node.cycle.iter().map(|field| {
+            let writer = field.binding.read().and_then(|read| {
+                let cycler = match read.instances.first() {
+                    Some(id) => self.robot.cyclers.get(id.cycler)?,
+                    None => own,
+                };
+                cycler.nodes.get(read.producer)
+            });
+            let path = match &field.binding {
+                CycleBinding::Parameter { access, .. }
+                | CycleBinding::CyclerState { access, .. }
+                | CycleBinding::AdditionalOutput { access, .. } => access.segments.last(),
+                binding => binding.read().and_then(|read| read.access.segments.first()),
+            };
+            let output = path.map_or(field.name.as_str(), |last| &last.name);
+            (false, node, &field.name, &field.range, writer, output)
+        });
+        let outputs = node.outputs.iter().map(|field| {
+            (
+                false,
+                node,
+                &field.name,
+                &field.range,
+                None,
+                field.name.as_str(),
+            )
+        });
+        // What a node is given by name goes before what it names by path.
+        let all = outputs.chain(cycle).chain(creation);
+        all.map(|(in_creation, node, name, range, writer, output)| {
+            let range = range.clone();
+            (
+                in_creation,
+                Origin {
+                    node,
+                    name,
+                    range,
+                    writer,
+                    output,
+                },
+            )
+        })
+        .collect()
+    }
+
+    fn at_field(&self, error: Diagnostic, origin: &Origin<'_>) -> Diagnostic {
+        let Origin {
+            node,
+            name,
+            range,
+            writer,
+            output,
+        } = origin;
+        let text = format!("what is generated from `{name}` does not compile");
+        let error = error.at(&node.file, range.clone(), text);
+        let written = writer.and_then(|writer| Some((writer, output_range(writer, output)?)));
+        match written {
+            Some((writer, range)) => error
+                .at(&writer.file, range, format!("`{}` writes it", writer.path))
+                .help(format!(
+                    "let `{name}` have the type that `{}` writes; hulkgen could not follow both types to their end",
+                    writer.path
+                )),
+            None => error.help(format!("change the type of `{name}` as rustc says below")),
+        }
+    }
+
+    fn at_node(&self, error: Diagnostic, cycler: &Cycler, node: &Node) -> Diagnostic {
+        let entry = self.manifest.cyclers.iter();
+        let mut entries = entry
+            .filter(|one| one.name() == cycler.name)
+            .flat_map(|one| &one.nodes);
+        let range = entries
+            .find(|entry| entry.path.as_str() == node.path)
+            .map_or(0..0, |entry| entry.range.clone());
+        let text = "what is generated for this node does not compile";
+        error
+            .at(Utf8Path::new(MANIFEST), range, text)
+            .help(format!("mend `{}` as rustc says below", node.file))
+    }
+
+    fn at_cycler(&self, error: Diagnostic, cycler: &Cycler) -> Diagnostic {
+        let mut cyclers = self.manifest.cyclers.iter();
+        let range = cyclers
+            .find(|one| one.name() == cycler.name)
+            .map_or(0..0, |one| one.name_range.clone());
+        let text = "what is generated for this cycler does not compile";
+        error.at(Utf8Path::new(MANIFEST), range, text)
+    }
+
+    /// A hardware that lacks what nodes ask for.
+    fn at_target(&self, error: Diagnostic, target: &Target, message: &Message) -> Diagnostic {
+        let mut targets = self.manifest.targets.iter();
+        let range = targets
+            .find(|one| one.declared.name.as_str() == target.name)
+            .map_or(0..0, |one| one.hardware_range.clone());
+        let text = format!("the hardware of target `{}`", target.name);
+        let error = error.at(Utf8Path::new(MANIFEST), range, text);
+        let words: Vec<&str> = message
+            .message
+            .split(|letter: char| !letter.is_alphanumeric() && letter != '_')
+            .collect();
+        let nodes = self.robot.cyclers.iter().flat_map(|cycler| &cycler.nodes);
+        let mut asking: Vec<(&str, &str)> = nodes
+            .flat_map(|node| {
+                let bounds = [&node.new_bounds, &node.cycle_bounds, &node.restore_bounds];
+                let names = bounds.into_iter().flatten();
+                names.map(|bound| (last(&bound.path), node.path.as_str()))
+            })
+            .filter(|(name, _)| words.contains(name))
+            .collect();
+        asking.sort_unstable();
+        asking.dedup();
+        let Some((name, _)) = asking.first() else {
+            return error;
+        };
+        let nodes = asking.iter().filter(|(other, _)| other == name);
+        error.help(format!(
+            "implement `{name}` for `{}`: it is asked for by {}",
+            target.hardware,
+            listed(nodes.map(|(_, node)| *node))
+        ))
+    }
+}
+
+/// Where a node declares an output.
+fn output_range(writer: &Node, output: &str) -> Option<Range<usize>> {
+    let returned = writer
+        .outputs
+        .iter()
+        .map(|field| (&field.name, &field.range));
+    let in_place = writer
+        .cycle
+        .iter()
+        .filter(|field| matches!(field.binding, CycleBinding::MainOutput { .. }))
+        .map(|field| (&field.name, &field.range));
+    let mut all = returned.chain(in_place);
+    all.find(|(name, _)| *name == output)
+        .map(|(_, range)| range.clone())
+}
+
+fn last(path: &str) -> &str {
+    path.rsplit("::").next().unwrap_or(path)
+}
