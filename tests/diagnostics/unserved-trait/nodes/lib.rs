@@ -1,0 +1,10 @@
+pub mod planner;
+pub mod sender;
+
+use framework::Result;
+
+pub struct Hardware;
+
+pub trait Motors {
+    fn write(&self, speed: f32) -> Result<()>;
+}
