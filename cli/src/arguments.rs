@@ -1,9 +1,17 @@
 //! What may stand on the command line: types for clap, no behaviour.
 
+mod answers;
+mod scaffold;
+
 use std::ffi::OsString;
 
 use camino::Utf8PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
+
+pub use answers::{Completions, Diff, Doctor, Explain, Man, Show, Stage};
+pub use scaffold::{
+    AddCycler, AddNode, CyclerKind, MergeDriver, New, RemoveNode, RenameOutput, Template,
+};
 
 /// Heading of the options of every command.
 const GLOBAL: &str = "Global options";
@@ -56,8 +64,18 @@ pub enum Command {
     Check(Check),
     Explain(Explain),
     Graph(Graph),
+    Diff(Diff),
     Show(Show),
     Run(Run),
+    New(New),
+    AddNode(AddNode),
+    AddCycler(AddCycler),
+    RemoveNode(RemoveNode),
+    RenameOutput(RenameOutput),
+    MergeDriver(MergeDriver),
+    Doctor(Doctor),
+    Completions(Completions),
+    Man(Man),
     /// Print the JSON schema of hulk.toml, for editors
     #[command(after_help = "\
 Exit status: 0.
@@ -75,11 +93,15 @@ Exit status: 0 written or nothing to do, 1 errors in the manifest or a node (not
 
 Examples:
   hulkgen generate
-  hulkgen generate --check     # in CI: print the diff, write nothing")]
+  hulkgen generate --check     # in CI: print the diff, write nothing
+  hulkgen generate --watch     # again whenever a file is saved, until Ctrl-C")]
 pub struct Generate {
     /// Write nothing; print the diff and end with 3 if there is one
     #[arg(long)]
     pub check: bool,
+    /// Do it again whenever a file of the workspace changes, until Ctrl-C
+    #[arg(long)]
+    pub watch: bool,
     /// Form of the answer: with `json` the names of the files that differ
     #[arg(long, value_enum, default_value = "text")]
     pub format: TextOrJson,
@@ -92,38 +114,39 @@ Exit status: 0 no errors, 1 errors, or warnings with --deny-warnings.
 
 Examples:
   hulkgen check
-  hulkgen check --format json | jq '.diagnostics[].code'")]
+  hulkgen check --watch                   # again whenever a file is saved, until Ctrl-C
+  hulkgen check --cargo                   # and what rustc finds, at the field or line that it comes from
+  hulkgen check --format json | jq '.diagnostics[].code'
+  hulkgen check --format rustc-json       # for editors: rust-analyzer.check.overrideCommand")]
 pub struct Check {
+    /// Compile as well: writes the generated crate and adds what rustc finds
+    #[arg(long)]
+    pub cargo: bool,
     /// Let warnings be errors
     #[arg(long)]
     pub deny_warnings: bool,
+    /// Do it again whenever a file of the workspace changes, until Ctrl-C
+    #[arg(long)]
+    pub watch: bool,
     /// Form of the answer
     #[arg(long, value_enum, default_value = "text")]
-    pub format: TextOrJson,
+    pub format: CheckFormat,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum CheckFormat {
+    /// For people
+    Text,
+    /// For programs
+    Json,
+    /// For editors that read cargo's messages
+    RustcJson,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum TextOrJson {
     Text,
     Json,
-}
-
-/// Explain the code of a diagnostic, a node, or an output: who writes it, who reads it
-#[derive(Args, Clone, Debug)]
-#[command(after_help = "\
-Exit status: 0 explained, 1 the robot has errors, 2 there is nothing of this name.
-
-Examples:
-  hulkgen explain unknown-output
-  hulkgen explain vision::ball_detection
-  hulkgen explain ball_position       # or Control.ball_position")]
-pub struct Explain {
-    /// Code, node or output
-    #[arg(value_name = "CODE|NODE|OUTPUT")]
-    pub subject: String,
-    /// Form of the answer
-    #[arg(long, value_enum, default_value = "text")]
-    pub format: TextOrJson,
 }
 
 /// Draw who writes what and who reads it
@@ -156,33 +179,6 @@ pub enum GraphFormat {
     Json,
     /// One self-contained page around the picture
     Html,
-}
-
-/// Print a stage between manifest and generated crate as text
-#[derive(Args, Clone, Debug)]
-#[command(after_help = "\
-Exit status: 0 printed, 1 this stage or one before it has errors.
-
-Example:
-  hulkgen show schedule     # in which order nodes run, and why")]
-pub struct Show {
-    /// The stage
-    #[arg(value_enum)]
-    pub stage: Stage,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Stage {
-    /// What hulk.toml says
-    Manifest,
-    /// What each node asks for and gives, as written
-    Nodes,
-    /// Every name bound to what it means
-    Robot,
-    /// The order of nodes, and why
-    Schedule,
-    /// What each generated file will say
-    Model,
 }
 
 /// Generate, build and run a target

@@ -2,15 +2,24 @@
 //!
 //! Invariant: only these modules print; a command returns its outcome and never ends the process.
 
+mod cargo;
 mod check;
+mod completions;
+mod diff;
+mod doctor;
 mod explain;
 mod generate;
 mod graph;
+mod man;
+mod merge_driver;
+mod new;
 mod run;
+mod scaffold;
 mod schema;
 mod session;
 pub mod show;
 mod terminal;
+mod watch;
 
 use crate::arguments::{Arguments, Command};
 use crate::diagnostics::Reported;
@@ -30,6 +39,13 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let terminal = Terminal::new(arguments.global.color);
     let answer = match &arguments.command {
         Command::Schema => schema::run(&terminal).map_err(Failure::Refused),
+        Command::New(new) => new::run(&terminal, new),
+        Command::MergeDriver(merge) => merge_driver::run(&terminal, merge),
+        Command::Completions(completions) => {
+            completions::run(&terminal, completions).map_err(Failure::Refused)
+        }
+        Command::Man(man) => man::run(&terminal, man).map_err(Failure::Refused),
+        Command::Doctor(doctor) => doctor::run(&arguments.global, &terminal, doctor),
         command => with_session(arguments, command, &terminal),
     };
     match answer {
@@ -54,13 +70,29 @@ fn with_session(
     }
     let mut session = Session::open(&arguments.global, terminal)?;
     let answer = match command {
+        Command::Generate(generate) if generate.watch => {
+            watch::run(&mut session, |session| generate::run(session, generate))
+        }
         Command::Generate(generate) => generate::run(&mut session, generate),
+        Command::Check(check) if check.watch => {
+            watch::run(&mut session, |session| check::run(session, check))
+        }
         Command::Check(check) => return check::run(&mut session, check),
         Command::Explain(explain) => explain::run(&mut session, explain),
         Command::Graph(graph) => graph::run(&mut session, graph),
+        Command::Diff(diff) => return diff::run(&mut session, diff),
         Command::Show(show) => show::run(&mut session, show),
         Command::Run(run) => run::run(&mut session, run),
-        Command::Schema => unreachable!("needs no session"),
+        Command::AddNode(add) => scaffold::add_node(&mut session, add),
+        Command::AddCycler(add) => scaffold::add_cycler(&mut session, add),
+        Command::RemoveNode(remove) => scaffold::remove_node(&mut session, remove),
+        Command::RenameOutput(rename) => scaffold::rename_output(&mut session, rename),
+        Command::Schema
+        | Command::New(_)
+        | Command::MergeDriver(_)
+        | Command::Completions(_)
+        | Command::Man(_)
+        | Command::Doctor(_) => unreachable!("needs no session"),
     };
     if matches!(answer, Err(Failure::Reported)) {
         session.note_diagnostics();

@@ -7,6 +7,7 @@ mod catalogue;
 mod json;
 mod nearest;
 mod position;
+mod rustc_json;
 mod text;
 
 use std::fmt;
@@ -20,6 +21,7 @@ pub use catalogue::{Code, Severity};
 pub use json::to_json;
 pub use nearest::{listed, nearest};
 pub use position::{Position, position};
+pub use rustc_json::to_rustc_json;
 pub use text::render;
 
 /// One error or warning.
@@ -32,6 +34,8 @@ pub struct Diagnostic {
     pub spans: Vec<Label>,
     /// A deed that mends it.
     pub help: Option<String>,
+    /// What rustc says about it, as rustc shows it.
+    pub rustc: Option<String>,
 }
 
 /// A place in a file of the workspace, and what is there.
@@ -63,6 +67,7 @@ impl Diagnostic {
             message: message.into(),
             spans: Vec::new(),
             help: None,
+            rustc: None,
         }
     }
 
@@ -88,6 +93,13 @@ impl Diagnostic {
     #[must_use]
     pub fn help_if(mut self, help: Option<String>) -> Self {
         self.help = help.or(self.help);
+        self
+    }
+
+    /// Adds what rustc says about it.
+    #[must_use]
+    pub fn rustc(mut self, text: String) -> Self {
+        self.rustc = Some(text);
         self
     }
 
@@ -122,6 +134,11 @@ impl Diagnostics {
         } else {
             Ok(())
         }
+    }
+
+    /// Adds everything that was found elsewhere.
+    pub fn extend(&mut self, others: Self) {
+        self.found.extend(others.found);
     }
 
     /// Whether there is an error.
@@ -191,6 +208,7 @@ fn order(diagnostic: &Diagnostic) -> impl Ord + use<'_> {
         &diagnostic.message,
         texts,
         &diagnostic.help,
+        &diagnostic.rustc,
     )
 }
 

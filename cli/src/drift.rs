@@ -8,6 +8,7 @@
 //! hulkgen wrote it is somebody else's, and nothing in it is touched.
 
 mod disk;
+mod transaction;
 
 use std::fmt::Write as _;
 use std::io;
@@ -16,9 +17,10 @@ use camino::{Utf8Path, Utf8PathBuf};
 use similar::TextDiff;
 
 use crate::render::GeneratedFiles;
-use crate::workspace::says_generated;
+use crate::workspace::{Changes, says_generated};
 
 pub use disk::write_file;
+pub use transaction::{write_all, write_all_asking};
 
 /// Files of a folder of its own that are not hulkgen's.
 const MARKS_OF_OTHERS: [&str; 2] = ["hulk.toml", ".git"];
@@ -55,6 +57,12 @@ pub enum DriftError {
     /// Orphans would be removed from a folder that belongs to somebody else.
     #[error("`{folder}` cannot be the generated folder: {reason}")]
     NotOwned { folder: Utf8PathBuf, reason: String },
+    /// One of several files could not be written, and what was written before could not be taken back.
+    #[error("{error}; what was changed before could not be undone: {left}")]
+    NotUndone {
+        error: Box<DriftError>,
+        left: Box<DriftError>,
+    },
 }
 
 impl Drift {
@@ -65,6 +73,8 @@ impl Drift {
         files: &GeneratedFiles,
     ) -> Result<Self, DriftError> {
         own(root, folder)?;
+        // Another hulkgen may be half-way through.
+        let _lock = disk::lock(root)?;
         let there = disk::files(root, folder)?;
         recognize(root, folder, &there, files)?;
         let mut drift = Self::default();
@@ -91,18 +101,19 @@ impl Drift {
         self.added.is_empty() && self.changed.is_empty() && self.orphaned.is_empty()
     }
 
-    /// Writes what differs and removes orphans. The drift must be of the same root and files.
+    /// Writes what differs and removes orphans, or changes nothing. The drift must be of the same root and files.
     pub fn write(&self, root: &Utf8Path, files: &GeneratedFiles) -> Result<(), DriftError> {
+        write_all(root, &self.changes(files))
+    }
+
+    /// What has to be written and removed. The drift must be of the same files.
+    pub fn changes(&self, files: &GeneratedFiles) -> Changes {
         let changed = self.changed.iter().map(|changed| &changed.path);
-        for path in self.added.iter().chain(changed) {
-            if let Some(text) = files.get(path) {
-                write_file(&root.join(path), text)?;
-            }
-        }
-        for path in &self.orphaned {
-            disk::remove(root, path)?;
-        }
-        Ok(())
+        let written = self.added.iter().chain(changed);
+        let written =
+            written.filter_map(|path| Some((path.clone(), Some(files.get(path)?.clone()))));
+        let removed = self.orphaned.iter().map(|path| (path.clone(), None));
+        written.chain(removed).collect()
     }
 
     /// Everything that differs: a unified diff for each changed file, the names of all others.

@@ -6,6 +6,7 @@
 
 mod bundles;
 mod describe;
+pub mod difference;
 pub mod dot;
 pub(crate) mod edges;
 pub(crate) mod fields;
@@ -14,6 +15,7 @@ pub(crate) mod fixture;
 pub mod html;
 pub mod json;
 mod lines;
+pub(crate) mod listed;
 pub mod mermaid;
 mod selection;
 pub mod svg;

@@ -13,8 +13,11 @@
 //! | ⑥ | render | `GeneratedFiles`: path → text | `render.rs` |
 //! | – | door out | `Drift`: what differs on disk; written or only shown | `drift.rs` |
 //!
+//! What rustc finds in the generated crate is brought home by [`late`].
+//!
 //! Stages ① to ④ add what they find to one [`diagnostics::Diagnostics`] and stop where the next cannot go on; ⑤ and ⑥
-//! cannot fail. `commands` are what people call; only they print.
+//! cannot fail. `commands` are what people call; only they print. [`scaffold`] answers with changes to the files that
+//! people write; what the robot would be after them is seen through all stages before the door out writes them.
 //!
 //! Invariants: only `workspace` reads files of the robot and only `drift` writes them. The same input gives the same
 //! bytes: nothing depends on hash maps, clocks, the environment or the order in which files are found.
@@ -24,12 +27,14 @@ pub mod commands;
 pub mod diagnostics;
 pub mod drift;
 pub mod graph;
+pub mod late;
 pub mod manifest;
 pub mod model;
 pub mod outcome;
 pub mod pipeline;
 pub mod render;
 pub mod resolve;
+pub mod scaffold;
 pub mod scan;
 pub mod schedule;
 pub mod workspace;

@@ -35,6 +35,8 @@ pub struct Cycler {
     pub declared: schema::Cycler,
     /// Of its name.
     pub name_range: Range<usize>,
+    /// Of `record`, if it has one.
+    pub record_range: Option<Range<usize>>,
     /// In manifest order; at least one.
     pub instances: Vec<Instance>,
     /// Setup nodes first, then nodes, both in manifest order.
@@ -50,6 +52,8 @@ pub struct Instance {
     pub table: Option<schema::InstanceTable>,
     /// Of its suffix, or of the cycler's name.
     pub range: Range<usize>,
+    /// Of `record` in its table, if it has one.
+    pub record_range: Option<Range<usize>>,
 }
 
 /// A line of `setup_nodes` or `nodes`.

@@ -18,6 +18,7 @@ mod sentences;
 pub mod structs;
 
 use camino::Utf8PathBuf;
+use serde::Serialize;
 
 use crate::resolve::robot::Robot;
 use crate::schedule::Schedule;
@@ -36,7 +37,7 @@ pub const DO_NOT_EDIT: &str =
     "Written by `hulkgen generate` from hulk.toml and the nodes it names. Do not edit.";
 
 /// The generated crate, file by file.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct RuntimeModel {
     pub robot: String,
     /// Folder of the generated crate, relative to the workspace root.

@@ -8,6 +8,7 @@ mod binary;
 mod body;
 mod context;
 mod database;
+mod drift_test;
 mod imports;
 mod instance;
 mod layout;
@@ -26,6 +27,8 @@ use quote::quote;
 
 use crate::model::{CyclerModel, RuntimeModel};
 use spelling::ident;
+
+pub use templates::render_template;
 
 /// Text by path relative to the workspace root.
 pub type GeneratedFiles = BTreeMap<Utf8PathBuf, String>;
@@ -58,6 +61,10 @@ pub fn render(model: &RuntimeModel) -> GeneratedFiles {
             render_modules("The nodes of every cycler in order.", &model.cyclers),
         ),
         ("src/runtime.rs".to_owned(), runtime::render_runtime(model)),
+        (
+            "tests/drift.rs".to_owned(),
+            drift_test::render_drift_test(&model.folder),
+        ),
     ]);
     for cycler in &model.cyclers {
         let module = &cycler.module;

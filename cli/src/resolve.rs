@@ -12,6 +12,7 @@ pub mod parameter_files;
 mod parameters;
 mod paths;
 mod procedures;
+mod record;
 pub mod robot;
 mod scene;
 mod states;
@@ -76,6 +77,7 @@ pub fn resolve(
         crates: Vec::new(),
         inherited: workspace.members().inherited.clone(),
     };
+    hardware::check_served(manifest, sources, diagnostics);
     let texts = names_in_code(&robot);
     robot.crates = crates::dependencies(
         workspace,
@@ -114,7 +116,7 @@ fn resolve_cycler(
             .declared
             .instances
             .iter()
-            .map(|one| instance(declared, one))
+            .map(|one| instance(scene, index, one, diagnostics))
             .collect(),
         outputs: outputs(cycler, &nodes),
         nodes,
@@ -139,8 +141,21 @@ fn longest_pending_timeout(scene: &Scene<'_>) -> Duration {
     timeouts.max().unwrap_or(PENDING_TIMEOUT)
 }
 
-fn instance(cycler: &schema::Cycler, instance: &manifest::Instance) -> Instance {
+fn instance(
+    scene: &Scene<'_>,
+    index: usize,
+    instance: &manifest::Instance,
+    diagnostics: &mut Diagnostics,
+) -> Instance {
+    let located = scene.cyclers[index].declared;
+    let cycler = &located.declared;
     let own = instance.table.as_ref();
+    let declared = own
+        .and_then(|own| Some((own.record.as_ref()?, instance.record_range.clone())))
+        .or_else(|| Some((cycler.record.as_ref()?, located.record_range.clone())));
+    let record = declared.and_then(|(record, place)| {
+        record::record(scene, index, record, place.unwrap_or_default(), diagnostics)
+    });
     let scheduling = own
         .and_then(|own| own.scheduling.as_ref())
         .or(cycler.scheduling.as_ref());
@@ -156,6 +171,7 @@ fn instance(cycler: &schema::Cycler, instance: &manifest::Instance) -> Instance 
             priority: scheduling.priority,
             cores: scheduling.cores.clone(),
         }),
+        record: record.unwrap_or_default(),
     }
 }
 

@@ -4,17 +4,21 @@
 //! is read with the crate `grammar`, by which the macro `#[context]` reads it, too. Whether other nodes agree with it is
 //! the matter of [`crate::resolve`].
 //!
-//! Invariant: a file is parsed once, and only if a node or one of its names leads there.
+//! Invariant: a file is parsed once, and only if a node or one of its names leads there, or it belongs to the crate of a
+//! target's hardware.
 
 pub mod compare;
+mod depth;
 pub mod fields;
 #[cfg(test)]
 pub(crate) mod fixture;
 pub mod library;
-mod lookup;
+pub(crate) mod lookup;
 pub mod module;
 mod node;
+pub mod nondeterminism;
 mod public;
+pub mod served;
 mod state;
 pub mod traits;
 pub mod types;

@@ -12,18 +12,21 @@ mod writers;
 
 use petgraph::graph::{DiGraph, NodeIndex};
 use petgraph::visit::EdgeRef;
+use serde::Serialize;
 
 use crate::diagnostics::{Diagnostics, Reported};
 use crate::resolve::robot::{Cycler, Robot};
 
+pub(crate) use edges::overlap;
+
 /// The order of the nodes of every cycler, in the order of [`Robot::cyclers`].
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Schedule {
     pub cyclers: Vec<CyclerSchedule>,
 }
 
 /// The order of one cycler's nodes.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct CyclerSchedule {
     /// Positions in [`Cycler::nodes`] in the order they run, setup nodes first.
     pub order: Vec<usize>,
@@ -32,7 +35,7 @@ pub struct CyclerSchedule {
 }
 
 /// One node runs after another because of one field.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub struct Edge {
     /// Position of the node that runs first.
     pub from: usize,
@@ -46,7 +49,7 @@ pub struct Edge {
 }
 
 /// The kind of field that makes one node run after another.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub enum Reason {
     /// This cycle's value.
     Input,
@@ -56,6 +59,18 @@ pub enum Reason {
     HistoricInput,
     /// A `CyclerState` that is only read runs after the nodes that write it.
     CyclerState,
+}
+
+impl Reason {
+    /// The kind of field, as its author writes it.
+    pub fn kind(self) -> &'static str {
+        match self {
+            Self::Input => "Input",
+            Self::RequiredInput => "RequiredInput",
+            Self::HistoricInput => "HistoricInput",
+            Self::CyclerState => "CyclerState",
+        }
+    }
 }
 
 impl CyclerSchedule {

@@ -5,10 +5,13 @@
 //!
 //! Invariant: the generated crate is never looked at to understand the robot, so it may be missing or hold anything.
 
+mod changes;
 mod disk;
 mod glob;
 mod members;
 mod memory;
+mod revision;
+mod watch;
 
 use std::cell::{OnceCell, RefCell};
 use std::collections::BTreeMap;
@@ -19,7 +22,11 @@ use camino::{Utf8Path, Utf8PathBuf};
 use disk::Disk;
 use memory::Memory;
 
+pub use changes::Changes;
 pub use members::{Member, Members};
+pub(crate) use members::{normalized, relative};
+pub use revision::RevisionError;
+pub use watch::Glance;
 
 /// Name of the manifest at the workspace root.
 pub const MANIFEST: &str = "hulk.toml";
@@ -36,11 +43,13 @@ pub fn says_generated(text: &str) -> bool {
 #[derive(Debug)]
 pub struct Workspace {
     files: Files,
+    /// What is taken to be written already.
+    changes: Changes,
     texts: RefCell<BTreeMap<Utf8PathBuf, Arc<str>>>,
     members: OnceCell<Members>,
 }
 
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 enum Files {
     Disk(Disk),
     Memory(Memory),
@@ -62,6 +71,16 @@ pub struct ReadError {
 #[error("no `hulk.toml` in `{start}` or any folder above it")]
 pub struct NoManifest {
     pub start: Utf8PathBuf,
+}
+
+impl ReadError {
+    fn missing(file: &Utf8Path) -> Self {
+        Self {
+            file: file.to_owned(),
+            reason: "no such file".to_owned(),
+            missing: true,
+        }
+    }
 }
 
 impl Workspace {
@@ -87,19 +106,43 @@ impl Workspace {
         Self::new(Files::Memory(Memory::new(files)))
     }
 
+    /// This workspace as it was in a git revision.
+    pub fn at_revision(&self, revision: &str) -> Result<Self, RevisionError> {
+        let files = revision::load(self.root(), revision)?;
+        Ok(Self::new(Files::Memory(files)))
+    }
+
+    /// This workspace as it would be after some changes, of which nothing is written.
+    ///
+    /// Files that were read before are kept as they were read.
+    #[must_use]
+    pub fn after(&self, changes: &Changes) -> Self {
+        let mut all = self.changes.clone();
+        all.extend(changes.clone());
+        let mut texts = self.texts.borrow().clone();
+        texts.retain(|file, _| !all.contains_key(file));
+        Self {
+            files: self.files.clone(),
+            changes: all,
+            texts: RefCell::new(texts),
+            members: OnceCell::new(),
+        }
+    }
+
     fn new(files: Files) -> Self {
         Self {
             files,
+            changes: Changes::default(),
             texts: RefCell::default(),
             members: OnceCell::new(),
         }
     }
 
-    /// The root folder; empty for a workspace in memory.
+    /// The root folder; empty for a workspace that only ever was in memory.
     pub fn root(&self) -> &Utf8Path {
         match &self.files {
             Files::Disk(disk) => disk.root(),
-            Files::Memory(_) => Utf8Path::new(""),
+            Files::Memory(memory) => memory.root(),
         }
     }
 
@@ -108,9 +151,11 @@ impl Workspace {
         if let Some(text) = self.text(file) {
             return Ok(text);
         }
-        let text = match &self.files {
-            Files::Disk(disk) => disk.read(file),
-            Files::Memory(memory) => memory.read(file),
+        let text = match (self.changes.get(file), &self.files) {
+            (Some(Some(text)), _) => Ok(text.as_str().into()),
+            (Some(None), _) => Err(ReadError::missing(file)),
+            (None, Files::Disk(disk)) => disk.read(file),
+            (None, Files::Memory(memory)) => memory.read(file),
         }?;
         self.texts
             .borrow_mut()
@@ -128,20 +173,56 @@ impl Workspace {
         self.texts.borrow().keys().cloned().collect()
     }
 
+    /// Whether two paths lead to one file, also through links.
+    pub fn is_same_file(&self, one: &Utf8Path, other: &Utf8Path) -> bool {
+        let canonical = |file: &Utf8Path| match &self.files {
+            Files::Disk(disk) => disk.canonical(file).unwrap_or_else(|| normalized(file)),
+            Files::Memory(_) => normalized(file),
+        };
+        one == other || canonical(one) == canonical(other)
+    }
+
     /// Whether this is a file.
     pub fn is_file(&self, file: &Utf8Path) -> bool {
-        match &self.files {
-            Files::Disk(disk) => disk.is_file(file),
-            Files::Memory(memory) => memory.is_file(file),
+        match (self.changes.get(file), &self.files) {
+            (Some(change), _) => change.is_some(),
+            (None, Files::Disk(disk)) => disk.is_file(file),
+            (None, Files::Memory(memory)) => memory.is_file(file),
         }
     }
 
     /// Files and folders directly in a folder, sorted; none if there is no such folder.
     pub fn list(&self, folder: &Utf8Path) -> Vec<Utf8PathBuf> {
-        match &self.files {
+        let found = match &self.files {
             Files::Disk(disk) => disk.list(folder),
             Files::Memory(memory) => memory.list(folder),
+        };
+        changes::list(&self.changes, folder, found)
+    }
+
+    /// Every file in a folder and below, sorted; not what cargo builds and what is hidden.
+    pub fn files_below(&self, folder: &Utf8Path) -> Vec<Utf8PathBuf> {
+        let is_own = |entry: &Utf8PathBuf| {
+            let name = entry.file_name().unwrap_or_default();
+            name != "target" && !name.starts_with('.')
+        };
+        let mut found = Vec::new();
+        for entry in self.list(folder).into_iter().filter(is_own) {
+            if self.is_file(&entry) {
+                found.push(entry);
+            } else {
+                found.extend(self.files_below(&entry));
+            }
         }
+        found
+    }
+
+    /// A path from the root of cargo's workspace as one from the robot's.
+    pub fn below_cargo_root(&self, file: &Utf8Path) -> Utf8PathBuf {
+        if file.is_absolute() {
+            return file.to_owned();
+        }
+        relative(&self.members().own, file)
     }
 
     /// The packages of the workspace and what the root says about dependencies, read once and without cargo.

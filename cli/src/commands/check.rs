@@ -1,22 +1,35 @@
 //! `check`: every diagnostic, and a summary.
 
+use super::cargo::Request;
 use super::session::Session;
-use super::{Failure, plural};
-use crate::arguments::{Check, TextOrJson};
+use super::{Failure, generate, plural};
+use crate::arguments::{Check, CheckFormat};
 use crate::diagnostics::{self, Diagnostics, Severity};
 use crate::graph::{self, Graph};
 use crate::outcome::Outcome;
+use crate::pipeline::Understood;
 
 pub(super) fn run(session: &mut Session<'_>, check: &Check) -> Result<Outcome, Failure> {
     let understood = session.understand();
+    let mut compiles = true;
+    if check.cargo
+        && let Ok(understood) = &understood
+    {
+        compiles = compile(session, check, understood)?;
+    }
     let found = &session.diagnostics;
+    let is_bad = understood.is_err()
+        || !compiles
+        || found.has_errors()
+        || (check.deny_warnings && found.has_warnings());
     let text = match check.format {
-        TextOrJson::Json => {
+        CheckFormat::Json => {
             let mut text = diagnostics::to_json(found, &session.workspace).to_string();
             text.push('\n');
             text
         }
-        TextOrJson::Text => {
+        CheckFormat::RustcJson => diagnostics::to_rustc_json(found, &session.workspace, !is_bad),
+        CheckFormat::Text => {
             let color = session.terminal.colors_data();
             let mut text = diagnostics::render(found, &session.workspace, color);
             text.push_str(&summary_of_diagnostics(found));
@@ -28,9 +41,38 @@ pub(super) fn run(session: &mut Session<'_>, check: &Check) -> Result<Outcome, F
         }
     };
     session.terminal.data(&text)?;
-    let is_bad =
-        understood.is_err() || found.has_errors() || (check.deny_warnings && found.has_warnings());
     Ok(if is_bad { Outcome::Bad } else { Outcome::Good })
+}
+
+/// Adds what rustc finds; whether cargo could compile everything it was asked for.
+///
+/// The generated crate is written first, for rustc reads it.
+fn compile(
+    session: &mut Session<'_>,
+    check: &Check,
+    understood: &Understood,
+) -> Result<bool, Failure> {
+    generate::write(session, understood)?;
+    let targets = &understood.robot.targets;
+    let (here, elsewhere): (Vec<_>, Vec<_>) = targets
+        .iter()
+        .partition(|target| is_of_this_machine(target.triple.as_deref()));
+    for target in elsewhere {
+        let (name, triple) = (&target.name, target.triple.as_deref().unwrap_or_default());
+        let note = format!("target `{name}` is for `{triple}` and is not compiled here\n");
+        session.terminal.note(&note);
+    }
+    let color = check.format == CheckFormat::Text && session.terminal.colors_data();
+    let said = Request::check(&understood.robot, here).said(session, color)?;
+    let late = said.diagnostics(session, understood)?;
+    session.diagnostics.extend(late);
+    Ok(said.success)
+}
+
+/// Whether the host's compiler makes programs for this triple; a version of libc does not matter to a check.
+fn is_of_this_machine(triple: Option<&str>) -> bool {
+    let has = |part| triple.is_none_or(|triple| triple.split(['-', '.']).any(|word| word == part));
+    has(std::env::consts::ARCH) && has(std::env::consts::OS)
 }
 
 /// "2 errors, 1 warning" on a line; nothing if there is neither.

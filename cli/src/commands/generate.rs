@@ -21,7 +21,7 @@ pub(super) fn run(session: &mut Session<'_>, generate: &Generate) -> Result<Outc
     let understood = session.understand()?;
     session.note_diagnostics();
     let files = render(&session.workspace, &understood);
-    let drift = compare(session, &understood, &files)?;
+    let drift = compare(session.workspace.root(), &understood, &files)?;
     if generate.format == TextOrJson::Json {
         session.terminal.data(&to_json(&drift))?;
     } else if generate.check {
@@ -43,11 +43,12 @@ pub(super) fn run(session: &mut Session<'_>, generate: &Generate) -> Result<Outc
 /// Writes the generated crate and says on stderr what changed.
 pub(super) fn write(session: &Session<'_>, understood: &Understood) -> Result<(), Failure> {
     let files = render(&session.workspace, understood);
-    let drift = compare(session, understood, &files)?;
+    let drift = compare(session.workspace.root(), understood, &files)?;
     apply(session, understood, &files, &drift)
 }
 
-fn render(workspace: &Workspace, understood: &Understood) -> GeneratedFiles {
+/// The files of the generated crate, and the schema that the manifest names.
+pub(super) fn render(workspace: &Workspace, understood: &Understood) -> GeneratedFiles {
     let mut files = render::render(&model::describe(&understood.robot, &understood.schedule));
     if names_schema(workspace) {
         files.insert(SCHEMA.into(), schema::json_schema());
@@ -64,12 +65,12 @@ fn names_schema(workspace: &Workspace) -> bool {
     schema.is_some_and(|path| path.trim().trim_start_matches("./") == SCHEMA)
 }
 
-fn compare(
-    session: &Session<'_>,
+/// How the disk differs from these files.
+pub(super) fn compare(
+    root: &Utf8Path,
     understood: &Understood,
     files: &GeneratedFiles,
 ) -> Result<Drift, Failure> {
-    let root = session.workspace.root();
     let drift = Drift::compare(root, &understood.robot.generated, files);
     drift.map_err(|error| refusal(&error).into())
 }
@@ -117,7 +118,8 @@ fn texts<'paths>(paths: impl IntoIterator<Item = &'paths Utf8PathBuf>) -> Vec<&'
     paths.into_iter().map(|path| path.as_str()).collect()
 }
 
-fn refusal(error: &DriftError) -> Refusal {
+/// Why the disk could not be read or written, for a person.
+pub(super) fn refusal(error: &DriftError) -> Refusal {
     let reason = std::error::Error::source(error);
     let reason = reason
         .map(|reason| format!(": {reason}"))

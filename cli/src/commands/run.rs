@@ -1,13 +1,12 @@
 //! `run`: generate, build, and become the robot's program.
 
-mod cargo;
 mod program;
 
+use super::cargo::Request;
 use super::session::Session;
 use super::{Failure, generate};
 use crate::arguments;
 use crate::diagnostics::{listed, nearest};
-use crate::model::package;
 use crate::outcome::{Outcome, Refusal};
 use crate::resolve::robot::{Robot, Target};
 
@@ -20,15 +19,17 @@ pub(super) fn run(session: &mut Session<'_>, run: &arguments::Run) -> Result<Out
         return Ok(Outcome::Bad);
     }
     generate::write(session, &understood)?;
-    let build = cargo::Build {
-        root: session.workspace.root(),
-        package: &package::library(&understood.robot),
-        target: &target.name,
-        profile: profile(run.profile.as_deref(), target),
-        target_dir: run.target_dir.as_deref(),
-    };
-    let Some(executable) = build.executable(session.terminal)? else {
+    let profile = profile(run.profile.as_deref(), target).unwrap_or(OWN_PROFILE);
+    let target_dir = run.target_dir.as_deref().map(program::absolute);
+    let request = Request::build(&understood.robot, target, profile, target_dir.transpose()?);
+    let said = request.said(session, session.terminal.colors_notes())?;
+    session.diagnostics = said.diagnostics(session, &understood)?;
+    session.note_diagnostics();
+    if !said.success {
         return Ok(Outcome::Bad);
+    }
+    let Some(executable) = said.executable else {
+        return Err(Refusal::bad("cargo did not say where the program is").into());
     };
     let root = session.workspace.root();
     Err(program::become_robot(&executable, run, root).into())
@@ -71,6 +72,13 @@ fn refuse_other_machines(target: &Target) -> Result<(), Refusal> {
     ))
     .help("run a target without a `triple`; `hulkgen build`, which builds for others, is a later step"))
 }
+
+/// The profile that hulkgen itself was built with, so that crates of both are compiled once.
+const OWN_PROFILE: &str = if cfg!(debug_assertions) {
+    "dev"
+} else {
+    "release"
+};
 
 /// What is asked for, else what the target asks for.
 fn profile<'a>(asked: Option<&'a str>, target: &'a Target) -> Option<&'a str> {

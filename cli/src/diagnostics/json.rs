@@ -21,13 +21,17 @@ fn diagnostic_to_json(diagnostic: &Diagnostic, workspace: &Workspace) -> Value {
         .iter()
         .map(|label| label_to_json(label, workspace))
         .collect();
-    json!({
+    let mut value = json!({
         "code": diagnostic.code.name(),
         "severity": diagnostic.severity().name(),
         "message": diagnostic.message,
         "spans": spans,
         "help": diagnostic.help,
-    })
+    });
+    if let Some(text) = &diagnostic.rustc {
+        value["rustc"] = text.as_str().into();
+    }
+    value
 }
 
 fn label_to_json(label: &Label, workspace: &Workspace) -> Value {

@@ -2,7 +2,9 @@
 
 use camino::Utf8Path;
 
-use super::{Code, Diagnostic, Diagnostics, listed, nearest, position, render, to_json};
+use super::{
+    Code, Diagnostic, Diagnostics, listed, nearest, position, render, to_json, to_rustc_json,
+};
 use crate::workspace::Workspace;
 
 fn two_files() -> (Workspace, Diagnostics) {
@@ -90,6 +92,60 @@ fn json_has_lines_and_columns_from_one() {
     });
     assert_eq!(mismatch["spans"][0], expected);
     assert_eq!(mismatch["spans"].as_array().unwrap().len(), 2);
+}
+
+fn messages(text: &str) -> Vec<serde_json::Value> {
+    let lines = text.lines().map(serde_json::from_str);
+    lines.map(|line| line.expect("each line is JSON")).collect()
+}
+
+#[test]
+fn an_editor_reads_what_cargo_would_write() {
+    let (workspace, diagnostics) = two_files();
+    let messages = messages(&to_rustc_json(&diagnostics, &workspace, false));
+    assert_eq!(messages.len(), 3);
+    let last = serde_json::json!({ "reason": "build-finished", "success": false });
+    assert_eq!(messages[2], last);
+    for key in ["package_id", "manifest_path", "target"] {
+        assert!(!messages[1][key].is_null(), "no {key}");
+    }
+    assert_eq!(messages[1]["reason"], "compiler-message");
+    let message = &messages[1]["message"];
+    assert_eq!(message["$message_type"], "diagnostic");
+    assert_eq!(message["code"]["code"], "type-mismatch");
+    assert_eq!(message["level"], "error");
+    assert_eq!(message["children"][0]["level"], "help");
+    assert_eq!(message["children"][0]["message"], "write `Input<u16>`");
+    let rendered = message["rendered"].as_str().unwrap();
+    assert!(rendered.starts_with("error[type-mismatch]: `x` is a `u16`"));
+    let expected = serde_json::json!({
+        "file_name": "a.rs", "byte_start": 10, "byte_end": 12, "line_start": 1, "line_end": 1,
+        "column_start": 10, "column_end": 12, "is_primary": true, "label": "read here as `u8`",
+        "text": [{ "text": "ä: Input<u8>,", "highlight_start": 10, "highlight_end": 12 }],
+        "suggested_replacement": null, "suggestion_applicability": null, "expansion": null,
+    });
+    assert_eq!(message["spans"][0], expected);
+    assert_eq!(message["spans"][1]["is_primary"], false);
+}
+
+#[test]
+fn an_editor_is_told_a_place_for_everything() {
+    let workspace = Workspace::in_memory([("hulk.toml", "x\ny\n")]);
+    workspace.read(Utf8Path::new("hulk.toml")).unwrap();
+    let mut diagnostics = Diagnostics::new();
+    diagnostics.add(Diagnostic::new(Code::Syntax, "nothing can be read"));
+    let both = Diagnostic::new(Code::Syntax, "both").at(Utf8Path::new("hulk.toml"), 0..3, "");
+    diagnostics.add(both);
+    let messages = messages(&to_rustc_json(&diagnostics, &workspace, true));
+    let place = &messages[0]["message"]["spans"][0];
+    assert_eq!(place["file_name"], "hulk.toml");
+    assert_eq!(
+        (&place["line_start"], &place["is_primary"]),
+        (&1.into(), &true.into())
+    );
+    let lines = &messages[1]["message"]["spans"][0]["text"];
+    assert_eq!(lines.as_array().unwrap().len(), 2);
+    assert_eq!(lines[0]["highlight_end"], 2);
 }
 
 #[test]

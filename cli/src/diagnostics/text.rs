@@ -5,8 +5,11 @@ use std::sync::Arc;
 use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
 use camino::Utf8Path;
 
-use super::{Diagnostic, Diagnostics, Label, Severity};
+use super::{Code, Diagnostic, Diagnostics, Label, Severity};
 use crate::workspace::Workspace;
+
+/// Columns of a report.
+const WIDTH: usize = 100;
 
 /// All diagnostics as text for a terminal, in order, each followed by an empty line.
 pub fn render(diagnostics: &Diagnostics, workspace: &Workspace, color: bool) -> String {
@@ -15,13 +18,26 @@ pub fn render(diagnostics: &Diagnostics, workspace: &Workspace, color: bool) -> 
     } else {
         Renderer::plain()
     };
-    let renderer = renderer.term_width(100);
+    let renderer = renderer.term_width(WIDTH);
     let mut text = String::new();
     for diagnostic in diagnostics.sorted() {
-        text.push_str(&render_one(diagnostic, workspace, &renderer));
-        text.push_str("\n\n");
+        // What rustc found in the author's own file needs no other picture.
+        if !matches!(diagnostic.code, Code::Rustc | Code::RustcWarning) {
+            text.push_str(&render_one(diagnostic, workspace, &renderer));
+            text.push_str("\n\n");
+        }
+        if let Some(rustc) = &diagnostic.rustc {
+            text.push_str(rustc);
+            text.push_str("\n\n");
+        }
     }
     text
+}
+
+/// One diagnostic without colours.
+pub(super) fn render_plain(diagnostic: &Diagnostic, workspace: &Workspace) -> String {
+    let renderer = Renderer::plain().term_width(WIDTH);
+    format!("{}\n\n", render_one(diagnostic, workspace, &renderer))
 }
 
 fn render_one(diagnostic: &Diagnostic, workspace: &Workspace, renderer: &Renderer) -> String {

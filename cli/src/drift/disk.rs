@@ -51,6 +51,11 @@ pub(super) fn files(root: &Utf8Path, folder: &Utf8Path) -> Result<Vec<Utf8PathBu
 
 /// Replaces a file whole or not at all, and creates the folders it needs.
 pub fn write_file(path: &Utf8Path, text: &str) -> Result<(), DriftError> {
+    write_bytes(path, text.as_bytes())
+}
+
+/// As [`write_file`], also for what is no text.
+pub(super) fn write_bytes(path: &Utf8Path, content: &[u8]) -> Result<(), DriftError> {
     let folder = path.parent().unwrap_or(Utf8Path::new("."));
     fs::create_dir_all(folder).map_err(|source| failed("create", folder, source))?;
     let write = || -> io::Result<()> {
@@ -58,11 +63,27 @@ pub fn write_file(path: &Utf8Path, text: &str) -> Result<(), DriftError> {
         let mut file = tempfile::Builder::new()
             .permissions(permissions())
             .tempfile_in(folder)?;
-        file.write_all(text.as_bytes())?;
+        file.write_all(content)?;
         file.persist(path).map_err(|error| error.error)?;
         Ok(())
     };
     write().map_err(|source| failed("write", path, source))
+}
+
+/// Waits until nobody else writes below this folder; free again when the answer is dropped.
+pub(super) fn lock(root: &Utf8Path) -> Result<Option<fs::File>, DriftError> {
+    // The folder itself, so that no file is left behind; a root that does not exist yet has nobody else.
+    let folder = match fs::File::open(root) {
+        Ok(folder) => folder,
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
+        Err(source) => return Err(failed("open", root, source)),
+    };
+    match folder.lock() {
+        Ok(()) => Ok(Some(folder)),
+        // Some network disks have no locks; every single file is still replaced whole.
+        Err(error) if error.kind() == io::ErrorKind::Unsupported => Ok(None),
+        Err(source) => Err(failed("lock", root, source)),
+    }
 }
 
 /// Those of an ordinary file; a temporary file would be its owner's alone.
@@ -86,7 +107,7 @@ pub(super) fn remove(root: &Utf8Path, path: &Utf8Path) -> Result<(), DriftError>
     Ok(())
 }
 
-fn failed(deed: &'static str, path: &Utf8Path, source: io::Error) -> DriftError {
+pub(super) fn failed(deed: &'static str, path: &Utf8Path, source: io::Error) -> DriftError {
     DriftError::Io {
         deed,
         path: path.to_owned(),

@@ -5,7 +5,7 @@ use crate::resolve::robot::{self, Content, CyclerKind, Robot, Tree};
 use crate::schedule::Schedule;
 
 /// Version of the JSON form; keys may be added within a version.
-const VERSION: u32 = 1;
+pub(super) const VERSION: u32 = 1;
 
 /// The graph of a robot whose nodes run in the order of `schedule`.
 pub fn describe(robot: &Robot, schedule: &Schedule) -> Graph {

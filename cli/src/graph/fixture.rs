@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use crate::resolve::robot::{
     Access, Branch, Content, CreationBinding, CycleBinding, Cycler, CyclerKind, DataType, Field,
-    Instance, InstanceId, Interface, Node, OnFailure, Output, OutputBinding, Reader, Robot,
+    Instance, InstanceId, Interface, Node, OnFailure, Output, OutputBinding, Reader, Record, Robot,
     Scheduling, Segment, StateUse, Target, Tree, Writer,
 };
 use crate::schedule::{CyclerSchedule, Schedule};
@@ -294,6 +294,7 @@ fn instance(name: &str) -> Instance {
         name: name.to_owned(),
         deadline,
         scheduling: Scheduling::default(),
+        record: Record::default(),
     }
 }
 

@@ -59,16 +59,21 @@ fn locate_cycler(declared: schema::Cycler, place: &Spanned<DeValue<'_>>) -> Cycl
     let instances = declared
         .instance_names()
         .into_iter()
-        .map(|name| Instance {
-            name,
-            table: tables.next().flatten(),
-            range: places.next().map_or_else(
-                || name_range.clone(),
-                |place| range_of(place, "name").unwrap_or_else(|| place.span()),
-            ),
+        .map(|name| {
+            let place = places.next();
+            Instance {
+                name,
+                table: tables.next().flatten(),
+                range: place.map_or_else(
+                    || name_range.clone(),
+                    |place| range_of(place, "name").unwrap_or_else(|| place.span()),
+                ),
+                record_range: place.and_then(|place| range_of(place, "record")),
+            }
         })
         .collect();
     Cycler {
+        record_range: range_of(place, "record"),
         declared,
         name_range,
         instances,

@@ -1,9 +1,11 @@
 //! How a value is reached: fields, and options that are looked into.
 
+use serde::Serialize;
+
 use crate::resolve::robot::Segment;
 
 /// `frame.own.pose.as_ref().map(|pose| &pose.position)`, or simply `&frame.own.pose`.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Accessor {
     /// Names from a local variable to the value or to the first option that is looked into.
     pub place: Vec<String>,
@@ -16,7 +18,7 @@ pub struct Accessor {
 }
 
 /// A look into an option: `.map(|name| &name.fields)`, optional `.and_then(|name| name.fields.as_ref())`.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Look {
     /// What the content of the option before is called.
     pub name: String,

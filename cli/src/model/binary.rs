@@ -1,9 +1,11 @@
 //! `src/bin/<target>.rs`: one binary for each target.
 
+use serde::Serialize;
+
 use crate::resolve::robot::Robot;
 
 /// The binary of a target.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Binary {
     /// Name of the target and of the file.
     pub name: String,

@@ -3,6 +3,8 @@
 mod outputs;
 mod sources;
 
+use serde::Serialize;
+
 use super::frame::{self, FrameField, Hardware, InstanceParameters};
 use super::names::{Names, PRELUDE, name_nodes, snake_case};
 use super::node::{NodeModel, StepOutput, Surroundings, asked};
@@ -31,7 +33,7 @@ const FIELDS_OF_BODIES: [&str; 14] = [
 ];
 
 /// `databases/<cycler>.rs`, `cyclers/<cycler>.rs` and `runtime/<cycler>.rs`.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct CyclerModel {
     /// `Vision`.
     pub name: String,
@@ -76,14 +78,14 @@ pub struct CyclerModel {
 }
 
 /// Calls in the order they run.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Calls {
     pub nodes: Vec<String>,
     pub hardware: Hardware,
 }
 
 /// A main output of the cycler.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct OutputField {
     pub name: String,
     /// Absolute type.
@@ -97,7 +99,7 @@ pub struct OutputField {
 }
 
 /// A declared additional output.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct AdditionalOutput {
     /// Its path as written.
     pub written: String,
@@ -110,7 +112,7 @@ pub struct AdditionalOutput {
 }
 
 /// A procedure that a node of the cycler answers.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct ProcedureField {
     pub name: String,
     pub request: String,
@@ -120,7 +122,7 @@ pub struct ProcedureField {
 }
 
 /// What is consumed in order of time.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Perception {
     /// In manifest order.
     pub lanes: Vec<Source>,
@@ -129,14 +131,14 @@ pub struct Perception {
 }
 
 /// The order over all instances of one perception cycler.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Interleaving {
     pub field: String,
     pub lanes: Vec<String>,
 }
 
 /// An instance that is read.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub struct Source {
     pub id: InstanceId,
     /// `VisionTop`.
@@ -150,7 +152,7 @@ pub struct Source {
 }
 
 /// Which parts of the last finished cycle are read.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Previous {
     pub own: bool,
     pub shared: bool,

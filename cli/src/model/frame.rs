@@ -2,6 +2,8 @@
 
 use std::collections::BTreeSet;
 
+use serde::Serialize;
+
 use super::names::{Names, joined, snake_case};
 use super::parameters::Parameters;
 use super::structs::FieldType;
@@ -10,7 +12,7 @@ use crate::resolve::robot::{
 };
 
 /// A field of `Frame` or `Creation`, which have only those that some node needs.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub enum FrameField {
     AdditionalOutputs,
     CaptureTime,
@@ -32,7 +34,7 @@ pub enum FrameField {
 
 /// A part of the parameter tree that is different for each instance: what stands in place of
 /// `$cycler_instance` behind one prefix.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct InstanceParameters {
     /// Its field in `Frame`: `instance_parameters`.
     pub field: String,
@@ -44,7 +46,7 @@ pub struct InstanceParameters {
 }
 
 /// Whether something has a type parameter for the hardware, and what it asks of it.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub enum Hardware {
     /// No type parameter.
     Absent,

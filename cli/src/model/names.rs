@@ -2,6 +2,8 @@
 
 use std::collections::BTreeSet;
 
+use serde::Serialize;
+
 use crate::resolve::robot::Node;
 
 pub use schema::snake_case;
@@ -36,7 +38,7 @@ pub fn constant_case(name: &str) -> String {
 }
 
 /// Names given so far in one place; no name is given twice.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize)]
 pub struct Names {
     given: BTreeSet<String>,
 }

@@ -1,5 +1,7 @@
 //! One node of a cycler: how it is created, and its step in a cycle.
 
+use serde::Serialize;
+
 use super::accessor::Accessor;
 use super::cycler::AdditionalOutput;
 use super::frame::{Hardware, InstanceParameters, instance_prefix, renews};
@@ -14,7 +16,7 @@ use crate::resolve::robot::{
 const VARIABLES: [&str; 4] = ["context", "frame", "node", "outputs"];
 
 /// A node in the files of its cycler.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct NodeModel {
     /// What it is called in this cycler: `ball_detection`.
     pub name: String,
@@ -29,7 +31,7 @@ pub struct NodeModel {
 }
 
 /// How a node is created.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Creation {
     /// Fields of its creation context.
     pub context: Vec<ContextField>,
@@ -40,7 +42,7 @@ pub struct Creation {
 }
 
 /// What a cycle does with a node.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Step {
     /// Its data flow in one line.
     pub flow: String,
@@ -60,7 +62,7 @@ pub struct Step {
 }
 
 /// What becomes of the outputs if the node fails.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum Failure {
     /// The failure ends the cycle.
     Ends,
@@ -71,14 +73,14 @@ pub enum Failure {
 }
 
 /// A variable that must be bound before the node is called.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Required {
     pub variable: String,
     pub source: RequiredSource,
 }
 
 /// Where a required input comes from.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub enum RequiredSource {
     /// Something on the path may be absent.
     Option(Accessor),
@@ -87,14 +89,14 @@ pub enum RequiredSource {
 }
 
 /// A field of a context literal.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct ContextField {
     pub name: String,
     pub value: Value,
 }
 
 /// What a field of a context is filled with.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub enum Value {
     /// A reference, or an option of one.
     Read(Accessor),
@@ -137,7 +139,7 @@ pub enum Value {
 }
 
 /// A main output of a node.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct StepOutput {
     pub name: String,
     /// It lives in `frame.shared`, else in `frame.own`.

@@ -1,11 +1,13 @@
 //! `src/parameters.rs`: the parameter tree as structs.
 
+use serde::Serialize;
+
 use super::sentences;
 use super::structs::{FieldType, Struct, Structs};
 use crate::resolve::robot::{Reader, Robot};
 
 /// The parameter tree of a robot.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Parameters {
     /// The root first, then the levels below.
     pub structs: Vec<Struct>,

@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 use std::time::Duration;
 
+use serde::Serialize;
+
 use super::cycler::{CyclerModel, Source};
 use super::frame::Hardware;
 use super::names::{Names, constant_case, joined, snake_case};
@@ -22,7 +24,7 @@ const VARIABLES_OF_CREATE: [&str; 5] = [
 const SUFFIXES_OF_CREATE: [&str; 4] = ["injected", "injections", "subscriptions", "writer"];
 
 /// Everything that `create` puts together.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Runtime {
     pub robot: String,
     /// In manifest order.
@@ -34,7 +36,7 @@ pub struct Runtime {
 }
 
 /// One instance between its buffers.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct InstanceModel {
     pub id: InstanceId,
     /// `VisionTop`.
@@ -55,7 +57,7 @@ pub struct InstanceModel {
 }
 
 /// The variables of one procedure of one instance.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct ProcedureEnds {
     /// What clients call.
     pub caller: String,
@@ -64,7 +66,7 @@ pub struct ProcedureEnds {
 }
 
 /// What the manifest says about an instance.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Description {
     pub cycler: String,
     pub kind: CyclerKind,

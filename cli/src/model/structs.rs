@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use serde::Serialize;
+
 use super::names::{Names, PRELUDE, upper_camel_case};
 use crate::resolve::robot::{Content, Robot, Tree};
 
@@ -9,14 +11,14 @@ use crate::resolve::robot::{Content, Robot, Tree};
 const DERIVED: [&str; 3] = ["Deserialize", "Reflect", "Serialize"];
 
 /// A struct of one level of a tree.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Struct {
     pub name: String,
     pub fields: Vec<StructField>,
 }
 
 /// A name at one level of a tree.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct StructField {
     pub name: String,
     /// Its doc comment, empty if it has none: who uses it.
@@ -25,7 +27,7 @@ pub struct StructField {
 }
 
 /// What a field of the tree is.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub enum FieldType {
     /// A declared value: its absolute type.
     Data(String),

@@ -9,17 +9,19 @@ use crate::model::{Dataflow, Package};
 
 /// `Cargo.toml` of the generated crate.
 pub(super) fn render_package(package: &Package) -> String {
-    render("Cargo.toml", templates::generated::CARGO_TOML, package)
+    render_template("Cargo.toml", templates::generated::CARGO_TOML, package)
 }
 
 /// `DATAFLOW.md`.
 pub(super) fn render_dataflow(dataflow: &Dataflow) -> String {
-    render("DATAFLOW.md", templates::generated::DATAFLOW_MD, dataflow)
+    render_template("DATAFLOW.md", templates::generated::DATAFLOW_MD, dataflow)
 }
 
+/// A text from a template.
+///
 /// # Panics
 /// On a template that names what is not there: templates are part of hulkgen.
-fn render(name: &str, template: &str, context: &impl Serialize) -> String {
+pub fn render_template(name: &str, template: &str, context: &impl Serialize) -> String {
     let mut environment = Environment::new();
     environment.set_undefined_behavior(UndefinedBehavior::Strict);
     let syntax = SyntaxConfig::builder()

@@ -1,5 +1,7 @@
 //! Hardware: the traits that nodes ask for, and the types of targets that serve them.
 
+mod served;
+
 use camino::Utf8Path;
 
 use super::robot::{Interface, Target};
@@ -7,6 +9,8 @@ use crate::diagnostics::{Code, Diagnostic, Diagnostics, nearest};
 use crate::manifest::{self, Manifest};
 use crate::scan::{Library, NodeSource, range};
 use crate::workspace::{MANIFEST, Workspace};
+
+pub(super) use served::check_served;
 
 /// The traits of one function, sorted by path.
 pub(super) fn interfaces(

@@ -5,8 +5,10 @@
 
 mod choice;
 mod expected;
+mod given;
 mod layer;
 mod values;
+mod winners;
 
 use std::collections::BTreeSet;
 
@@ -22,6 +24,9 @@ use crate::workspace::Workspace;
 
 use expected::Expected;
 use layer::Layer;
+
+pub use given::{Asked, Given, Identity, Robots, Value, given};
+pub use winners::Winner;
 
 /// Checks the files of every target.
 pub fn check(

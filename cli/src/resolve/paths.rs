@@ -206,11 +206,19 @@ fn without_fields(data: &Resolved, field: &str) -> Agreement {
         Shape::Named {
             definition: Definition::Prelude(name),
             ..
-        } if name != "Box" => Agreement::Field {
-            message: format!("`{}` has no field `{field}`", data.text),
-            names: Vec::new(),
-            wrong: field.to_owned(),
-        },
+        } if name != "Box" => no_field(data, field),
+        Shape::Named {
+            definition: Definition::Workspace(item),
+            ..
+        } if matches!(item.item(), syn::Item::Enum(_)) => no_field(data, field),
         _ => Agreement::Unknown,
+    }
+}
+
+fn no_field(data: &Resolved, field: &str) -> Agreement {
+    Agreement::Field {
+        message: format!("`{}` has no field `{field}`", data.text),
+        names: Vec::new(),
+        wrong: field.to_owned(),
     }
 }

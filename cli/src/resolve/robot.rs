@@ -5,11 +5,12 @@
 use std::time::Duration;
 
 use camino::Utf8PathBuf;
+use serde::Serialize;
 
 pub use crate::scan::traits::Interface;
 
 /// A robot: its cyclers, what they exchange, and the targets it runs on.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Robot {
     pub name: String,
     /// Folder of the generated crate, relative to the workspace root.
@@ -31,7 +32,7 @@ pub struct Robot {
 }
 
 /// A crate that the generated crate depends on.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub struct Dependency {
     /// As written in `use`: the library's name.
     pub name: String,
@@ -44,7 +45,7 @@ pub struct Dependency {
 }
 
 /// A binary with its hardware.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Target {
     pub name: String,
     /// Absolute path of the hardware type, for example `simulated_nao::Hardware`.
@@ -55,13 +56,13 @@ pub struct Target {
     pub location: Option<String>,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum CyclerKind {
     Perception,
     RealTime,
 }
 
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub enum OnFailure {
     #[default]
     Stop,
@@ -83,7 +84,7 @@ impl OnFailure {
 }
 
 /// Nodes that a driver runs again and again.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Cycler {
     /// UpperCamelCase, as in the manifest.
     pub name: String,
@@ -105,15 +106,38 @@ pub struct Cycler {
 }
 
 /// One running copy of a cycler.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Instance {
     /// Cycler name and suffix: `VisionTop`.
     pub name: String,
     pub deadline: Option<Duration>,
     pub scheduling: Scheduling,
+    pub record: Record,
 }
 
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+/// Which cycles are recorded.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+pub enum Record {
+    #[default]
+    On,
+    Off,
+    /// Every so many cycles one.
+    Every(u32),
+    /// Those in which an output is true.
+    While(Condition),
+}
+
+/// A `bool` among the outputs.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Condition {
+    /// `None`: the recorded instance's own output.
+    pub instance: Option<InstanceId>,
+    /// Position of the node that writes it in its cycler.
+    pub producer: usize,
+    pub access: Access,
+}
+
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Scheduling {
     /// `fifo`, `round-robin` or nothing for the system's.
     pub policy: Option<String>,
@@ -121,7 +145,7 @@ pub struct Scheduling {
     pub cores: Vec<usize>,
 }
 
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Node {
     /// As in the manifest: `vision::ball_detection`; also its module's absolute path.
     pub path: String,
@@ -144,7 +168,7 @@ pub struct Node {
 }
 
 /// A field of one of the three contexts.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Field<B> {
     pub name: String,
     pub binding: B,
@@ -155,7 +179,7 @@ pub struct Field<B> {
 }
 
 /// A type as the generated crate names it.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub struct DataType {
     /// Absolute, prelude types by bare name: `Vec<types::ball::Ball>`.
     pub text: String,
@@ -164,7 +188,7 @@ pub struct DataType {
 }
 
 /// A path below a value: fields, each perhaps an `Option` that is looked into.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Access {
     /// First is the output, state or parameter root; never empty.
     pub segments: Vec<Segment>,
@@ -172,7 +196,7 @@ pub struct Access {
     pub written: String,
 }
 
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Segment {
     pub name: String,
     /// `?` stands behind it.
@@ -181,7 +205,7 @@ pub struct Segment {
     pub instance: bool,
 }
 
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub enum CreationBinding {
     Parameter {
         access: Access,
@@ -196,7 +220,7 @@ pub enum CreationBinding {
 }
 
 /// What a field of the cycle context is filled with. `data` is the type as written.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub enum CycleBinding {
     /// This cycle's output of the own cycler.
     OwnOutput {
@@ -282,21 +306,21 @@ pub enum CycleBinding {
 }
 
 /// What a field of `MainOutputs` is.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub enum OutputBinding {
     MainOutput { data: DataType },
     CaptureTime,
 }
 
 /// An instance by position: cycler in the robot, instance in the cycler.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub struct InstanceId {
     pub cycler: usize,
     pub instance: usize,
 }
 
 /// A main output of a cycler.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Output {
     pub name: String,
     pub data: DataType,
@@ -312,18 +336,18 @@ pub struct Output {
 }
 
 /// Declared paths of one tree (parameters, states, additional outputs), sorted by name.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Tree<U> {
     pub branches: Vec<Branch<U>>,
 }
 
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Branch<U> {
     pub name: String,
     pub content: Content<U>,
 }
 
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub enum Content<U> {
     /// A declared value, and who uses it (also those who use a field below it).
     Leaf {
@@ -339,27 +363,27 @@ pub enum Content<U> {
 }
 
 /// Who reads a parameter: a node of a cycler, by path.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub struct Reader {
     pub cycler: usize,
     pub node: String,
 }
 
 /// Who writes an additional output.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub struct Writer {
     pub node: String,
 }
 
 /// Who uses a cycler state, and how.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub struct StateUse {
     pub node: String,
     pub shared: bool,
 }
 
 /// What a field of a cycle context reads from the main outputs of a cycler.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize)]
 pub struct OutputRead<'a> {
     /// Empty: the own cycler.
     pub instances: &'a [InstanceId],

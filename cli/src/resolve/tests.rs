@@ -2,6 +2,8 @@
 
 mod agreement;
 mod inputs;
+mod nondeterminism;
+mod served;
 mod trees;
 mod warnings;
 

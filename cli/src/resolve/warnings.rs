@@ -8,7 +8,7 @@ use grammar::CycleField;
 
 use super::robot::{
     Content, CreationBinding, CycleBinding, Cycler, CyclerKind, Interface, Node, OnFailure,
-    OutputBinding, Robot, StateUse, Tree,
+    OutputBinding, Record, Robot, StateUse, Tree,
 };
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::manifest::Manifest;
@@ -39,6 +39,17 @@ pub(super) fn warn(
             measurement_takes_default(robot, node, diagnostics);
         }
     }
+    nondeterminism(sources, diagnostics);
+}
+
+fn nondeterminism(sources: &Sources<'_>, diagnostics: &mut Diagnostics) {
+    for place in sources.nondeterminism() {
+        let message = format!("`{}` is not the same in every run", place.name);
+        let warning = Diagnostic::new(Code::Nondeterminism, message)
+            .at(&place.file, place.range, place.chance.label())
+            .help(place.chance.deed());
+        diagnostics.add(warning);
+    }
 }
 
 /// Nodes of which some main output is read: cycler and position.
@@ -52,6 +63,12 @@ fn read_nodes(robot: &Robot) -> BTreeSet<(usize, usize)> {
                 .first()
                 .map_or(index, |instance| instance.cycler);
             read.insert((cycler, one.producer));
+        }
+        for instance in &cycler.instances {
+            if let Record::While(condition) = &instance.record {
+                let cycler = condition.instance.map_or(index, |instance| instance.cycler);
+                read.insert((cycler, condition.producer));
+            }
         }
     }
     read

@@ -158,7 +158,7 @@ fn dereferences(file: &syn::File, name: &syn::Ident) -> bool {
     })
 }
 
-fn is_harmless(attribute: &Attribute) -> bool {
+pub(super) fn is_harmless(attribute: &Attribute) -> bool {
     let name = attribute.path().get_ident();
     let harmless = |name: &str| HARMLESS.contains(&name);
     match &attribute.meta {

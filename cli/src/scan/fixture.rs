@@ -65,6 +65,10 @@ const HARDWARE: &str = "
     pub trait Motors: Send { fn write(&self, value: u8) -> Result<()>; }
     pub trait Both: Camera + Motors {}
     trait Secret { fn write(&self); }
+    impl Camera for Hardware {}
+    impl Motors for Hardware {}
+    impl Both for Hardware {}
+    impl Secret for Hardware {}
 ";
 
 const NODES_MANIFEST: &str = r#"

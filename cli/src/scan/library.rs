@@ -8,6 +8,7 @@ use std::rc::Rc;
 use camino::{Utf8Path, Utf8PathBuf};
 use syn::{Expr, ExprLit, Item, ItemMod, Lit, Meta};
 
+use super::depth::too_deep;
 use super::module::{Entry, Module, Visible, folder_of};
 use super::range;
 use crate::diagnostics::{Code, Diagnostic, Diagnostics, listed, nearest};
@@ -78,6 +79,14 @@ impl<'workspace> Library<'workspace> {
         for problem in self.problems.take() {
             diagnostics.add(problem);
         }
+    }
+
+    /// Reads on without telling what cannot be read or parsed: what does not matter for the robot is left to rustc.
+    pub(super) fn quietly<T>(&self, look: impl FnOnce() -> T) -> T {
+        let told = self.problems.take();
+        let answer = look();
+        self.problems.replace(told);
+        answer
     }
 
     /// The module of a node, as public as generated code needs it.
@@ -196,8 +205,32 @@ impl<'workspace> Library<'workspace> {
             self.problems.borrow_mut().push(problem);
             return None;
         };
+        if self.is_inside(&parent.path, file) {
+            let message = format!("the module `{path}` would contain itself");
+            let problem = Diagnostic::new(Code::Syntax, message)
+                .at(
+                    &parent.file,
+                    range(item.ident.span()),
+                    format!("`{file}` is read already"),
+                )
+                .help("remove this line, or let it name another file");
+            self.problems.borrow_mut().push(problem);
+            return None;
+        }
         let folder = folder_of(file, path_attribute(item).is_some());
         self.parse(path, file.clone(), folder)
+    }
+
+    /// Whether a module or one around it is read from this file.
+    fn is_inside(&self, module: &str, file: &Utf8Path) -> bool {
+        let ways = std::iter::successors(Some(module), |path| {
+            path.rsplit_once("::").map(|(parent, _)| parent)
+        });
+        let modules = self.modules.borrow();
+        let around = ways.filter_map(|path| modules.get(path)?.as_ref());
+        around
+            .map(|module| &module.file)
+            .any(|other| self.workspace.is_same_file(other, file))
     }
 
     fn parse(&self, path: String, file: Utf8PathBuf, folder: Utf8PathBuf) -> Option<Rc<Module>> {
@@ -210,6 +243,13 @@ impl<'workspace> Library<'workspace> {
                 return None;
             }
         };
+        if let Some(place) = too_deep(&text) {
+            let problem = problem("this is nested too deeply".to_owned())
+                .at(&file, range(place), "from here on")
+                .help("split it: hulkgen reads at most 500 brackets, operators and generics around one another");
+            self.problems.borrow_mut().push(problem);
+            return None;
+        }
         match syn::parse_file(&text) {
             Ok(syntax) => Some(Rc::new(Module::new(path, file, folder, syntax))),
             Err(error) => {
@@ -291,7 +331,8 @@ impl NotFound {
     }
 }
 
-fn candidates(folder: &Utf8Path, name: &str) -> Vec<Utf8PathBuf> {
+/// Where the file of a module may lie.
+pub(crate) fn candidates(folder: &Utf8Path, name: &str) -> Vec<Utf8PathBuf> {
     vec![
         folder.join(format!("{name}.rs")),
         folder.join(name).join("mod.rs"),
@@ -299,7 +340,7 @@ fn candidates(folder: &Utf8Path, name: &str) -> Vec<Utf8PathBuf> {
 }
 
 /// The file that `#[path = "…"]` names.
-fn path_attribute(item: &ItemMod) -> Option<String> {
+pub(crate) fn path_attribute(item: &ItemMod) -> Option<String> {
     item.attrs
         .iter()
         .find_map(|attribute| match &attribute.meta {

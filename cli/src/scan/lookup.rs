@@ -40,7 +40,7 @@ impl ItemId {
         format!("{}::{}", self.module.path, self.name)
     }
 
-    pub(super) fn item(&self) -> &Item {
+    pub(crate) fn item(&self) -> &Item {
         self.module.item(self.index)
     }
 }
@@ -88,7 +88,7 @@ impl Library<'_> {
         self.follow(module, &import.segments, import.absolute, 0)
     }
 
-    fn follow(
+    pub(super) fn follow(
         &self,
         module: &Rc<Module>,
         segments: &[String],

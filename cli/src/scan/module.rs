@@ -232,7 +232,7 @@ impl Visible {
 }
 
 /// Where the modules of a file lie: beside `lib.rs` and `mod.rs`, else in the folder of the file's name.
-pub(super) fn folder_of(file: &Utf8Path, is_root: bool) -> Utf8PathBuf {
+pub(crate) fn folder_of(file: &Utf8Path, is_root: bool) -> Utf8PathBuf {
     let beside = file.parent().unwrap_or(Utf8Path::new(""));
     match file.file_stem() {
         Some(stem) if !is_root && stem != "mod" => beside.join(stem),
@@ -241,7 +241,7 @@ pub(super) fn folder_of(file: &Utf8Path, is_root: bool) -> Utf8PathBuf {
 }
 
 /// `#[cfg(test)]`, also among other conditions that all have to hold.
-fn only_for_tests(attributes: &[Attribute]) -> bool {
+pub(crate) fn only_for_tests(attributes: &[Attribute]) -> bool {
     attributes
         .iter()
         .filter(|attribute| attribute.path().is_ident("cfg"))

@@ -2,6 +2,7 @@
 
 use std::rc::Rc;
 
+use serde::Serialize;
 use syn::{Item, ItemTrait, PathArguments, ReturnType, TraitItem, Type, TypeParamBound};
 
 use super::library::Library;
@@ -11,7 +12,7 @@ use super::types::written;
 use crate::diagnostics::listed;
 
 /// A hardware trait that a node asks for.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub struct Interface {
     /// Absolute path: `hardware::CameraInterface`.
     pub path: String,

@@ -66,7 +66,7 @@ fn writers<'a>(
 }
 
 /// Whether one path leads through the other.
-pub(super) fn overlap(left: &Access, right: &Access) -> bool {
+pub(crate) fn overlap(left: &Access, right: &Access) -> bool {
     left.segments
         .iter()
         .zip(&right.segments)

@@ -8,8 +8,11 @@ use camino::{Utf8Path, Utf8PathBuf};
 
 use super::ReadError;
 
+/// Bytes; what people write themselves is far smaller, and a larger file would be read for minutes.
+const LARGEST: u64 = 4 << 20;
+
 /// Files below one folder.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Disk {
     root: Utf8PathBuf,
 }
@@ -35,12 +38,43 @@ impl Disk {
 
     pub(super) fn read(&self, file: &Utf8Path) -> Result<Arc<str>, ReadError> {
         let path = self.root.join(file);
-        let text = fs::read_to_string(path).map_err(|error| ReadError {
+        let failed = |error: io::Error| ReadError {
             file: file.to_owned(),
             reason: error.to_string(),
             missing: error.kind() == io::ErrorKind::NotFound,
-        })?;
-        Ok(text.into())
+        };
+        let refused = |reason: String| ReadError {
+            file: file.to_owned(),
+            reason,
+            missing: false,
+        };
+        // Asked before it is opened: a pipe would wait for somebody who writes.
+        let about = fs::metadata(&path).map_err(failed)?;
+        if !about.is_file() {
+            return Err(refused("it is no file".to_owned()));
+        }
+        if about.len() > LARGEST {
+            let mebibytes = LARGEST >> 20;
+            return Err(refused(format!("it is larger than {mebibytes} MiB")));
+        }
+        let bytes = fs::read(path).map_err(failed)?;
+        match String::from_utf8(bytes) {
+            Ok(text) => Ok(text.into()),
+            Err(error) => {
+                let byte = error.utf8_error().valid_up_to();
+                let line = error.as_bytes()[..byte]
+                    .split(|byte| *byte == b'\n')
+                    .count();
+                Err(refused(format!(
+                    "line {line} is no UTF-8; save it as UTF-8"
+                )))
+            }
+        }
+    }
+
+    /// What the file is called when every link on the way is followed.
+    pub(super) fn canonical(&self, file: &Utf8Path) -> Option<Utf8PathBuf> {
+        self.root.join(file).canonicalize_utf8().ok()
     }
 
     pub(super) fn is_file(&self, file: &Utf8Path) -> bool {

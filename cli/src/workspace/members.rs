@@ -14,6 +14,8 @@ pub struct Members {
     libraries: BTreeMap<String, Member>,
     /// `[workspace.dependencies]` of the root.
     shared: Dependencies,
+    /// The robot's root, relative to that of cargo's workspace.
+    pub(super) own: Utf8PathBuf,
     /// Folders of all packages, also of those without a library, relative to the robot's root; `.` for a package there.
     pub folders: Vec<Utf8PathBuf>,
     /// Keys of the root's `[workspace.package]`, sorted: packages may inherit them.
@@ -86,6 +88,7 @@ impl Members {
             members.add(workspace, folder);
         }
         members.name_shared_libraries(&own);
+        members.own = own;
         members
     }
 
@@ -290,7 +293,7 @@ fn cargo_root(workspace: &Workspace) -> (Utf8PathBuf, Utf8PathBuf) {
 }
 
 /// The way from one folder to another, both relative to the workspace root.
-fn relative(from: &Utf8Path, to: &Utf8Path) -> Utf8PathBuf {
+pub(crate) fn relative(from: &Utf8Path, to: &Utf8Path) -> Utf8PathBuf {
     let from: Vec<&str> = from.components().map(|part| part.as_str()).collect();
     let to: Vec<&str> = to.components().map(|part| part.as_str()).collect();
     let shared = from.iter().zip(&to).take_while(|(a, b)| a == b).count();
@@ -313,7 +316,7 @@ fn dotted(way: Utf8PathBuf) -> Utf8PathBuf {
 }
 
 /// Without `.` and with every `..` taken back.
-fn normalized(path: &Utf8Path) -> Utf8PathBuf {
+pub(crate) fn normalized(path: &Utf8Path) -> Utf8PathBuf {
     let mut parts: Vec<&str> = Vec::new();
     for part in path.components().map(|part| part.as_str()) {
         match part {

@@ -1,4 +1,4 @@
-//! A workspace in memory, for tests.
+//! A workspace in memory: of tests, and of git revisions.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -8,8 +8,10 @@ use camino::{Utf8Path, Utf8PathBuf};
 use super::ReadError;
 
 /// Files by their path from the root.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Memory {
+    /// Where the files would lie; empty if nowhere.
+    root: Utf8PathBuf,
     files: BTreeMap<Utf8PathBuf, Arc<str>>,
 }
 
@@ -23,15 +25,27 @@ impl Memory {
             .into_iter()
             .map(|(path, text)| (path.into(), text.into().into()))
             .collect();
-        Self { files }
+        Self {
+            root: Utf8PathBuf::new(),
+            files,
+        }
+    }
+
+    /// The same files, as if they lay there.
+    pub(super) fn at(self, root: &Utf8Path) -> Self {
+        Self {
+            root: root.to_owned(),
+            ..self
+        }
+    }
+
+    pub(super) fn root(&self) -> &Utf8Path {
+        &self.root
     }
 
     pub(super) fn read(&self, file: &Utf8Path) -> Result<Arc<str>, ReadError> {
-        self.files.get(file).cloned().ok_or_else(|| ReadError {
-            file: file.to_owned(),
-            reason: "no such file".to_owned(),
-            missing: true,
-        })
+        let text = self.files.get(file).cloned();
+        text.ok_or_else(|| ReadError::missing(file))
     }
 
     pub(super) fn is_file(&self, file: &Utf8Path) -> bool {

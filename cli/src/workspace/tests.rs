@@ -2,7 +2,7 @@
 
 use camino::Utf8Path;
 
-use super::{Workspace, glob};
+use super::{Changes, Workspace, glob};
 
 fn workspace(files: &[(&str, &str)]) -> Workspace {
     Workspace::in_memory(files.iter().copied())
@@ -115,4 +115,38 @@ fn a_text_is_kept_as_it_was_read() {
     std::fs::write(root.join("hulk.toml"), "second").unwrap();
     assert_eq!(&*workspace.read(manifest).unwrap(), "first");
     assert!(workspace.read(Utf8Path::new("other")).unwrap_err().missing);
+}
+
+#[test]
+fn changes_are_seen_before_they_are_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let root = Utf8Path::from_path(folder.path()).unwrap();
+    for file in ["kept", "changed", "removed"] {
+        std::fs::write(root.join(file), "before").unwrap();
+    }
+    let workspace = Workspace::at_root(root);
+    let read = |workspace: &Workspace, file: &str| {
+        let text = workspace.read(Utf8Path::new(file));
+        text.map(|text| text.to_string()).ok()
+    };
+    assert_eq!(read(&workspace, "changed").as_deref(), Some("before"));
+    let changes = Changes::from([
+        ("changed".into(), Some("after".to_owned())),
+        ("removed".into(), None),
+        ("new/one".into(), Some("after".to_owned())),
+    ]);
+    let after = workspace.after(&changes);
+    for (file, text) in [
+        ("kept", Some("before")),
+        ("changed", Some("after")),
+        ("removed", None),
+        ("new/one", Some("after")),
+    ] {
+        assert_eq!(read(&after, file).as_deref(), text, "{file}");
+        assert_eq!(after.is_file(Utf8Path::new(file)), text.is_some(), "{file}");
+    }
+    assert_eq!(after.list(Utf8Path::new("")), ["changed", "kept", "new"]);
+    assert_eq!(after.files_below(Utf8Path::new("new")), ["new/one"]);
+    assert_eq!(read(&workspace, "changed").as_deref(), Some("before"));
+    assert!(!root.join("new").exists());
 }

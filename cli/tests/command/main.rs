@@ -7,8 +7,20 @@ use std::process::{Command, Stdio};
 use robot::{Ended, Robot, hulkgen};
 use serde_json::Value;
 
-const COMMANDS: [&str; 7] = [
-    "generate", "check", "explain", "graph", "show", "run", "schema",
+const COMMANDS: [&str; 13] = [
+    "generate",
+    "check",
+    "explain",
+    "graph",
+    "show",
+    "run",
+    "schema",
+    "new",
+    "add-node",
+    "add-cycler",
+    "remove-node",
+    "rename-output",
+    "merge-driver",
 ];
 
 fn json(text: &str) -> Value {
@@ -428,7 +440,7 @@ fn run_generates_builds_and_becomes_the_program() {
     let mut command = robot.command("run real --for 2s --format json -- --scene ball");
     let ended = Ended::of(command.env("CARGO", cargo)).expect(7);
     assert!(robot.path("generated/src/bin/real.rs").exists());
-    let build = "--package tiny_runtime --bin real --no-default-features --features target-real";
+    let build = "--package tiny_runtime --no-default-features --bin real --features target-real";
     assert!(ended.stderr.contains(build), "{}", ended.stderr);
     let options = ended.stdout.trim_end();
     assert_eq!(options, "--for 2s --format json -- --scene ball");

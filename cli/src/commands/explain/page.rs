@@ -1,32 +1,25 @@
-//! Explanations as text.
+//! Explanations of nodes and outputs as text.
 
-use super::subject::{NodeSubject, OutputSubject, Subject};
-use crate::diagnostics::Code;
+use super::parameter;
+use super::subject::{Endpoint, NodeSubject, OutputSubject, Subject};
 use crate::graph::Edge;
 
-/// Width of paragraphs, in characters.
-const WIDTH: usize = 80;
-
-/// The page of a diagnostic.
-pub(super) fn of_code(code: Code) -> String {
-    let (name, severity) = (code.name(), code.severity().name());
-    let explanation = wrap(code.explanation());
-    format!("{name} ({severity})\n\n{}\n\n{explanation}", code.title())
-}
-
-/// A section for each node and output of the name.
+/// A section for each node, output, procedure and parameter of the name.
 pub(super) fn of_subject(subject: &Subject<'_>) -> String {
     let nodes = subject.nodes.iter().map(of_node);
     let outputs = subject.outputs.iter().map(of_output);
-    nodes.chain(outputs).collect::<Vec<_>>().join("\n")
+    let endpoints = subject.endpoints.iter().map(of_endpoint);
+    let parameters = subject.parameters.iter().map(parameter::text);
+    let sections = nodes.chain(outputs).chain(endpoints).chain(parameters);
+    sections.collect::<Vec<_>>().join("\n")
 }
 
 fn of_node(subject: &NodeSubject<'_>) -> String {
     let NodeSubject { cycler, node, .. } = subject;
     let kind = if node.setup { "setup node" } else { "node" };
-    let (place, all) = (node.order + 1, cycler.nodes.len());
+    let (place, all) = (node.order, cycler.nodes.len());
     let mut text = format!(
-        "{}: {kind} of {}, runs as {place} of {all}\n  {} in {}\n",
+        "{}: {kind} of {}, runs as {place} of {all} from 0\n  {} in {}\n",
         node.path, cycler.name, node.type_name, node.file
     );
     if !node.interfaces.is_empty() {
@@ -34,6 +27,10 @@ fn of_node(subject: &NodeSubject<'_>) -> String {
             "  asks the hardware for {}\n",
             node.interfaces.join(", ")
         ));
+    }
+    for field in node.fields.iter().filter(|field| field.kind == "Parameter") {
+        let path = field.path.as_deref().unwrap_or_default();
+        text.push_str(&format!("  reads the parameter {path}\n"));
     }
     for edge in &subject.reads {
         let checked = if edge.checked {
@@ -68,7 +65,33 @@ fn of_node(subject: &NodeSubject<'_>) -> String {
             edge.to.node
         ));
     }
+    for field in &node.fields {
+        let path = field.path.as_deref().unwrap_or_default();
+        match field.kind {
+            "AdditionalOutput" => text.push_str(&format!("  writes {path} while subscribed\n")),
+            "Procedure" => text.push_str(&format!("  answers the procedure {path}\n")),
+            _ => {}
+        }
+    }
     text
+}
+
+fn of_endpoint(endpoint: &Endpoint<'_>) -> String {
+    let Endpoint {
+        cycler,
+        node,
+        field,
+        name,
+    } = endpoint;
+    let data = field.data.as_deref().unwrap_or("of unknown type");
+    let (what, deed) = match field.kind {
+        "Procedure" => ("procedure", "answered"),
+        _ => ("additional output", "written while subscribed"),
+    };
+    format!(
+        "{}.{name}: {what}, {data}\n  {deed} by {} ({}:{})\n",
+        cycler.name, node.path, node.file, field.line
+    )
 }
 
 fn of_output(subject: &OutputSubject<'_>) -> String {
@@ -114,30 +137,10 @@ fn source(edge: &Edge) -> String {
     }
 }
 
-fn wrap(paragraph: &str) -> String {
-    let mut text = String::new();
-    let mut width = 0;
-    for word in paragraph.split_whitespace() {
-        let length = word.chars().count();
-        if width > 0 && width + 1 + length > WIDTH {
-            text.push('\n');
-            width = 0;
-        } else if width > 0 {
-            text.push(' ');
-            width += 1;
-        }
-        text.push_str(word);
-        width += length;
-    }
-    text.push('\n');
-    text
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{of_code, of_subject};
+    use super::of_subject;
     use crate::commands::explain::Subject;
-    use crate::diagnostics::Code;
     use crate::graph::{describe, fixture};
 
     fn page(name: &str) -> String {
@@ -146,25 +149,12 @@ mod tests {
     }
 
     #[test]
-    fn every_code_has_a_page_of_80_columns() {
-        for &code in Code::ALL {
-            let page = of_code(code);
-            assert!(page.starts_with(code.name()));
-            let explanation = page.splitn(4, '\n').last().expect("there are three parts");
-            assert!(
-                explanation.lines().all(|line| line.chars().count() <= 80),
-                "{page}"
-            );
-        }
-    }
-
-    #[test]
     fn a_node_is_explained_by_path_and_by_module() {
         assert_eq!(page("control::ball_filter"), page("ball_filter"));
         assert_eq!(
             page("ball_filter"),
             "\
-control::ball_filter: node of Control, runs as 2 of 4
+control::ball_filter: node of Control, runs as 1 of 4 from 0
   BallFilter in control/src/ball_filter.rs
   reads sensors (historic) of control::sensor_receiver
   reads VisionTop.balls (perception) of vision::ball_detection

@@ -1,13 +1,27 @@
-//! What a name means in a robot: nodes and outputs, with the edges that touch them.
+//! What a name means in a robot: nodes, outputs and procedures, with the edges that touch them.
 
 use serde_json::{Value, json};
 
+use super::nodes;
+use super::parameter::ParameterSubject;
 use crate::graph::{Cycler, Edge, EdgeKind, Field, Graph, Node};
 
 /// Everything of one name.
 pub(super) struct Subject<'g> {
     pub(super) nodes: Vec<NodeSubject<'g>>,
     pub(super) outputs: Vec<OutputSubject<'g>>,
+    /// Additional outputs and procedures.
+    pub(super) endpoints: Vec<Endpoint<'g>>,
+    pub(super) parameters: Vec<ParameterSubject>,
+}
+
+/// What clients of a running robot name: an additional output or a procedure.
+pub(super) struct Endpoint<'g> {
+    pub(super) cycler: &'g Cycler,
+    pub(super) node: &'g Node,
+    pub(super) field: &'g Field,
+    /// As clients name it, `$cycler_instance` kept.
+    pub(super) name: &'g str,
 }
 
 pub(super) struct NodeSubject<'g> {
@@ -28,25 +42,38 @@ pub(super) struct OutputSubject<'g> {
 }
 
 impl<'g> Subject<'g> {
-    /// Nodes by path or module name; main outputs by name, also behind their cycler or instance.
+    /// Nodes by path or module name; outputs and procedures by name, also behind their cycler or instance.
     pub(super) fn find(graph: &'g Graph, name: &str) -> Self {
         let mut subject = Self {
             nodes: Vec::new(),
             outputs: Vec::new(),
+            endpoints: Vec::new(),
+            parameters: Vec::new(),
         };
         for cycler in &graph.cyclers {
             for node in &cycler.nodes {
-                if node.path == name || node.path.rsplit("::").next() == Some(name) {
+                if nodes::is_named(&node.path, name) {
                     subject.nodes.push(node_subject(graph, cycler, node));
                 }
-                let outputs = node
-                    .fields
-                    .iter()
-                    .filter(|field| field.kind == "MainOutput");
-                for field in outputs.filter(|field| is_named(cycler, field, name)) {
-                    subject
-                        .outputs
-                        .push(output_subject(graph, cycler, node, field));
+                for field in &node.fields {
+                    let Some(group) = group(field) else {
+                        continue;
+                    };
+                    let own = own_name(field);
+                    if !is_named(cycler, group, own, name) {
+                        continue;
+                    }
+                    if field.kind == "MainOutput" {
+                        let output = output_subject(graph, cycler, node, field);
+                        subject.outputs.push(output);
+                    } else {
+                        subject.endpoints.push(Endpoint {
+                            cycler,
+                            node,
+                            field,
+                            name: own,
+                        });
+                    }
                 }
             }
         }
@@ -54,7 +81,10 @@ impl<'g> Subject<'g> {
     }
 
     pub(super) fn is_empty(&self) -> bool {
-        self.nodes.is_empty() && self.outputs.is_empty()
+        self.nodes.is_empty()
+            && self.outputs.is_empty()
+            && self.endpoints.is_empty()
+            && self.parameters.is_empty()
     }
 
     /// With nodes, fields and edges as in `graph --format json`.
@@ -80,7 +110,29 @@ impl<'g> Subject<'g> {
                 })
             })
             .collect();
-        json!({ "version": 1, "nodes": nodes, "outputs": outputs })
+        json!({
+            "version": 1,
+            "nodes": nodes,
+            "outputs": outputs,
+            "additional_outputs": self.endpoints_to_json("AdditionalOutput"),
+            "procedures": self.endpoints_to_json("Procedure"),
+            "parameters": self.parameters,
+        })
+    }
+
+    fn endpoints_to_json(&self, kind: &str) -> Vec<Value> {
+        let endpoints = self.endpoints.iter().filter(|one| one.field.kind == kind);
+        let endpoints = endpoints.map(|found| {
+            json!({
+                "cycler": found.cycler.name,
+                "name": found.name,
+                "type": found.field.data,
+                "node": found.node.path,
+                "file": found.node.file,
+                "line": found.field.line,
+            })
+        });
+        endpoints.collect()
     }
 }
 
@@ -89,23 +141,40 @@ pub(super) fn names(graph: &Graph) -> Vec<String> {
     let mut names = Vec::new();
     for node in graph.cyclers.iter().flat_map(|cycler| &cycler.nodes) {
         names.push(node.path.clone());
-        let outputs = node
-            .fields
-            .iter()
-            .filter(|field| field.kind == "MainOutput");
-        names.extend(outputs.map(|field| field.name.clone()));
+        names.extend(node.path.rsplit("::").next().map(str::to_owned));
+        let fields = node.fields.iter().filter(|field| group(field).is_some());
+        names.extend(fields.map(|field| own_name(field).to_owned()));
     }
+    names.extend(graph.parameters.iter().map(|one| one.path.clone()));
     names
 }
 
-fn is_named(cycler: &Cycler, field: &Field, name: &str) -> bool {
-    match name.split_once('.') {
-        None => field.name == name,
-        Some((owner, output)) => {
-            field.name == output
-                && (cycler.name == owner || cycler.instances.iter().any(|one| one == owner))
-        }
+/// The word between cycler and name with which clients of a running robot name it.
+fn group(field: &Field) -> Option<&'static str> {
+    match field.kind {
+        "MainOutput" => Some("main_outputs"),
+        "AdditionalOutput" => Some("additional_outputs"),
+        "Procedure" => Some("procedures"),
+        _ => None,
     }
+}
+
+fn own_name(field: &Field) -> &str {
+    match field.kind {
+        "MainOutput" => &field.name,
+        _ => field.path.as_deref().unwrap_or(&field.name),
+    }
+}
+
+/// `walk`, `Control.walk`, `Control.procedures.walk`, and instances in place of the cycler.
+fn is_named(cycler: &Cycler, group: &str, own: &str, name: &str) -> bool {
+    let owners = std::iter::once(&cycler.name).chain(&cycler.instances);
+    let mut rests = owners.filter_map(|owner| name.strip_prefix(owner.as_str())?.strip_prefix('.'));
+    name == own
+        || rests.any(|rest| {
+            let behind = rest.strip_prefix(group);
+            rest == own || behind.and_then(|it| it.strip_prefix('.')) == Some(own)
+        })
 }
 
 fn node_subject<'g>(graph: &'g Graph, cycler: &'g Cycler, node: &'g Node) -> NodeSubject<'g> {

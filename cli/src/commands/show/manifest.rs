@@ -1,6 +1,23 @@
-//! The manifest as text: what it says, defaults left out.
+//! The manifest as text and JSON: what it says, defaults left out.
+
+use serde_json::{Value, json};
 
 use crate::manifest::{Cycler, Manifest, Target};
+
+/// As the schema names it; nodes and instances under the names that they have in the robot.
+pub fn to_json(manifest: &Manifest) -> Value {
+    let cyclers = manifest.cyclers.iter().map(|cycler| {
+        let instances = cycler.instances.iter();
+        let instances: Vec<&str> = instances.map(|instance| instance.name.as_str()).collect();
+        json!({ "declared": cycler.declared, "instances": instances })
+    });
+    let targets = manifest.targets.iter().map(|target| &target.declared);
+    json!({
+        "robot": manifest.robot,
+        "cyclers": cyclers.collect::<Vec<_>>(),
+        "targets": targets.collect::<Vec<_>>(),
+    })
+}
 
 /// Robot, cyclers with their nodes, targets, in manifest order.
 pub fn text(manifest: &Manifest) -> String {

@@ -1,7 +1,9 @@
-//! The order of nodes as text, and why each does not run earlier.
+//! The order of nodes as text and JSON, and why each does not run earlier.
+
+use serde_json::{Value, json};
 
 use crate::resolve::robot::Robot;
-use crate::schedule::{Reason, Schedule};
+use crate::schedule::Schedule;
 
 /// Each cycler's nodes in the order they run; under a node what it waits for.
 pub fn text(robot: &Robot, schedule: &Schedule) -> String {
@@ -14,12 +16,7 @@ pub fn text(robot: &Robot, schedule: &Schedule) -> String {
             text.push_str(&format!("  {place} {}{mark}\n", node.path));
             for edge in order.reasons(position) {
                 let (before, field) = (&cycler.nodes[edge.from], &node.cycle[edge.field]);
-                let kind = match edge.reason {
-                    Reason::Input => "Input",
-                    Reason::RequiredInput => "RequiredInput",
-                    Reason::HistoricInput => "HistoricInput",
-                    Reason::CyclerState => "CyclerState",
-                };
+                let kind = edge.reason.kind();
                 let (name, path) = (&field.name, &edge.path);
                 text.push_str(&format!(
                     "      after {}: {name} ({kind} \"{path}\")\n",
@@ -29,4 +26,30 @@ pub fn text(robot: &Robot, schedule: &Schedule) -> String {
         }
     }
     text
+}
+
+/// Each cycler's nodes in the order they run, each with the fields that make it wait.
+pub fn to_json(robot: &Robot, schedule: &Schedule) -> Value {
+    let cyclers = robot.cyclers.iter().zip(&schedule.cyclers);
+    let cyclers = cyclers.map(|(cycler, order)| {
+        let nodes = order.order.iter().enumerate().map(|(place, &position)| {
+            let node = &cycler.nodes[position];
+            let after = order.reasons(position).map(|edge| {
+                json!({
+                    "node": cycler.nodes[edge.from].path,
+                    "field": node.cycle[edge.field].name,
+                    "kind": edge.reason.kind(),
+                    "path": edge.path,
+                })
+            });
+            json!({
+                "node": node.path,
+                "order": place,
+                "setup": node.setup,
+                "after": after.collect::<Vec<_>>(),
+            })
+        });
+        json!({ "cycler": cycler.name, "nodes": nodes.collect::<Vec<_>>() })
+    });
+    cyclers.collect()
 }

@@ -27,7 +27,7 @@ pub(super) fn draw(graph: &Graph, columns: &[Column<'_>], wiring: &Wiring<'_>) -
     let width = columns_end.max(LEAST_WIDTH) + BORDER;
     let mut legend = String::new();
     let legend_height = draw_legend(&mut legend, graph, width - BORDER);
-    let height = legend_height + bottom + wiring.tracks_height() + BORDER;
+    let height = legend_height + bottom.max(wiring.bottom()) + BORDER;
 
     let mut text = String::new();
     write_head(&mut text, graph, width, height);
@@ -45,7 +45,7 @@ pub(super) fn draw(graph: &Graph, columns: &[Column<'_>], wiring: &Wiring<'_>) -
         }
     }
     for wire in wiring.back_to_front() {
-        draw_wire(&mut text, wire, wiring, columns, &rights, bottom);
+        draw_wire(&mut text, wire, wiring, columns, &rights);
     }
     text.push_str("</g>\n</svg>\n");
     text

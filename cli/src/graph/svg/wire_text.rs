@@ -14,14 +14,13 @@ pub(super) fn draw_wire(
     wiring: &Wiring<'_>,
     columns: &[Column<'_>],
     rights: &[i32],
-    bottom: i32,
 ) {
     let mut path = String::new();
     let mut heads = String::new();
     let mut readers: Vec<String> = Vec::new();
     let mut start = (0, 0);
     for &end in &wire.to {
-        let mut corners = wiring.corners(wire, end, columns, rights, bottom);
+        let mut corners = wiring.corners(wire, end, columns, rights);
         start = corners[0];
         let (x, y) = corners.pop().expect("a wire ends somewhere");
         let direction = if wire.from.column < end.column { -1 } else { 1 };

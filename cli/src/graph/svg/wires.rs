@@ -19,8 +19,14 @@ const GAP: i32 = 40;
 pub(super) struct Wiring<'g> {
     pub(super) wires: Vec<Wire<'g>>,
     gaps: Vec<Gap>,
-    /// Below the columns, for wires past a column.
-    tracks: usize,
+    tracks: Vec<Track>,
+}
+
+/// Where a wire passes below the columns between the two that it joins.
+struct Track {
+    y: i32,
+    /// The gaps that it leads from and to, the left one first.
+    gaps: (usize, usize),
 }
 
 /// A value on its way to the readers of one column.
@@ -49,7 +55,7 @@ pub(super) enum Way {
     /// Down, below the columns between, and up.
     Around {
         down: (usize, usize),
-        track: usize,
+        y: i32,
         up: (usize, usize),
     },
 }
@@ -58,7 +64,7 @@ impl<'g> Wiring<'g> {
     pub(super) fn new(graph: &'g Graph, columns: &[Column<'g>]) -> Self {
         let mut wires = gather(graph, columns);
         let mut gaps = vec![Gap::default(); columns.len()];
-        let mut tracks = 0;
+        let mut tracks = Vec::new();
         let mut shortest_first: Vec<usize> = (0..wires.len()).collect();
         shortest_first.sort_by_key(|&index| {
             let (top, bottom) = wires[index].heights(columns);
@@ -84,13 +90,16 @@ impl<'g> Wiring<'g> {
                 } else {
                     (from - 1, to)
                 };
-                let down = (first, gaps[first].across.take((heights.0, i32::MAX)));
-                let up = (last, gaps[last].across.take((heights.0, i32::MAX)));
-                tracks += 1;
+                let y = take_track(&mut tracks, columns, (first.min(last), first.max(last)));
+                let start = wire.from.y(columns);
+                let down = gaps[first].across.take((start.min(y), start.max(y)));
+                let ends = wire.to.iter().map(|end| end.y(columns));
+                let reach = ends.fold((y, y), |(top, bottom), end| (top.min(end), bottom.max(end)));
+                let up = gaps[last].across.take(reach);
                 Way::Around {
-                    down,
-                    track: tracks - 1,
-                    up,
+                    down: (first, down),
+                    y,
+                    up: (last, up),
                 }
             };
         }
@@ -129,24 +138,20 @@ impl<'g> Wiring<'g> {
         GAP.max(own_width + divide + across.width())
     }
 
-    /// Height that wires around columns need below them.
-    pub(super) fn tracks_height(&self) -> i32 {
-        if self.tracks == 0 {
-            0
-        } else {
-            LANE * count(self.tracks) + LANE
-        }
+    /// Below all wires that pass below columns.
+    pub(super) fn bottom(&self) -> i32 {
+        let lowest = self.tracks.iter().map(|track| track.y + LANE).max();
+        lowest.unwrap_or(0)
     }
 
     /// Corners of a wire from its source to one of its readers. `rights`: where the cards of each
-    /// column end; `bottom`: of the longest column.
+    /// column end.
     pub(super) fn corners(
         &self,
         wire: &Wire<'_>,
         to: End,
         columns: &[Column<'_>],
         rights: &[i32],
-        bottom: i32,
     ) -> Vec<(i32, i32)> {
         let (start_y, end_y) = (wire.from.y(columns), to.y(columns));
         let left = |column: usize| rights[column] - columns[column].width;
@@ -167,12 +172,11 @@ impl<'g> Wiring<'g> {
                 let x = self.across_x(gap, lane, rights);
                 corners.extend([(x, start_y), (x, end_y)]);
             }
-            Way::Around { down, track, up } => {
+            Way::Around { down, y, up } => {
                 let (down, up) = (
                     self.across_x(down.0, down.1, rights),
                     self.across_x(up.0, up.1, rights),
                 );
-                let y = bottom + LANE * (count(track) + 1);
                 corners.extend([(down, start_y), (down, y), (up, y), (up, end_y)]);
             }
         }
@@ -189,6 +193,22 @@ impl<'g> Wiring<'g> {
         };
         rights[gap] + own_width + DIVIDE + LANE * count(lane)
     }
+}
+
+/// The first height below the columns between two gaps where no other wire passes.
+fn take_track(tracks: &mut Vec<Track>, columns: &[Column<'_>], gaps: (usize, usize)) -> i32 {
+    let between = &columns[gaps.0 + 1..=gaps.1];
+    let bottom = between.iter().map(|column| column.bottom).max();
+    let mut y = bottom.unwrap_or_default() + LANE;
+    let is_taken = |tracks: &[Track], y: i32| {
+        let mut near = tracks.iter().filter(|track| (track.y - y).abs() < LANE);
+        near.any(|track| track.gaps.0 <= gaps.1 && gaps.0 <= track.gaps.1)
+    };
+    while is_taken(tracks, y) {
+        y += LANE;
+    }
+    tracks.push(Track { y, gaps });
+    y
 }
 
 impl Wire<'_> {

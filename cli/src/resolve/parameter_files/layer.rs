@@ -113,7 +113,10 @@ pub(super) fn find(
         match workspace.read(&file) {
             Ok(text) => found.push((file, text)),
             Err(error) => {
-                if let Some(asked) = asked.get(index) {
+                if !error.missing {
+                    let error = Diagnostic::new(Code::Syntax, error.to_string());
+                    diagnostics.add(error.at(&file, 0..0, ""));
+                } else if let Some(asked) = asked.get(index) {
                     diagnostics.add(asked.missing(workspace, folder, &error.to_string()));
                 }
             }

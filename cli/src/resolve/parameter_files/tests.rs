@@ -242,6 +242,21 @@ fn values_of_the_wrong_type_are_told() {
         ("Side", "\"Lefd\"", "did you mean \"Left\"?"),
         ("Limits", "1", "is a number, not a table"),
         ("Option<u8>", "\"x\"", "is a string"),
+        (
+            "Vec<Limits>",
+            "[{ low = 1 }, { low = \"a\" }]",
+            "is a string, not a number",
+        ),
+        (
+            "Vec<Limits>",
+            "[{ low = 1, hgih = 2 }]",
+            "did you mean `high`?",
+        ),
+        (
+            "[Limits; 1]",
+            "[{ high = 2 }]",
+            "has an element without `low`",
+        ),
     ] {
         robot(&format!("a: Parameter<{data}, \"a\">,"), "")
             .file("parameters/default.toml", &format!("a = {value}\n"))

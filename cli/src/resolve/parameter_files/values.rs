@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use toml::Spanned;
-use toml::de::{DeInteger, DeValue};
+use toml::de::{DeInteger, DeTable, DeValue};
 
 use super::expected::Expected;
 use crate::diagnostics::{listed, nearest};
@@ -52,7 +52,10 @@ fn check(value: &Spanned<DeValue<'_>>, data: &Resolved, sources: &Sources<'_>) -
                 crate::scan::derives(&structure.attributes, "Deserialize")
                     && !crate::scan::has_any_serde(&structure.attributes)
             });
-            (is_struct && !value.get_ref().is_table()).then(|| wrong(value, "a table"))
+            match value.get_ref().as_table() {
+                Some(table) => check_element(value, table, data, sources),
+                None => is_struct.then(|| wrong(value, "a table")),
+            }
         }
         Shape::Array(element, length) => {
             let items = value.get_ref().as_array().map(|items| items.len());
@@ -92,6 +95,41 @@ fn check_elements(
         return Some(wrong(value, "an array"));
     };
     items.iter().find_map(|item| check(item, element, sources))
+}
+
+/// A table within an array: no other file adds to it, so it is whole.
+fn check_element(
+    value: &Spanned<DeValue<'_>>,
+    table: &DeTable<'_>,
+    data: &Resolved,
+    sources: &Sources<'_>,
+) -> Option<Mistake> {
+    let children = Expected::Value(data.clone()).children(sources)?;
+    for (key, value) in table {
+        let name = key.get_ref();
+        let Some(child) = children.get(name.as_ref()) else {
+            let near = nearest(name, children.keys().map(String::as_str));
+            return Some(Mistake {
+                message: format!("has an element with `{name}`, which nobody declares"),
+                place: key.span(),
+                help: Some(near.map_or_else(
+                    || "remove it".to_owned(),
+                    |near| format!("did you mean `{near}`?"),
+                )),
+            });
+        };
+        if let Some(mistake) = mistake(value, &child.expected, sources) {
+            return Some(mistake);
+        }
+    }
+    let lacking = children.iter().find(|(name, child)| {
+        child.required && !child.names(name).any(|name| table.contains_key(name))
+    });
+    lacking.map(|(name, _)| Mistake {
+        message: format!("has an element without `{name}`"),
+        place: value.span(),
+        help: Some(format!("add `{name} = …` to it")),
+    })
 }
 
 fn check_primitive(value: &Spanned<DeValue<'_>>, name: &str) -> Option<Mistake> {

@@ -75,6 +75,7 @@ fn written_type_and_path_agree_by_the_contract() {
         ("Ball", "Input<u8, \"x.x\">", Some("type-mismatch")),
         ("Ball", "Input<f32, \"x.y\">", Some("unknown-output")),
         ("u8", "Input<f32, \"x.y\">", Some("unknown-output")),
+        ("Side", "Input<f32, \"x.y\">", Some("unknown-output")),
         ("Ball", "Input<u8, \"x.secret\">", Some("not-public")),
     ] {
         let (codes, text) = answer(output, field);

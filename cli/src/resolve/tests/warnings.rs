@@ -149,3 +149,41 @@ fn a_node_that_someone_reads_is_not_told() {
     )
     .robot();
 }
+
+/// A real-time cycler that records while this is true, and its one node.
+fn recorded_while(path: &str) -> Fixture {
+    let record = format!("record = {{ while = \"{path}\" }}");
+    Fixture::new(&cycler("Control", "real-time", &record, &[], &["a"])).node(
+        "a",
+        writes("is_playing: MainOutput<bool>, ball: MainOutput<Option<Ball>>,"),
+    )
+}
+
+#[test]
+fn an_output_that_says_what_is_recorded_is_read() {
+    recorded_while("is_playing").robot();
+    recorded_while("Control.is_playing").robot();
+}
+
+#[test]
+fn what_is_recorded_is_asked_of_an_output_that_is_there_and_a_bool() {
+    for (path, code, parts) in [
+        (
+            "is_plaing",
+            "unknown-output",
+            ["`Control` writes `is_plaing`", "did you mean `is_playing`?"],
+        ),
+        (
+            "Contrl.is_playing",
+            "unknown-instance",
+            ["there is no instance `Contrl`", "did you mean `Control`?"],
+        ),
+        (
+            "ball",
+            "type-mismatch",
+            ["`ball` is no `bool`", "`ball` is `Option<types::Ball>`"],
+        ),
+    ] {
+        recorded_while(path).expect(code, &parts);
+    }
+}

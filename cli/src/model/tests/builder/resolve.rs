@@ -6,8 +6,8 @@ use super::CyclerBuilder;
 use crate::model::names::snake_case;
 use crate::resolve::robot::{
     Access, Branch, Content, CreationBinding, CycleBinding, Cycler, CyclerKind, DataType,
-    Dependency, Instance, InstanceId, Node, OnFailure, Output, OutputBinding, Reader, Robot,
-    Scheduling, StateUse, Target, Tree, Writer,
+    Dependency, Instance, InstanceId, Node, OnFailure, Output, OutputBinding, Reader, Record,
+    Robot, Scheduling, StateUse, Target, Tree, Writer,
 };
 
 /// The robot `walker` with these cyclers and two targets.
@@ -122,6 +122,7 @@ fn resolve_cycler(builder: &CyclerBuilder) -> Cycler {
         name: name.clone(),
         deadline: (builder.kind == CyclerKind::RealTime).then_some(Duration::from_millis(12)),
         scheduling: Scheduling::default(),
+        record: Record::default(),
     };
     Cycler {
         name: builder.name.clone(),

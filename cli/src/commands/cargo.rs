@@ -1,0 +1,202 @@
+//! Compiling the robot with cargo: where its program is, and what rustc found.
+
+use std::ffi::OsString;
+use std::io::{BufRead, BufReader};
+use std::process::{Command, Stdio};
+
+use camino::Utf8PathBuf;
+
+use super::generate;
+use super::session::Session;
+use super::terminal::Terminal;
+use crate::diagnostics::Diagnostics;
+use crate::late::rustc::{Line, Message};
+use crate::late::{self, Home};
+use crate::manifest;
+use crate::model::{self, package};
+use crate::outcome::Refusal;
+use crate::pipeline::Understood;
+use crate::resolve::robot::{Robot, Target};
+
+/// What cargo said.
+#[derive(Debug, Default)]
+pub(super) struct Said {
+    pub(super) success: bool,
+    /// The program that was asked for, if it was built.
+    pub(super) executable: Option<Utf8PathBuf>,
+    messages: Vec<Message>,
+}
+
+/// What cargo is asked for.
+pub(super) struct Request<'a> {
+    arguments: Vec<OsString>,
+    /// The program that is wanted.
+    program: Option<&'a str>,
+}
+
+impl<'a> Request<'a> {
+    /// Builds the program of one target; `target_dir` is absolute.
+    pub(super) fn build(
+        robot: &Robot,
+        target: &'a Target,
+        profile: &str,
+        target_dir: Option<OsString>,
+    ) -> Self {
+        let mut arguments = arguments("build", robot, [target]);
+        arguments.extend(["--profile", profile].map(OsString::from));
+        arguments.extend(
+            target_dir
+                .into_iter()
+                .flat_map(|folder| ["--target-dir".into(), folder]),
+        );
+        Self {
+            arguments,
+            program: Some(&target.name),
+        }
+    }
+
+    /// Checks everything that these targets need, as far as cargo can go.
+    pub(super) fn check<'t>(robot: &Robot, targets: impl IntoIterator<Item = &'t Target>) -> Self {
+        let mut arguments = arguments("check", robot, targets);
+        arguments.extend(["--lib", "--keep-going"].map(OsString::from));
+        Self {
+            arguments,
+            program: None,
+        }
+    }
+
+    /// Runs cargo in the robot's folder; what is not for programs goes to stderr as cargo says it.
+    pub(super) fn said(&self, session: &Session<'_>, color: bool) -> Result<Said, Refusal> {
+        let cargo = std::env::var_os("CARGO").unwrap_or_else(|| OsString::from("cargo"));
+        let form = if color {
+            "--message-format=json-diagnostic-rendered-ansi"
+        } else {
+            "--message-format=json"
+        };
+        let mut child = Command::new(&cargo)
+            .args(&self.arguments)
+            .arg(form)
+            .current_dir(session.workspace.root())
+            .stdin(Stdio::null())
+            .stdout(Stdio::piped())
+            .spawn()
+            .map_err(|error| {
+                Refusal::bad(format!("cannot start `{}`: {error}", cargo.display()))
+                    .help("install Rust from rustup.rs, or name cargo in the variable CARGO")
+            })?;
+        let stdout = child.stdout.take().expect("it was asked for above");
+        let mut said = self.read(BufReader::new(stdout), session.terminal)?;
+        let status = child
+            .wait()
+            .map_err(|error| Refusal::bad(format!("cannot wait for cargo: {error}")))?;
+        said.success = status.success();
+        Ok(said)
+    }
+
+    fn read(&self, stdout: impl BufRead, terminal: &Terminal) -> Result<Said, Refusal> {
+        let mut said = Said::default();
+        for line in stdout.lines() {
+            let line = line
+                .map_err(|error| Refusal::bad(format!("cannot read what cargo says: {error}")))?;
+            match serde_json::from_str::<Line>(&line) {
+                Ok(line) if self.is_program(&line) => {
+                    said.executable = line.executable.map(Utf8PathBuf::from);
+                }
+                Ok(line) => said.messages.extend(line.message),
+                // A procedural macro or a wrapper printed something.
+                Err(_) => terminal.note(&format!("{line}\n")),
+            }
+        }
+        Ok(said)
+    }
+
+    fn is_program(&self, line: &Line) -> bool {
+        let name = line.target.as_ref().map(|target| target.name.as_str());
+        line.reason == "compiler-artifact" && line.executable.is_some() && name == self.program
+    }
+}
+
+impl Said {
+    /// What rustc found, brought home to the robot's own files.
+    pub(super) fn diagnostics(
+        &self,
+        session: &Session<'_>,
+        understood: &Understood,
+    ) -> Result<Diagnostics, super::Failure> {
+        let mut told = Diagnostics::new();
+        let manifest = manifest::load(&session.workspace, &mut told)?;
+        let home = Home {
+            workspace: &session.workspace,
+            manifest: &manifest,
+            robot: &understood.robot,
+            model: &model::describe(&understood.robot, &understood.schedule),
+            files: &generate::render(&session.workspace, understood),
+        };
+        Ok(late::diagnose(&self.messages, &home))
+    }
+}
+
+/// The generated package with these targets' binaries and nothing else.
+fn arguments<'t>(
+    deed: &str,
+    robot: &Robot,
+    targets: impl IntoIterator<Item = &'t Target>,
+) -> Vec<OsString> {
+    let package = package::library(robot);
+    let mut arguments: Vec<String> = [deed, "--package", &package, "--no-default-features"]
+        .map(str::to_owned)
+        .to_vec();
+    for target in targets {
+        let feature = format!("target-{}", target.name);
+        arguments.extend([
+            "--bin".to_owned(),
+            target.name.clone(),
+            "--features".to_owned(),
+            feature,
+        ]);
+    }
+    arguments.into_iter().map(OsString::from).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Request;
+    use crate::arguments::Color;
+    use crate::commands::terminal::Terminal;
+    use crate::graph::fixture;
+
+    #[test]
+    fn the_program_is_where_cargo_says() {
+        let output = "\
+{\"reason\":\"compiler-artifact\",\"target\":{\"name\":\"build-script-build\"},\"executable\":\"/t/build\"}
+{\"reason\":\"compiler-artifact\",\"target\":{\"name\":\"simulated\"},\"executable\":null}
+{\"reason\":\"compiler-artifact\",\"target\":{\"name\":\"simulated\"},\"executable\":\"/t/simulated\"}
+{\"reason\":\"build-finished\",\"success\":true}
+";
+        let robot = fixture::robot();
+        let request = Request::build(&robot, &robot.targets[0], "dev", None);
+        let said = request.read(output.as_bytes(), &Terminal::new(Color::Never));
+        let executable = said.map(|said| said.executable);
+        assert_eq!(executable, Ok(Some("/t/simulated".into())));
+    }
+
+    #[test]
+    fn a_target_is_built_with_its_feature_alone() {
+        let robot = fixture::robot();
+        let request = Request::build(&robot, &robot.targets[0], "dev", None);
+        let arguments: Vec<_> = request
+            .arguments
+            .iter()
+            .map(|argument| argument.to_string_lossy())
+            .collect();
+        let text = arguments.join(" ");
+        for part in [
+            "--package walker_runtime --no-default-features",
+            "--bin simulated --features target-simulated",
+            "--profile dev",
+        ] {
+            assert!(text.contains(part), "{text}");
+        }
+        assert!(!text.contains("target-nao"), "{text}");
+    }
+}

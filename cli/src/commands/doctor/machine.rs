@@ -1,0 +1,153 @@
+//! Programs and resources of this machine.
+
+use std::ffi::OsString;
+use std::process::{Command, Stdio};
+
+use camino::Utf8Path;
+
+use super::Finding;
+use crate::workspace::Workspace;
+
+/// The oldest Rust that builds robots: that of hulkgen's own workspace.
+const RUST_VERSION: &str = env!("CARGO_PKG_RUST_VERSION");
+const RUSTUP: &str = "install Rust from rustup.rs";
+
+/// Free space below which a build may fail: a robot's debug build and its dependencies.
+const SCARCE_GIBIBYTES: u64 = 5;
+/// Free space with which no build is finished.
+const NO_GIBIBYTES: u64 = 1;
+
+/// rustc, cargo, git, python3.
+pub(super) fn tools() -> Vec<Finding> {
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| OsString::from("cargo"));
+    let git_help = "install git: merges of generated files and `hulkgen diff` ask it";
+    let python_help = "install python3: some of the framework's tests read recordings with it";
+    vec![
+        rustc(answer("rustc", &["--version"]).as_deref()),
+        match answer(cargo, &["--version"]) {
+            Some(version) => Finding::ok("cargo", version),
+            None => Finding::bad("cargo", "cannot be started", RUSTUP),
+        },
+        match answer("git", &["--version"]) {
+            Some(version) => Finding::ok("git", version),
+            None => Finding::warning("git", "cannot be started", git_help),
+        },
+        match answer("python3", &["--version"]) {
+            Some(version) => Finding::ok("python3", version),
+            None => Finding::warning("python3", "cannot be started", python_help),
+        },
+    ]
+}
+
+/// Real-time permission and free disk.
+pub(super) fn resources(root: &Utf8Path) -> Vec<Finding> {
+    // The limits of this process are those of a robot that it starts.
+    let limits = Workspace::at_root("/proc/self".into()).read("limits".into());
+    let mut findings = Vec::new();
+    if let Ok(limits) = limits {
+        findings.push(real_time(&limits));
+    }
+    findings.push(disk(answer("df", &["-Pk", root.as_str()]).as_deref()));
+    findings
+}
+
+fn rustc(said: Option<&str>) -> Finding {
+    let about = "rustc";
+    let Some(said) = said else {
+        return Finding::bad(about, "cannot be started", RUSTUP);
+    };
+    let version = said.split(' ').nth(1).unwrap_or_default();
+    if numbers(version) >= numbers(RUST_VERSION) {
+        Finding::ok(about, said)
+    } else {
+        let message = format!("{said} is older than {RUST_VERSION}");
+        Finding::bad(about, message, "run `rustup update`")
+    }
+}
+
+/// "1.95.0-nightly" as 1, 95, 0; a part that is no number as 0.
+fn numbers(version: &str) -> [u32; 3] {
+    let version = version.split('-').next().unwrap_or_default();
+    let mut parts = version.split('.').map(|part| part.parse().unwrap_or(0));
+    [(); 3].map(|()| parts.next().unwrap_or(0))
+}
+
+/// The soft limit, as `ulimit -r` prints it.
+fn real_time(limits: &str) -> Finding {
+    let about = "real-time";
+    let mut lines = limits.lines();
+    let limit = lines.find_map(|line| line.strip_prefix("Max realtime priority"));
+    let limit = limit.and_then(|limits| limits.split_whitespace().next());
+    match limit {
+        None | Some("0") => Finding::warning(
+            about,
+            "no permission for real-time priorities; robots run without them",
+            "on the robot: `ulimit -r 99`, or `@realtime - rtprio 99` in /etc/security/limits.conf",
+        ),
+        Some(limit) => Finding::ok(about, format!("priorities up to {limit}")),
+    }
+}
+
+/// What `df -Pk` says: the fourth column of the second line is the free space in KiB.
+fn disk(said: Option<&str>) -> Finding {
+    let about = "disk";
+    let line = said.and_then(|said| said.lines().nth(1));
+    let free = line.and_then(|line| line.split_whitespace().nth(3));
+    let Some(free) = free.and_then(|free| free.parse::<u64>().ok()) else {
+        return Finding::warning(about, "cannot tell how much is free", "look yourself");
+    };
+    let gibibytes = free >> 20;
+    let message = format!("{gibibytes} GiB free");
+    let help = "make room; `cargo clean` removes what was built";
+    match gibibytes {
+        free if free < NO_GIBIBYTES => Finding::bad(about, message, help),
+        free if free < SCARCE_GIBIBYTES => Finding::warning(about, message, help),
+        _ => Finding::ok(about, message),
+    }
+}
+
+/// What a program prints; None if it cannot be started or fails.
+pub(super) fn answer(program: impl Into<OsString>, arguments: &[&str]) -> Option<String> {
+    let output = Command::new(program.into())
+        .args(arguments)
+        .stdin(Stdio::null())
+        .output()
+        .ok()?;
+    let said = String::from_utf8_lossy(&output.stdout).trim().to_owned();
+    output.status.success().then_some(said)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{answer, disk, numbers, real_time, rustc};
+    use crate::commands::doctor::State;
+
+    #[test]
+    fn an_old_rustc_is_bad() {
+        assert_eq!(rustc(None).state, State::Bad);
+        assert_eq!(rustc(Some("rustc 1.70.0 (x)")).state, State::Bad);
+        assert_eq!(rustc(Some("rustc 2.0.0-nightly (x)")).state, State::Ok);
+        assert_eq!(numbers("1.95"), [1, 95, 0]);
+    }
+
+    #[test]
+    fn a_limit_of_nought_is_a_warning() {
+        let limits = |soft: &str| format!("Limit Soft Hard\nMax realtime priority   {soft}  99\n");
+        assert_eq!(real_time(&limits("0")).state, State::Warning);
+        assert_eq!(real_time(&limits("99")).message, "priorities up to 99");
+    }
+
+    #[test]
+    fn little_free_space_is_a_warning_and_none_is_bad() {
+        let said = |kibibytes: &str| format!("Filesystem …\n/dev/sda 9 9 {kibibytes} 1% /\n");
+        assert_eq!(disk(Some(&said("1000"))).state, State::Bad);
+        assert_eq!(disk(Some(&said("2097152"))).state, State::Warning);
+        assert_eq!(disk(Some(&said("20971520"))).message, "20 GiB free");
+        assert_eq!(disk(Some("")).state, State::Warning);
+    }
+
+    #[test]
+    fn a_program_that_is_not_there_has_no_answer() {
+        assert_eq!(answer("hulkgen-is-not-called-so", &[]), None);
+    }
+}

@@ -1,0 +1,209 @@
+//! `add-node`, `add-cycler`, `remove-node`, `rename-output`: changes to what people write, then the generated crate.
+//!
+//! The robot is looked at before and after the change. Nothing is written unless both are free of errors, and then
+//! everything is written or nothing.
+
+use serde_json::json;
+
+use super::session::Session;
+use super::{Failure, generate};
+use crate::arguments::{AddCycler, AddNode, CyclerKind, RemoveNode, RenameOutput, TextOrJson};
+use crate::diagnostics::{self, Code, Diagnostic, Diagnostics};
+use crate::drift;
+use crate::outcome::{Outcome, Refusal};
+use crate::pipeline;
+use crate::resolve::robot::Robot;
+use crate::scaffold::{self, Changes};
+use crate::workspace::Workspace;
+
+/// What every answer ends with where there is none.
+const UNTOUCHED: &str = "nothing was changed";
+
+pub(super) fn add_node(session: &mut Session<'_>, add: &AddNode) -> Result<Outcome, Failure> {
+    let robot = sound_robot(session)?;
+    let node = scaffold::NewNode {
+        path: &add.node,
+        cycler: &add.cycler,
+        setup: add.setup,
+    };
+    let changes = scaffold::add_node(&session.workspace, &robot, &node)?;
+    apply(session, changes, add.format)
+}
+
+pub(super) fn add_cycler(session: &mut Session<'_>, add: &AddCycler) -> Result<Outcome, Failure> {
+    let robot = sound_robot(session)?;
+    let cycler = scaffold::NewCycler {
+        name: &add.name,
+        kind: match add.kind {
+            CyclerKind::Perception => schema::CyclerKind::Perception,
+            CyclerKind::RealTime => schema::CyclerKind::RealTime,
+        },
+        instances: &add.instances,
+        setup_node: &add.setup_node,
+    };
+    let changes = scaffold::add_cycler(&session.workspace, &robot, &cycler)?;
+    apply(session, changes, add.format)
+}
+
+pub(super) fn remove_node(
+    session: &mut Session<'_>,
+    remove: &RemoveNode,
+) -> Result<Outcome, Failure> {
+    let robot = sound_robot(session)?;
+    let removal = scaffold::Removal {
+        path: &remove.node,
+        cycler: remove.cycler.as_deref(),
+        delete: remove.delete,
+    };
+    let mut changes = scaffold::remove_node(&session.workspace, &robot, &removal)?;
+    // What only this node read would be a mistake in the parameter files.
+    let after = session.workspace.after(&changes);
+    let mut found = Diagnostics::new();
+    if pipeline::understand(&after, &mut found).is_ok() {
+        changes.extend(scaffold::without_unread(&after, &found)?);
+    }
+    apply(session, changes, remove.format)
+}
+
+pub(super) fn rename_output(
+    session: &mut Session<'_>,
+    rename: &RenameOutput,
+) -> Result<Outcome, Failure> {
+    let robot = sound_robot(session)?;
+    let Some((cycler, old)) = rename.output.split_once('.') else {
+        let message = format!("`{}` is no output of a cycler", rename.output);
+        return Err(Refusal::wrong_usage(message)
+            .help("write `Cycler.output`")
+            .into());
+    };
+    let asked = scaffold::Rename {
+        cycler,
+        old,
+        new: &rename.new,
+    };
+    let renamed = scaffold::rename_output(&session.workspace, &robot, &asked)?;
+    let outcome = apply(session, renamed.changes, rename.format)?;
+    for (file, line) in renamed.unclear {
+        session.terminal.note(&format!(
+            "{file}:{line}: `.{old}` may be this output or something else; look at it\n"
+        ));
+    }
+    Ok(outcome)
+}
+
+/// The robot before the change, which has no errors.
+fn sound_robot(session: &mut Session<'_>) -> Result<Robot, Failure> {
+    let understood = session.understand();
+    match understood {
+        Ok(understood) if !session.diagnostics.has_errors() => Ok(understood.robot),
+        _ => {
+            session.note_diagnostics();
+            let message = format!("{UNTOUCHED}: the robot has errors");
+            Err(Refusal::bad(message).help("mend them first").into())
+        }
+    }
+}
+
+/// Looks at the robot as it would be, and writes the changes with the generated crate.
+fn apply(
+    session: &mut Session<'_>,
+    mut changes: Changes,
+    format: TextOrJson,
+) -> Result<Outcome, Failure> {
+    let after = session.workspace.after(&changes);
+    let mut found = Diagnostics::new();
+    let understood = pipeline::understand(&after, &mut found);
+    note_new(session, &found, &after);
+    let understood = match understood {
+        Ok(understood) if !found.has_errors() => understood,
+        _ => {
+            let message = format!("{UNTOUCHED}: the robot would have the errors above");
+            let refusal = Refusal::bad(message);
+            let reads = [Code::UnknownOutput, Code::UnknownInstance];
+            let is_read = found.sorted().iter().any(|one| reads.contains(&one.code));
+            return Err(match is_read {
+                true => refusal.help("change what reads it first").into(),
+                false => refusal.into(),
+            });
+        }
+    };
+    let root = session.workspace.root().to_owned();
+    let files = generate::render(&after, &understood);
+    let drift = generate::compare(&root, &understood, &files)?;
+    changes.extend(drift.changes(&files));
+    let answer = Answer::new(session, &changes);
+    drift::write_all(&root, &changes).map_err(|error| {
+        let refusal = generate::refusal(&error);
+        Refusal::bad(format!("{UNTOUCHED}: {}", refusal.message))
+    })?;
+    match format {
+        TextOrJson::Json => session.terminal.data(&answer.to_json())?,
+        TextOrJson::Text => session.terminal.note(&answer.text()),
+    }
+    Ok(Outcome::Good)
+}
+
+/// Prints what the change brings; what was known before is no news.
+fn note_new(session: &Session<'_>, found: &Diagnostics, after: &Workspace) {
+    let known = session.diagnostics.sorted();
+    let is_known = |one: &Diagnostic| {
+        let same = |other: &Diagnostic| other.code == one.code && other.message == one.message;
+        known.iter().any(|other| same(other))
+    };
+    let mut news = Diagnostics::new();
+    for one in found.sorted().into_iter().filter(|one| !is_known(one)) {
+        news.add(one.clone());
+    }
+    let color = session.terminal.colors_notes();
+    let text = diagnostics::render(&news, after, color);
+    session.terminal.note(&text);
+}
+
+/// Names of the files that were written, sorted.
+struct Answer {
+    added: Vec<String>,
+    changed: Vec<String>,
+    removed: Vec<String>,
+}
+
+impl Answer {
+    fn new(session: &Session<'_>, changes: &Changes) -> Self {
+        let mut answer = Self {
+            added: Vec::new(),
+            changed: Vec::new(),
+            removed: Vec::new(),
+        };
+        for (path, text) in changes {
+            let list = match (text, session.workspace.is_file(path)) {
+                (None, _) => &mut answer.removed,
+                (Some(_), true) => &mut answer.changed,
+                (Some(_), false) => &mut answer.added,
+            };
+            list.push(path.to_string());
+        }
+        answer
+    }
+
+    /// One file a line: `+` new, `~` changed, `-` removed.
+    fn text(&self) -> String {
+        let mut lines: Vec<(&String, char)> = Vec::new();
+        lines.extend(self.added.iter().map(|path| (path, '+')));
+        lines.extend(self.changed.iter().map(|path| (path, '~')));
+        lines.extend(self.removed.iter().map(|path| (path, '-')));
+        lines.sort();
+        lines
+            .into_iter()
+            .map(|(path, mark)| format!("{mark} {path}\n"))
+            .collect()
+    }
+
+    fn to_json(&self) -> String {
+        let answer = json!({
+            "version": 1,
+            "added": self.added,
+            "changed": self.changed,
+            "removed": self.removed,
+        });
+        format!("{answer}\n")
+    }
+}

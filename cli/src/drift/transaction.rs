@@ -1,0 +1,107 @@
+//! Several files written as one: all of them, or none.
+
+use std::fs;
+use std::io;
+
+use camino::{Utf8Path, Utf8PathBuf};
+
+use super::DriftError;
+use super::disk;
+use crate::workspace::Changes;
+
+/// Writes every change, or restores what was there and says why.
+///
+/// Two hulkgens at once write one after the other. Paths are relative to `root`; folders that are needed are created, folders that become empty are removed.
+pub fn write_all(root: &Utf8Path, changes: &Changes) -> Result<(), DriftError> {
+    write_all_asking(root, changes, |_| Ok(()))
+}
+
+/// As [`write_all`]; `permit` is asked before each file is touched and may fail in the place of the disk.
+pub fn write_all_asking(
+    root: &Utf8Path,
+    changes: &Changes,
+    mut permit: impl FnMut(&Utf8Path) -> io::Result<()>,
+) -> Result<(), DriftError> {
+    let _lock = disk::lock(root)?;
+    let mut done = Done {
+        root,
+        files: Vec::new(),
+        folders: Vec::new(),
+    };
+    // What goes makes room: a folder may come where a file was.
+    let (removed, written): (Vec<_>, Vec<_>) = changes.iter().partition(|(_, text)| text.is_none());
+    for (path, text) in removed.into_iter().chain(written) {
+        let permitted = permit(path).map_err(|source| disk::failed("write", path, source));
+        let result = permitted.and_then(|()| done.change(path, text.as_deref()));
+        if let Err(error) = result {
+            return Err(match done.undo() {
+                Ok(()) => error,
+                Err(left) => DriftError::NotUndone {
+                    error: Box::new(error),
+                    left: Box::new(left),
+                },
+            });
+        }
+    }
+    Ok(())
+}
+
+/// What was changed so far, and what was there before.
+struct Done<'a> {
+    root: &'a Utf8Path,
+    files: Vec<(Utf8PathBuf, Option<Vec<u8>>)>,
+    /// Folders that were not there before, outer ones first.
+    folders: Vec<Utf8PathBuf>,
+}
+
+impl Done<'_> {
+    fn change(&mut self, path: &Utf8Path, text: Option<&str>) -> Result<(), DriftError> {
+        let file = self.root.join(path);
+        let before = disk::read(&file)?;
+        match (text, &before) {
+            (Some(text), _) => {
+                self.folders.extend(missing_folders(&file));
+                self.files.push((path.to_owned(), before));
+                disk::write_file(&file, text)
+            }
+            (None, Some(_)) => {
+                self.files.push((path.to_owned(), before));
+                disk::remove(self.root, path)
+            }
+            (None, None) => Ok(()),
+        }
+    }
+
+    /// Restores everything that can be restored; the first failure is told.
+    fn undo(self) -> Result<(), DriftError> {
+        let mut first = Ok(());
+        for (path, before) in self.files.iter().rev() {
+            let file = self.root.join(path);
+            let restored = match (before, disk::read(&file)) {
+                (Some(before), Ok(Some(now))) if *before == now => Ok(()),
+                (Some(before), _) => disk::write_bytes(&file, before),
+                (None, Ok(None)) => Ok(()),
+                (None, _) => {
+                    fs::remove_file(&file).map_err(|source| disk::failed("remove", &file, source))
+                }
+            };
+            first = first.and(restored);
+        }
+        for folder in self.folders.iter().rev() {
+            // It stays if somebody else has put something there meanwhile.
+            let _ = fs::remove_dir(folder);
+        }
+        first
+    }
+}
+
+/// Folders above a file that have to be created, outer ones first.
+fn missing_folders(file: &Utf8Path) -> Vec<Utf8PathBuf> {
+    let above = file.ancestors().skip(1);
+    let mut missing: Vec<Utf8PathBuf> = above
+        .take_while(|folder| !folder.as_str().is_empty() && !folder.exists())
+        .map(Utf8Path::to_owned)
+        .collect();
+    missing.reverse();
+    missing
+}

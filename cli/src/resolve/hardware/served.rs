@@ -1,0 +1,112 @@
+//! Whether every target's hardware serves what the nodes ask, where that can be known.
+
+use std::collections::BTreeMap;
+
+use camino::Utf8Path;
+use syn::spanned::Spanned as _;
+
+use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+use crate::manifest::{Manifest, Target};
+use crate::scan::lookup::ItemId;
+use crate::scan::served::Hardware;
+use crate::scan::{Library, NodeSource, Sources, range};
+use crate::workspace::MANIFEST;
+
+/// A bound of a node.
+struct Asked<'a> {
+    node: &'a NodeSource,
+    bound: &'a syn::Path,
+}
+
+/// A trait, and every bound that names it; each node once.
+struct Union<'a> {
+    definition: ItemId,
+    asked: Vec<Asked<'a>>,
+}
+
+/// Adds an error for each trait that some node asks for and a hardware type does not implement.
+pub(in crate::resolve) fn check_served(
+    manifest: &Manifest,
+    sources: &Sources<'_>,
+    diagnostics: &mut Diagnostics,
+) {
+    let union = union_of_bounds(sources);
+    let mut targets: BTreeMap<&str, Vec<&Target>> = BTreeMap::new();
+    for target in &manifest.targets {
+        let hardware = target.declared.hardware.as_str();
+        targets.entry(hardware).or_default().push(target);
+    }
+    for (path, targets) in targets {
+        let Some(mut hardware) = sources.library.hardware(path) else {
+            continue;
+        };
+        for one in union.values() {
+            if hardware.lacks(&sources.library, &one.definition) {
+                diagnostics.add(unserved(one, &hardware, &targets, &sources.library));
+            }
+        }
+    }
+}
+
+/// Traits of the workspace by their definition.
+fn union_of_bounds<'a>(sources: &'a Sources<'_>) -> BTreeMap<String, Union<'a>> {
+    let mut union: BTreeMap<String, Union> = BTreeMap::new();
+    for node in sources.nodes.values() {
+        let signatures = &node.signatures;
+        let all = [
+            Some(&signatures.cycle),
+            Some(&signatures.new),
+            signatures.restore.as_ref(),
+        ];
+        for bound in all.into_iter().flatten().flat_map(|one| &one.bounds) {
+            let found = sources.library.trait_of_workspace(&node.module, bound);
+            let Some(definition) = found else { continue };
+            let entry = union.entry(definition.path()).or_insert_with(|| Union {
+                definition,
+                asked: Vec::new(),
+            });
+            if entry.asked.iter().all(|asked| asked.node.path != node.path) {
+                entry.asked.push(Asked { node, bound });
+            }
+        }
+    }
+    union
+}
+
+fn unserved(
+    union: &Union<'_>,
+    hardware: &Hardware,
+    targets: &[&Target],
+    library: &Library<'_>,
+) -> Diagnostic {
+    let name = &union.definition.name;
+    let hardware_path = targets
+        .first()
+        .map_or("", |one| one.declared.hardware.as_str());
+    let nodes: Vec<&str> = union
+        .asked
+        .iter()
+        .map(|one| one.node.path.as_str())
+        .collect();
+    let who = match nodes.as_slice() {
+        [node] => format!("`{node}` asks for"),
+        nodes => format!("{} nodes ask for", nodes.len()),
+    };
+    let message = format!("`{hardware_path}` does not serve `{name}`, which {who}");
+    let mut error = Diagnostic::new(Code::UnservedTrait, message);
+    for Asked { node, bound } in &union.asked {
+        let label = format!("asked for by `{}`", node.path);
+        error = error.at(node.file(), range(bound.span()), label);
+    }
+    for target in targets {
+        let label = format!("target `{}`", target.declared.name);
+        error = error.at(
+            Utf8Path::new(MANIFEST),
+            target.hardware_range.clone(),
+            label,
+        );
+    }
+    let (file, place) = hardware.place(library);
+    let deed = format!("write `impl {name} for {} {{ … }}`", hardware.name());
+    error.at(&file, place, "has no such `impl`").help(deed)
+}

@@ -1,0 +1,123 @@
+//! Values of one robot with all four kinds of layers.
+
+use super::{Asked, Given, Value, given};
+use crate::diagnostics::Diagnostics;
+use crate::manifest;
+use crate::scan;
+use crate::scan::fixture::{Fixture, Node, cycler};
+use crate::workspace::Workspace;
+
+const TYPES: &str = "
+    #[derive(Deserialize)]
+    pub struct Filter {
+        /// In s.
+        pub time: f32,
+        pub mode: Mode,
+    }
+    #[derive(Deserialize)]
+    pub enum Mode { Off, On { gain: f32 } }
+";
+
+fn fixture() -> Fixture {
+    let manifest = format!(
+        "identities = [\"body\", \"head\"]\n{}",
+        cycler("Control", "real-time", "", &[], &["a"])
+    );
+    let node = Node {
+        head: "use types::*;",
+        cycle: "filter: Parameter<filter::Filter, \"filter\">,\nhardware: HardwareInterface,",
+        asks: "hardware::Motors",
+        ..Node::default()
+    };
+    Fixture::new(&manifest)
+        .node("a", node)
+        .file("crates/types/src/lib.rs", "pub mod filter;")
+        .file("crates/types/src/filter.rs", TYPES)
+        .file(
+            "parameters/default.toml",
+            "[filter]\ntime = 0.1  # s, measured\nmode = { On = { gain = 1 } }\n",
+        )
+        .file("parameters/field/default.toml", "filter.time = 0.2")
+        .file("parameters/field/head.P1.toml", "filter.time = 0.5")
+        .file("parameters/head.P1.toml", "filter.time = 0.4")
+        .file("parameters/body.B1.toml", "filter.time = 0.3")
+}
+
+fn values(below: &[&str]) -> Vec<Value> {
+    let workspace = Workspace::in_memory(fixture().files());
+    let mut diagnostics = Diagnostics::new();
+    let manifest = manifest::load(&workspace, &mut diagnostics).expect("it is right");
+    let sources = scan::scan(&workspace, &manifest, &mut diagnostics).expect("they are right");
+    let asked = Asked {
+        declared: "filter",
+        data: "types::filter::Filter",
+        node: "nodes::a",
+        below,
+    };
+    given(&workspace, &manifest, &sources, asked)
+}
+
+#[test]
+fn layers_stand_in_the_order_in_which_they_are_merged() {
+    let values = values(&["time"]);
+    let [time] = values.as_slice() else {
+        panic!("{values:#?}")
+    };
+    assert_eq!(time.path, "filter.time");
+    assert_eq!(time.data.as_deref(), Some("f32"));
+    assert_eq!(time.docs.as_deref(), Some("In s."));
+    assert_eq!(time.given[0].comment.as_deref(), Some("s, measured"));
+    let line = |given: &Given| format!("{}:{} {}", given.file, given.line, given.value);
+    let lines: Vec<String> = time.given.iter().map(line).collect();
+    assert_eq!(
+        lines,
+        [
+            "parameters/default.toml:2 0.1",
+            "parameters/field/default.toml:1 0.2",
+            "parameters/body.B1.toml:1 0.3",
+            "parameters/head.P1.toml:1 0.4",
+            "parameters/field/head.P1.toml:1 0.5",
+        ]
+    );
+}
+
+#[test]
+fn a_struct_is_merged_field_by_field_and_an_enum_is_not() {
+    let values = values(&[]);
+    let paths: Vec<&str> = values.iter().map(|value| value.path.as_str()).collect();
+    assert_eq!(paths, ["filter.time", "filter.mode"]);
+    assert_eq!(values[1].given[0].value, "{ On = { gain = 1 } }");
+}
+
+#[test]
+fn a_field_that_there_is_not_has_no_values() {
+    assert_eq!(values(&["tiem"]), []);
+}
+
+#[test]
+fn every_kind_of_robot_has_one_winner() {
+    let winners = values(&["time"])[0].winners();
+    let text = |index: usize| {
+        let winner = &winners[index];
+        let identities = winner.identities.iter().map(|it| it.id.as_str());
+        (
+            winner.location.as_deref(),
+            identities.collect::<Vec<_>>(),
+            winner.value.as_str(),
+        )
+    };
+    let all: Vec<_> = (0..winners.len()).map(text).collect();
+    assert_eq!(
+        all,
+        [
+            (None, vec![], "0.1"),
+            (None, vec!["P1"], "0.4"),
+            (None, vec!["B1"], "0.3"),
+            (None, vec!["B1", "P1"], "0.4"),
+            (Some("field"), vec![], "0.2"),
+            (Some("field"), vec!["P1"], "0.5"),
+            (Some("field"), vec!["B1"], "0.3"),
+            (Some("field"), vec!["B1", "P1"], "0.5"),
+        ]
+    );
+}

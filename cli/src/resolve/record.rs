@@ -1,0 +1,125 @@
+//! Which cycles are recorded: the output that `record = { while = … }` names.
+
+use std::ops::Range;
+
+use camino::Utf8Path;
+
+use super::paths::{self, Agreement};
+use super::robot::{Access, Condition, InstanceId, Record, Segment};
+use super::scene::Scene;
+use crate::diagnostics::{Code, Diagnostic, Diagnostics, listed, nearest};
+use crate::workspace::MANIFEST;
+
+/// What an instance of this cycler records; `None` and an error where the output is none or no `bool`.
+pub(super) fn record(
+    scene: &Scene<'_>,
+    cycler: usize,
+    declared: &schema::Record,
+    place: Range<usize>,
+    diagnostics: &mut Diagnostics,
+) -> Option<Record> {
+    let path = match declared {
+        schema::Record::Switch(schema::Switch::On) => return Some(Record::On),
+        schema::Record::Switch(schema::Switch::Off) => return Some(Record::Off),
+        schema::Record::Some(schema::RecordSome::Every(cycles)) => {
+            return Some(Record::Every(*cycles));
+        }
+        schema::Record::Some(schema::RecordSome::While(path)) => path,
+    };
+    condition(scene, cycler, path)
+        .map(Record::While)
+        .map_err(|error| {
+            let file = Utf8Path::new(MANIFEST);
+            diagnostics.add(
+                Diagnostic::new(error.code, error.message)
+                    .at(file, place, "")
+                    .help(error.help),
+            );
+        })
+        .ok()
+}
+
+struct Refused {
+    code: Code,
+    message: String,
+    help: String,
+}
+
+fn condition(scene: &Scene<'_>, own: usize, written: &str) -> Result<Condition, Refused> {
+    let (instance, path) = instance_of(scene, written)?;
+    let cycler = instance.map_or(own, |instance| instance.cycler);
+    let access = access(path);
+    let name = &access.segments[0].name;
+    let scene_cycler = &scene.cyclers[cycler];
+    let Some(producer) = scene_cycler.outputs.get(name) else {
+        let outputs = scene_cycler.outputs.keys().map(String::as_str);
+        let help = match nearest(name, outputs.clone()) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => format!("its outputs are {}", listed(outputs)),
+        };
+        return Err(Refused {
+            code: Code::UnknownOutput,
+            message: format!(
+                "no node of cycler `{}` writes `{name}`",
+                scene_cycler.declared.name()
+            ),
+            help,
+        });
+    };
+    let library = &scene.sources.library;
+    let wanted = library.resolve(&producer.source.module, &syn::parse_quote!(bool));
+    match paths::check(library, &producer.data, &access.segments, &wanted) {
+        Agreement::Same | Agreement::Unknown => Ok(Condition {
+            instance,
+            producer: producer.node,
+            access,
+        }),
+        _ => Err(Refused {
+            code: Code::TypeMismatch,
+            message: format!(
+                "`{written}` is no `bool`, so nothing can be recorded while it is true"
+            ),
+            help: format!(
+                "name an output of type `bool`, or a field of one; `{name}` is `{}`",
+                producer.data.text
+            ),
+        }),
+    }
+}
+
+/// The instance in front of the path, if there is one.
+fn instance_of<'p>(
+    scene: &Scene<'_>,
+    written: &'p str,
+) -> Result<(Option<InstanceId>, &'p str), Refused> {
+    match written.split_once('.') {
+        Some((first, rest)) if first.starts_with(char::is_uppercase) => {
+            let Some(id) = scene.instance(first) else {
+                let names: Vec<&str> = scene.instance_names().collect();
+                let help = match nearest(first, names.iter().copied()) {
+                    Some(near) => format!("did you mean `{near}`?"),
+                    None => format!("the instances are {}", listed(names)),
+                };
+                return Err(Refused {
+                    code: Code::UnknownInstance,
+                    message: format!("there is no instance `{first}`"),
+                    help,
+                });
+            };
+            Ok((Some(id), rest))
+        }
+        _ => Ok((None, written)),
+    }
+}
+
+fn access(path: &str) -> Access {
+    let segments = path.split('.').map(|name| Segment {
+        name: name.to_owned(),
+        optional: false,
+        instance: false,
+    });
+    Access {
+        segments: segments.collect(),
+        written: path.to_owned(),
+    }
+}

@@ -1,0 +1,105 @@
+//! Targets whose hardware does not serve what nodes ask.
+
+use super::ACTS;
+use crate::scan::fixture::{Fixture, Node, cycler};
+
+const TRAITS: &str = "
+    pub trait Camera { fn read(&self) -> Result<u8>; }
+    pub trait Motors { fn write(&self, value: u8) -> Result<()>; }
+    mod inner;
+";
+
+/// A node that asks for `hardware::Motors`, and this code in the crate of the hardware.
+fn fixture(library: &str, inner: &str) -> Fixture {
+    let target = "[[target]]\nname = \"bench\"\nhardware = \"hardware::Hardware\"\n";
+    let control = cycler("Control", "real-time", "", &[], &["a"]);
+    Fixture::new(&format!("{control}{target}"))
+        .node("a", ACTS)
+        .file("crates/hardware/src/lib.rs", &format!("{TRAITS}{library}"))
+        .file("crates/hardware/src/inner.rs", inner)
+}
+
+#[test]
+fn a_trait_that_is_not_served_is_told_at_the_node_and_the_target() {
+    fixture("pub struct Hardware;", "").expect(
+        "unserved-trait",
+        &[
+            "`hardware::Hardware` does not serve `Motors`, which `nodes::a` asks for",
+            "crates/nodes/src/a.rs:",
+            "asked for by `nodes::a`",
+            "hulk.toml:",
+            "target `bench`",
+            "impl Motors for Hardware",
+        ],
+    );
+    let other =
+        "pub struct Hardware; struct Other; impl Motors for Other {} impl Camera for Hardware {}";
+    fixture(other, "").expect("unserved-trait", &["`Motors`"]);
+}
+
+#[test]
+fn creation_and_restoring_ask_too() {
+    let asks = Node {
+        creation: "hardware: HardwareInterface,",
+        more: "pub fn restore(&mut self, context: CreationContext<impl hardware::Camera>) -> Result<()> {}",
+        ..ACTS
+    };
+    let fixture = fixture("pub struct Hardware; impl Motors for Hardware {}", "").node("a", asks);
+    let text = fixture.text("crates/nodes/src/a.rs");
+    let text = text.replace(
+        "new(context: CreationContext)",
+        "new(context: CreationContext<impl hardware::Camera>)",
+    );
+    let library = fixture
+        .text("crates/nodes/src/lib.rs")
+        .replacen("pub mod a;\n", "", 1);
+    fixture
+        .file("crates/nodes/src/a.rs", &text)
+        .file("crates/nodes/src/lib.rs", &library)
+        .expect("unserved-trait", &["does not serve `Camera`"]);
+}
+
+#[test]
+fn an_impl_is_found_wherever_it_stands() {
+    for (library, inner) in [
+        ("pub struct Hardware; impl Motors for Hardware {}", ""),
+        (
+            "pub struct Hardware;",
+            "impl crate::Motors for super::Hardware {}",
+        ),
+        (
+            "pub struct Hardware;",
+            "use crate::{Hardware as H, Motors as M}; impl M for H {}",
+        ),
+        (
+            "pub struct Hardware;",
+            "use crate::*; const _: () = { impl Motors for Hardware {} };",
+        ),
+        (
+            "pub use inner::Hardware;",
+            "pub struct Hardware; impl crate::Motors for Hardware {}",
+        ),
+        (
+            "pub struct Real<T>(T); pub type Hardware = Real<u8>; impl<T> Motors for Real<T> {}",
+            "",
+        ),
+    ] {
+        fixture(library, inner).robot();
+    }
+}
+
+#[test]
+fn what_cannot_be_known_is_left_to_rustc() {
+    for (library, inner) in [
+        ("pub struct Hardware; impl<T> Motors for T {}", ""),
+        ("pub struct Hardware; serve!(Hardware);", ""),
+        ("pub struct Hardware;", "serve!(Hardware);"),
+        ("#[derive(Motors)] pub struct Hardware;", ""),
+        ("#[serves] pub struct Hardware;", ""),
+        ("pub struct Hardware; #[cfg(never)] mod absent;", ""),
+        ("pub use elsewhere::Hardware;", ""),
+    ] {
+        let answer = fixture(library, inner).answer();
+        assert!(!answer.codes.contains(&"unserved-trait"), "{}", answer.text);
+    }
+}

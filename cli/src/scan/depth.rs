@@ -1,0 +1,139 @@
+//! How deep a text is nested: what is too deep is refused before anything recursive reads it.
+//!
+//! Invariant: does not recurse itself, so that no text can exhaust the stack.
+
+use proc_macro2::{Delimiter, Spacing, Span, TokenStream, TokenTree, token_stream};
+
+/// Brackets, operators and generics around one another; no honest code has a tenth of it.
+const DEEPEST: usize = 500;
+
+/// Tokens at one level of brackets.
+struct Level {
+    tokens: token_stream::IntoIter,
+    /// Operators since the last `,` or `;`: each may stand around what follows.
+    operators: usize,
+    /// Open `<`.
+    generics: usize,
+    /// `else` that follow one another.
+    branches: usize,
+    after_block: bool,
+    /// An attribute may follow.
+    after_hash: bool,
+    /// `-` or `=`, which makes an arrow of a `>`.
+    after_arrow: bool,
+}
+
+/// The first place that is nested too deeply; a text that cannot be split into tokens has none.
+pub(super) fn too_deep(text: &str) -> Option<Span> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let tokens: TokenStream = text.parse().ok()?;
+    let mut levels = vec![Level::new(tokens)];
+    // Of all levels but the innermost.
+    let mut around = 0;
+    while let Some(level) = levels.last_mut() {
+        let Some(token) = level.tokens.next() else {
+            levels.pop();
+            around -= levels.last().map_or(0, Level::depth);
+            continue;
+        };
+        let span = token.span();
+        level.see(&token);
+        let depth = level.depth();
+        if around + depth > DEEPEST {
+            return Some(span);
+        }
+        if let TokenTree::Group(group) = token {
+            around += depth;
+            levels.push(Level::new(group.stream()));
+        }
+    }
+    None
+}
+
+impl Level {
+    fn new(tokens: TokenStream) -> Self {
+        Self {
+            tokens: tokens.into_iter(),
+            operators: 0,
+            generics: 0,
+            branches: 0,
+            after_block: false,
+            after_hash: false,
+            after_arrow: false,
+        }
+    }
+
+    fn depth(&self) -> usize {
+        1 + self.operators + self.generics + self.branches
+    }
+
+    fn see(&mut self, token: &TokenTree) {
+        let is_else = matches!(token, TokenTree::Ident(word) if word == "else");
+        if is_else {
+            self.branches += 1;
+        } else if self.after_block {
+            self.branches = 0;
+        }
+        self.after_block = false;
+        let (after_hash, after_arrow) = (self.after_hash, self.after_arrow);
+        (self.after_hash, self.after_arrow) = (false, false);
+        match token {
+            TokenTree::Punct(mark) => match mark.as_char() {
+                ',' => self.operators = 0,
+                ';' => (self.operators, self.generics, self.branches) = (0, 0, 0),
+                '#' => self.after_hash = true,
+                '!' if after_hash => {}
+                '<' => self.generics += 1,
+                '>' if !after_arrow => self.generics = self.generics.saturating_sub(1),
+                mark_of_arrow => {
+                    self.after_arrow =
+                        matches!(mark_of_arrow, '-' | '=') && mark.spacing() == Spacing::Joint;
+                    self.operators += 1;
+                }
+            },
+            TokenTree::Group(group) if group.delimiter() == Delimiter::Brace => {
+                (self.operators, self.generics) = (0, 0);
+                self.after_block = true;
+            }
+            TokenTree::Group(_) | TokenTree::Ident(_) | TokenTree::Literal(_) => {}
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::too_deep;
+
+    #[test]
+    fn whatever_nests_is_counted() {
+        let around = |before: &str, inside: &str, after: &str| {
+            format!("{}{inside}{}", before.repeat(10_000), after.repeat(10_000))
+        };
+        for text in [
+            around("(", "1", ")"),
+            around("mod a {", "", "}"),
+            format!("type A = {};", around("Vec<", "u8", ">")),
+            format!("type A = {};", around("Map<u8, ", "u8", ">")),
+            format!("const A: bool = {};", around("!", "true", "")),
+            format!("const A: u8 = {};", around("1 + ", "1", "")),
+            format!("fn a() {{ {} {{}} }}", around("if a {} else ", "", "")),
+        ] {
+            assert!(too_deep(&text).is_some(), "{}", &text[..40]);
+        }
+    }
+
+    #[test]
+    fn what_stands_one_after_another_is_not_deep() {
+        for part in [
+            "//! text\n",
+            "/// text\n#[a] pub fn a() -> Vec<u8> { 1 + 1 }\n",
+            "use a::b::c;\n",
+            "const A: bool = 1 < 2;\n",
+            "impl A for B { fn a() { if a {} else {} } }\n",
+        ] {
+            assert!(too_deep(&part.repeat(10_000)).is_none(), "{part}");
+        }
+        let list = format!("const A: &[u8] = &[{}];", "1 + 1, ".repeat(10_000));
+        assert!(too_deep(&list).is_none());
+    }
+}

@@ -1,0 +1,224 @@
+//! What a target's hardware type implements, as far as the workspace shows it.
+//!
+//! Invariant: a trait is called lacking only if every place was read where rustc would find the `impl`: the crate of the
+//! type and the crate of the trait, without macros, attributes or blanket `impl`s that might write it.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
+use std::rc::Rc;
+
+use camino::Utf8PathBuf;
+use syn::visit::{self, Visit};
+use syn::{GenericParam, Item, ItemImpl, Type};
+
+use super::fields::is_harmless;
+use super::library::Library;
+use super::lookup::{Found, ItemId};
+use super::module::{Module, only_for_tests};
+use super::types::{Definition, Shape};
+
+/// The hardware type of a target, and everything that was found about it.
+#[derive(Debug)]
+pub struct Hardware {
+    item: ItemId,
+    /// By library.
+    crates: BTreeMap<String, Option<Implemented>>,
+}
+
+/// The `impl`s of one crate for one type; `None` in place of it: something there cannot be read.
+#[derive(Debug, Default)]
+struct Implemented {
+    /// Definitions of traits.
+    traits: BTreeSet<String>,
+    /// Names of traits that could not be followed, and of those that are implemented for many types at once.
+    perhaps: BTreeSet<String>,
+}
+
+impl Hardware {
+    /// File and place of the type's name.
+    pub fn place(&self, library: &Library<'_>) -> (Utf8PathBuf, Range<usize>) {
+        (
+            self.item.module.file.clone(),
+            library.name_range(&self.item),
+        )
+    }
+
+    /// Name of the type.
+    pub fn name(&self) -> &str {
+        &self.item.name
+    }
+
+    /// Whether rustc will certainly not find the trait implemented.
+    pub fn lacks(&mut self, library: &Library<'_>, asked: &ItemId) -> bool {
+        let crates = [self.item.module.library(), asked.module.library()];
+        crates.into_iter().all(|name| {
+            let found = self
+                .crates
+                .entry(name.to_owned())
+                .or_insert_with(|| library.quietly(|| library.implemented(name, &self.item)));
+            found.as_ref().is_some_and(|found| {
+                !found.traits.contains(&asked.path()) && !found.perhaps.contains(&asked.name)
+            })
+        })
+    }
+}
+
+impl Library<'_> {
+    /// The hardware type `crate::Type` of a target; `None` if it is not plainly a type of the workspace.
+    pub fn hardware(&self, path: &str) -> Option<Hardware> {
+        let root = self.root(path.split("::").next()?)?;
+        let Shape::Named {
+            definition: Definition::Workspace(item),
+            ..
+        } = self.resolve_absolute(&root, path).shape
+        else {
+            return None;
+        };
+        let attributes = match item.item() {
+            Item::Struct(item) => &item.attrs,
+            Item::Enum(item) => &item.attrs,
+            _ => return None,
+        };
+        // A derive or an attribute that is not known might implement anything.
+        let plain = attributes.iter().all(is_harmless) && derives_nothing_unknown(attributes);
+        plain.then_some(Hardware {
+            item,
+            crates: BTreeMap::new(),
+        })
+    }
+
+    /// The trait of the workspace that a bound names.
+    pub fn trait_of_workspace(&self, module: &Rc<Module>, bound: &syn::Path) -> Option<ItemId> {
+        match self.find(module, bound)? {
+            Found::Item(item) if matches!(item.item(), Item::Trait(_)) => Some(item),
+            _ => None,
+        }
+    }
+
+    fn implemented(&self, library: &str, hardware: &ItemId) -> Option<Implemented> {
+        let mut found = Some(Implemented::default());
+        let mut waiting = vec![self.root(library)?];
+        while let Some(module) = waiting.pop() {
+            let mut reading = Reading {
+                library: self,
+                hardware,
+                module: &module,
+                found: &mut found,
+            };
+            for item in &module.syntax.items {
+                reading.visit_item(item);
+            }
+            for item in &module.syntax.items {
+                let Item::Mod(item) = item else { continue };
+                if only_for_tests(&item.attrs) {
+                    continue;
+                }
+                waiting.push(self.declared(&module, &item.ident.to_string())?);
+            }
+        }
+        found
+    }
+}
+
+struct Reading<'a> {
+    library: &'a Library<'a>,
+    hardware: &'a ItemId,
+    module: &'a Rc<Module>,
+    found: &'a mut Option<Implemented>,
+}
+
+impl Reading<'_> {
+    fn is_hardware(&self, data: &Type) -> Option<bool> {
+        match self.library.resolve(self.module, data).shape {
+            Shape::Named {
+                definition: Definition::Workspace(item),
+                ..
+            } => Some(item.path() == self.hardware.path()),
+            Shape::Unknown => None,
+            _ => Some(false),
+        }
+    }
+}
+
+impl<'ast> Visit<'ast> for Reading<'_> {
+    fn visit_item_mod(&mut self, _: &'ast syn::ItemMod) {}
+
+    fn visit_item_macro(&mut self, item: &'ast syn::ItemMacro) {
+        // `macro_rules!` writes nothing until it is called.
+        if item.ident.is_none() && !item.mac.path.is_ident("thread_local") {
+            *self.found = None;
+        }
+    }
+
+    fn visit_item_impl(&mut self, item: &'ast ItemImpl) {
+        visit::visit_item_impl(self, item);
+        let Some((None, written, _)) = &item.trait_ else {
+            return;
+        };
+        let serves = if is_parameter(item, &item.self_ty) {
+            None
+        } else {
+            self.is_hardware(&item.self_ty)
+        };
+        let Some(found) = self.found.as_mut().filter(|_| serves != Some(false)) else {
+            return;
+        };
+        let definition = self.library.trait_of_workspace(self.module, written);
+        match (serves, definition) {
+            (Some(true), Some(definition)) => {
+                found.traits.insert(definition.path());
+            }
+            // For many types, or for one that could not be followed.
+            (_, Some(definition)) => {
+                found.perhaps.insert(definition.name);
+            }
+            (_, None) => {
+                let name = written.segments.last().map(|last| last.ident.to_string());
+                found.perhaps.extend(name);
+            }
+        }
+    }
+}
+
+/// `impl<T> Trait for T`.
+fn is_parameter(item: &ItemImpl, data: &Type) -> bool {
+    let Type::Path(path) = data else {
+        return false;
+    };
+    let parameters = item.generics.params.iter();
+    let mut types = parameters.filter_map(|parameter| match parameter {
+        GenericParam::Type(parameter) => Some(&parameter.ident),
+        _ => None,
+    });
+    types.any(|parameter| path.path.is_ident(parameter))
+}
+
+/// Derives of the standard library and serde implement no trait of a robot.
+fn derives_nothing_unknown(attributes: &[syn::Attribute]) -> bool {
+    const KNOWN: &[&str] = &[
+        "Clone",
+        "Copy",
+        "Debug",
+        "Default",
+        "Deserialize",
+        "Eq",
+        "Hash",
+        "Ord",
+        "PartialEq",
+        "PartialOrd",
+        "Serialize",
+    ];
+    let mut all = true;
+    for attribute in attributes
+        .iter()
+        .filter(|one| one.path().is_ident("derive"))
+    {
+        let parsed = attribute.parse_nested_meta(|meta| {
+            let last = meta.path.segments.last();
+            all &= last.is_some_and(|last| KNOWN.contains(&last.ident.to_string().as_str()));
+            Ok(())
+        });
+        all &= parsed.is_ok();
+    }
+    all
+}

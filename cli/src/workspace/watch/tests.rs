@@ -1,0 +1,27 @@
+//! Files that change, come and do not matter.
+
+use camino::Utf8Path;
+
+use super::Glance;
+use crate::workspace::Workspace;
+
+#[test]
+fn a_changed_and_a_new_file_are_seen_and_generated_ones_are_not() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let root = Utf8Path::from_path(folder.path()).expect("it is UTF-8");
+    let write = |file: &str, text: &str| {
+        std::fs::create_dir_all(root.join("generated")).expect("the folder is ours");
+        std::fs::write(root.join(file), text).expect("the folder is ours");
+    };
+    write("hulk.toml", "a");
+    let glance = || Glance::at(&Workspace::at_root(root));
+    let before = glance();
+    assert!(glance().is_as(&before, None));
+    write("notes.md", "");
+    assert!(glance().is_as(&before, None));
+    write("generated/lib.rs", "");
+    assert!(glance().is_as(&before, Some("generated".into())));
+    assert!(!glance().is_as(&before, None));
+    write("hulk.toml", "ab");
+    assert!(!glance().is_as(&before, Some("generated".into())));
+}
