@@ -2,17 +2,31 @@
 //!
 //! Written by `hulkgen generate` from hulk.toml and the nodes it names. Do not edit.
 
+use audio::whistle_detection::WhistleDetectionParameters;
+use control::ball_filter::BallFilterParameters;
+use control::fall_state_filter::Sitting;
+use control::fall_state_filter::TiltLimits;
+use control::obstacle_filter::ObstacleFilterParameters;
 use framework::Reflect;
 use serde::Deserialize;
 use serde::Serialize;
+use types::audio::Tone;
 use types::camera::CameraCalibration;
 use types::camera::CameraPosition;
+use types::game::Player;
+use types::game::PrimaryState;
 use types::head::HeadAngles;
 use types::joints::Joints;
+use types::leds::ChestColors;
 use types::leds::Color;
 use vision::ball_detection::BallDetectionParameters;
+use vision::field_border::FieldBorderParameters;
 use vision::field_color::FieldColor;
 use vision::image_segmenter::ScanSteps;
+use vision::limb_projector::LimbProjectorParameters;
+use vision::line_detection::LineDetectionParameters;
+use vision::obstacle_detection::ObstacleDetectionParameters;
+use vision::penalty_mark_detection::PenaltyMarkDetectionParameters;
 
 /// Everything that the parameter files say to nodes.
 #[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
@@ -20,39 +34,90 @@ use vision::image_segmenter::ScanSteps;
 pub struct Parameters {
     /// vision::ball_detection
     pub ball_detection: BallDetectionParameters,
-    pub ball_memory: BallMemory,
+    /// control::ball_filter
+    pub ball_filter: BallFilterParameters,
+    pub button_filter: ButtonFilter,
     pub cameras: Cameras,
-    /// vision::ball_detection, vision::image_segmenter
+    pub fall_state_filter: FallStateFilter,
+    /// vision::ball_detection, vision::image_segmenter, vision::line_detection,
+    /// vision::penalty_mark_detection
     pub field_color: FieldColor,
     pub field_dimensions: FieldDimensions,
-    pub foot_pressure: FootPressure,
-    pub head_scan: HeadScan,
+    pub foot_pressure_filter: FootPressureFilter,
+    pub game_controller_filter: GameControllerFilter,
+    pub game_controller_responder: GameControllerResponder,
+    pub game_state_filter: GameStateFilter,
+    pub ground_contact_filter: GroundContactFilter,
+    pub head_motion: HeadMotion,
     pub led_status: LedStatus,
+    /// vision::limb_projector
+    pub limb_projector: LimbProjectorParameters,
+    pub look_around: LookAround,
+    pub look_at: LookAt,
+    pub motion_dispatcher: MotionDispatcher,
     pub motor_commands_collector: MotorCommandsCollector,
+    /// vision::obstacle_detection
+    pub obstacle_detection: ObstacleDetectionParameters,
+    /// control::obstacle_filter
+    pub obstacle_filter: ObstacleFilterParameters,
+    pub odometry: Odometry,
     pub orientation_filter: OrientationFilter,
-    pub ready_pose: ReadyPose,
+    pub penalized_pose: PenalizedPose,
+    /// vision::penalty_mark_detection
+    pub penalty_mark_detection: PenaltyMarkDetectionParameters,
+    /// control::game_controller_filter, control::game_controller_responder,
+    /// control::self_report, control::team_message_filter, spl_network::team_message_parser
+    pub player: Player,
+    pub recording_switch: RecordingSwitch,
+    pub sit_down: SitDown,
+    pub sonar_filter: SonarFilter,
+    pub stand: Stand,
+    pub support_foot_filter: SupportFootFilter,
+    pub team_message_filter: TeamMessageFilter,
+    pub team_message_sender: TeamMessageSender,
+    pub tone_selector: ToneSelector,
     pub vision_bottom: VisionInstance,
     pub vision_top: VisionInstance,
+    /// audio::whistle_detection, control::tone_selector
+    pub whistle_detection: WhistleDetectionParameters,
+    pub whistle_filter: WhistleFilter,
 }
 
 #[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
 #[serde(deny_unknown_fields)]
-pub struct BallMemory {
-    /// control::ball_memory
-    pub forget_after: f32,
-    /// control::ball_memory
-    pub gain: f32,
-    /// control::ball_memory
-    pub same_place: f32,
+pub struct ButtonFilter {
+    /// control::button_filter
+    pub bounce_time: f32,
+    /// control::button_filter
+    pub head_hold_time: f32,
 }
 
 #[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Cameras {
-    /// control::camera_matrices
+    /// control::camera_matrices, vision::limb_projector
     pub bottom: CameraCalibration,
-    /// control::camera_matrices
+    /// control::camera_matrices, vision::limb_projector
     pub top: CameraCalibration,
+}
+
+#[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct FallStateFilter {
+    /// control::fall_state_filter
+    pub acceleration_time: f32,
+    /// control::fall_state_filter
+    pub longest_fall: f32,
+    /// control::fall_state_filter
+    pub overhang: f32,
+    /// control::fall_state_filter
+    pub resting_deviation: f32,
+    /// control::fall_state_filter
+    pub sitting: Sitting,
+    /// control::fall_state_filter
+    pub tilt: TiltLimits,
+    /// control::fall_state_filter
+    pub tilting_rotation: f32,
 }
 
 #[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
@@ -60,32 +125,61 @@ pub struct Cameras {
 pub struct FieldDimensions {
     /// vision::ball_detection
     pub ball_radius: f32,
+    /// vision::ball_detection, vision::line_detection, vision::obstacle_detection,
+    /// vision::penalty_mark_detection
+    pub line_width: f32,
+    /// vision::penalty_mark_detection
+    pub penalty_mark_size: f32,
 }
 
 #[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
 #[serde(deny_unknown_fields)]
-pub struct FootPressure {
-    /// control::foot_pressure
-    pub contact_delay: f32,
-    /// control::foot_pressure
-    pub contact_hysteresis: f32,
-    /// control::foot_pressure
-    pub contact_pressure: f32,
-    /// control::foot_pressure
-    pub side_hysteresis: f32,
-    /// control::foot_pressure
+pub struct FootPressureFilter {
+    /// control::foot_pressure_filter
     pub smoothing_time: f32,
 }
 
 #[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
 #[serde(deny_unknown_fields)]
-pub struct HeadScan {
-    /// control::head_scan
+pub struct GameControllerFilter {
+    /// control::game_controller_filter
+    pub forget_after: f32,
+}
+
+#[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct GameControllerResponder {
+    /// control::game_controller_responder
+    pub interval: f32,
+}
+
+#[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct GameStateFilter {
+    /// control::game_state_filter
+    pub playing_delay: f32,
+    /// control::game_state_filter
+    pub playing_margin: f32,
+}
+
+#[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct GroundContactFilter {
+    /// control::ground_contact_filter
+    pub delay: f32,
+    /// control::ground_contact_filter
+    pub hysteresis: f32,
+    /// control::ground_contact_filter
+    pub pressure: f32,
+}
+
+#[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct HeadMotion {
+    /// control::head_motion
     pub stiffness: f32,
-    /// control::head_scan
+    /// control::head_motion
     pub velocity: f32,
-    /// control::head_scan
-    pub way_points: Vec<HeadAngles>,
 }
 
 #[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
@@ -96,9 +190,46 @@ pub struct LedStatus {
     /// control::led_status
     pub ball_unknown: Color,
     /// control::led_status
+    pub blink_period: f32,
+    /// control::led_status
+    pub chest: ChestColors,
+    /// control::led_status
+    pub ear_brightness: f32,
+    /// control::led_status
     pub in_the_air: Color,
     /// control::led_status
     pub on_ground: Color,
+    /// control::led_status
+    pub own_kick_off: Color,
+    /// control::led_status
+    pub team_color: Color,
+}
+
+#[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct LookAround {
+    /// control::look_around
+    pub way_points: Vec<HeadAngles>,
+}
+
+#[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct LookAt {
+    /// control::look_at
+    pub bottom_camera_range: f32,
+    /// control::look_at
+    pub hysteresis: f32,
+}
+
+#[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct MotionDispatcher {
+    /// control::motion_dispatcher
+    pub minimum_duration: f32,
+    /// control::motion_dispatcher
+    pub stiffness: f32,
+    /// control::motion_dispatcher
+    pub velocity_share: f32,
 }
 
 #[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
@@ -106,6 +237,23 @@ pub struct LedStatus {
 pub struct MotorCommandsCollector {
     /// control::motor_commands_collector
     pub velocity_share: f32,
+}
+
+#[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Odometry {
+    /// control::odometry
+    pub forward_scale: f32,
+    /// control::odometry
+    pub left_scale: f32,
+    /// control::odometry
+    pub still_angle: f32,
+    /// control::odometry
+    pub still_distance: f32,
+    /// control::odometry
+    pub still_rotation: f32,
+    /// control::odometry
+    pub still_time: f32,
 }
 
 #[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
@@ -125,22 +273,113 @@ pub struct OrientationFilter {
 
 #[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
 #[serde(deny_unknown_fields)]
-pub struct ReadyPose {
-    /// control::ready_pose
-    pub minimum_duration: f32,
-    /// control::ready_pose
+pub struct PenalizedPose {
+    /// control::motion_dispatcher, control::penalized_pose
     pub positions: Joints<f32>,
-    /// control::ready_pose
+    /// control::penalized_pose
     pub stiffness: f32,
-    /// control::ready_pose
+}
+
+#[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct RecordingSwitch {
+    /// control::recording_switch
+    pub after_fall: f32,
+    /// control::recording_switch
+    pub states: Vec<PrimaryState>,
+}
+
+#[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct SitDown {
+    /// control::motion_dispatcher, control::sit_down
+    pub crouch: Joints<f32>,
+    /// control::sit_down
+    pub minimum_duration: f32,
+    /// control::sit_down
+    pub release_duration: f32,
+    /// control::sit_down
+    pub sitting: Joints<f32>,
+    /// control::sit_down
+    pub stiffness: f32,
+    /// control::sit_down
     pub velocity_share: f32,
 }
 
 #[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
 #[serde(deny_unknown_fields)]
+pub struct SonarFilter {
+    /// control::sonar_filter
+    pub echo_delay: f32,
+    /// control::sonar_filter
+    pub largest_distance: f32,
+    /// control::sonar_filter
+    pub least_distance: f32,
+    /// control::sonar_filter
+    pub smoothing_time: f32,
+}
+
+#[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Stand {
+    /// control::motion_dispatcher, control::stand
+    pub positions: Joints<f32>,
+    /// control::stand
+    pub stiffness: f32,
+}
+
+#[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct SupportFootFilter {
+    /// control::support_foot_filter
+    pub hysteresis: f32,
+}
+
+#[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct TeamMessageFilter {
+    /// control::team_message_filter
+    pub forget_after: f32,
+}
+
+#[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct TeamMessageSender {
+    /// control::team_message_sender
+    pub interval: f32,
+    /// control::team_message_sender
+    pub reserve: u16,
+}
+
+#[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct ToneSelector {
+    /// control::tone_selector
+    pub state_tone: Tone,
+    /// control::tone_selector
+    pub whistle_tone: Tone,
+}
+
+#[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
+#[serde(deny_unknown_fields)]
 pub struct VisionInstance {
-    /// vision::camera_matrix_extractor, vision::image_receiver
+    /// vision::camera_matrix_extractor, vision::image_receiver, vision::limb_projector
     pub camera_position: CameraPosition,
+    /// vision::field_border
+    pub field_border: FieldBorderParameters,
+    /// vision::line_detection
+    pub line_detection: LineDetectionParameters,
     /// vision::image_segmenter
     pub scan_steps: ScanSteps,
+}
+
+#[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct WhistleFilter {
+    /// control::whistle_filter
+    pub least_blocks: u32,
+    /// control::whistle_filter
+    pub least_microphones: u32,
+    /// control::whistle_filter
+    pub window: f32,
 }

@@ -22,13 +22,19 @@ use framework::buffer_of;
 use framework::procedure;
 use hardware::ActuatorInterface;
 use hardware::CameraInterface;
+use hardware::MessageInterface;
+use hardware::MicrophoneInterface;
+use hardware::NetworkInterface;
 use hardware::SensorInterface;
+use hardware::SpeakerInterface;
 
 use crate::cyclers;
 use crate::databases;
 use crate::parameters::Parameters;
 
+pub mod audio;
 pub mod control;
+pub mod spl_network;
 pub mod vision;
 
 /// All instances in manifest order, connected and ready for a driver.
@@ -37,17 +43,22 @@ pub fn create<Hardware>(
     start: Start<Parameters>,
 ) -> Result<Robot<Parameters>>
 where
-    Hardware: ActuatorInterface + CameraInterface + SensorInterface + Send + Sync
-        + 'static,
+    Hardware: ActuatorInterface + CameraInterface + MessageInterface
+        + MicrophoneInterface + NetworkInterface + SensorInterface + SpeakerInterface
+        + Send + Sync + 'static,
 {
     // Readers of the newest cycle on the left, queues of consumers on the right.
     let (vision_top_writer, [], [vision_top_queue_for_control]) = buffer([32]);
     let (vision_bottom_writer, [], [vision_bottom_queue_for_control]) = buffer([32]);
+    let (spl_network_writer, [], [spl_network_queue_for_control]) = buffer([32]);
+    let (audio_writer, [], [audio_queue_for_control]) = buffer([32]);
     let (control_writer, [control_for_vision_top, control_for_vision_bottom], []) = buffer([]);
     let (
         parameters,
         [parameters_for_vision_top,
         parameters_for_vision_bottom,
+        parameters_for_spl_network,
+        parameters_for_audio,
         parameters_for_control,
         ],
         [],
@@ -55,15 +66,39 @@ where
 
     // What clients write, listen to and call.
     let (vision_top_injections, [vision_top_injected], []) = buffer([]);
-    let vision_top_subscriptions = Subscriptions::new(&["ball_candidates"]);
+    let vision_top_subscriptions = Subscriptions::new(
+        &[
+            "ball_candidates",
+            "field_border_points",
+            "image_lines",
+            "line_points",
+            "obstacle_feet",
+            "penalty_mark_candidates",
+        ],
+    );
     let (vision_bottom_injections, [vision_bottom_injected], []) = buffer([]);
-    let vision_bottom_subscriptions = Subscriptions::new(&["ball_candidates"]);
+    let vision_bottom_subscriptions = Subscriptions::new(
+        &[
+            "ball_candidates",
+            "field_border_points",
+            "image_lines",
+            "line_points",
+            "obstacle_feet",
+            "penalty_mark_candidates",
+        ],
+    );
+    let (spl_network_injections, [spl_network_injected], []) = buffer([]);
+    let (audio_injections, [audio_injected], []) = buffer([]);
+    let audio_subscriptions = Subscriptions::new(&["whistle_detection.peaks"]);
     let (control_injections, [control_injected], []) = buffer([]);
     let control_subscriptions = Subscriptions::new(
         &[
-            "ball_memory.persistent_ball",
-            "foot_pressure.sole_pressures",
+            "ball_filter.delivered",
+            "ball_filter.hypotheses",
+            "ball_filter.persistent_ball",
+            "fall_state_filter.center_of_mass_overhang",
             "orientation_filter.innovation",
+            "whistle_filter.votes",
         ],
     );
     let (control_look_at, control_look_at_answerer) = procedure();
@@ -106,6 +141,37 @@ where
         start.clock.clone(),
     );
 
+    let spl_network = Cycler::new(
+        spl_network::SPL_NETWORK,
+        spl_network::SplNetwork {
+            nodes: cyclers::spl_network::Nodes::new()?,
+            capture_time: None,
+            hardware_interface: hardware.clone(),
+            injections: spl_network_injected,
+            own: Swap::default(),
+            parameters: parameters_for_spl_network,
+        },
+        spl_network_writer,
+        start.clock.clone(),
+    );
+
+    let audio = Cycler::new(
+        audio::AUDIO,
+        audio::Audio {
+            nodes: cyclers::audio::Nodes::new()?,
+            additional_outputs: databases::audio::AdditionalOutputs::default(),
+            capture_time: None,
+            hardware_interface: hardware.clone(),
+            injections: audio_injected,
+            own: Swap::default(),
+            parameters: parameters_for_audio,
+            subscribed: databases::audio::Subscribed::default(),
+            subscriptions: audio_subscriptions.clone(),
+        },
+        audio_writer,
+        start.clock.clone(),
+    );
+
     let control = Cycler::new(
         control::CONTROL,
         control::Control {
@@ -115,7 +181,7 @@ where
             cycler_state: databases::control::CyclerState::default(),
             hardware_interface: hardware.clone(),
             historic: databases::control::Historic {
-                orientation: History::new(Duration::from_secs(1)),
+                odometry: History::new(Duration::from_secs(1)),
             },
             injections: control_injected,
             own: Swap::default(),
@@ -131,6 +197,11 @@ where
                     vision_bottom_queue_for_control,
                     Duration::from_secs(1),
                 ),
+                spl_network: Consumer::new(
+                    spl_network_queue_for_control,
+                    Duration::from_secs(1),
+                ),
+                audio: Consumer::new(audio_queue_for_control, Duration::from_secs(1)),
             },
             procedures: databases::control::Procedures {
                 look_at: control_look_at_answerer,
@@ -148,6 +219,8 @@ where
         instances: vec![
             Box::new(vision_top),
             Box::new(vision_bottom),
+            Box::new(spl_network),
+            Box::new(audio),
             Box::new(control),
         ],
         access: vec![
@@ -161,6 +234,18 @@ where
                 instance: "VisionBottom",
                 subscriptions: vision_bottom_subscriptions,
                 injector: Box::new(Injector::new(vision_bottom_injections)),
+                procedures: Vec::new(),
+            },
+            Access {
+                instance: "SplNetwork",
+                subscriptions: Subscriptions::new(&[]),
+                injector: Box::new(Injector::new(spl_network_injections)),
+                procedures: Vec::new(),
+            },
+            Access {
+                instance: "Audio",
+                subscriptions: audio_subscriptions,
+                injector: Box::new(Injector::new(audio_injections)),
                 procedures: Vec::new(),
             },
             Access {

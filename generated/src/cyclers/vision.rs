@@ -11,8 +11,13 @@ use framework::Result;
 use hardware::CameraInterface;
 use vision::ball_detection;
 use vision::camera_matrix_extractor;
+use vision::field_border;
 use vision::image_receiver;
 use vision::image_segmenter;
+use vision::limb_projector;
+use vision::line_detection;
+use vision::obstacle_detection;
+use vision::penalty_mark_detection;
 
 use crate::databases::vision::Frame;
 
@@ -20,8 +25,13 @@ use crate::databases::vision::Frame;
 pub struct Nodes {
     pub image_receiver: Guarded<image_receiver::ImageReceiver>,
     pub camera_matrix_extractor: Guarded<camera_matrix_extractor::CameraMatrixExtractor>,
+    pub limb_projector: Guarded<limb_projector::LimbProjector>,
     pub image_segmenter: Guarded<image_segmenter::ImageSegmenter>,
+    pub field_border: Guarded<field_border::FieldBorderDetection>,
+    pub line_detection: Guarded<line_detection::LineDetection>,
+    pub penalty_mark_detection: Guarded<penalty_mark_detection::PenaltyMarkDetection>,
     pub ball_detection: Guarded<ball_detection::BallDetection>,
+    pub obstacle_detection: Guarded<obstacle_detection::ObstacleDetection>,
 }
 
 impl Nodes {
@@ -37,15 +47,40 @@ impl Nodes {
                 OnFailure::Restart,
                 Self::create_camera_matrix_extractor()?,
             ),
+            limb_projector: Guarded::new(
+                "vision::limb_projector",
+                OnFailure::Restart,
+                Self::create_limb_projector()?,
+            ),
             image_segmenter: Guarded::new(
                 "vision::image_segmenter",
                 OnFailure::Restart,
                 Self::create_image_segmenter()?,
             ),
+            field_border: Guarded::new(
+                "vision::field_border",
+                OnFailure::Restart,
+                Self::create_field_border()?,
+            ),
+            line_detection: Guarded::new(
+                "vision::line_detection",
+                OnFailure::Restart,
+                Self::create_line_detection()?,
+            ),
+            penalty_mark_detection: Guarded::new(
+                "vision::penalty_mark_detection",
+                OnFailure::Restart,
+                Self::create_penalty_mark_detection()?,
+            ),
             ball_detection: Guarded::new(
                 "vision::ball_detection",
                 OnFailure::Restart,
                 Self::create_ball_detection()?,
+            ),
+            obstacle_detection: Guarded::new(
+                "vision::obstacle_detection",
+                OnFailure::Restart,
+                Self::create_obstacle_detection()?,
             ),
         })
     }
@@ -66,8 +101,13 @@ impl Nodes {
     /// Nodes: each call reads only what a call above it, or another cycler, wrote.
     pub fn cycle<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
         self.camera_matrix_extractor(frame)?;
+        self.limb_projector(frame)?;
         self.image_segmenter(frame)?;
+        self.field_border(frame)?;
+        self.line_detection(frame)?;
+        self.penalty_mark_detection(frame)?;
         self.ball_detection(frame)?;
+        self.obstacle_detection(frame)?;
         Ok(())
     }
 
@@ -110,7 +150,32 @@ impl Nodes {
         Ok(())
     }
 
-    /// image, camera_matrix -> image_segments
+    /// image, latest Control.robot_kinematics -> limb_mask
+    fn limb_projector<Hardware>(
+        &mut self,
+        frame: &mut Frame<'_, Hardware>,
+    ) -> Result<()> {
+        Clear::clear(&mut frame.own.limb_mask);
+        let context = limb_projector::CycleContext {
+            image: &frame.own.image,
+            robot_kinematics: frame
+                .latest
+                .control
+                .latest(frame.cycle.time.start, |outputs| &outputs.robot_kinematics),
+            camera_position: &frame.instance_parameters.camera_position,
+            top: &frame.parameters.cameras.top,
+            bottom: &frame.parameters.cameras.bottom,
+            parameters: &frame.parameters.limb_projector,
+            limb_mask: &mut frame.own.limb_mask,
+        };
+        self.limb_projector.call(frame.cycle, |node| node.cycle(context))?;
+        if let Some(injections) = frame.injections {
+            injections.limb_mask.replace(&mut frame.own.limb_mask);
+        }
+        Ok(())
+    }
+
+    /// image, camera_matrix, limb_mask -> image_segments
     fn image_segmenter<Hardware>(
         &mut self,
         frame: &mut Frame<'_, Hardware>,
@@ -119,6 +184,7 @@ impl Nodes {
         let context = image_segmenter::CycleContext {
             image: &frame.own.image,
             camera_matrix: frame.own.camera_matrix.as_ref(),
+            limb_mask: &frame.own.limb_mask,
             field_color: &frame.parameters.field_color,
             steps: &frame.instance_parameters.scan_steps,
             image_segments: &mut frame.own.image_segments,
@@ -130,8 +196,107 @@ impl Nodes {
         Ok(())
     }
 
-    /// image, image_segments, camera_matrix (required) -> balls; when subscribed:
-    /// ball_candidates
+    /// image_segments, camera_matrix -> field_border; when subscribed: field_border_points
+    fn field_border<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
+        Clear::clear(&mut frame.own.field_border);
+        let context = field_border::CycleContext {
+            image_segments: &frame.own.image_segments,
+            camera_matrix: frame.own.camera_matrix.as_ref(),
+            parameters: &frame.instance_parameters.field_border,
+            field_border_points: AdditionalOutput::new(
+                frame.subscribed.field_border_points,
+                frame.cycle.number,
+                &mut frame.additional_outputs.field_border_points,
+            ),
+            field_border: &mut frame.own.field_border,
+        };
+        self.field_border.call(frame.cycle, |node| node.cycle(context))?;
+        if let Some(injections) = frame.injections {
+            injections.field_border.replace(&mut frame.own.field_border);
+        }
+        Ok(())
+    }
+
+    /// image, image_segments, limb_mask, field_border, camera_matrix (required) -> lines; when
+    /// subscribed: line_points, image_lines
+    fn line_detection<Hardware>(
+        &mut self,
+        frame: &mut Frame<'_, Hardware>,
+    ) -> Result<()> {
+        Clear::clear(&mut frame.own.lines);
+        if let Some(camera_matrix) = frame.own.camera_matrix.as_ref() {
+            let context = line_detection::CycleContext {
+                image: &frame.own.image,
+                image_segments: &frame.own.image_segments,
+                limb_mask: &frame.own.limb_mask,
+                field_border: &frame.own.field_border,
+                camera_matrix,
+                field_color: &frame.parameters.field_color,
+                line_width: &frame.parameters.field_dimensions.line_width,
+                parameters: &frame.instance_parameters.line_detection,
+                line_points: AdditionalOutput::new(
+                    frame.subscribed.line_points,
+                    frame.cycle.number,
+                    &mut frame.additional_outputs.line_points,
+                ),
+                image_lines: AdditionalOutput::new(
+                    frame.subscribed.image_lines,
+                    frame.cycle.number,
+                    &mut frame.additional_outputs.image_lines,
+                ),
+                lines: &mut frame.own.lines,
+            };
+            self.line_detection.call(frame.cycle, |node| node.cycle(context))?;
+        } else {
+            // A required input is absent: the main outputs take their defaults.
+            self.line_detection.skip();
+        }
+        if let Some(injections) = frame.injections {
+            injections.lines.replace(&mut frame.own.lines);
+        }
+        Ok(())
+    }
+
+    /// image, image_segments, field_border, lines, camera_matrix (required) -> penalty_mark;
+    /// when subscribed: penalty_mark_candidates
+    fn penalty_mark_detection<Hardware>(
+        &mut self,
+        frame: &mut Frame<'_, Hardware>,
+    ) -> Result<()> {
+        if let Some(camera_matrix) = frame.own.camera_matrix.as_ref() {
+            let context = penalty_mark_detection::CycleContext {
+                image: &frame.own.image,
+                image_segments: &frame.own.image_segments,
+                field_border: &frame.own.field_border,
+                lines: &frame.own.lines,
+                camera_matrix,
+                field_color: &frame.parameters.field_color,
+                line_width: &frame.parameters.field_dimensions.line_width,
+                mark_size: &frame.parameters.field_dimensions.penalty_mark_size,
+                parameters: &frame.parameters.penalty_mark_detection,
+                penalty_mark_candidates: AdditionalOutput::new(
+                    frame.subscribed.penalty_mark_candidates,
+                    frame.cycle.number,
+                    &mut frame.additional_outputs.penalty_mark_candidates,
+                ),
+            };
+            let outputs = self
+                .penalty_mark_detection
+                .call(frame.cycle, |node| node.cycle(context))?;
+            frame.own.penalty_mark = outputs.penalty_mark.value;
+        } else {
+            // A required input is absent: the main outputs take their defaults.
+            self.penalty_mark_detection.skip();
+            frame.own.penalty_mark = Default::default();
+        }
+        if let Some(injections) = frame.injections {
+            injections.penalty_mark.replace(&mut frame.own.penalty_mark);
+        }
+        Ok(())
+    }
+
+    /// image, image_segments, field_border, lines, penalty_mark, camera_matrix (required) ->
+    /// balls; when subscribed: ball_candidates
     fn ball_detection<Hardware>(
         &mut self,
         frame: &mut Frame<'_, Hardware>,
@@ -141,10 +306,14 @@ impl Nodes {
             let context = ball_detection::CycleContext {
                 image: &frame.own.image,
                 image_segments: &frame.own.image_segments,
+                field_border: &frame.own.field_border,
+                lines: &frame.own.lines,
+                penalty_mark: frame.own.penalty_mark.as_ref(),
                 camera_matrix,
                 field_color: &frame.parameters.field_color,
                 parameters: &frame.parameters.ball_detection,
                 ball_radius: &frame.parameters.field_dimensions.ball_radius,
+                line_width: &frame.parameters.field_dimensions.line_width,
                 ball_candidates: AdditionalOutput::new(
                     frame.subscribed.ball_candidates,
                     frame.cycle.number,
@@ -163,6 +332,39 @@ impl Nodes {
         Ok(())
     }
 
+    /// image_segments, field_border, lines, camera_matrix (required) -> obstacles; when
+    /// subscribed: obstacle_feet
+    fn obstacle_detection<Hardware>(
+        &mut self,
+        frame: &mut Frame<'_, Hardware>,
+    ) -> Result<()> {
+        Clear::clear(&mut frame.shared.obstacles);
+        if let Some(camera_matrix) = frame.own.camera_matrix.as_ref() {
+            let context = obstacle_detection::CycleContext {
+                image_segments: &frame.own.image_segments,
+                field_border: &frame.own.field_border,
+                lines: &frame.own.lines,
+                camera_matrix,
+                line_width: &frame.parameters.field_dimensions.line_width,
+                parameters: &frame.parameters.obstacle_detection,
+                obstacle_feet: AdditionalOutput::new(
+                    frame.subscribed.obstacle_feet,
+                    frame.cycle.number,
+                    &mut frame.additional_outputs.obstacle_feet,
+                ),
+                obstacles: &mut frame.shared.obstacles,
+            };
+            self.obstacle_detection.call(frame.cycle, |node| node.cycle(context))?;
+        } else {
+            // A required input is absent: the main outputs take their defaults.
+            self.obstacle_detection.skip();
+        }
+        if let Some(injections) = frame.injections {
+            injections.obstacles.replace(&mut frame.shared.obstacles);
+        }
+        Ok(())
+    }
+
     fn create_image_receiver() -> Result<image_receiver::ImageReceiver> {
         let context = image_receiver::CreationContext {};
         image_receiver::ImageReceiver::new(context).in_node("vision::image_receiver")
@@ -176,13 +378,42 @@ impl Nodes {
             .in_node("vision::camera_matrix_extractor")
     }
 
+    fn create_limb_projector() -> Result<limb_projector::LimbProjector> {
+        let context = limb_projector::CreationContext {};
+        limb_projector::LimbProjector::new(context).in_node("vision::limb_projector")
+    }
+
     fn create_image_segmenter() -> Result<image_segmenter::ImageSegmenter> {
         let context = image_segmenter::CreationContext {};
         image_segmenter::ImageSegmenter::new(context).in_node("vision::image_segmenter")
     }
 
+    fn create_field_border() -> Result<field_border::FieldBorderDetection> {
+        let context = field_border::CreationContext {};
+        field_border::FieldBorderDetection::new(context).in_node("vision::field_border")
+    }
+
+    fn create_line_detection() -> Result<line_detection::LineDetection> {
+        let context = line_detection::CreationContext {};
+        line_detection::LineDetection::new(context).in_node("vision::line_detection")
+    }
+
+    fn create_penalty_mark_detection() -> Result<
+        penalty_mark_detection::PenaltyMarkDetection,
+    > {
+        let context = penalty_mark_detection::CreationContext {};
+        penalty_mark_detection::PenaltyMarkDetection::new(context)
+            .in_node("vision::penalty_mark_detection")
+    }
+
     fn create_ball_detection() -> Result<ball_detection::BallDetection> {
         let context = ball_detection::CreationContext {};
         ball_detection::BallDetection::new(context).in_node("vision::ball_detection")
+    }
+
+    fn create_obstacle_detection() -> Result<obstacle_detection::ObstacleDetection> {
+        let context = obstacle_detection::CreationContext {};
+        obstacle_detection::ObstacleDetection::new(context)
+            .in_node("vision::obstacle_detection")
     }
 }

@@ -12,11 +12,17 @@ use framework::InjectionTable;
 use framework::Reflect;
 use framework::Timestamp;
 use framework::View;
+use nalgebra::Point2;
 use serde::Deserialize;
 use serde::Serialize;
 use types::ball::BallCandidate;
 use types::camera::CameraMatrix;
+use types::field_features::FieldBorder;
+use types::field_features::LineSegment;
+use types::field_features::PenaltyMark;
 use types::image::YuyvImage;
+use types::limbs::LimbMask;
+use types::obstacles::ObstacleCandidate;
 use vision::segments::ImageSegments;
 
 use crate::databases::control;
@@ -28,10 +34,18 @@ use crate::parameters::VisionInstance;
 pub struct OwnOutputs {
     /// vision::camera_matrix_extractor
     pub camera_matrix: Option<CameraMatrix>,
+    /// vision::field_border
+    pub field_border: FieldBorder,
     /// vision::image_receiver
     pub image: YuyvImage,
     /// vision::image_segmenter
     pub image_segments: ImageSegments,
+    /// vision::limb_projector
+    pub limb_mask: LimbMask,
+    /// vision::line_detection
+    pub lines: Vec<LineSegment>,
+    /// vision::penalty_mark_detection
+    pub penalty_mark: Option<PenaltyMark>,
 }
 
 /// Main outputs that other instances read, too: written in the slot that those will read.
@@ -39,6 +53,8 @@ pub struct OwnOutputs {
 pub struct SharedOutputs {
     /// vision::ball_detection
     pub balls: Vec<BallCandidate>,
+    /// vision::obstacle_detection
+    pub obstacles: Vec<ObstacleCandidate>,
 }
 
 /// Computed only while somebody listens.
@@ -46,12 +62,27 @@ pub struct SharedOutputs {
 pub struct AdditionalOutputs {
     /// vision::ball_detection
     pub ball_candidates: AdditionalSlot<Vec<BallCandidate>>,
+    /// vision::field_border
+    pub field_border_points: AdditionalSlot<Vec<Point2<f32>>>,
+    /// vision::line_detection
+    pub image_lines: AdditionalSlot<Vec<[Point2<f32>; 2]>>,
+    /// vision::line_detection
+    pub line_points: AdditionalSlot<Vec<Point2<f32>>>,
+    /// vision::obstacle_detection
+    pub obstacle_feet: AdditionalSlot<Vec<Point2<f32>>>,
+    /// vision::penalty_mark_detection
+    pub penalty_mark_candidates: AdditionalSlot<Vec<PenaltyMark>>,
 }
 
 /// Who listens to which additional output, decided once per cycle.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Subscribed {
     pub ball_candidates: bool,
+    pub field_border_points: bool,
+    pub image_lines: bool,
+    pub line_points: bool,
+    pub obstacle_feet: bool,
+    pub penalty_mark_candidates: bool,
 }
 
 /// Values of clients in place of main outputs.
@@ -59,8 +90,13 @@ pub struct Subscribed {
 pub struct Injections {
     pub balls: Injection<Vec<BallCandidate>>,
     pub camera_matrix: Injection<Option<CameraMatrix>>,
+    pub field_border: Injection<FieldBorder>,
     pub image: Injection<YuyvImage>,
     pub image_segments: Injection<ImageSegments>,
+    pub limb_mask: Injection<LimbMask>,
+    pub lines: Injection<Vec<LineSegment>>,
+    pub obstacles: Injection<Vec<ObstacleCandidate>>,
+    pub penalty_mark: Injection<Option<PenaltyMark>>,
 }
 
 impl InjectionTable for Injections {
@@ -68,8 +104,13 @@ impl InjectionTable for Injections {
         match output {
             "balls" => Some(&mut self.balls),
             "camera_matrix" => Some(&mut self.camera_matrix),
+            "field_border" => Some(&mut self.field_border),
             "image" => Some(&mut self.image),
             "image_segments" => Some(&mut self.image_segments),
+            "limb_mask" => Some(&mut self.limb_mask),
+            "lines" => Some(&mut self.lines),
+            "obstacles" => Some(&mut self.obstacles),
+            "penalty_mark" => Some(&mut self.penalty_mark),
             _ => None,
         }
     }

@@ -24,7 +24,9 @@ use framework::Subscriptions;
 use framework::Swap;
 use framework::Timestamp;
 use hardware::ActuatorInterface;
+use hardware::MessageInterface;
 use hardware::SensorInterface;
+use hardware::SpeakerInterface;
 
 use crate::cyclers::control::Nodes;
 use crate::databases::control::AdditionalOutputs;
@@ -104,8 +106,10 @@ impl<Hardware> Control<Hardware> {
     }
 }
 
-impl<Hardware: ActuatorInterface + SensorInterface + Send + Sync> Body
-for Control<Hardware> {
+impl<
+    Hardware: ActuatorInterface + MessageInterface + SensorInterface + SpeakerInterface
+        + Send + Sync,
+> Body for Control<Hardware> {
     type Shared = SharedOutputs;
 
     fn create(&mut self) -> Result<()> {
@@ -134,15 +138,23 @@ for Control<Hardware> {
             .horizon
             .consume(
                 cycle.time.start,
-                [&mut self.perception.vision_top, &mut self.perception.vision_bottom],
+                [
+                    &mut self.perception.vision_top,
+                    &mut self.perception.vision_bottom,
+                    &mut self.perception.spl_network,
+                    &mut self.perception.audio,
+                ],
             );
         self.perception
             .vision
             .merge([&self.perception.vision_top, &self.perception.vision_bottom]);
         self.subscribed = Subscribed {
-            ball_memory_persistent_ball: self.subscriptions.contains(0),
-            foot_pressure_sole_pressures: self.subscriptions.contains(1),
-            orientation_filter_innovation: self.subscriptions.contains(2),
+            ball_filter_delivered: self.subscriptions.contains(0),
+            ball_filter_hypotheses: self.subscriptions.contains(1),
+            ball_filter_persistent_ball: self.subscriptions.contains(2),
+            fall_state_filter_center_of_mass_overhang: self.subscriptions.contains(3),
+            orientation_filter_innovation: self.subscriptions.contains(4),
+            whistle_filter_votes: self.subscriptions.contains(5),
         };
         self.procedures.look_at.take();
         let (_, mut frame) = self.frame(slots, cycle);
@@ -155,9 +167,7 @@ for Control<Hardware> {
     }
 
     fn finish(&mut self, _shared: &SharedOutputs, cycle: Cycle) {
-        self.historic
-            .orientation
-            .push(cycle.time.start, &self.own.current().orientation);
+        self.historic.odometry.push(cycle.time.start, &self.own.current().odometry);
         self.own.swap();
         self.procedures.look_at.close();
     }
@@ -174,22 +184,47 @@ for Control<Hardware> {
     fn references(&self, visit: &mut dyn FnMut(Reference)) {
         self.perception.vision_top.references("VisionTop", visit);
         self.perception.vision_bottom.references("VisionBottom", visit);
+        self.perception.spl_network.references("SplNetwork", visit);
+        self.perception.audio.references("Audio", visit);
         self.parameters.references("parameters", visit);
     }
 
     fn main_outputs(&self) -> &'static [&'static str] {
         &[
             "sensor_data",
+            "buttons",
+            "sonar_distances",
             "orientation",
-            "ground_contact",
+            "sole_pressures",
+            "has_ground_contact",
             "support_side",
             "robot_kinematics",
+            "center_of_mass",
+            "fall_state",
+            "odometry",
             "camera_matrices",
+            "game_controller_state",
+            "teammates",
+            "whistle",
+            "primary_state",
             "ball",
-            "body_commands",
+            "obstacles",
+            "world_state",
+            "motion_command",
+            "is_recording_wanted",
+            "motion_selection",
+            "dispatch_commands",
+            "stand_commands",
+            "penalized_commands",
+            "sit_down_commands",
+            "look_around",
+            "look_at",
             "head_command",
-            "leds",
             "motor_commands",
+            "leds",
+            "tone",
+            "self_report",
+            "team_report",
         ]
     }
 
@@ -200,30 +235,68 @@ for Control<Hardware> {
     ) -> Option<&'a dyn Reflect> {
         match name {
             "sensor_data" => Some(&self.own.previous().sensor_data),
+            "buttons" => Some(&self.own.previous().buttons),
+            "sonar_distances" => Some(&self.own.previous().sonar_distances),
             "orientation" => Some(&self.own.previous().orientation),
-            "ground_contact" => Some(&self.own.previous().ground_contact),
+            "sole_pressures" => Some(&self.own.previous().sole_pressures),
+            "has_ground_contact" => Some(&self.own.previous().has_ground_contact),
             "support_side" => Some(&self.own.previous().support_side),
-            "robot_kinematics" => Some(&self.own.previous().robot_kinematics),
+            "robot_kinematics" => Some(&shared.robot_kinematics),
+            "center_of_mass" => Some(&self.own.previous().center_of_mass),
+            "fall_state" => Some(&self.own.previous().fall_state),
+            "odometry" => Some(&self.own.previous().odometry),
             "camera_matrices" => Some(&shared.camera_matrices),
+            "game_controller_state" => Some(&self.own.previous().game_controller_state),
+            "teammates" => Some(&self.own.previous().teammates),
+            "whistle" => Some(&self.own.previous().whistle),
+            "primary_state" => Some(&self.own.previous().primary_state),
             "ball" => Some(&self.own.previous().ball),
-            "body_commands" => Some(&self.own.previous().body_commands),
+            "obstacles" => Some(&self.own.previous().obstacles),
+            "world_state" => Some(&self.own.previous().world_state),
+            "motion_command" => Some(&self.own.previous().motion_command),
+            "is_recording_wanted" => Some(&self.own.previous().is_recording_wanted),
+            "motion_selection" => Some(&self.own.previous().motion_selection),
+            "dispatch_commands" => Some(&self.own.previous().dispatch_commands),
+            "stand_commands" => Some(&self.own.previous().stand_commands),
+            "penalized_commands" => Some(&self.own.previous().penalized_commands),
+            "sit_down_commands" => Some(&self.own.previous().sit_down_commands),
+            "look_around" => Some(&self.own.previous().look_around),
+            "look_at" => Some(&self.own.previous().look_at),
             "head_command" => Some(&self.own.previous().head_command),
-            "leds" => Some(&self.own.previous().leds),
             "motor_commands" => Some(&self.own.previous().motor_commands),
+            "leds" => Some(&self.own.previous().leds),
+            "tone" => Some(&self.own.previous().tone),
+            "self_report" => Some(&self.own.previous().self_report),
+            "team_report" => Some(&self.own.previous().team_report),
             _ => None,
         }
     }
 
     fn additional_output(&self, name: &str, cycle: u64) -> Option<&dyn Reflect> {
         match name {
-            "ball_memory.persistent_ball" => {
-                Some(self.additional_outputs.ball_memory.persistent_ball.get(cycle)?)
+            "ball_filter.delivered" => {
+                Some(self.additional_outputs.ball_filter.delivered.get(cycle)?)
             }
-            "foot_pressure.sole_pressures" => {
-                Some(self.additional_outputs.foot_pressure.sole_pressures.get(cycle)?)
+            "ball_filter.hypotheses" => {
+                Some(self.additional_outputs.ball_filter.hypotheses.get(cycle)?)
+            }
+            "ball_filter.persistent_ball" => {
+                Some(self.additional_outputs.ball_filter.persistent_ball.get(cycle)?)
+            }
+            "fall_state_filter.center_of_mass_overhang" => {
+                Some(
+                    self
+                        .additional_outputs
+                        .fall_state_filter
+                        .center_of_mass_overhang
+                        .get(cycle)?,
+                )
             }
             "orientation_filter.innovation" => {
                 Some(self.additional_outputs.orientation_filter.innovation.get(cycle)?)
+            }
+            "whistle_filter.votes" => {
+                Some(self.additional_outputs.whistle_filter.votes.get(cycle)?)
             }
             _ => None,
         }
@@ -231,15 +304,41 @@ for Control<Hardware> {
 
     fn nodes(&self, visit: &mut dyn FnMut(NodeReport)) {
         visit(self.nodes.sensor_data_receiver.report());
+        visit(self.nodes.button_filter.report());
+        visit(self.nodes.sonar_filter.report());
         visit(self.nodes.orientation_filter.report());
-        visit(self.nodes.foot_pressure.report());
+        visit(self.nodes.foot_pressure_filter.report());
+        visit(self.nodes.ground_contact_filter.report());
+        visit(self.nodes.support_foot_filter.report());
         visit(self.nodes.forward_kinematics.report());
+        visit(self.nodes.center_of_mass.report());
+        visit(self.nodes.fall_state_filter.report());
+        visit(self.nodes.odometry.report());
         visit(self.nodes.camera_matrices.report());
-        visit(self.nodes.ball_memory.report());
-        visit(self.nodes.ready_pose.report());
-        visit(self.nodes.head_scan.report());
-        visit(self.nodes.led_status.report());
+        visit(self.nodes.game_controller_filter.report());
+        visit(self.nodes.team_message_filter.report());
+        visit(self.nodes.whistle_filter.report());
+        visit(self.nodes.game_state_filter.report());
+        visit(self.nodes.ball_filter.report());
+        visit(self.nodes.obstacle_filter.report());
+        visit(self.nodes.world_state_composer.report());
+        visit(self.nodes.behavior.report());
+        visit(self.nodes.recording_switch.report());
+        visit(self.nodes.motion_selector.report());
+        visit(self.nodes.motion_dispatcher.report());
+        visit(self.nodes.stand.report());
+        visit(self.nodes.penalized_pose.report());
+        visit(self.nodes.sit_down.report());
+        visit(self.nodes.look_around.report());
+        visit(self.nodes.look_at.report());
+        visit(self.nodes.head_motion.report());
         visit(self.nodes.motor_commands_collector.report());
+        visit(self.nodes.led_status.report());
+        visit(self.nodes.tone_selector.report());
+        visit(self.nodes.tone_player.report());
+        visit(self.nodes.self_report.report());
+        visit(self.nodes.game_controller_responder.report());
+        visit(self.nodes.team_message_sender.report());
         visit(self.nodes.command_sender.report());
     }
 
@@ -252,22 +351,59 @@ for Control<Hardware> {
             from: "VisionBottom",
             counts: self.perception.vision_bottom.report(),
         });
+        visit(QueueReport {
+            from: "SplNetwork",
+            counts: self.perception.spl_network.report(),
+        });
+        visit(QueueReport {
+            from: "Audio",
+            counts: self.perception.audio.report(),
+        });
     }
 
     fn states(&mut self, visit: &mut dyn FnMut(&'static str, &mut dyn State)) {
         visit("control::sensor_data_receiver", &mut self.nodes.sensor_data_receiver);
+        visit("control::button_filter", &mut self.nodes.button_filter);
+        visit("control::sonar_filter", &mut self.nodes.sonar_filter);
         visit("control::orientation_filter", &mut self.nodes.orientation_filter);
-        visit("control::foot_pressure", &mut self.nodes.foot_pressure);
+        visit("control::foot_pressure_filter", &mut self.nodes.foot_pressure_filter);
+        visit("control::ground_contact_filter", &mut self.nodes.ground_contact_filter);
+        visit("control::support_foot_filter", &mut self.nodes.support_foot_filter);
         visit("control::forward_kinematics", &mut self.nodes.forward_kinematics);
+        visit("control::center_of_mass", &mut self.nodes.center_of_mass);
+        visit("control::fall_state_filter", &mut self.nodes.fall_state_filter);
+        visit("control::odometry", &mut self.nodes.odometry);
         visit("control::camera_matrices", &mut self.nodes.camera_matrices);
-        visit("control::ball_memory", &mut self.nodes.ball_memory);
-        visit("control::ready_pose", &mut self.nodes.ready_pose);
-        visit("control::head_scan", &mut self.nodes.head_scan);
-        visit("control::led_status", &mut self.nodes.led_status);
+        visit("control::game_controller_filter", &mut self.nodes.game_controller_filter);
+        visit("control::team_message_filter", &mut self.nodes.team_message_filter);
+        visit("control::whistle_filter", &mut self.nodes.whistle_filter);
+        visit("control::game_state_filter", &mut self.nodes.game_state_filter);
+        visit("control::ball_filter", &mut self.nodes.ball_filter);
+        visit("control::obstacle_filter", &mut self.nodes.obstacle_filter);
+        visit("control::world_state_composer", &mut self.nodes.world_state_composer);
+        visit("control::behavior", &mut self.nodes.behavior);
+        visit("control::recording_switch", &mut self.nodes.recording_switch);
+        visit("control::motion_selector", &mut self.nodes.motion_selector);
+        visit("control::motion_dispatcher", &mut self.nodes.motion_dispatcher);
+        visit("control::stand", &mut self.nodes.stand);
+        visit("control::penalized_pose", &mut self.nodes.penalized_pose);
+        visit("control::sit_down", &mut self.nodes.sit_down);
+        visit("control::look_around", &mut self.nodes.look_around);
+        visit("control::look_at", &mut self.nodes.look_at);
+        visit("control::head_motion", &mut self.nodes.head_motion);
         visit(
             "control::motor_commands_collector",
             &mut self.nodes.motor_commands_collector,
         );
+        visit("control::led_status", &mut self.nodes.led_status);
+        visit("control::tone_selector", &mut self.nodes.tone_selector);
+        visit("control::tone_player", &mut self.nodes.tone_player);
+        visit("control::self_report", &mut self.nodes.self_report);
+        visit(
+            "control::game_controller_responder",
+            &mut self.nodes.game_controller_responder,
+        );
+        visit("control::team_message_sender", &mut self.nodes.team_message_sender);
         visit("control::command_sender", &mut self.nodes.command_sender);
         visit("cycler_state", &mut self.cycler_state);
     }

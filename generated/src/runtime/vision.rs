@@ -142,6 +142,11 @@ impl<Hardware: CameraInterface + Send + Sync> Body for Vision<Hardware> {
         self.control.take();
         self.subscribed = Subscribed {
             ball_candidates: self.subscriptions.contains(0),
+            field_border_points: self.subscriptions.contains(1),
+            image_lines: self.subscriptions.contains(2),
+            line_points: self.subscriptions.contains(3),
+            obstacle_feet: self.subscriptions.contains(4),
+            penalty_mark_candidates: self.subscriptions.contains(5),
         };
         let (_, mut frame) = self.frame(slots, cycle);
         Nodes::inject(&mut frame);
@@ -169,7 +174,17 @@ impl<Hardware: CameraInterface + Send + Sync> Body for Vision<Hardware> {
     }
 
     fn main_outputs(&self) -> &'static [&'static str] {
-        &["image", "camera_matrix", "image_segments", "balls"]
+        &[
+            "image",
+            "camera_matrix",
+            "limb_mask",
+            "image_segments",
+            "field_border",
+            "lines",
+            "penalty_mark",
+            "balls",
+            "obstacles",
+        ]
     }
 
     fn main_output<'a>(
@@ -180,8 +195,13 @@ impl<Hardware: CameraInterface + Send + Sync> Body for Vision<Hardware> {
         match name {
             "image" => Some(&self.own.previous().image),
             "camera_matrix" => Some(&self.own.previous().camera_matrix),
+            "limb_mask" => Some(&self.own.previous().limb_mask),
             "image_segments" => Some(&self.own.previous().image_segments),
+            "field_border" => Some(&self.own.previous().field_border),
+            "lines" => Some(&self.own.previous().lines),
+            "penalty_mark" => Some(&self.own.previous().penalty_mark),
             "balls" => Some(&shared.balls),
+            "obstacles" => Some(&shared.obstacles),
             _ => None,
         }
     }
@@ -191,6 +211,15 @@ impl<Hardware: CameraInterface + Send + Sync> Body for Vision<Hardware> {
             "ball_candidates" => {
                 Some(self.additional_outputs.ball_candidates.get(cycle)?)
             }
+            "field_border_points" => {
+                Some(self.additional_outputs.field_border_points.get(cycle)?)
+            }
+            "image_lines" => Some(self.additional_outputs.image_lines.get(cycle)?),
+            "line_points" => Some(self.additional_outputs.line_points.get(cycle)?),
+            "obstacle_feet" => Some(self.additional_outputs.obstacle_feet.get(cycle)?),
+            "penalty_mark_candidates" => {
+                Some(self.additional_outputs.penalty_mark_candidates.get(cycle)?)
+            }
             _ => None,
         }
     }
@@ -198,8 +227,13 @@ impl<Hardware: CameraInterface + Send + Sync> Body for Vision<Hardware> {
     fn nodes(&self, visit: &mut dyn FnMut(NodeReport)) {
         visit(self.nodes.image_receiver.report());
         visit(self.nodes.camera_matrix_extractor.report());
+        visit(self.nodes.limb_projector.report());
         visit(self.nodes.image_segmenter.report());
+        visit(self.nodes.field_border.report());
+        visit(self.nodes.line_detection.report());
+        visit(self.nodes.penalty_mark_detection.report());
         visit(self.nodes.ball_detection.report());
+        visit(self.nodes.obstacle_detection.report());
     }
 
     fn queues(&self, _visit: &mut dyn FnMut(QueueReport)) {}
@@ -210,7 +244,12 @@ impl<Hardware: CameraInterface + Send + Sync> Body for Vision<Hardware> {
             "vision::camera_matrix_extractor",
             &mut self.nodes.camera_matrix_extractor,
         );
+        visit("vision::limb_projector", &mut self.nodes.limb_projector);
         visit("vision::image_segmenter", &mut self.nodes.image_segmenter);
+        visit("vision::field_border", &mut self.nodes.field_border);
+        visit("vision::line_detection", &mut self.nodes.line_detection);
+        visit("vision::penalty_mark_detection", &mut self.nodes.penalty_mark_detection);
         visit("vision::ball_detection", &mut self.nodes.ball_detection);
+        visit("vision::obstacle_detection", &mut self.nodes.obstacle_detection);
     }
 }

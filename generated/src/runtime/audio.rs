@@ -1,0 +1,177 @@
+//! Cycler `Audio` between its buffers and its nodes.
+//!
+//! Written by `hulkgen generate` from hulk.toml and the nodes it names. Do not edit.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use framework::Body;
+use framework::Cycle;
+use framework::Injected;
+use framework::InstanceDescription;
+use framework::Kind;
+use framework::NodeReport;
+use framework::OnFailure;
+use framework::QueueReport;
+use framework::Reader;
+use framework::Reference;
+use framework::Reflect;
+use framework::Result;
+use framework::Scheduling;
+use framework::Slots;
+use framework::State;
+use framework::Subscriptions;
+use framework::Swap;
+use framework::Timestamp;
+use hardware::MicrophoneInterface;
+
+use crate::cyclers::audio::Nodes;
+use crate::databases::audio::AdditionalOutputs;
+use crate::databases::audio::Frame;
+use crate::databases::audio::Injections;
+use crate::databases::audio::OwnOutputs;
+use crate::databases::audio::SharedOutputs;
+use crate::databases::audio::Subscribed;
+use crate::parameters::Parameters;
+
+/// What the manifest says about `Audio`.
+pub const AUDIO: InstanceDescription = InstanceDescription {
+    name: "Audio",
+    cycler: "Audio",
+    kind: Kind::Perception,
+    on_failure: OnFailure::Restart,
+    deadline: Some(Duration::from_millis(46)),
+    pending_timeout: Duration::from_secs(1),
+    watchdog: Duration::from_millis(300),
+    history: Duration::from_secs(1),
+    lockstep_duration: None,
+    scheduling: Scheduling {
+        policy: None,
+        priority: None,
+        cores: &[],
+    },
+};
+
+/// One instance: its nodes, and its ends of all buffers.
+pub struct Audio<Hardware> {
+    pub nodes: Nodes,
+    pub additional_outputs: AdditionalOutputs,
+    pub capture_time: Option<Timestamp>,
+    pub hardware_interface: Arc<Hardware>,
+    pub injections: Reader<Injected<Injections>>,
+    pub own: Swap<OwnOutputs>,
+    pub parameters: Reader<Parameters>,
+    pub subscribed: Subscribed,
+    pub subscriptions: Subscriptions,
+}
+
+impl<Hardware> Audio<Hardware> {
+    /// The nodes, and everything they may touch in this cycle.
+    fn frame<'a>(
+        &'a mut self,
+        slots: Slots<'a, SharedOutputs>,
+        cycle: Cycle,
+    ) -> (&'a mut Nodes, Frame<'a, Hardware>) {
+        let parameters = self.parameters.view().value();
+        let frame = Frame {
+            additional_outputs: &mut self.additional_outputs,
+            capture_time: &mut self.capture_time,
+            cycle,
+            hardware_interface: &self.hardware_interface,
+            injections: self.injections.view().value().get(),
+            own: self.own.both().0,
+            parameters,
+            shared: slots.current,
+            subscribed: self.subscribed,
+        };
+        (&mut self.nodes, frame)
+    }
+}
+
+impl<Hardware: MicrophoneInterface + Send + Sync> Body for Audio<Hardware> {
+    type Shared = SharedOutputs;
+
+    fn create(&mut self) -> Result<()> {
+        self.parameters.take();
+        self.nodes = Nodes::new()?;
+        Ok(())
+    }
+
+    fn wait(
+        &mut self,
+        slots: Slots<'_, SharedOutputs>,
+        cycle: Cycle,
+    ) -> Result<Option<Timestamp>> {
+        self.parameters.take();
+        self.capture_time = None;
+        let (nodes, mut frame) = self.frame(slots, cycle);
+        nodes.setup(&mut frame)?;
+        Ok(self.capture_time)
+    }
+
+    fn begin(&mut self, slots: Slots<'_, SharedOutputs>, cycle: Cycle) {
+        self.parameters.take();
+        self.injections.take();
+        self.subscribed = Subscribed {
+            whistle_detection_peaks: self.subscriptions.contains(0),
+        };
+        let (_, mut frame) = self.frame(slots, cycle);
+        Nodes::inject(&mut frame);
+    }
+
+    fn run(&mut self, slots: Slots<'_, SharedOutputs>, cycle: Cycle) -> Result<()> {
+        let (nodes, mut frame) = self.frame(slots, cycle);
+        nodes.cycle(&mut frame)
+    }
+
+    fn finish(&mut self, _shared: &SharedOutputs, _cycle: Cycle) {
+        self.own.swap();
+    }
+
+    fn abandon(&mut self) {}
+
+    fn restore(&mut self) -> Result<()> {
+        self.nodes.restore()
+    }
+
+    fn references(&self, visit: &mut dyn FnMut(Reference)) {
+        self.parameters.references("parameters", visit);
+    }
+
+    fn main_outputs(&self) -> &'static [&'static str] {
+        &["audio_block", "whistle_evidence"]
+    }
+
+    fn main_output<'a>(
+        &'a self,
+        shared: &'a SharedOutputs,
+        name: &str,
+    ) -> Option<&'a dyn Reflect> {
+        match name {
+            "audio_block" => Some(&self.own.previous().audio_block),
+            "whistle_evidence" => Some(&shared.whistle_evidence),
+            _ => None,
+        }
+    }
+
+    fn additional_output(&self, name: &str, cycle: u64) -> Option<&dyn Reflect> {
+        match name {
+            "whistle_detection.peaks" => {
+                Some(self.additional_outputs.whistle_detection.peaks.get(cycle)?)
+            }
+            _ => None,
+        }
+    }
+
+    fn nodes(&self, visit: &mut dyn FnMut(NodeReport)) {
+        visit(self.nodes.microphone_recorder.report());
+        visit(self.nodes.whistle_detection.report());
+    }
+
+    fn queues(&self, _visit: &mut dyn FnMut(QueueReport)) {}
+
+    fn states(&mut self, visit: &mut dyn FnMut(&'static str, &mut dyn State)) {
+        visit("audio::microphone_recorder", &mut self.nodes.microphone_recorder);
+        visit("audio::whistle_detection", &mut self.nodes.whistle_detection);
+    }
+}
