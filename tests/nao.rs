@@ -42,7 +42,12 @@ impl Nao {
         .expect("the parameters of the repository are complete");
         let (clock, stop) = (Clock::stepped(), Stop::default());
         let hardware = Hardware::new(HardwareContext {
-            options: options.iter().map(|option| (*option).to_owned()).collect(),
+            // Tests run side by side, so none may take the ports of a real game.
+            options: options
+                .iter()
+                .chain(&["--free-ports"])
+                .map(|option| (*option).to_owned())
+                .collect(),
             table: parameters
                 .hardware("simulated")
                 .expect("a table or nothing"),
@@ -67,11 +72,35 @@ impl Nao {
         Self { hardware, robot }
     }
 
-    /// Runs for `seconds` of virtual time; `observe` sees every instance after each finished cycle.
-    pub fn run(&mut self, seconds: f64, mut observe: impl FnMut(&Hardware, &dyn Instance)) {
+    /// Runs until `seconds` of virtual time; `observe` sees every instance after each finished cycle.
+    pub fn run(&mut self, seconds: f64, observe: impl FnMut(&Hardware, &dyn Instance)) {
+        self.drive(None, seconds, observe);
+    }
+
+    /// The same under chaos.
+    pub fn run_in_chaos(
+        &mut self,
+        seed: u64,
+        seconds: f64,
+        observe: impl FnMut(&Hardware, &dyn Instance),
+    ) {
+        self.drive(Some(seed), seconds, observe);
+    }
+
+    fn drive(
+        &mut self,
+        chaos: Option<u64>,
+        seconds: f64,
+        mut observe: impl FnMut(&Hardware, &dyn Instance),
+    ) {
         let end = Timestamp::from_nanos((seconds * 1e9) as u64);
         let hardware = self.hardware.clone();
-        Lockstep::new(&mut self.robot, &*self.hardware)
+        let lockstep = Lockstep::new(&mut self.robot, &*self.hardware);
+        let mut lockstep = match chaos {
+            Some(seed) => lockstep.chaotic(seed),
+            None => lockstep,
+        };
+        lockstep
             .run_until(end, |instance| observe(&hardware, instance))
             .expect("the robot does not stop");
     }

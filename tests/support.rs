@@ -5,6 +5,7 @@ pub mod nao;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+pub use framework::testing::skip;
 use hulkgen::workspace::Workspace;
 
 /// The root of the repository.
@@ -59,15 +60,6 @@ fn collect(root: &Path, folder: &Path, ending: &str, found: &mut Vec<Source>) {
     }
 }
 
-/// Says that a test was skipped and what it needs; a failure where everything is required.
-pub fn skip(name: &str, install: &str) {
-    assert!(
-        std::env::var_os("HULKGEN_REQUIRE_ALL").is_none(),
-        "{name} may not be skipped here: {install}"
-    );
-    println!("SKIPPED {name}: {install}");
-}
-
 /// The fixture robots under `tests/robots/` that live in memory only, by name.
 pub const FIXTURES: &[&str] = &[
     "cycler_state",
@@ -87,7 +79,23 @@ pub fn fixture_files(name: &str) -> Vec<(String, String)> {
     workspace_files(&format!("tests/robots/{name}"))
 }
 
-/// A folder with `hulk.toml`, `nodes/*.rs` and perhaps `parameters/*.toml`, as a whole workspace.
+/// The robot of `tests/diagnostics/CODE` without its mistake: what `repaired/` holds, in place of the same files.
+pub fn repaired_files(folder: &str) -> Vec<(String, String)> {
+    let repaired = format!("{folder}/repaired");
+    let mut files = workspace_files(folder);
+    let changed = [".rs", ".toml"].iter().flat_map(|ending| {
+        let all = sources(&[folder], ending).into_iter();
+        all.filter(|source| source.path.starts_with(&repaired))
+    });
+    for source in changed {
+        let path = source.path[repaired.len() + 1..].replace("nodes/", "nodes/src/");
+        files.retain(|(other, _)| *other != path);
+        files.push((path, source.text));
+    }
+    files
+}
+
+/// A folder with `hulk.toml`, `nodes/*.rs` (a `lib.rs` among them, or it is made) and perhaps `parameters/*.toml`, as a whole workspace.
 pub fn workspace_files(folder: &str) -> Vec<(String, String)> {
     let below = |path: &str| {
         path.trim_start_matches(folder)
@@ -99,7 +107,9 @@ pub fn workspace_files(folder: &str) -> Vec<(String, String)> {
         ("nodes/Cargo.toml".to_owned(), NODES.to_owned()),
     ];
     let mut modules = String::new();
-    for source in sources(&[folder], ".rs") {
+    let own_library = root().join(folder).join("nodes/lib.rs").is_file();
+    let of_folder = |source: &Source| !below(&source.path).starts_with("repaired/");
+    for source in sources(&[folder], ".rs").into_iter().filter(of_folder) {
         let path = below(&source.path).replace("nodes/", "nodes/src/");
         let module = path
             .trim_start_matches("nodes/src/")
@@ -108,8 +118,10 @@ pub fn workspace_files(folder: &str) -> Vec<(String, String)> {
         files.push((path, source.text));
     }
     modules.push_str("pub struct Hardware;\n");
-    files.push(("nodes/src/lib.rs".to_owned(), modules));
-    for source in sources(&[folder], ".toml") {
+    if !own_library {
+        files.push(("nodes/src/lib.rs".to_owned(), modules));
+    }
+    for source in sources(&[folder], ".toml").into_iter().filter(of_folder) {
         files.push((below(&source.path), source.text));
     }
     files

@@ -104,6 +104,17 @@ fn the_zoo_is_current() {
 }
 
 #[test]
+fn the_picture_of_the_nao_is_current() {
+    let graph = hulkgen(&root(), &["graph", "--format", "svg"]);
+    assert_success(&graph);
+    let picture = fs::read(root().join("docs/nao.svg")).expect("the NAO has a picture");
+    assert!(
+        picture == graph.stdout,
+        "write it anew: cargo run -- graph --format svg > docs/nao.svg"
+    );
+}
+
+#[test]
 fn a_deleted_crate_is_restored_byte_by_byte() {
     let copy = copy_of_the_workspace();
     let generated = copy.path().join("generated");

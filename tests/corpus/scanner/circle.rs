@@ -1,0 +1,3 @@
+type A = ((((u8))));
+#[path = "node.rs"]
+pub mod node;
