@@ -21,7 +21,7 @@ use syn::{Attribute, Block, Expr, Item, Macro, PathArguments, Stmt, Token};
 
 use super::library::Library;
 use super::lookup::Found;
-use super::module::{Entry, Import, Module, only_for_tests};
+use super::module::{Entry, Import, Module, attributes, only_for_tests};
 use super::{Sources, range};
 
 pub use sources::Chance;
@@ -183,8 +183,8 @@ impl Looking<'_> {
         let globs = inner.chain(&self.module.globs);
         let found = globs.filter_map(|glob| self.library.follow_import(&self.module, glob));
         let by_glob = found.filter_map(|found| match found {
-            Found::Standard(path) => Chance::of_standard(&[&path, segments].concat()),
-            Found::Foreign(path) => Chance::of_foreign(&[&path, segments].concat()),
+            Found::Standard(path) => Chance::by_glob(&path, segments),
+            Found::Foreign(path) => Chance::by_foreign_glob(&path, segments),
             _ => None,
         });
         let by_crate = (segments.len() > 1).then(|| Chance::of_foreign(segments));
@@ -245,6 +245,27 @@ impl<'ast> Visit<'ast> for Looking<'_> {
         }
     }
 
+    fn visit_expr_call(&mut self, call: &'ast syn::ExprCall) {
+        match &*call.func {
+            Expr::Path(function) => visit::visit_expr_path(self, function),
+            function => self.visit_expr(function),
+        }
+        for argument in &call.args {
+            self.visit_expr(argument);
+        }
+    }
+
+    fn visit_expr_path(&mut self, path: &'ast syn::ExprPath) {
+        // Statics have names in capitals: this is a variable, whatever a glob has under its name.
+        let is_variable = path.path.get_ident().is_some_and(|name| {
+            name.to_string()
+                .starts_with(|first: char| first.is_lowercase() || first == '_')
+        });
+        if !is_variable {
+            visit::visit_expr_path(self, path);
+        }
+    }
+
     fn visit_path(&mut self, path: &'ast syn::Path) {
         let names = path.segments.iter().map(|one| one.ident.to_string());
         let segments: Vec<String> = names.collect();
@@ -279,20 +300,4 @@ fn has_own_hasher(path: &syn::Path, chance: Chance) -> bool {
 
 fn is_for_tests(attributes: &[Attribute]) -> bool {
     only_for_tests(attributes) || attributes.iter().any(|one| one.path().is_ident("test"))
-}
-
-fn attributes(item: &Item) -> &[Attribute] {
-    match item {
-        Item::Const(item) => &item.attrs,
-        Item::Enum(item) => &item.attrs,
-        Item::Fn(item) => &item.attrs,
-        Item::Impl(item) => &item.attrs,
-        Item::Macro(item) => &item.attrs,
-        Item::Mod(item) => &item.attrs,
-        Item::Static(item) => &item.attrs,
-        Item::Struct(item) => &item.attrs,
-        Item::Trait(item) => &item.attrs,
-        Item::Type(item) => &item.attrs,
-        _ => &[],
-    }
 }

@@ -95,6 +95,12 @@ fn names_are_followed_as_rustc_would() {
         ),
         ("use rand::thread_rng;", "thread_rng();", "thread_rng"),
         ("", "rand::rng();", "rand::rng"),
+        ("", "rand::make_rng();", "rand::make_rng"),
+        (
+            "use std::thread::*;",
+            "let sleep = 1; sleep(sleep);",
+            "sleep",
+        ),
         ("static mut COUNT: u8 = 0;", "", "COUNT"),
         (
             "use std::sync::atomic::AtomicU8;",
@@ -106,6 +112,20 @@ fn names_are_followed_as_rustc_would() {
     ] {
         assert_eq!(names(head, body), [expected], "{head} {body}");
     }
+}
+
+#[test]
+fn of_the_globs_of_other_crates_only_functions_are_meant() {
+    let of = |body: &str| {
+        let dependencies =
+            "[package]\nname = \"nodes\"\n[dependencies]\nframework = \"1\"\nrand = \"0.8\"";
+        of(&node("use rand::prelude::*;", body).file("crates/nodes/Cargo.toml", dependencies))
+    };
+    assert_eq!(of("let random = random(); draw(random);"), ["random"]);
+    let variable =
+        "let mut rng = self.generator.clone(); let rng = Draws { rng }; draw(rng, random);";
+    assert_eq!(of(variable), [""; 0]);
+    assert_eq!(of("let rng = rng();"), [""; 0], "the prelude has no `rng`");
 }
 
 #[test]
@@ -125,6 +145,10 @@ fn what_only_looks_like_it_is_not_told() {
             "let a: HashMap<u8, u8> = HashMap::new();",
         ),
         ("", "let types = 1; let fs = 2; types + fs;"),
+        (
+            "use std::{env::*, fs::*, thread::*};",
+            "let (current, file, copy, vars) = (1, 2, 3, 4); current + file + copy - vars;",
+        ),
         ("type Map = std::collections::HashMap<u8, u8, Fixed>;", ""),
         ("static NAMES: [&str; 1] = [\"a\"];", ""),
         (

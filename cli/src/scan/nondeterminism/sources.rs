@@ -23,6 +23,69 @@ const GENERATORS: &[&str] = &[
     "rand_xoshiro",
 ];
 
+/// What `std::env` has and answers with something of the machine.
+const OF_ENV: &[&str] = &[
+    "args",
+    "args_os",
+    "current_dir",
+    "current_exe",
+    "home_dir",
+    "join_paths",
+    "remove_var",
+    "set_current_dir",
+    "set_var",
+    "split_paths",
+    "temp_dir",
+    "var",
+    "var_os",
+    "vars",
+    "vars_os",
+];
+
+/// What `std::fs` has.
+const OF_FS: &[&str] = &[
+    "DirBuilder",
+    "File",
+    "OpenOptions",
+    "canonicalize",
+    "copy",
+    "create_dir",
+    "create_dir_all",
+    "exists",
+    "hard_link",
+    "metadata",
+    "read",
+    "read_dir",
+    "read_link",
+    "read_to_string",
+    "remove_dir",
+    "remove_dir_all",
+    "remove_file",
+    "rename",
+    "set_permissions",
+    "symlink_metadata",
+    "write",
+];
+
+/// What `std::thread` has.
+const OF_THREAD: &[&str] = &[
+    "Builder",
+    "JoinHandle",
+    "Scope",
+    "ScopedJoinHandle",
+    "Thread",
+    "ThreadId",
+    "available_parallelism",
+    "current",
+    "park",
+    "park_timeout",
+    "scope",
+    "sleep",
+    "sleep_until",
+    "spawn",
+    "yield_now",
+];
+
 impl Chance {
     /// What to know about the place.
     pub fn label(self) -> &'static str {
@@ -81,6 +144,25 @@ impl Chance {
         }
     }
 
+    /// Of a name that a glob of a module of `std` may bring in, or another glob, or none: only what the module really has
+    /// is meant.
+    pub(super) fn by_glob(module: &[String], names: &[String]) -> Option<Self> {
+        let known = match module {
+            [module] if module == "env" => OF_ENV,
+            [module] if module == "fs" => OF_FS,
+            [module] if module == "thread" => OF_THREAD,
+            _ => return Self::of_standard(&[module, names].concat()),
+        };
+        let is_there = known.contains(&names.first()?.as_str());
+        Self::of_standard(&[module, names].concat()).filter(|_| is_there)
+    }
+
+    /// The same with a glob of another crate: of those that are unseeded as a whole nothing can be told.
+    pub(super) fn by_foreign_glob(module: &[String], names: &[String]) -> Option<Self> {
+        let is_listed = GENERATORS.contains(&module.first()?.as_str());
+        Self::of_foreign(&[module, names].concat()).filter(|_| is_listed)
+    }
+
     /// Of an absolute path below another crate.
     pub(super) fn of_foreign(path: &[String]) -> Option<Self> {
         let (library, rest) = path.split_first()?;
@@ -106,6 +188,7 @@ fn draws_unseeded(names: &[&str]) -> bool {
     matches!(
         names,
         ["fill"
+            | "make_rng"
             | "random"
             | "random_bool"
             | "random_iter"
@@ -113,7 +196,7 @@ fn draws_unseeded(names: &[&str]) -> bool {
             | "random_ratio"
             | "rng"
             | "thread_rng"]
+            // No version has `rng` there, and many a node a variable called so.
             | ["prelude", "random" | "thread_rng"]
-            | ["rngs" | "prelude", "thread" | "rng"]
     )
 }
