@@ -8,13 +8,14 @@ use std::ops::Range;
 use std::rc::Rc;
 
 use camino::Utf8PathBuf;
+use syn::punctuated::Punctuated;
 use syn::visit::{self, Visit};
-use syn::{GenericParam, Item, ItemImpl, Type};
+use syn::{Attribute, GenericParam, Item, ItemImpl, Meta, Token, Type};
 
 use super::fields::is_harmless;
 use super::library::Library;
 use super::lookup::{Found, ItemId};
-use super::module::{Module, only_for_tests};
+use super::module::{Module, attributes, only_for_tests};
 use super::types::{Definition, Shape};
 
 /// The hardware type of a target, and everything that was found about it.
@@ -79,8 +80,11 @@ impl Library<'_> {
             Item::Enum(item) => &item.attrs,
             _ => return None,
         };
-        // A derive or an attribute that is not known might implement anything.
-        let plain = attributes.iter().all(is_harmless) && derives_nothing_unknown(attributes);
+        // A derive or an attribute that is not known might implement anything, and so might one behind a condition.
+        let plain = attributes
+            .iter()
+            .all(|one| is_harmless(one) && !one.path().is_ident("cfg_attr"))
+            && derives_nothing_unknown(attributes);
         plain.then_some(Hardware {
             item,
             crates: BTreeMap::new(),
@@ -113,6 +117,9 @@ impl Library<'_> {
                 if only_for_tests(&item.attrs) {
                     continue;
                 }
+                if !item.attrs.iter().all(writes_nothing) {
+                    return None;
+                }
                 waiting.push(self.declared(&module, &item.ident.to_string())?);
             }
         }
@@ -142,6 +149,24 @@ impl Reading<'_> {
 
 impl<'ast> Visit<'ast> for Reading<'_> {
     fn visit_item_mod(&mut self, _: &'ast syn::ItemMod) {}
+
+    fn visit_item(&mut self, item: &'ast Item) {
+        if !only_for_tests(attributes(item)) {
+            visit::visit_item(self, item);
+        }
+    }
+
+    fn visit_attribute(&mut self, attribute: &'ast Attribute) {
+        // The macro of an attribute may write more than the item that it stands at.
+        if !writes_nothing(attribute) {
+            *self.found = None;
+        }
+    }
+
+    // What stands at fields and variants is for the derives of their type; rustc knows no macros there.
+    fn visit_field(&mut self, _: &'ast syn::Field) {}
+
+    fn visit_variant(&mut self, _: &'ast syn::Variant) {}
 
     fn visit_item_macro(&mut self, item: &'ast syn::ItemMacro) {
         // `macro_rules!` writes nothing until it is called.
@@ -221,4 +246,65 @@ fn derives_nothing_unknown(attributes: &[syn::Attribute]) -> bool {
         all &= parsed.is_ok();
     }
     all
+}
+
+/// Attributes of rustc, and two that only change what they stand at.
+const WRITING_NOTHING: &[&str] = &[
+    "allow",
+    "automatically_derived",
+    "cfg",
+    "cold",
+    "context",
+    "deny",
+    "deprecated",
+    "derive",
+    "doc",
+    "expect",
+    "forbid",
+    "global_allocator",
+    "ignore",
+    "inline",
+    "link",
+    "link_name",
+    "link_section",
+    "macro_export",
+    "macro_use",
+    "must_use",
+    "no_mangle",
+    "non_exhaustive",
+    "repr",
+    "serde",
+    "should_panic",
+    "target_feature",
+    "test",
+    "track_caller",
+    "unsafe",
+    "used",
+    "warn",
+];
+
+/// Attributes with these in front are for tools.
+const TOOLS: &[&str] = &["clippy", "diagnostic", "rust_analyzer", "rustfmt"];
+
+/// Whether an attribute of an item certainly adds no other item.
+fn writes_nothing(attribute: &Attribute) -> bool {
+    match &attribute.meta {
+        Meta::List(list) if list.path.is_ident("cfg_attr") => {
+            let conditional = Punctuated::<Meta, Token![,]>::parse_terminated;
+            list.parse_args_with(conditional)
+                .is_ok_and(|metas| metas.iter().skip(1).all(|meta| is_known(meta.path())))
+        }
+        meta => meta.path().is_ident("path") || is_known(meta.path()),
+    }
+}
+
+fn is_known(path: &syn::Path) -> bool {
+    let Some(first) = path.segments.first() else {
+        return false;
+    };
+    let known = match path.segments.len() {
+        1 => WRITING_NOTHING,
+        _ => TOOLS,
+    };
+    known.contains(&first.ident.to_string().as_str())
 }

@@ -35,6 +35,13 @@ fn a_trait_that_is_not_served_is_told_at_the_node_and_the_target() {
     let other =
         "pub struct Hardware; struct Other; impl Motors for Other {} impl Camera for Hardware {}";
     fixture(other, "").expect("unserved-trait", &["`Motors`"]);
+    let attributes = "
+        pub struct Hardware;
+        #[derive(thiserror::Error)] #[cfg_attr(never, derive(Debug))] enum Bad { #[error(\"a\")] A }
+        impl Hardware { #[inline] #[must_use] #[rustfmt::skip] fn f(&self) {} }
+        #[cfg(test)] #[serves] impl Hardware {}
+    ";
+    fixture(attributes, "").expect("unserved-trait", &["`Motors`"]);
 }
 
 #[test]
@@ -98,6 +105,26 @@ fn what_cannot_be_known_is_left_to_rustc() {
         ("#[serves] pub struct Hardware;", ""),
         ("pub struct Hardware; #[cfg(never)] mod absent;", ""),
         ("pub use elsewhere::Hardware;", ""),
+        (
+            "#[cfg_attr(never, derive(Motors))] pub struct Hardware;",
+            "",
+        ),
+        ("pub struct Hardware; #[serves] impl Hardware {}", ""),
+        (
+            "pub struct Hardware; #[cfg_attr(never, serves(Motors))] struct Other;",
+            "",
+        ),
+        (
+            "pub struct Hardware; impl Hardware { #[serves] fn write(&self) {} }",
+            "",
+        ),
+        ("pub struct Hardware; #[serves] trait Other {}", ""),
+        ("pub struct Hardware; trait Other { #[serves] fn a(); }", ""),
+        ("pub struct Hardware; #[serves] mod more {}", ""),
+        (
+            "pub struct Hardware;",
+            "#[serves(super::Hardware)] mod more {}",
+        ),
     ] {
         let answer = fixture(library, inner).answer();
         assert!(!answer.codes.contains(&"unserved-trait"), "{}", answer.text);
