@@ -200,7 +200,8 @@ impl Workspace {
         changes::list(&self.changes, folder, found)
     }
 
-    /// Every file in a folder and below, sorted; not what cargo builds and what is hidden.
+    /// Every file in a folder and below, sorted; not what cargo builds, what is hidden, and what a link to a folder leads to:
+    /// links may lead in circles.
     pub fn files_below(&self, folder: &Utf8Path) -> Vec<Utf8PathBuf> {
         let is_own = |entry: &Utf8PathBuf| {
             let name = entry.file_name().unwrap_or_default();
@@ -210,11 +211,18 @@ impl Workspace {
         for entry in self.list(folder).into_iter().filter(is_own) {
             if self.is_file(&entry) {
                 found.push(entry);
-            } else {
+            } else if !self.is_link(&entry) {
                 found.extend(self.files_below(&entry));
             }
         }
         found
+    }
+
+    fn is_link(&self, entry: &Utf8Path) -> bool {
+        match &self.files {
+            Files::Disk(disk) => disk.is_link(entry),
+            Files::Memory(_) => false,
+        }
     }
 
     /// A path from the root of cargo's workspace as one from the robot's.

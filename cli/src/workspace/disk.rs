@@ -81,6 +81,10 @@ impl Disk {
         self.root.join(file).is_file()
     }
 
+    pub(super) fn is_link(&self, entry: &Utf8Path) -> bool {
+        self.root.join(entry).is_symlink()
+    }
+
     pub(super) fn list(&self, folder: &Utf8Path) -> Vec<Utf8PathBuf> {
         let Ok(entries) = self.root.join(folder).read_dir_utf8() else {
             return Vec::new();

@@ -25,3 +25,21 @@ fn a_changed_and_a_new_file_are_seen_and_generated_ones_are_not() {
     write("hulk.toml", "ab");
     assert!(!glance().is_as(&before, Some("generated".into())));
 }
+
+#[cfg(unix)]
+#[test]
+fn links_to_folders_are_not_followed_and_links_to_files_are() {
+    use std::os::unix::fs::symlink;
+
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let root = Utf8Path::from_path(folder.path()).expect("it is UTF-8");
+    std::fs::create_dir(root.join("src")).expect("the folder is ours");
+    std::fs::write(root.join("src/lib.rs"), "").expect("the folder is ours");
+    symlink("lib.rs", root.join("src/same.rs")).expect("the folder is ours");
+    symlink("..", root.join("src/again")).expect("the folder is ours");
+    let workspace = Workspace::at_root(root);
+    assert_eq!(
+        workspace.files_below("".into()),
+        ["src/lib.rs", "src/same.rs"]
+    );
+}
