@@ -12,7 +12,7 @@ pub mod parameter_files;
 mod parameters;
 mod paths;
 mod procedures;
-mod record;
+pub(crate) mod record;
 pub mod robot;
 mod scene;
 mod states;

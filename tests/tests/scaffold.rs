@@ -611,6 +611,10 @@ fn a_rename_follows_every_kind_of_reader_and_the_manifest() {
     let files = files.map(|(path, text)| match path.as_str() {
         "hulk.toml" => {
             let recorded = "kind = \"real-time\"\nrecord = { while = \"is_sure\" } # little";
+            let elsewhere = "kind = \"perception\"\nrecord = { while = \"Control.is_sure\" }";
+            let text = text.replace("kind = \"perception\"", elsewhere);
+            let instance = "{ name = \"Bottom\", record = { while = \"Control.is_sure\" } }";
+            let text = text.replace("\"Bottom\"", instance);
             (path, text.replace("kind = \"real-time\"", recorded))
         }
         "nodes/src/filter.rs" => {
@@ -638,6 +642,10 @@ fn a_rename_follows_every_kind_of_reader_and_the_manifest() {
     let changes = rename("Control", "is_sure", "is_certain");
     let manifest = changed(&changes, "hulk.toml");
     assert!(manifest.contains("record = { while = \"is_certain\" } # little"));
+    assert_eq!(
+        manifest.matches("while = \"Control.is_certain\" }").count(),
+        2
+    );
     let changes = rename("Control", "estimate", "guess");
     assert!(
         changed(&changes, "nodes/src/filter.rs").contains("before: PreviousInput<f32, \"guess\">")

@@ -92,8 +92,8 @@ fn instance_of<'p>(
     scene: &Scene<'_>,
     written: &'p str,
 ) -> Result<(Option<InstanceId>, &'p str), Refused> {
-    match written.split_once('.') {
-        Some((first, rest)) if first.starts_with(char::is_uppercase) => {
+    match instance_in_front(written) {
+        (Some(first), rest) => {
             let Some(id) = scene.instance(first) else {
                 let names: Vec<&str> = scene.instance_names().collect();
                 let help = match nearest(first, names.iter().copied()) {
@@ -108,7 +108,15 @@ fn instance_of<'p>(
             };
             Ok((Some(id), rest))
         }
-        _ => Ok((None, written)),
+        (None, path) => Ok((None, path)),
+    }
+}
+
+/// `Control.is_wanted` as instance and path: names of instances begin with a capital, those of outputs do not.
+pub(crate) fn instance_in_front(written: &str) -> (Option<&str>, &str) {
+    match written.split_once('.') {
+        Some((first, rest)) if first.starts_with(char::is_uppercase) => (Some(first), rest),
+        _ => (None, written),
     }
 }
 

@@ -22,7 +22,7 @@ pub(super) fn written(document: &DocumentMut, before: &str) -> String {
 }
 
 /// The tables of a list such as `[[cycler]]`, however it is written.
-pub(super) fn tables<'d>(document: &'d mut DocumentMut, key: &str) -> Vec<&'d mut dyn TableLike> {
+pub(super) fn tables<'d>(document: &'d mut dyn TableLike, key: &str) -> Vec<&'d mut dyn TableLike> {
     match document.get_mut(key) {
         Some(Item::ArrayOfTables(tables)) => tables
             .iter_mut()
@@ -42,7 +42,7 @@ pub(super) fn cycler<'d>(
     document: &'d mut DocumentMut,
     name: &str,
 ) -> Option<&'d mut dyn TableLike> {
-    let mut cyclers = tables(document, "cycler").into_iter();
+    let mut cyclers = tables(document.as_table_mut(), "cycler").into_iter();
     cyclers.find(|table| table.get("name").and_then(Item::as_str) == Some(name))
 }
 

@@ -11,6 +11,7 @@ use super::{Changes, document, manifest_change, read, read_manifest, unknown, us
 use crate::diagnostics::{Diagnostics, position};
 use crate::manifest;
 use crate::outcome::Refusal;
+use crate::resolve::record::instance_in_front;
 use crate::resolve::robot::{Cycler, Robot};
 use crate::scan::library::candidates;
 use crate::scan::module::folder_of;
@@ -267,7 +268,7 @@ fn apply(workspace: &Workspace, edits: Edits) -> Result<Changes, Refusal> {
     Ok(changes)
 }
 
-/// `record = { while = "…" }` of the cyclers and their instances.
+/// `record = { while = "…" }` of every cycler and instance that names the output.
 fn renamed_conditions(
     workspace: &Workspace,
     robot: &Robot,
@@ -276,16 +277,21 @@ fn renamed_conditions(
 ) -> Result<Option<(Utf8PathBuf, Option<String>)>, Refusal> {
     let mut manifest = read_manifest(workspace)?;
     let mut changed = false;
-    for index in affected {
-        let Some(table) = document::cycler(&mut manifest, &robot.cyclers[*index].name) else {
+    for (index, cycler) in robot.cyclers.iter().enumerate() {
+        let Some(table) = document::cycler(&mut manifest, &cycler.name) else {
             continue;
         };
-        changed |= rename_condition(table, rename);
-        let instances = table.get_mut("instances").and_then(Item::as_array_mut);
-        for instance in instances.into_iter().flat_map(|list| list.iter_mut()) {
-            if let Some(table) = instance.as_inline_table_mut() {
-                changed |= rename_condition(table, rename);
-            }
+        // An instance in front says whose output it is, else it is the own one.
+        let is_meant = |instance: Option<&str>| match instance {
+            None => affected.contains(&index),
+            Some(instance) => affected.iter().any(|cycler| {
+                let mut instances = robot.cyclers[*cycler].instances.iter();
+                instances.any(|one| one.name == instance)
+            }),
+        };
+        changed |= rename_condition(table, rename, is_meant);
+        for instance in document::tables(table, "instances") {
+            changed |= rename_condition(instance, rename, is_meant);
         }
     }
     match changed {
@@ -294,19 +300,25 @@ fn renamed_conditions(
     }
 }
 
-fn rename_condition(table: &mut dyn TableLike, rename: &Rename<'_>) -> bool {
+fn rename_condition(
+    table: &mut dyn TableLike,
+    rename: &Rename<'_>,
+    is_meant: impl Fn(Option<&str>) -> bool,
+) -> bool {
     let record = table.get_mut("record").and_then(Item::as_table_like_mut);
     let condition = record.and_then(|record| record.get_mut("while"));
     let Some(value) = condition.and_then(Item::as_value_mut) else {
         return false;
     };
-    let path = value.as_str().unwrap_or_default().to_owned();
-    let Some(rest) = path
+    let written = value.as_str().unwrap_or_default().to_owned();
+    let (instance, path) = instance_in_front(&written);
+    let rest = path
         .strip_prefix(rename.old)
-        .filter(|rest| rest.is_empty() || rest.starts_with(['.', '?']))
-    else {
+        .filter(|rest| rest.is_empty() || rest.starts_with('.'));
+    let Some(rest) = rest.filter(|_| is_meant(instance)) else {
         return false;
     };
-    document::replace(value, &format!("{}{rest}", rename.new));
+    let before = written.strip_suffix(path).unwrap_or_default();
+    document::replace(value, &format!("{before}{}{rest}", rename.new));
     true
 }
