@@ -84,8 +84,18 @@ impl<'workspace> Library<'workspace> {
     /// Reads on without telling what cannot be read or parsed: what does not matter for the robot is left to rustc.
     pub(super) fn quietly<T>(&self, look: impl FnOnce() -> T) -> T {
         let told = self.problems.take();
+        let known: BTreeSet<String> = self.modules.borrow().keys().cloned().collect();
         let answer = look();
         self.problems.replace(told);
+        // Who asks again for what could not be read shall hear why.
+        let mut modules = self.modules.borrow_mut();
+        let before = modules.len();
+        modules.retain(|path, module| module.is_some() || known.contains(path));
+        if modules.len() < before {
+            self.public_paths.take();
+            self.glob_targets.take();
+        }
+        drop(modules);
         answer
     }
 
@@ -354,3 +364,6 @@ pub(crate) fn path_attribute(item: &ItemMod) -> Option<String> {
             _ => None,
         })
 }
+
+#[cfg(test)]
+mod tests;
