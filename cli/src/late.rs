@@ -11,7 +11,7 @@ mod surroundings;
 
 use camino::{Utf8Path, Utf8PathBuf};
 
-use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+use crate::diagnostics::{Code, Diagnostic, Diagnostics, byte};
 use crate::manifest::Manifest;
 use crate::model::RuntimeModel;
 use crate::render::GeneratedFiles;
@@ -96,10 +96,12 @@ impl Home<'_> {
     ) -> Diagnostic {
         let mut diagnostic = Diagnostic::new(code, message.message.clone());
         if let Some((file, span)) = place {
-            // Positions are lines and columns of a text that was read.
-            let _ = self.workspace.read(&file);
+            let text = self.workspace.read(&file).unwrap_or_default();
             let label = span.label.clone().unwrap_or_default();
-            diagnostic = diagnostic.at(&file, span.byte_start..span.byte_end, label);
+            // Rustc's bytes count a byte order mark, which the text does not have.
+            let start = byte(&text, span.line_start, span.column_start);
+            let length = span.byte_end.saturating_sub(span.byte_start);
+            diagnostic = diagnostic.at(&file, start..start + length, label);
         }
         diagnostic.rustc(message.rendered.trim_end().to_owned())
     }

@@ -146,7 +146,7 @@ impl Workspace {
         }
     }
 
-    /// The text of a file, read once.
+    /// The text of a file without byte order mark, read once.
     pub fn read(&self, file: &Utf8Path) -> Result<Arc<str>, ReadError> {
         if let Some(text) = self.text(file) {
             return Ok(text);
@@ -157,6 +157,11 @@ impl Workspace {
             (None, Files::Disk(disk)) => disk.read(file),
             (None, Files::Memory(memory)) => memory.read(file),
         }?;
+        // Not every parser counts it, so places would not fit each other.
+        let text = match text.strip_prefix('\u{feff}') {
+            Some(unmarked) => unmarked.into(),
+            None => text,
+        };
         self.texts
             .borrow_mut()
             .insert(file.to_owned(), text.clone());

@@ -676,6 +676,36 @@ fn a_rename_follows_every_kind_of_reader_and_the_manifest() {
 }
 
 #[test]
+fn edits_hit_their_place_in_a_file_with_a_byte_order_mark() {
+    let marked = |mark: &str| {
+        let files = support::fixture_files("perception_and_real_time").into_iter();
+        Workspace::in_memory(files.map(|(path, text)| (path, format!("{mark}{text}"))))
+    };
+    let (plain, marked) = (marked(""), marked("\u{feff}"));
+    let renamed = |workspace: &Workspace| {
+        let rename = Rename {
+            cycler: "Control",
+            old: "estimate",
+            new: "guess",
+        };
+        let robot = understood(workspace).robot;
+        let renamed = scaffold::rename_output(workspace, &robot, &rename);
+        renamed.expect("it can be renamed").changes
+    };
+    assert_eq!(renamed(&marked), renamed(&plain));
+    let added = |workspace: &Workspace| {
+        let node = NewNode {
+            path: "nodes::deep::thinker",
+            cycler: "Control",
+            setup: false,
+        };
+        let robot = understood(workspace).robot;
+        scaffold::add_node(workspace, &robot, &node).expect("it can be added")
+    };
+    assert_eq!(added(&marked), added(&plain));
+}
+
+#[test]
 fn nodes_and_cyclers_of_the_nao_come_and_go() {
     let workspace = nao_workspace();
     let robot = understood(&workspace).robot;

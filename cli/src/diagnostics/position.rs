@@ -1,4 +1,4 @@
-//! Lines and columns of byte positions.
+//! Lines and columns of byte positions, and back.
 
 /// A place in a text as editors show it, both counted from 1; columns count characters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -19,4 +19,17 @@ pub fn position(text: &str, byte: usize) -> Position {
         line: before.bytes().filter(|byte| *byte == b'\n').count() + 1,
         column: before[line_start..].chars().count() + 1,
     }
+}
+
+/// The byte at a line and a column, both from 1; the end of what is too short.
+pub fn byte(text: &str, line: usize, column: usize) -> usize {
+    let mut lines = text.split_inclusive('\n');
+    let above: usize = lines
+        .by_ref()
+        .take(line.saturating_sub(1))
+        .map(str::len)
+        .sum();
+    let line = lines.next().unwrap_or_default();
+    let mut columns = line.char_indices().map(|(byte, _)| byte);
+    above + columns.nth(column.saturating_sub(1)).unwrap_or(line.len())
 }

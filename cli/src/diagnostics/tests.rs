@@ -3,7 +3,7 @@
 use camino::Utf8Path;
 
 use super::{
-    Code, Diagnostic, Diagnostics, listed, nearest, position, render, to_json, to_rustc_json,
+    Code, Diagnostic, Diagnostics, byte, listed, nearest, position, render, to_json, to_rustc_json,
 };
 use crate::workspace::Workspace;
 
@@ -152,6 +152,16 @@ fn an_editor_is_told_a_place_for_everything() {
 fn a_place_behind_the_end_is_the_end() {
     let end = position("a\nbc", 99);
     assert_eq!((end.line, end.column), (2, 3));
+}
+
+#[test]
+fn a_place_is_found_again_by_line_and_column() {
+    let text = "aä\r\nbc";
+    for at in text.char_indices().map(|(at, _)| at).chain([text.len()]) {
+        let place = position(text, at);
+        assert_eq!(byte(text, place.line, place.column), at);
+    }
+    assert_eq!(byte(text, 9, 9), text.len());
 }
 
 #[test]

@@ -25,7 +25,6 @@ struct Level {
 
 /// The first place that is nested too deeply; a text that cannot be split into tokens has none.
 pub(super) fn too_deep(text: &str) -> Option<Span> {
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let tokens: TokenStream = text.parse().ok()?;
     let mut levels = vec![Level::new(tokens)];
     // Of all levels but the innermost.

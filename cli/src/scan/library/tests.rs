@@ -5,6 +5,8 @@ use crate::diagnostics::Diagnostics;
 use crate::scan::fixture::{Fixture, Node};
 use crate::workspace::Workspace;
 
+const LIBRARY: &str = "crates/nodes/src/lib.rs";
+
 #[test]
 fn what_was_looked_at_quietly_is_told_to_who_asks_aloud() {
     let fixture = Fixture::control(&["a"])
@@ -24,4 +26,17 @@ fn what_was_looked_at_quietly_is_told_to_who_asks_aloud() {
     assert!(library.quietly(|| library.module("nodes::a")).is_none());
     assert!(library.module("nodes::a").is_none());
     assert_eq!(told(), 0, "it was told already");
+}
+
+#[test]
+fn a_byte_order_mark_moves_no_place() {
+    let answer = |mark: &str| {
+        let declared = format!("{mark}pub mod absent;");
+        let fixture = Fixture::control(&["absent"]).file(LIBRARY, &declared);
+        let manifest = format!("{mark}{}", fixture.text("hulk.toml"));
+        fixture.file("hulk.toml", &manifest).answer().text
+    };
+    let plain = answer("");
+    assert!(plain.contains(&format!("{LIBRARY}:1:9")), "{plain}");
+    assert_eq!(answer("\u{feff}"), plain);
 }
