@@ -6,8 +6,8 @@ use camino::Utf8Path;
 use serde_json::{Value, json};
 
 use super::text::render_plain;
-use super::{Diagnostic, Diagnostics, Label, position};
-use crate::workspace::{MANIFEST, Workspace};
+use super::{Code, Diagnostic, Diagnostics, Label, position};
+use crate::workspace::{MANIFEST, Workspace, normalized};
 
 /// One line for each diagnostic, and a last one that says whether all is well.
 pub fn to_rustc_json(diagnostics: &Diagnostics, workspace: &Workspace, success: bool) -> String {
@@ -55,7 +55,16 @@ fn message(diagnostic: &Diagnostic, workspace: &Workspace) -> Value {
         };
         spans.push(span(&whole, true, workspace));
     }
-    let children: Vec<Value> = diagnostic.help.iter().map(|help| child(help)).collect();
+    let help = diagnostic.help.iter().map(|help| child("help", help));
+    let of_author = matches!(diagnostic.code, Code::Rustc | Code::RustcWarning);
+    let rustc = diagnostic.rustc.as_deref();
+    let (rendered, note) = match rustc.filter(|_| of_author) {
+        // As rustc itself would show it.
+        Some(text) => (format!("{text}\n\n"), None),
+        None => (render_plain(diagnostic, workspace), rustc),
+    };
+    let note = note.map(|text| child("note", text));
+    let children: Vec<Value> = help.chain(note).collect();
     json!({
         "$message_type": "diagnostic",
         "message": diagnostic.message,
@@ -63,16 +72,16 @@ fn message(diagnostic: &Diagnostic, workspace: &Workspace) -> Value {
         "level": diagnostic.severity().name(),
         "spans": spans,
         "children": children,
-        "rendered": render_plain(diagnostic, workspace),
+        "rendered": rendered,
     })
 }
 
-fn child(help: &str) -> Value {
+fn child(level: &str, message: &str) -> Value {
     json!({
         "$message_type": "diagnostic",
-        "message": help,
+        "message": message,
         "code": null,
-        "level": "help",
+        "level": level,
         "spans": [],
         "children": [],
         "rendered": null,
@@ -102,7 +111,8 @@ fn span(label: &Label, is_primary: bool, workspace: &Workspace) -> Value {
             json!({ "text": line, "highlight_start": first, "highlight_end": last })
         });
     json!({
-        "file_name": label.file.as_str(),
+        // Editors look for a relative one below the root of cargo's workspace, which may be above the robot's.
+        "file_name": normalized(&workspace.root().join(&label.file)).as_str(),
         "byte_start": label.range.start.min(text.len()),
         "byte_end": label.range.end.min(text.len()),
         "line_start": start.line,

@@ -129,6 +129,32 @@ fn an_editor_reads_what_cargo_would_write() {
 }
 
 #[test]
+fn an_editor_gets_the_words_of_rustc_and_whole_paths() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let root = Utf8Path::from_path(folder.path()).expect("it is UTF-8");
+    let workspace = Workspace::at_root(&root.join("robot"));
+    let mut diagnostics = Diagnostics::new();
+    for (code, file) in [
+        (Code::Rustc, "../types/src/lib.rs"),
+        (Code::LeftToRustc, "src/lib.rs"),
+    ] {
+        let one = Diagnostic::new(code, "mismatched types").at(Utf8Path::new(file), 0..0, "");
+        diagnostics.add(one.help("mend it").rustc("error[E0308]: words".to_owned()));
+    }
+    let messages = messages(&to_rustc_json(&diagnostics, &workspace, false));
+    let [author, generated] = [&messages[0]["message"], &messages[1]["message"]];
+    let file = |message: &serde_json::Value| message["spans"][0]["file_name"].clone();
+    assert_eq!(file(author), root.join("types/src/lib.rs").as_str());
+    assert_eq!(file(generated), root.join("robot/src/lib.rs").as_str());
+    assert_eq!(author["rendered"], "error[E0308]: words\n\n");
+    assert_eq!(author["children"].as_array().expect("a list").len(), 1);
+    assert_eq!(generated["children"][0]["level"], "help");
+    let note = &generated["children"][1];
+    assert_eq!(note["level"], "note");
+    assert_eq!(note["message"], "error[E0308]: words");
+}
+
+#[test]
 fn an_editor_is_told_a_place_for_everything() {
     let workspace = Workspace::in_memory([("hulk.toml", "x\ny\n")]);
     workspace.read(Utf8Path::new("hulk.toml")).unwrap();
