@@ -48,7 +48,7 @@ pub struct Changed {
 #[derive(Debug, thiserror::Error)]
 pub enum DriftError {
     /// What was to be done, and why it could not be.
-    #[error("cannot {deed} `{path}`")]
+    #[error("cannot {deed} `{path}`: {source}")]
     Io {
         deed: &'static str,
         path: Utf8PathBuf,
@@ -58,7 +58,7 @@ pub enum DriftError {
     #[error("`{folder}` cannot be the generated folder: {reason}")]
     NotOwned { folder: Utf8PathBuf, reason: String },
     /// One of several files could not be written, and what was written before could not be taken back.
-    #[error("{error}; what was changed before could not be undone: {left}")]
+    #[error("{error}; what was written before could not be taken back: {left}")]
     NotUndone {
         error: Box<DriftError>,
         left: Box<DriftError>,

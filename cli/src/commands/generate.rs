@@ -120,9 +120,11 @@ fn texts<'paths>(paths: impl IntoIterator<Item = &'paths Utf8PathBuf>) -> Vec<&'
 
 /// Why the disk could not be read or written, for a person.
 pub(super) fn refusal(error: &DriftError) -> Refusal {
-    let reason = std::error::Error::source(error);
-    let reason = reason
-        .map(|reason| format!(": {reason}"))
-        .unwrap_or_default();
-    Refusal::bad(format!("{error}{reason}"))
+    let refusal = Refusal::bad(error.to_string());
+    match error {
+        DriftError::NotUndone { .. } => {
+            refusal.help("look at what has changed, with `git diff` for example, before you go on")
+        }
+        _ => refusal,
+    }
 }

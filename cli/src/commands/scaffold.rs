@@ -9,7 +9,7 @@ use super::session::Session;
 use super::{Failure, generate};
 use crate::arguments::{AddCycler, AddNode, CyclerKind, RemoveNode, RenameOutput, TextOrJson};
 use crate::diagnostics::{self, Code, Diagnostic, Diagnostics};
-use crate::drift;
+use crate::drift::{self, DriftError};
 use crate::outcome::{Outcome, Refusal};
 use crate::pipeline;
 use crate::resolve::robot::Robot;
@@ -132,15 +132,23 @@ fn apply(
     let drift = generate::compare(&root, &understood, &files)?;
     changes.extend(drift.changes(&files));
     let answer = Answer::new(session, &changes);
-    drift::write_all(&root, &changes).map_err(|error| {
-        let refusal = generate::refusal(&error);
-        Refusal::bad(format!("{UNTOUCHED}: {}", refusal.message))
-    })?;
+    drift::write_all(&root, &changes).map_err(|error| not_written(&error))?;
     match format {
         TextOrJson::Json => session.terminal.data(&answer.to_json())?,
         TextOrJson::Text => session.terminal.note(&answer.text()),
     }
     Ok(Outcome::Good)
+}
+
+fn not_written(error: &DriftError) -> Refusal {
+    let refusal = generate::refusal(error);
+    match error {
+        DriftError::NotUndone { .. } => refusal,
+        _ => Refusal {
+            message: format!("{UNTOUCHED}: {}", refusal.message),
+            ..refusal
+        },
+    }
 }
 
 /// Prints what the change brings; what was known before is no news.
@@ -205,5 +213,55 @@ impl Answer {
             "removed": self.removed,
         });
         format!("{answer}\n")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+    use std::io;
+
+    use camino::Utf8Path;
+
+    use super::{UNTOUCHED, not_written};
+    use crate::drift;
+    use crate::scaffold::Changes;
+
+    #[test]
+    fn nothing_was_changed_is_said_only_where_it_is_so() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let root = Utf8Path::from_path(folder.path()).expect("it is UTF-8");
+        fs::write(root.join("a"), "before").expect("the folder is ours");
+        let changes = ["a", "b"].map(|file| (file.into(), Some("after".to_owned())));
+        let changes = Changes::from(changes);
+        let full = |path: &Utf8Path| match path.as_str() {
+            "b" => Err(io::Error::other("the disk is full")),
+            _ => Ok(()),
+        };
+        let error = drift::write_all_asking(root, &changes, full).expect_err("the disk is full");
+        let refusal = not_written(&error);
+        assert_eq!(
+            refusal.message,
+            format!("{UNTOUCHED}: cannot write `b`: the disk is full")
+        );
+        let in_the_way = |path: &Utf8Path| {
+            if path == "b" {
+                fs::remove_file(root.join("a"))?;
+                fs::create_dir_all(root.join("a/b"))?;
+            }
+            full(path)
+        };
+        let error = drift::write_all_asking(root, &changes, in_the_way).expect_err("as before");
+        let refusal = not_written(&error);
+        let message = &refusal.message;
+        assert!(!message.contains(UNTOUCHED), "{message}");
+        for part in [
+            "cannot write `b`: the disk is full",
+            "taken back: cannot",
+            "irectory",
+        ] {
+            assert!(message.contains(part), "{part}: {message}");
+        }
+        assert!(refusal.help.is_some());
     }
 }
