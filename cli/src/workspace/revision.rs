@@ -1,6 +1,5 @@
 //! The files of a git revision, read by git itself; nothing is checked out.
 
-use std::ffi::OsStr;
 use std::io::{self, BufRead, BufReader, Read, Write as _};
 use std::process::{Command, Stdio};
 use std::thread;
@@ -34,23 +33,25 @@ struct Entry {
 /// What the revision holds around `root`, a folder of the repository; paths are relative to `root`.
 pub(super) fn load(root: &Utf8Path, revision: &str) -> Result<Memory, RevisionError> {
     let git = Git { root, revision };
-    let commit = git.ask(["rev-parse", "--verify", "--end-of-options"], &|| {
-        format!("{revision}^{{commit}}")
-    })?;
-    let prefix = git.ask(["rev-parse", "--show-prefix"], &String::new)?;
-    let listing = git.ask(["ls-tree", "-r", "-z", "--full-tree"], &|| {
-        commit.trim().to_owned()
-    })?;
-    let prefix = Utf8Path::new(prefix.trim_end_matches(['\n', '/']));
-    let entries: Vec<Entry> = listing
-        .split('\0')
-        .filter_map(|line| entry(line, prefix))
-        .collect();
+    let commit = format!("{revision}^{{commit}}");
+    let commit = git.ask(&["rev-parse", "--verify", "--end-of-options", &commit])?;
+    let commit = git.text(&commit)?;
+    let prefix = git.ask(&["rev-parse", "--show-prefix"])?;
+    let prefix = git.text(&prefix)?.trim_end_matches(['\n', '/']);
+    let listing = git.ask(&["ls-tree", "-r", "-z", "--full-tree", commit.trim()])?;
+    let entries = entries(&listing, Utf8Path::new(prefix));
     let texts = git.texts(&entries)?;
     let files = entries.into_iter().map(|entry| entry.path).zip(texts);
     // A file that is no UTF-8 cannot be read at all, as on disk.
     let files = files.filter_map(|(path, text)| Some((path, String::from_utf8(text).ok()?)));
     Ok(Memory::new(files).at(root))
+}
+
+/// What `git ls-tree -z` lists; a path that is no UTF-8 cannot be named by a robot.
+fn entries(listing: &[u8], prefix: &Utf8Path) -> Vec<Entry> {
+    let lines = listing.split(|byte| *byte == 0);
+    let lines = lines.filter_map(|line| str::from_utf8(line).ok());
+    lines.filter_map(|line| entry(line, prefix)).collect()
 }
 
 /// A line of `git ls-tree`: mode, type, object, a tab, path. Links and submodules are no files.
@@ -72,50 +73,29 @@ struct Git<'a> {
 }
 
 impl Git<'_> {
-    /// What git answers to these words and a last one, which may be empty.
-    fn ask<const N: usize>(
-        &self,
-        words: [&str; N],
-        last: &dyn Fn() -> String,
-    ) -> Result<String, RevisionError> {
-        let last = last();
-        let mut command = self.command(words);
-        if !last.is_empty() {
-            command.arg(last);
-        }
-        let output = command.output().map_err(|error| no_git(&error))?;
+    /// What git answers to these words.
+    fn ask(&self, words: &[&str]) -> Result<Vec<u8>, RevisionError> {
+        let output = self.command(words).output();
+        let output = output.map_err(|error| no_git(&error))?;
         if !output.status.success() {
             let said = String::from_utf8_lossy(&output.stderr);
             return Err(self.unreadable(said.trim().trim_start_matches("fatal: ")));
         }
-        String::from_utf8(output.stdout).map_err(|_| self.unreadable("a path is no UTF-8"))
+        Ok(output.stdout)
+    }
+
+    fn text<'b>(&self, answer: &'b [u8]) -> Result<&'b str, RevisionError> {
+        str::from_utf8(answer).map_err(|_| self.unreadable("a path is no UTF-8"))
     }
 
     /// The texts of these files, in their order.
     fn texts(&self, entries: &[Entry]) -> Result<Vec<Vec<u8>>, RevisionError> {
-        let mut child = self
-            .command(["cat-file", "--batch"])
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .spawn()
-            .map_err(|error| no_git(&error))?;
-        let mut stdin = child.stdin.take().expect("it was asked for above");
-        let mut stdout = BufReader::new(child.stdout.take().expect("it was asked for above"));
-        // Git answers while it is being asked: both at once, or both wait for each other.
-        let texts = thread::scope(|scope| {
-            scope.spawn(move || {
-                // If git goes away, what it did not say is missed below.
-                let _ = (entries.iter()).try_for_each(|entry| writeln!(stdin, "{}", entry.object));
-            });
-            let texts = entries.iter().map(|_| text(&mut stdout));
-            texts.collect::<io::Result<Vec<_>>>()
-        });
-        // It has nothing more to say.
-        let _ = child.wait();
+        let mut command = self.command(&["cat-file", "--batch"]);
+        let texts = ask_for_all(&mut command, entries).map_err(|error| no_git(&error))?;
         texts.map_err(|error| self.unreadable(&error.to_string()))
     }
 
-    fn command<S: AsRef<OsStr>>(&self, words: impl IntoIterator<Item = S>) -> Command {
+    fn command(&self, words: &[&str]) -> Command {
         let mut command = Command::new("git");
         command
             .args(words)
@@ -130,6 +110,31 @@ impl Git<'_> {
             reason: reason.to_owned(),
         }
     }
+}
+
+/// Asks for one object after the other; the outer error: the program cannot be started.
+fn ask_for_all(command: &mut Command, entries: &[Entry]) -> io::Result<io::Result<Vec<Vec<u8>>>> {
+    let mut child = command
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()?;
+    let mut stdin = child.stdin.take().expect("it was asked for above");
+    let mut stdout = BufReader::new(child.stdout.take().expect("it was asked for above"));
+    // It answers while it is being asked: both at once, or both wait for each other.
+    let texts = thread::scope(move |scope| {
+        scope.spawn(move || {
+            // If it goes away, what it did not say is missed below.
+            let _ = (entries.iter()).try_for_each(|entry| writeln!(stdin, "{}", entry.object));
+        });
+        let texts = entries.iter().map(|_| text(&mut stdout));
+        let texts = texts.collect::<io::Result<Vec<_>>>();
+        // Nobody reads what comes after an error: it must not wait for that, nor the thread for it.
+        drop(stdout);
+        texts
+    });
+    // It has nothing more to say.
+    let _ = child.wait();
+    Ok(texts)
 }
 
 /// One answer of `git cat-file --batch`: a line that ends with the length, the text, a line break.
@@ -154,7 +159,9 @@ fn no_git(error: &io::Error) -> RevisionError {
 
 #[cfg(test)]
 mod tests {
-    use super::{entry, text};
+    use std::process::Command;
+
+    use super::{Entry, ask_for_all, entries, entry, text};
 
     #[test]
     fn a_path_is_told_from_the_robot_not_from_the_repository() {
@@ -173,5 +180,26 @@ mod tests {
         assert_eq!(text(&mut stdout).expect("the first"), b"a\nb");
         assert_eq!(text(&mut stdout).expect("the second"), b"");
         assert!(text(&mut "4b82 missing\n".as_bytes()).is_err());
+    }
+
+    #[test]
+    fn an_answer_that_cannot_be_read_is_an_error_and_no_hang() {
+        // Far more than the pipes between two programs hold.
+        let entries: Vec<Entry> = (0..100_000)
+            .map(|number| Entry {
+                path: "a.rs".into(),
+                object: format!("object {number} without length of"),
+            })
+            .collect();
+        let texts = ask_for_all(&mut Command::new("cat"), &entries).expect("it can be started");
+        let error = texts.expect_err("it only says what it is asked");
+        assert!(error.to_string().contains("unexpected answer"), "{error}");
+    }
+
+    #[test]
+    fn a_path_that_is_no_utf_8_is_passed_over() {
+        let listing = b"100644 blob 4b82\todd\xff.rs\0100644 blob 5c01\ta.rs\0";
+        let found = entries(listing, "".into()).into_iter();
+        assert_eq!(found.map(|entry| entry.path).collect::<Vec<_>>(), ["a.rs"]);
     }
 }
