@@ -90,7 +90,10 @@ fn keep(document: &mut DocumentMut, behind: Option<isize>, comments: &str) {
             let own = comments_above(table).trim_start_matches('\n').to_owned();
             table.decor_mut().set_prefix(format!("{comments}\n\n{own}"));
         }
-        None => document.set_trailing(format!("{comments}\n")),
+        None => {
+            let end = document.trailing().as_str().unwrap_or_default();
+            document.set_trailing(format!("{comments}\n{end}"));
+        }
     }
 }
 
@@ -109,4 +112,22 @@ fn next_table(table: &mut Table, behind: Option<isize>) -> Option<&mut Table> {
 fn comments_above(table: &Table) -> &str {
     let prefix = table.decor().prefix();
     prefix.and_then(|text| text.as_str()).unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{document, remove};
+
+    #[test]
+    fn headings_and_comments_at_the_end_stay() {
+        for (end, expected) in [
+            ("", "# Heading.\n"),
+            ("\n# The end.\n", "# Heading.\n\n# The end.\n"),
+        ] {
+            let text = format!("# Heading.\n\n# About a.\n[a]\nx = 1\n{end}");
+            let mut parsed = document::parse("a.toml".into(), &text).expect("it is TOML");
+            remove(&mut parsed, &["a".to_owned(), "x".to_owned()]);
+            assert_eq!(parsed.to_string(), expected);
+        }
+    }
 }
