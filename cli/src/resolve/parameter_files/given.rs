@@ -182,12 +182,12 @@ impl Found<'_> {
         let text = self.layer.text;
         let span = self.value.span();
         let line = text.get(span.end..).and_then(|rest| rest.lines().next());
-        let comment = line.and_then(|line| line.split_once('#'));
+        let comment = line.and_then(comment_in);
         Given {
             file: self.layer.file.to_owned(),
             line: position(text, span.start).line,
             value: on_one_line(text.get(span).unwrap_or_default()),
-            comment: comment.map(|(_, comment)| comment.trim().to_owned()),
+            comment: comment.map(|comment| comment.trim().to_owned()),
             robots: self.layer.robots.clone(),
         }
     }
@@ -304,6 +304,22 @@ fn docs(attributes: &[syn::Attribute]) -> Option<String> {
     });
     let lines: Vec<String> = lines.collect();
     (!lines.is_empty()).then(|| lines.join(" "))
+}
+
+/// The comment at the end of a line of TOML: a `#` in quotes begins none.
+fn comment_in(line: &str) -> Option<&str> {
+    let mut quote = None;
+    let mut letters = line.char_indices();
+    while let Some((at, letter)) = letters.next() {
+        match (quote, letter) {
+            (None, '#') => return Some(&line[at + 1..]),
+            (None, '"' | '\'') => quote = Some(letter),
+            (Some('"'), '\\') => drop(letters.next()),
+            (Some(open), letter) if open == letter => quote = None,
+            _ => {}
+        }
+    }
+    None
 }
 
 fn on_one_line(value: &str) -> String {

@@ -1,6 +1,6 @@
 //! Values of one robot with all four kinds of layers.
 
-use super::{Asked, Given, Value, given};
+use super::{Asked, Given, Value, comment_in, given};
 use crate::diagnostics::Diagnostics;
 use crate::manifest;
 use crate::scan;
@@ -55,6 +55,19 @@ fn values(below: &[&str]) -> Vec<Value> {
         below,
     };
     given(&workspace, &manifest, &sources, asked)
+}
+
+#[test]
+fn a_hash_in_quotes_is_no_comment() {
+    for (line, comment) in [
+        (", colour = \"#fff\" }", None),
+        (", colour = '#fff' } # white", Some(" white")),
+        (r##", text = "\"#" } # said"##, Some(" said")),
+        (" # it's \"so\"", Some(" it's \"so\"")),
+        ("", None),
+    ] {
+        assert_eq!(comment_in(line), comment, "{line}");
+    }
 }
 
 #[test]
