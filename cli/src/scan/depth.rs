@@ -12,8 +12,8 @@ struct Level {
     tokens: token_stream::IntoIter,
     /// Operators since the last `,` or `;`: each may stand around what follows.
     operators: usize,
-    /// Open `<`.
-    generics: usize,
+    /// Each open `<`, and whether it is the second of `<<`.
+    generics: Vec<bool>,
     /// `else` that follow one another.
     branches: usize,
     after_block: bool,
@@ -21,6 +21,8 @@ struct Level {
     after_hash: bool,
     /// `-` or `=`, which makes an arrow of a `>`.
     after_arrow: bool,
+    /// A `<` that another one may follow without a space.
+    after_less: bool,
 }
 
 /// The first place that is nested too deeply; a text that cannot be split into tokens has none.
@@ -54,16 +56,17 @@ impl Level {
         Self {
             tokens: tokens.into_iter(),
             operators: 0,
-            generics: 0,
+            generics: Vec::new(),
             branches: 0,
             after_block: false,
             after_hash: false,
             after_arrow: false,
+            after_less: false,
         }
     }
 
     fn depth(&self) -> usize {
-        1 + self.operators + self.generics + self.branches
+        1 + self.operators + self.generics.len() + self.branches
     }
 
     fn see(&mut self, token: &TokenTree) {
@@ -75,15 +78,28 @@ impl Level {
         }
         self.after_block = false;
         let (after_hash, after_arrow) = (self.after_hash, self.after_arrow);
+        let after_less = std::mem::take(&mut self.after_less);
         (self.after_hash, self.after_arrow) = (false, false);
         match token {
             TokenTree::Punct(mark) => match mark.as_char() {
-                ',' => self.operators = 0,
-                ';' => (self.operators, self.generics, self.branches) = (0, 0, 0),
+                ',' => {
+                    self.operators = 0;
+                    // No comma stands right in `<A as B>`: it was a shift.
+                    while self.generics.last() == Some(&true) {
+                        self.generics.truncate(self.generics.len() - 2);
+                    }
+                }
+                ';' => {
+                    (self.operators, self.branches) = (0, 0);
+                    self.generics.clear();
+                }
                 '#' => self.after_hash = true,
                 '!' if after_hash => {}
-                '<' => self.generics += 1,
-                '>' if !after_arrow => self.generics = self.generics.saturating_sub(1),
+                '<' => {
+                    self.generics.push(after_less);
+                    self.after_less = !after_less && mark.spacing() == Spacing::Joint;
+                }
+                '>' if !after_arrow => drop(self.generics.pop()),
                 mark_of_arrow => {
                     self.after_arrow =
                         matches!(mark_of_arrow, '-' | '=') && mark.spacing() == Spacing::Joint;
@@ -91,7 +107,8 @@ impl Level {
                 }
             },
             TokenTree::Group(group) if group.delimiter() == Delimiter::Brace => {
-                (self.operators, self.generics) = (0, 0);
+                self.operators = 0;
+                self.generics.clear();
                 self.after_block = true;
             }
             TokenTree::Group(_) | TokenTree::Ident(_) | TokenTree::Literal(_) => {}
@@ -113,6 +130,8 @@ mod tests {
             around("mod a {", "", "}"),
             format!("type A = {};", around("Vec<", "u8", ">")),
             format!("type A = {};", around("Map<u8, ", "u8", ">")),
+            format!("type A = {};", around("Map<<A as B>::C, ", "u8", ">")),
+            format!("type A = {};", around("Vec<<A as B<", "u8", ">>::C>")),
             format!("const A: bool = {};", around("!", "true", "")),
             format!("const A: u8 = {};", around("1 + ", "1", "")),
             format!("fn a() {{ {} {{}} }}", around("if a {} else ", "", "")),
@@ -132,7 +151,9 @@ mod tests {
         ] {
             assert!(too_deep(&part.repeat(10_000)).is_none(), "{part}");
         }
-        let list = format!("const A: &[u8] = &[{}];", "1 + 1, ".repeat(10_000));
-        assert!(too_deep(&list).is_none());
+        for part in ["1 + 1, ", "1 << n, ", "n << (2), "] {
+            let list = format!("const A: &[u8] = &[{}];", part.repeat(10_000));
+            assert!(too_deep(&list).is_none(), "{part}");
+        }
     }
 }
