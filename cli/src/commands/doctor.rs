@@ -37,12 +37,13 @@ pub(super) fn run(
     doctor: &Doctor,
 ) -> Result<Outcome, Failure> {
     let mut session = Session::open(global, terminal);
-    let mut findings = machine::tools();
-    findings.extend(robot::look(&mut session));
     let root = session
         .as_ref()
         .map(|session| session.workspace.root().to_owned());
-    findings.extend(machine::resources(&root.unwrap_or_else(|_| ".".into())));
+    let root = root.unwrap_or_else(|_| ".".into());
+    let mut findings = machine::tools(&root);
+    findings.extend(robot::look(&mut session));
+    findings.extend(machine::resources(&root));
     terminal.data(&match doctor.format {
         TextOrJson::Text => findings.iter().map(line).collect(),
         TextOrJson::Json => format!("{}\n", json!({ "version": 1, "checks": findings })),

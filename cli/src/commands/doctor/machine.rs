@@ -17,22 +17,23 @@ const SCARCE_GIBIBYTES: u64 = 5;
 /// Free space with which no build is finished.
 const NO_GIBIBYTES: u64 = 1;
 
-/// rustc, cargo, git, python3.
-pub(super) fn tools() -> Vec<Finding> {
+/// rustc, cargo, git, python3, as they answer in the robot's folder: a `rust-toolchain.toml` there chooses among compilers.
+pub(super) fn tools(root: &Utf8Path) -> Vec<Finding> {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| OsString::from("cargo"));
+    let answer = |program: OsString| answer(program, &["--version"], root);
     let git_help = "install git: merges of generated files and `hulkgen diff` ask it";
     let python_help = "install python3: some of the framework's tests read recordings with it";
     vec![
-        rustc(answer("rustc", &["--version"]).as_deref()),
-        match answer(cargo, &["--version"]) {
+        rustc(answer("rustc".into()).as_deref()),
+        match answer(cargo) {
             Some(version) => Finding::ok("cargo", version),
             None => Finding::bad("cargo", "cannot be started", RUSTUP),
         },
-        match answer("git", &["--version"]) {
+        match answer("git".into()) {
             Some(version) => Finding::ok("git", version),
             None => Finding::warning("git", "cannot be started", git_help),
         },
-        match answer("python3", &["--version"]) {
+        match answer("python3".into()) {
             Some(version) => Finding::ok("python3", version),
             None => Finding::warning("python3", "cannot be started", python_help),
         },
@@ -47,7 +48,7 @@ pub(super) fn resources(root: &Utf8Path) -> Vec<Finding> {
     if let Ok(limits) = limits {
         findings.push(real_time(&limits));
     }
-    findings.push(disk(answer("df", &["-Pk", root.as_str()]).as_deref()));
+    findings.push(disk(answer("df", &["-Pk", "."], root).as_deref()));
     findings
 }
 
@@ -106,10 +107,15 @@ fn disk(said: Option<&str>) -> Finding {
     }
 }
 
-/// What a program prints; None if it cannot be started or fails.
-pub(super) fn answer(program: impl Into<OsString>, arguments: &[&str]) -> Option<String> {
+/// What a program prints in a folder; None if it cannot be started or fails.
+pub(super) fn answer(
+    program: impl Into<OsString>,
+    arguments: &[&str],
+    folder: &Utf8Path,
+) -> Option<String> {
     let output = Command::new(program.into())
         .args(arguments)
+        .current_dir(folder)
         .stdin(Stdio::null())
         .output()
         .ok()?;
@@ -148,6 +154,15 @@ mod tests {
 
     #[test]
     fn a_program_that_is_not_there_has_no_answer() {
-        assert_eq!(answer("hulkgen-is-not-called-so", &[]), None);
+        assert_eq!(answer("hulkgen-is-not-called-so", &[], ".".into()), None);
+    }
+
+    #[test]
+    fn a_program_is_asked_in_the_folder_of_the_robot() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let folder = folder.path().canonicalize().expect("it is there");
+        let folder = camino::Utf8Path::from_path(&folder).expect("it is UTF-8");
+        let said = answer("sh", &["-c", "pwd -P"], folder);
+        assert_eq!(said.as_deref(), Some(folder.as_str()));
     }
 }

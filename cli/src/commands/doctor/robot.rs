@@ -1,5 +1,7 @@
 //! The robot: whether it is found, right, generated, and can be built for its targets.
 
+use camino::Utf8Path;
+
 use super::machine::answer;
 use super::{Finding, State};
 use crate::commands::session::Session;
@@ -32,7 +34,9 @@ pub(super) fn look(session: &mut Result<Session<'_>, Refusal>) -> Vec<Finding> {
     });
     if let Ok(understood) = understood {
         findings.push(generated(&session.workspace, &understood));
-        findings.extend(understood.robot.targets.iter().filter_map(target));
+        findings.extend(
+            (understood.robot.targets.iter()).filter_map(|it| target(session.workspace.root(), it)),
+        );
     }
     findings
 }
@@ -57,12 +61,16 @@ fn generated(workspace: &Workspace, understood: &Understood) -> Finding {
 }
 
 /// Whether Rust's libraries for the target's triple are installed; None: it runs on this machine.
-fn target(target: &Target) -> Option<Finding> {
+fn target(root: &Utf8Path, target: &Target) -> Option<Finding> {
     let about = "target";
     let name = &target.name;
     // Behind the triple may stand a version of glibc.
     let triple = target.triple.as_deref()?.split('.').next()?;
-    let folder = answer("rustc", &["--print", "target-libdir", "--target", triple]);
+    let folder = answer(
+        "rustc",
+        &["--print", "target-libdir", "--target", triple],
+        root,
+    );
     let is_there = folder.is_some_and(|folder| {
         let files = Workspace::at_root(folder.as_str().into()).list("".into());
         !files.is_empty()
