@@ -233,12 +233,21 @@ fn at_head(text: &str, syntax: &syn::File, line: &str, end: &str) -> String {
     format!("{above}{missing}{end}{line}{gap}{below}")
 }
 
-/// The text without the lines of a range; an empty line that would stand twice goes, too.
+/// The text without the lines of a range, or without the range alone where something else stands on its lines; an empty
+/// line that would stand twice goes, too.
 fn without(text: &str, range: Range<usize>) -> String {
     let start = text[..range.start]
         .rfind('\n')
         .map_or(0, |newline| newline + 1);
     let (above, below) = (&text[..start], &text[end_of_line(text, range.end)..]);
+    let before = &text[start..range.start];
+    let behind = text[range.end..text.len() - below.len()].trim();
+    if !before.trim().is_empty() {
+        return format!("{above}{}{}", before.trim_end(), &text[range.end..]);
+    }
+    if !behind.is_empty() && !behind.starts_with("//") {
+        return format!("{above}{before}{}", text[range.end..].trim_start());
+    }
     let is_gap = above.is_empty() || above.ends_with("\n\n") || above.ends_with("\n\r\n");
     let below = match below.strip_prefix('\n').or(below.strip_prefix("\r\n")) {
         Some(rest) if is_gap => rest,

@@ -65,6 +65,12 @@ fn a_line_goes_with_what_belongs_to_it() {
         ),
         ("//! Nodes.\n\npub mod m;\n", "//! Nodes.\n"),
         ("pub mod m; // beside\n\nuse b;\n", "use b;\n"),
+        ("pub mod a; pub mod m;\n", "pub mod a;\n"),
+        ("pub mod m; pub mod z; // both\n", "pub mod z; // both\n"),
+        (
+            "use b;\n  pub mod a; pub mod m; pub mod z;",
+            "use b;\n  pub mod a; pub mod z;",
+        ),
     ] {
         let syntax = parse("lib.rs".into(), before).expect("it is Rust");
         let item = super::find(&syntax, "m").expect("it is there");
