@@ -4,24 +4,10 @@ mod robot;
 
 use std::process::{Command, Stdio};
 
+use clap::CommandFactory as _;
+use hulkgen::arguments::Arguments;
 use robot::{Ended, Robot, hulkgen};
 use serde_json::Value;
-
-const COMMANDS: [&str; 13] = [
-    "generate",
-    "check",
-    "explain",
-    "graph",
-    "show",
-    "run",
-    "schema",
-    "new",
-    "add-node",
-    "add-cycler",
-    "remove-node",
-    "rename-output",
-    "merge-driver",
-];
 
 fn json(text: &str) -> Value {
     serde_json::from_str(text).unwrap_or_else(|error| panic!("{error} in:\n{text}"))
@@ -31,7 +17,11 @@ fn json(text: &str) -> Value {
 fn the_help_of_every_command_has_exit_status_and_example() {
     Ended::of(&mut hulkgen("--help")).expect(0);
     Ended::of(&mut hulkgen("--version")).expect(0);
-    for command in COMMANDS {
+    let arguments = Arguments::command();
+    let commands = arguments.get_subcommands().map(clap::Command::get_name);
+    let commands: Vec<&str> = commands.collect();
+    assert!(commands.len() >= 17, "{commands:?}");
+    for command in commands {
         let help = Ended::of(&mut hulkgen(&format!("{command} --help")))
             .expect(0)
             .stdout;
