@@ -29,7 +29,8 @@ pub struct Consumer<T> {
 #[derive(Clone, Copy)]
 struct Place {
     order: Timestamp,
-    is_late: bool,
+    /// Of the cycle beside it.
+    timestamp: Timestamp,
     is_expired: bool,
 }
 
@@ -116,7 +117,7 @@ impl<T> Consumer<T> {
             newest = newest.max(entry.timestamp);
             self.places.push_back(Place {
                 order: newest,
-                is_late: newest > entry.timestamp,
+                timestamp: entry.timestamp,
                 // No two cycles of an instance have the same timestamp.
                 is_expired: self.given_up == Some(entry.timestamp),
             });
@@ -183,7 +184,7 @@ impl<T> Lane for Consumer<T> {
             last = Some(place.order);
             self.persistent += 1;
             self.counts.delivered += 1;
-            self.counts.late += u64::from(place.is_late);
+            self.counts.late += u64::from(place.order > place.timestamp);
             self.counts.expired += u64::from(place.is_expired);
         }
         last
@@ -206,11 +207,8 @@ impl<T> Lane for Consumer<T> {
 
     #[inline]
     fn rank(&self, index: usize) -> (Timestamp, Timestamp) {
-        let entry = self
-            .queue
-            .get(index)
-            .expect("places are beside taken cycles");
-        (self.places[index].order, entry.timestamp)
+        let place = &self.places[index];
+        (place.order, place.timestamp)
     }
 }
 
