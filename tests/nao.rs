@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use framework::driver::lockstep::Lockstep;
+use framework::driver::lockstep::{Lockstep, Paused};
 use framework::parameters::Layers;
 use framework::robot::{Robot, Start};
 use framework::{Clock, Hardware as _, HardwareContext, Instance, Stop, Timestamp};
@@ -24,6 +24,8 @@ pub const CAMERAS: [(&str, CameraPosition); 2] = [
 pub struct Nao {
     pub hardware: Arc<Hardware>,
     pub robot: Robot<Parameters>,
+    /// Where the last run ended.
+    paused: Option<Paused>,
 }
 
 impl Nao {
@@ -69,7 +71,11 @@ impl Nao {
             },
         )
         .expect("every node can be created");
-        Self { hardware, robot }
+        Self {
+            hardware,
+            robot,
+            paused: None,
+        }
     }
 
     /// Runs until `seconds` of virtual time; `observe` sees every instance after each finished cycle.
@@ -96,6 +102,10 @@ impl Nao {
         let end = Timestamp::from_nanos((seconds * 1e9) as u64);
         let hardware = self.hardware.clone();
         let lockstep = Lockstep::new(&mut self.robot, &*self.hardware);
+        let lockstep = match self.paused.take() {
+            Some(paused) => lockstep.after(paused),
+            None => lockstep,
+        };
         let mut lockstep = match chaos {
             Some(seed) => lockstep.chaotic(seed),
             None => lockstep,
@@ -103,6 +113,7 @@ impl Nao {
         lockstep
             .run_until(end, |instance| observe(&hardware, instance))
             .expect("the robot does not stop");
+        self.paused = Some(lockstep.pause());
     }
 }
 

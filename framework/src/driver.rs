@@ -6,6 +6,6 @@ pub mod observer;
 pub mod safe_state;
 pub mod threads;
 
-pub use lockstep::Lockstep;
+pub use lockstep::{Lockstep, Paused};
 pub use observer::Observer;
 pub use safe_state::SafeState;

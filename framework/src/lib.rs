@@ -59,7 +59,7 @@ pub use cycler::{
 };
 pub use data::{Data, NodeState, ParameterData};
 pub use digest::Digest;
-pub use driver::{Lockstep, SafeState};
+pub use driver::{Lockstep, Paused, SafeState};
 pub use error::{Error, InNode, NoEvent, Result, Stopped};
 pub use framework_macros::{Clear, Reflect, context};
 pub use guarded::{Guarded, Held, OnFailure, State};

@@ -9,6 +9,7 @@
 
 use super::chaos::Chaos;
 use super::observer::Observed;
+use super::safe_state::Causes;
 use super::{Observer, SafeState};
 use crate::cycler::{Finished, Instance, InstanceDescription, Restarted, Waited};
 use crate::error::{Error, Result};
@@ -16,7 +17,10 @@ use crate::hardware::{Event, Hardware};
 use crate::robot::Robot;
 use crate::time::Timestamp;
 
-/// Turns the instances of one robot, step by step. Dropping it abandons the cycles that are not finished.
+/// Turns the instances of one robot, step by step.
+///
+/// Dropping it abandons the cycles that are not finished, and forgets the event that the hardware told last: who wants to
+/// go on calls [`Lockstep::pause`].
 pub struct Lockstep<'robot, P> {
     robot: &'robot mut Robot<P>,
     hardware: &'robot dyn Hardware,
@@ -58,21 +62,33 @@ pub enum Step {
     Restarted(Restarted),
 }
 
+/// Where a [`Lockstep`] was left, for the next one with the same robot and hardware.
+#[derive(Debug)]
+pub struct Paused {
+    tracks: Vec<Track>,
+    ahead: Option<Arrival>,
+    world_has_ended: bool,
+    stopped: bool,
+    chaos: Option<Chaos>,
+    causes: Causes,
+}
+
 /// Where one instance is.
+#[derive(Debug)]
 struct Track {
     state: State,
     /// Its data is ready since then, and it could not begin.
     due: Option<Timestamp>,
 }
 
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 enum State {
     Idle,
     Running { until: Timestamp },
     Restarting { at: Timestamp },
 }
 
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 struct Arrival {
     at: Timestamp,
     index: usize,
@@ -141,6 +157,31 @@ impl<'robot, P> Lockstep<'robot, P> {
             *observed = Observed::by(observer_of(instance.description()));
         }
         self
+    }
+
+    /// Goes on where another one was left: cycles that have begun go on, and nothing that the hardware told is lost.
+    #[must_use]
+    pub fn after(mut self, paused: Paused) -> Self {
+        self.tracks = paused.tracks;
+        self.ahead = paused.ahead;
+        self.world_has_ended = paused.world_has_ended;
+        self.stopped = paused.stopped;
+        self.chaos = paused.chaos;
+        self.safe_state.set_causes(paused.causes);
+        self
+    }
+
+    /// Lets go of the robot; [`Self::after`] goes on.
+    pub fn pause(mut self) -> Paused {
+        Paused {
+            // Without them nothing is left to be abandoned.
+            tracks: std::mem::take(&mut self.tracks),
+            ahead: self.ahead,
+            world_has_ended: self.world_has_ended,
+            stopped: self.stopped,
+            chaos: self.chaos.take(),
+            causes: self.safe_state.take_causes(),
+        }
     }
 
     /// The robot between two steps.
@@ -288,7 +329,10 @@ impl<'robot, P> Lockstep<'robot, P> {
             return self.begin(at, index);
         }
         let due = at + wakes.unwrap_or_default();
-        if track.due.replace(due).is_some() {
+        let earlier = track.due;
+        // It wakes for the first data; the newest is what it then gets.
+        track.due = Some(earlier.map_or(due, |earlier| earlier.min(due)));
+        if earlier.is_some() {
             // The hardware has replaced what was due by newer data.
             self.robot.instances[index].counters().missed.add(1);
         }
@@ -365,6 +409,9 @@ impl<'robot, P> Lockstep<'robot, P> {
 
 impl<P> Drop for Lockstep<'_, P> {
     fn drop(&mut self) {
-        self.abandon();
+        let is_paused = self.tracks.is_empty();
+        if !is_paused {
+            self.abandon();
+        }
     }
 }

@@ -14,8 +14,9 @@ pub struct SafeState<'hardware> {
     causes: Mutex<Causes>,
 }
 
-#[derive(Default)]
-struct Causes {
+/// Why the actuators are taken away.
+#[derive(Debug, Default)]
+pub(super) struct Causes {
     /// Real-time instances that restart; ends by itself with the first cycle that they finish.
     restarting: BTreeSet<&'static str>,
     /// Stop or watchdog: ends only when somebody re-arms.
@@ -30,6 +31,15 @@ impl<'hardware> SafeState<'hardware> {
             hardware,
             causes: Mutex::default(),
         }
+    }
+
+    /// What another one knew about the same hardware.
+    pub(super) fn set_causes(&mut self, causes: Causes) {
+        *self.causes() = causes;
+    }
+
+    pub(super) fn take_causes(&mut self) -> Causes {
+        std::mem::take(&mut *self.causes())
     }
 
     /// Takes the actuators away until somebody re-arms: stop or watchdog.

@@ -243,20 +243,67 @@ fn each_driver_needs_its_clock() {
 }
 
 fn digest_of_a_run(setting: &Setting) -> Digest {
+    digest_of_runs(setting, None, &[Timestamp::NEVER])
+}
+
+/// Of one run after the other, each up to its end.
+fn digest_of_runs(setting: &Setting, chaos: Option<u64>, ends: &[Timestamp]) -> Digest {
     let mut events: Vec<_> = (0..40).map(|number| (3 + number * 33, "Eye")).collect();
     events.extend((0..120).map(|number| (number * 12, "Legs")));
     events.sort_unstable();
     let hardware = ScriptedHardware::lockstep(events);
     let mut robot = robot(&hardware, setting);
     let mut digest = Digest::new();
-    Lockstep::new(&mut robot, hardware.as_ref())
-        .run_until(Timestamp::NEVER, |instance| {
-            digest
-                .add_cycle(instance)
-                .expect("outputs can be serialised");
-        })
-        .expect("nothing stops the robot");
+    let mut paused = None;
+    for end in ends {
+        let mut lockstep = Lockstep::new(&mut robot, hardware.as_ref());
+        lockstep = match (paused.take(), chaos) {
+            (Some(paused), _) => lockstep.after(paused),
+            (None, Some(seed)) => lockstep.chaotic(seed),
+            (None, None) => lockstep,
+        };
+        lockstep
+            .run_until(*end, |instance| {
+                digest
+                    .add_cycle(instance)
+                    .expect("outputs can be serialised");
+            })
+            .expect("nothing stops the robot");
+        paused = Some(lockstep.pause());
+    }
     digest
+}
+
+#[test]
+fn runs_one_after_the_other_are_as_one() {
+    let setting = Setting {
+        eye_takes: Some(Duration::from_millis(27)),
+        ..Setting::default()
+    };
+    // The second ends while `Eye` is busy, the third between two events.
+    let ends = [millis(0), millis(40), millis(500), Timestamp::NEVER];
+    for chaos in [None, Some(7)] {
+        let one = digest_of_runs(&setting, chaos, &[Timestamp::NEVER]);
+        assert_eq!(digest_of_runs(&setting, chaos, &ends), one, "{chaos:?}");
+    }
+}
+
+#[test]
+fn one_seed_is_the_same_bits_and_another_is_not() {
+    let digest = |seed| digest_of_runs(&Setting::default(), Some(seed), &[Timestamp::NEVER]);
+    assert_eq!(digest(1), digest(1));
+    assert_ne!(digest(1), digest(2));
+    assert_ne!(digest(1), digest_of_a_run(&Setting::default()));
+    let legs = Plan {
+        reads_instant: true,
+        ..Plan::default()
+    };
+    let setting = Setting {
+        legs,
+        ..Setting::default()
+    };
+    let real = [0; 3].map(|_| digest_of_runs(&setting, Some(1), &[Timestamp::NEVER]));
+    assert!(real.iter().any(|one| *one != real[0]), "{real:?}");
 }
 
 #[test]
@@ -412,6 +459,34 @@ fn chaos_delays_what_happens_and_loses_nothing() {
         "{late:?}"
     );
     assert!(steps.is_sorted_by_key(|(at, ..)| *at));
+}
+
+#[test]
+fn data_faster_than_waking_up_still_wakes_in_time() {
+    let hardware = ScriptedHardware::lockstep((0..200).map(|number| (number, "Eye")));
+    let setting = Setting {
+        deadline: Some(Duration::ZERO),
+        ..Setting::default()
+    };
+    let mut robot = robot(&hardware, &setting);
+    let mut lockstep = Lockstep::new(&mut robot, hardware.as_ref()).chaotic(7);
+    let (mut came, mut waited, mut began) = (None, Vec::new(), 0);
+    while let Some(stepped) = lockstep.step().expect("nothing stops the robot") {
+        match stepped.step {
+            Step::Postponed => came = came.or(Some(stepped.at)),
+            Step::Began => {
+                began += 1;
+                waited.extend(came.take().map(|came| stepped.at - came));
+            }
+            _ => {}
+        }
+    }
+    drop(lockstep);
+    let longest = waited.iter().max().expect("it began");
+    assert!(*longest <= Duration::from_millis(2), "{longest:?}");
+    let eye = robot.instances[0].counters().read();
+    assert!(eye.missed > 0, "data came more often than it woke");
+    assert_eq!((eye.cycles, eye.cycles + eye.missed), (began, 200));
 }
 
 #[test]

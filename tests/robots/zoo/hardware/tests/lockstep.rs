@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use framework::parameters::Layers;
 use framework::{
-    Clock, Hardware as _, HardwareContext, Instance, Lockstep, Robot, Start, Stop, Timestamp,
+    Clock, Hardware as _, HardwareContext, Instance, Lockstep, Paused, Robot, Start, Stop,
+    Timestamp,
 };
 use serde_json::{Value, json};
 use zoo_hardware::Hardware;
@@ -14,6 +15,8 @@ use zoo_runtime::runtime;
 struct Zoo {
     hardware: Arc<Hardware>,
     robot: Robot<Parameters>,
+    /// Where the last run ended.
+    paused: Option<Paused>,
 }
 
 impl Zoo {
@@ -48,6 +51,7 @@ impl Zoo {
         Self {
             hardware,
             robot: robot.expect("every node can be created"),
+            paused: None,
         }
     }
 
@@ -55,9 +59,13 @@ impl Zoo {
     fn run(&mut self, seconds: f64, observe: impl FnMut(&dyn Instance)) {
         let end = Timestamp::from_nanos((seconds * 1e9) as u64);
         let mut lockstep = Lockstep::new(&mut self.robot, &*self.hardware);
+        if let Some(paused) = self.paused.take() {
+            lockstep = lockstep.after(paused);
+        }
         lockstep
             .run_until(end, observe)
             .expect("the zoo does not stop");
+        self.paused = Some(lockstep.pause());
     }
 
     /// All main outputs of all instances after each of their cycles, up to a virtual time.
