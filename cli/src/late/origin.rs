@@ -8,18 +8,34 @@ use super::Home;
 use super::rustc::Message;
 use super::surroundings::Surroundings;
 use crate::diagnostics::{Diagnostic, listed};
-use crate::resolve::robot::{CreationBinding, CycleBinding, Cycler, Node, Target};
+use crate::resolve::robot::{CreationBinding, CycleBinding, Cycler, Field, Node, Target};
 use crate::workspace::MANIFEST;
 
 /// A field of one of a node's contexts.
+#[derive(Clone)]
 struct Origin<'a> {
     node: &'a Node,
+    in_creation: bool,
     name: &'a str,
     range: Range<usize>,
     /// The node that writes what the field reads.
     writer: Option<&'a Node>,
     /// What it writes.
     output: &'a str,
+}
+
+impl<'a> Origin<'a> {
+    /// Of a field that names nothing but itself.
+    fn of<B>(node: &'a Node, field: &'a Field<B>) -> Self {
+        Self {
+            node,
+            in_creation: false,
+            name: &field.name,
+            range: field.range.clone(),
+            writer: None,
+            output: &field.name,
+        }
+    }
 }
 
 impl Home<'_> {
@@ -101,44 +117,29 @@ impl Home<'_> {
         surroundings.names.iter().find_map(|name| {
             let plain = name.strip_suffix("_input").unwrap_or(name);
             let plain = plain.strip_prefix("r#").unwrap_or(plain);
-            let is_it = |(in_creation, origin): &&(bool, Origin<'a>)| {
+            let is_it = |origin: &&Origin<'a>| {
                 let is_named = [origin.name, origin.output]
                     .iter()
                     .any(|other| *other == plain || *other == name);
-                is_named && (*in_creation == creates || surroundings.function.is_none())
+                is_named && (origin.in_creation == creates || surroundings.function.is_none())
             };
-            let found = fields.iter().find(is_it)?;
-            let (
-                _,
-                Origin {
-                    node,
-                    name,
-                    range,
-                    writer,
-                    output,
-                },
-            ) = found;
-            let range = range.clone();
-            Some(Origin {
-                node,
-                name,
-                range,
-                writer: *writer,
-                output,
-            })
+            fields.iter().find(is_it).cloned()
         })
     }
 
-    /// Every field of a node, and whether it is one of the creation context.
-    fn fields<'a>(&'a self, own: &'a Cycler, node: &'a Node) -> Vec<(bool, Origin<'a>)> {
+    /// Every field of a node.
+    fn fields<'a>(&'a self, own: &'a Cycler, node: &'a Node) -> Vec<Origin<'a>> {
         let creation = node.creation.iter().map(|field| {
             let path = match &field.binding {
                 CreationBinding::Parameter { access, .. }
                 | CreationBinding::CyclerState { access, .. } => access.segments.last(),
                 CreationBinding::HardwareInterface => None,
             };
-            let output = path.map_or(field.name.as_str(), |last| &last.name);
-            (true, node, &field.name, &field.range, None, output)
+            Origin {
+                in_creation: true,
+                output: path.map_or(field.name.as_str(), |last| &last.name),
+                ..Origin::of(node, field)
+            }
         });
         let cycle = node.cycle.iter().map(|field| {
             let writer = field.binding.read().and_then(|read| {
@@ -154,35 +155,15 @@ impl Home<'_> {
                 | CycleBinding::AdditionalOutput { access, .. } => access.segments.last(),
                 binding => binding.read().and_then(|read| read.access.segments.first()),
             };
-            let output = path.map_or(field.name.as_str(), |last| &last.name);
-            (false, node, &field.name, &field.range, writer, output)
+            Origin {
+                writer,
+                output: path.map_or(field.name.as_str(), |last| &last.name),
+                ..Origin::of(node, field)
+            }
         });
-        let outputs = node.outputs.iter().map(|field| {
-            (
-                false,
-                node,
-                &field.name,
-                &field.range,
-                None,
-                field.name.as_str(),
-            )
-        });
+        let outputs = node.outputs.iter().map(|field| Origin::of(node, field));
         // What a node is given by name goes before what it names by path.
-        let all = outputs.chain(cycle).chain(creation);
-        all.map(|(in_creation, node, name, range, writer, output)| {
-            let range = range.clone();
-            (
-                in_creation,
-                Origin {
-                    node,
-                    name,
-                    range,
-                    writer,
-                    output,
-                },
-            )
-        })
-        .collect()
+        outputs.chain(cycle).chain(creation).collect()
     }
 
     fn at_field(&self, error: Diagnostic, origin: &Origin<'_>) -> Diagnostic {
@@ -192,6 +173,7 @@ impl Home<'_> {
             range,
             writer,
             output,
+            ..
         } = origin;
         let text = format!("what is generated from `{name}` does not compile");
         let error = error.at(&node.file, range.clone(), text);
