@@ -4,7 +4,7 @@ mod page;
 mod spread;
 
 use camino::Utf8PathBuf;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 use super::nodes::{self, Place};
 use crate::outcome::Refusal;
@@ -28,7 +28,8 @@ struct Failure {
     cycler: String,
     node: String,
     setup: bool,
-    on_failure: &'static str,
+    #[serde(serialize_with = "by_name")]
+    on_failure: OnFailure,
     real_time: bool,
     /// What becomes of the cycle in which it fails.
     cycle: Fate,
@@ -115,7 +116,7 @@ fn failure(place: Place<'_>, schedule: &CyclerSchedule) -> Failure {
         cycler: cycler.name.clone(),
         node: node.path.clone(),
         setup: node.setup,
-        on_failure: node.on_failure.name(),
+        on_failure: node.on_failure,
         real_time: cycler.kind == CyclerKind::RealTime,
         cycle,
         outputs: outputs(node),
@@ -126,6 +127,11 @@ fn failure(place: Place<'_>, schedule: &CyclerSchedule) -> Failure {
         refused: procedures(node),
         effects: spread.effects,
     }
+}
+
+/// As the manifest writes it.
+fn by_name<S: Serializer>(policy: &OnFailure, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(policy.name())
 }
 
 /// Nodes that would run later.

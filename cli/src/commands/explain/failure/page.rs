@@ -1,6 +1,7 @@
 //! A failure and what follows from it, as text.
 
 use super::{Answer, Becomes, Effect, Failure, Fate};
+use crate::resolve::robot::OnFailure;
 
 /// A section for each cycler that has the node.
 pub(in crate::commands::explain) fn text(answer: &Answer) -> String {
@@ -10,7 +11,7 @@ pub(in crate::commands::explain) fn text(answer: &Answer) -> String {
 
 fn failure(failure: &Failure) -> String {
     let kind = if failure.setup { "setup node" } else { "node" };
-    let (node, cycler, policy) = (&failure.node, &failure.cycler, failure.on_failure);
+    let (node, cycler, policy) = (&failure.node, &failure.cycler, failure.on_failure.name());
     let mut text = format!("{node}: {kind} of {cycler}, on failure {policy}\n");
     for sentence in sentences(failure) {
         text.push_str(&format!("  {sentence}\n"));
@@ -39,13 +40,13 @@ fn sentences(failure: &Failure) -> Vec<String> {
         outputs => format!("its outputs are defaults: {}", outputs.join(", ")),
     };
     match (failure.on_failure, failure.cycle) {
-        ("stop", _) => {
+        (OnFailure::Stop, _) => {
             sentences.push("the cycle is abandoned".to_owned());
             sentences.push(
                 "the robot stops, in order, and the hardware goes into its safe state".to_owned(),
             );
         }
-        ("restart", _) => {
+        (OnFailure::Restart, _) => {
             sentences.push(
                 "the cycle is abandoned; nodes and states of this instance are created anew, \
                  after 0.1 s, doubling to 5 s"
@@ -56,15 +57,15 @@ fn sentences(failure: &Failure) -> Vec<String> {
             }
             sentences.push("five restarts in a minute stop the robot".to_owned());
         }
-        (_, Fate::NotBegun) => {
+        (OnFailure::Skip | OnFailure::Hold, Fate::NotBegun) => {
             sentences.push("no cycle begins; setup starts over, after at least 10 ms".to_owned());
         }
-        ("hold", _) => {
+        (OnFailure::Hold, Fate::Completed | Fate::Abandoned) => {
             sentences
                 .push("the cycle goes on with its last good outputs for at most 100 ms".to_owned());
             sentences.push(format!("after that {outputs}"));
         }
-        _ => {
+        (OnFailure::Skip, Fate::Completed | Fate::Abandoned) => {
             sentences.push("the cycle goes on".to_owned());
             sentences.push(outputs);
         }
