@@ -35,7 +35,7 @@ pub use length::{Duration, Size};
 pub use robot::{Manifest, Robot, Target};
 pub use spelling::{
     CyclerName, HardwarePath, IdentityName, InstanceName, InstanceSuffix, NodePath, RobotName,
-    SpellingError, TargetName, is_identifier, snake_case,
+    SpellingError, TargetName, is_identifier, snake_case, upper_camel_case,
 };
 
 /// The JSON schema of the manifest as text, as it stands in `hulk.schema.json`.

@@ -158,6 +158,20 @@ pub fn snake_case(name: &str) -> String {
     snake
 }
 
+/// `field_dimensions` as a type is called: `FieldDimensions`.
+pub fn upper_camel_case(name: &str) -> String {
+    name.split('_')
+        .flat_map(|word| {
+            let mut letters = word.chars();
+            letters
+                .next()
+                .into_iter()
+                .flat_map(char::to_uppercase)
+                .chain(letters)
+        })
+        .collect()
+}
+
 /// Whether a text is an ASCII identifier of Rust and no keyword.
 pub fn is_identifier(text: &str) -> bool {
     let mut letters = text.chars();

@@ -152,6 +152,17 @@ fn names_in_snake_case_keep_their_words() {
     }
 }
 
+#[test]
+fn words_of_fields_become_types() {
+    for (name, camel) in [
+        ("field_dimensions", "FieldDimensions"),
+        ("vision_top", "VisionTop"),
+        ("ball_2_filter_", "Ball2Filter"),
+    ] {
+        assert_eq!(upper_camel_case(name), camel);
+    }
+}
+
 /// `HULKGEN_WRITE=1 cargo test -p hulkgen-schema` writes the file anew.
 #[test]
 fn the_schema_beside_the_crate_is_current() {

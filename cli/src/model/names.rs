@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use crate::resolve::robot::Node;
 
-pub use schema::snake_case;
+pub use schema::{snake_case, upper_camel_case};
 
 /// Names that mean the prelude's to every reader, and `Self`.
 pub const PRELUDE: [&str; 26] = [
@@ -17,20 +17,6 @@ pub const PRELUDE: [&str; 26] = [
 
 /// Names that every file of nodes defines itself.
 const FUNCTIONS_OF_NODES: [&str; 6] = ["create", "cycle", "inject", "new", "restore", "setup"];
-
-/// `field_dimensions` becomes `FieldDimensions`.
-pub fn upper_camel_case(name: &str) -> String {
-    name.split('_')
-        .flat_map(|word| {
-            let mut letters = word.chars();
-            letters
-                .next()
-                .into_iter()
-                .flat_map(char::to_uppercase)
-                .chain(letters)
-        })
-        .collect()
-}
 
 /// `VisionTop` becomes `VISION_TOP`.
 pub fn constant_case(name: &str) -> String {
@@ -126,9 +112,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn fields_become_types() {
-        assert_eq!(upper_camel_case("field_dimensions"), "FieldDimensions");
-        assert_eq!(upper_camel_case("vision_top"), "VisionTop");
+    fn instances_become_constants() {
         assert_eq!(constant_case("VisionTop"), "VISION_TOP");
     }
 

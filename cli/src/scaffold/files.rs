@@ -26,17 +26,6 @@ pub(super) fn render_node(node: &NodeFile<'_>, setup: bool) -> String {
     render_template("node", template, node)
 }
 
-/// `ball_filter` as a type is called: `BallFilter`.
-pub(super) fn upper_camel_case(name: &str) -> String {
-    let words = name.split('_').filter(|word| !word.is_empty());
-    words
-        .flat_map(|word| {
-            let (first, rest) = word.split_at(1);
-            [first.to_uppercase(), rest.to_owned()]
-        })
-        .collect()
-}
-
 /// Refuses what cannot be the name of a module that people like to read.
 pub(super) fn check_module_name(name: &str) -> Result<(), Refusal> {
     let is_plain = name

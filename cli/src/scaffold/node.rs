@@ -82,7 +82,7 @@ pub(super) fn node_files(
     };
     let text = files::render_node(
         &NodeFile {
-            type_name: &files::upper_camel_case(last),
+            type_name: &schema::upper_camel_case(last),
             output: &output,
             paces: !paced,
         },
