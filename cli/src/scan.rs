@@ -29,6 +29,7 @@ use std::ops::Range;
 
 use camino::Utf8Path;
 use proc_macro2::Span;
+use syn::{Attribute, Expr, ExprLit, Lit, Meta};
 
 use crate::diagnostics::{Code, Diagnostic, Diagnostics, Reported};
 use crate::manifest::Manifest;
@@ -87,6 +88,20 @@ pub fn scan<'workspace>(
 /// The bytes of a span in its file.
 pub fn range(span: Span) -> Range<usize> {
     span.byte_range()
+}
+
+/// The text of a `///` or `//!`, if this attribute is one.
+pub(crate) fn doc(attribute: &Attribute) -> Option<String> {
+    match &attribute.meta {
+        Meta::NameValue(meta) if meta.path.is_ident("doc") => match &meta.value {
+            Expr::Lit(ExprLit {
+                lit: Lit::Str(text),
+                ..
+            }) => Some(text.value()),
+            _ => None,
+        },
+        _ => None,
+    }
 }
 
 /// A Cargo.toml that cannot be read hides the nodes of its package; only the generated crate's does not matter.

@@ -1,9 +1,11 @@
 //! What stands around a place of a generated file.
 
 use proc_macro2::{LineColumn, Span};
+use syn::Member;
 use syn::spanned::Spanned;
 use syn::visit::{self, Visit};
-use syn::{Attribute, Expr, ExprLit, Lit, Member, Meta};
+
+use crate::scan::doc;
 
 /// Names around a place, as far as there are any.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -129,19 +131,6 @@ fn name(member: &Member) -> String {
     match member {
         Member::Named(name) => name.to_string(),
         Member::Unnamed(index) => index.index.to_string(),
-    }
-}
-
-fn doc(attribute: &Attribute) -> Option<String> {
-    match &attribute.meta {
-        Meta::NameValue(meta) if meta.path.is_ident("doc") => match &meta.value {
-            Expr::Lit(ExprLit {
-                lit: Lit::Str(text),
-                ..
-            }) => Some(text.value()),
-            _ => None,
-        },
-        _ => None,
     }
 }
 

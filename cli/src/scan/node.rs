@@ -5,11 +5,11 @@ use std::rc::Rc;
 use grammar::{
     AnyContext, Context, ContextKind, CreationField, CycleField, Mistake, OutputField, Rule,
 };
-use syn::{Attribute, Expr, ExprLit, Item, ItemStruct, Lit, Meta};
+use syn::{Attribute, Item, ItemStruct};
 
 use super::module::Module;
-use super::range;
 use super::state::{self, StateSource};
+use super::{doc, range};
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 
 /// A node as its file describes it.
@@ -172,18 +172,7 @@ fn code(rule: Rule) -> Code {
 
 /// The first sentence of `//!` lines.
 fn summary(attributes: &[Attribute]) -> Option<String> {
-    let lines = attributes
-        .iter()
-        .filter_map(|attribute| match &attribute.meta {
-            Meta::NameValue(meta) if meta.path.is_ident("doc") => match &meta.value {
-                Expr::Lit(ExprLit {
-                    lit: Lit::Str(text),
-                    ..
-                }) => Some(text.value()),
-                _ => None,
-            },
-            _ => None,
-        });
+    let lines = attributes.iter().filter_map(doc);
     let paragraph: Vec<String> = lines
         .map(|line| line.trim().to_owned())
         .take_while(|line| !line.is_empty())

@@ -10,8 +10,8 @@ use toml::de::{DeTable, DeValue};
 use super::{choice, layer};
 use crate::diagnostics::{Diagnostics, position};
 use crate::manifest::Manifest;
-use crate::scan::Sources;
 use crate::scan::types::{Definition, Resolved, Shape};
+use crate::scan::{Sources, doc};
 use crate::workspace::Workspace;
 
 /// A value that is merged as one: a parameter, or a field of it.
@@ -290,19 +290,8 @@ impl<'a> Place<'a> {
 
 /// The text of `///`.
 fn docs(attributes: &[syn::Attribute]) -> Option<String> {
-    let lines = attributes.iter().filter_map(|attribute| {
-        let syn::Meta::NameValue(meta) = &attribute.meta else {
-            return None;
-        };
-        match &meta.value {
-            syn::Expr::Lit(syn::ExprLit {
-                lit: syn::Lit::Str(text),
-                ..
-            }) if meta.path.is_ident("doc") => Some(text.value().trim().to_owned()),
-            _ => None,
-        }
-    });
-    let lines: Vec<String> = lines.collect();
+    let lines = attributes.iter().filter_map(doc);
+    let lines: Vec<String> = lines.map(|line| line.trim().to_owned()).collect();
     (!lines.is_empty()).then(|| lines.join(" "))
 }
 
