@@ -4,6 +4,7 @@ use super::{Edge, EdgeKind, Sink, Source};
 use crate::resolve::robot::{
     Access, CycleBinding, Cycler, DataType, Field, Node, OutputRead, Robot,
 };
+use crate::schedule::overlap;
 
 pub(crate) fn describe_edges(robot: &Robot) -> Vec<Edge> {
     let mut edges = Vec::new();
@@ -133,12 +134,4 @@ fn root(access: &Access) -> String {
         .first()
         .map(|segment| segment.name.clone())
         .unwrap_or_default()
-}
-
-/// Whether one path is the other or leads to a field of it.
-fn overlap(one: &Access, other: &Access) -> bool {
-    one.segments
-        .iter()
-        .zip(&other.segments)
-        .all(|(one, other)| one.name == other.name)
 }

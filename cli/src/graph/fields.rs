@@ -81,6 +81,11 @@ fn creation_kind(binding: &CreationBinding) -> (&'static str, Arguments) {
     }
 }
 
+/// The kind of a field of the cycle context, as its author writes it.
+pub(crate) fn kind(binding: &CycleBinding) -> &'static str {
+    cycle_kind(binding).0
+}
+
 fn cycle_kind(binding: &CycleBinding) -> (&'static str, Arguments) {
     match binding {
         CycleBinding::OwnOutput { access, data, .. }

@@ -2,6 +2,7 @@
 
 use super::{Becomes, Effect, outputs};
 use crate::commands::explain::nodes::Place;
+use crate::graph::fields::kind;
 use crate::resolve::robot::{Access, CycleBinding, Cycler, Field, InstanceId, Node, Robot};
 use crate::schedule::overlap;
 
@@ -164,20 +165,5 @@ impl<'r> Spread<'r> {
     fn instance(&self, id: InstanceId) -> String {
         let cycler: &Cycler = &self.robot.cyclers[id.cycler];
         cycler.instances[id.instance].name.clone()
-    }
-}
-
-/// As its author writes it.
-fn kind(binding: &CycleBinding) -> &'static str {
-    match binding {
-        CycleBinding::RequiredOwnOutput { .. } | CycleBinding::RequiredOutputOf { .. } => {
-            "RequiredInput"
-        }
-        CycleBinding::Latest { .. } => "LatestInput",
-        CycleBinding::Previous { .. } => "PreviousInput",
-        CycleBinding::Historic { .. } => "HistoricInput",
-        CycleBinding::Perception { .. } => "PerceptionInput",
-        CycleBinding::CyclerState { .. } => "CyclerState",
-        _ => "Input",
     }
 }
