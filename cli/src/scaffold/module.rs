@@ -8,7 +8,7 @@ use syn::{Attribute, Item, ItemMod, Visibility};
 
 use super::{Changes, read};
 use crate::outcome::Refusal;
-use crate::scan::library::{candidates, path_attribute};
+use crate::scan::library::{candidates, path_attribute, places};
 use crate::scan::module::{folder_of, only_for_tests};
 use crate::scan::range;
 use crate::workspace::{Member, Workspace};
@@ -153,17 +153,13 @@ fn child(workspace: &Workspace, parent: &Place, item: &ItemMod) -> Result<Place,
         let message = format!("`{path}` stands inside of `{}`", parent.file);
         return Err(Refusal::bad(message).help("give it a file of its own first"));
     }
-    let named = path_attribute(item);
-    let files = match &named {
-        Some(file) => vec![parent.file.parent().unwrap_or(Utf8Path::new("")).join(file)],
-        None => candidates(&parent.folder, &name),
-    };
+    let files = places(&parent.file, &parent.folder, item);
     let found = files.iter().find(|file| workspace.is_file(file));
     let file =
         found.ok_or_else(|| Refusal::bad(format!("the file of module `{path}` does not exist")))?;
     Ok(Place {
         path,
-        folder: folder_of(file, named.is_some()),
+        folder: folder_of(file, path_attribute(item).is_some()),
         file: file.clone(),
     })
 }

@@ -13,8 +13,7 @@ use crate::manifest;
 use crate::outcome::Refusal;
 use crate::resolve::record::instance_in_front;
 use crate::resolve::robot::{Cycler, Robot};
-use crate::scan::library::candidates;
-use crate::scan::module::folder_of;
+use crate::scan::library::places;
 use crate::scan::{self, NodeSource, Sources, range};
 use crate::workspace::Workspace;
 
@@ -237,13 +236,12 @@ fn own_files(
     workspace: &Workspace,
     source: &NodeSource,
 ) -> Result<Vec<(Utf8PathBuf, syn::File)>, Refusal> {
-    let folder = folder_of(source.file(), false);
     let mut files = vec![source.file().to_owned()];
     for item in &source.module.syntax.items {
         if let syn::Item::Mod(item) = item
             && item.content.is_none()
         {
-            let places = candidates(&folder, &item.ident.to_string());
+            let places = places(source.file(), &source.module.folder, item);
             files.extend(places.into_iter().find(|file| workspace.is_file(file)));
         }
     }

@@ -199,10 +199,7 @@ impl<'workspace> Library<'workspace> {
                 syntax,
             )));
         }
-        let files = match path_attribute(item) {
-            Some(file) => vec![parent.file.parent().unwrap_or(Utf8Path::new("")).join(file)],
-            None => candidates(&parent.folder, &name),
-        };
+        let files = places(&parent.file, &parent.folder, item);
         let Some(file) = files.iter().find(|file| self.workspace.is_file(file)) else {
             let message = format!("the file of module `{path}` does not exist");
             let places: Vec<&str> = files.iter().map(|file| file.as_str()).collect();
@@ -347,6 +344,14 @@ pub(crate) fn candidates(folder: &Utf8Path, name: &str) -> Vec<Utf8PathBuf> {
         folder.join(format!("{name}.rs")),
         folder.join(name).join("mod.rs"),
     ]
+}
+
+/// Where the file of a module may lie that is declared in `file`.
+pub(crate) fn places(file: &Utf8Path, folder: &Utf8Path, item: &ItemMod) -> Vec<Utf8PathBuf> {
+    match path_attribute(item) {
+        Some(named) => vec![file.parent().unwrap_or(Utf8Path::new("")).join(named)],
+        None => candidates(folder, &item.ident.to_string()),
+    }
 }
 
 /// The file that `#[path = "…"]` names.

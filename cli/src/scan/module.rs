@@ -13,7 +13,7 @@ pub struct Module {
     /// The file it stands in.
     pub file: Utf8PathBuf,
     /// Where files of its own modules lie.
-    pub(super) folder: Utf8PathBuf,
+    pub(crate) folder: Utf8PathBuf,
     pub syntax: syn::File,
     pub(super) entries: BTreeMap<String, Entry>,
     pub(super) globs: Vec<Import>,
