@@ -19,7 +19,7 @@ use crate::workspace::Workspace;
 
 pub use catalogue::{Code, Severity};
 pub use json::to_json;
-pub use nearest::{listed, nearest};
+pub use nearest::{listed, nearest, suggestion};
 pub use position::{Position, byte, position};
 pub use rustc_json::to_rustc_json;
 pub use text::render;

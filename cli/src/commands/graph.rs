@@ -3,7 +3,7 @@
 use super::Failure;
 use super::session::Session;
 use crate::arguments::{self, GraphFormat};
-use crate::diagnostics::{listed, nearest};
+use crate::diagnostics::suggestion;
 use crate::graph::{self, Graph, dot, html, json, mermaid, svg};
 use crate::outcome::{Outcome, Refusal};
 
@@ -31,10 +31,7 @@ pub(super) fn run(
 }
 
 fn unknown_cycler(graph: &Graph, name: &str) -> Refusal {
-    let names = || graph.cyclers.iter().map(|cycler| cycler.name.as_str());
+    let names = graph.cyclers.iter().map(|cycler| cycler.name.as_str());
     let refusal = Refusal::wrong_usage(format!("there is no cycler `{name}`"));
-    refusal.help(match nearest(name, names()) {
-        Some(nearest) => format!("did you mean `{nearest}`?"),
-        None => format!("the robot has {}", listed(names())),
-    })
+    refusal.help(suggestion(name, names, "the robot has"))
 }

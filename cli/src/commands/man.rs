@@ -4,7 +4,7 @@ use clap::CommandFactory as _;
 
 use super::terminal::Terminal;
 use crate::arguments::{Arguments, Man};
-use crate::diagnostics::{listed, nearest};
+use crate::diagnostics::suggestion;
 use crate::outcome::{Outcome, Refusal};
 
 pub(super) fn run(terminal: &Terminal, man: &Man) -> Result<Outcome, Refusal> {
@@ -39,12 +39,9 @@ fn page(name: Option<&str>) -> Result<String, Refusal> {
 }
 
 fn unknown(whole: &clap::Command, name: &str) -> Refusal {
-    let names = || whole.get_subcommands().map(clap::Command::get_name);
+    let names = whole.get_subcommands().map(clap::Command::get_name);
     let refusal = Refusal::wrong_usage(format!("there is no command `{name}`"));
-    refusal.help(match nearest(name, names()) {
-        Some(nearest) => format!("did you mean `{nearest}`?"),
-        None => format!("there are {}", listed(names())),
-    })
+    refusal.help(suggestion(name, names, "there are"))
 }
 
 #[cfg(test)]

@@ -1,15 +1,18 @@
 //! The nearest valid name, and lists of names for messages.
 
-/// The candidate that was most likely meant: few edits away, or equal but for upper and lower case.
-pub fn nearest<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let limit = (wrong.chars().count() / 3).max(1);
-    candidates
-        .into_iter()
-        .filter(|candidate| *candidate != wrong)
-        .map(|candidate| (distance(wrong, candidate), candidate))
-        .filter(|(distance, _)| *distance <= limit)
-        .min()
-        .map(|(_, candidate)| candidate)
+pub use grammar::nearest;
+
+/// The deed for a name that means nothing: the nearest that does, else all of them behind these words.
+pub fn suggestion<'a>(
+    wrong: &str,
+    names: impl IntoIterator<Item = &'a str>,
+    introduction: &str,
+) -> String {
+    let names: Vec<&str> = names.into_iter().collect();
+    match nearest(wrong, names.iter().copied()) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => format!("{introduction} {}", listed(names)),
+    }
 }
 
 /// Names for a message: "`a`, `b` and `c`", "nothing" if there is none, at most eight of them.
@@ -26,24 +29,4 @@ pub fn listed<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
         all if more > 0 => format!("{} and {more} more", all.join(", ")),
         [first @ .., last] => format!("{} and {last}", first.join(", ")),
     }
-}
-
-/// Edits (insert, delete, replace, swap of neighbours) between two names, without regard to case.
-fn distance(a: &str, b: &str) -> usize {
-    let a: Vec<char> = a.to_lowercase().chars().collect();
-    let b: Vec<char> = b.to_lowercase().chars().collect();
-    let mut before: Vec<usize> = vec![0; b.len() + 1];
-    let mut last: Vec<usize> = (0..=b.len()).collect();
-    for i in 1..=a.len() {
-        let mut row = vec![i; b.len() + 1];
-        for j in 1..=b.len() {
-            let replaced = last[j - 1] + usize::from(a[i - 1] != b[j - 1]);
-            row[j] = replaced.min(last[j] + 1).min(row[j - 1] + 1);
-            if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
-                row[j] = row[j].min(before[j - 2] + 1);
-            }
-        }
-        before = std::mem::replace(&mut last, row);
-    }
-    last[b.len()]
 }

@@ -6,7 +6,7 @@ use syn::Type;
 use super::paths::{self, Agreement};
 use super::robot::{Access, DataType, InstanceId};
 use super::scene::{Producer, Scene, SceneNode};
-use crate::diagnostics::{Code, Diagnostic, Diagnostics, listed, nearest};
+use crate::diagnostics::{Code, Diagnostic, Diagnostics, listed, nearest, suggestion};
 use crate::scan::range;
 
 /// Type as written, position of the node that writes the output, whether the types were compared.
@@ -180,16 +180,8 @@ impl Inputs<'_, '_> {
                 names,
                 wrong,
             } => {
-                let near = nearest(&wrong, names.iter().map(String::as_str));
-                let help = near.map_or_else(
-                    || {
-                        format!(
-                            "its fields are {}",
-                            listed(names.iter().map(String::as_str))
-                        )
-                    },
-                    |near| format!("did you mean `{near}`?"),
-                );
+                let fields = names.iter().map(String::as_str);
+                let help = suggestion(&wrong, fields, "its fields are");
                 (
                     Code::UnknownOutput,
                     message,

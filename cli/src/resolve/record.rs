@@ -7,7 +7,7 @@ use camino::Utf8Path;
 use super::paths::{self, Agreement};
 use super::robot::{Access, Condition, InstanceId, Record, Segment};
 use super::scene::Scene;
-use crate::diagnostics::{Code, Diagnostic, Diagnostics, listed, nearest};
+use crate::diagnostics::{Code, Diagnostic, Diagnostics, suggestion};
 use crate::workspace::MANIFEST;
 
 /// What an instance of this cycler records; `None` and an error where the output is none or no `bool`.
@@ -53,17 +53,13 @@ fn condition(scene: &Scene<'_>, own: usize, written: &str) -> Result<Condition, 
     let scene_cycler = &scene.cyclers[cycler];
     let Some(producer) = scene_cycler.outputs.get(name) else {
         let outputs = scene_cycler.outputs.keys().map(String::as_str);
-        let help = match nearest(name, outputs.clone()) {
-            Some(near) => format!("did you mean `{near}`?"),
-            None => format!("its outputs are {}", listed(outputs)),
-        };
         return Err(Refused {
             code: Code::UnknownOutput,
             message: format!(
                 "no node of cycler `{}` writes `{name}`",
                 scene_cycler.declared.name()
             ),
-            help,
+            help: suggestion(name, outputs, "its outputs are"),
         });
     };
     let library = &scene.sources.library;
@@ -95,15 +91,10 @@ fn instance_of<'p>(
     match instance_in_front(written) {
         (Some(first), rest) => {
             let Some(id) = scene.instance(first) else {
-                let names: Vec<&str> = scene.instance_names().collect();
-                let help = match nearest(first, names.iter().copied()) {
-                    Some(near) => format!("did you mean `{near}`?"),
-                    None => format!("the instances are {}", listed(names)),
-                };
                 return Err(Refused {
                     code: Code::UnknownInstance,
                     message: format!("there is no instance `{first}`"),
-                    help,
+                    help: suggestion(first, scene.instance_names(), "the instances are"),
                 });
             };
             Ok((Some(id), rest))

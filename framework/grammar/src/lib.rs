@@ -21,5 +21,6 @@ pub use field::{
     ProcedureName, ReadField, StatePath, option_argument, read_field,
 };
 pub use mistake::{Mistake, Rule};
+pub use nearest::nearest;
 pub use path::{DataPath, Name, Segment, SegmentName};
 pub use signature::{Signature, Signatures, find_node};
