@@ -15,7 +15,7 @@ mod restarts;
 mod turn;
 
 pub use counters::{Counters, Counts};
-pub use description::{InstanceDescription, Kind, Policy, Scheduling};
+pub use description::{InstanceDescription, Kind};
 pub use instance::{Finished, Instance, PAUSE_AFTER_SETUP_FAILURE, Restarted, Waited};
 pub use turn::Cycler;
 

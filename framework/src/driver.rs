@@ -9,3 +9,4 @@ pub mod threads;
 pub use lockstep::{Lockstep, Paused};
 pub use observer::Observer;
 pub use safe_state::SafeState;
+pub use threads::Threads;

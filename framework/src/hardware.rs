@@ -33,6 +33,11 @@ pub trait Hardware: Send + Sync {
     /// Gives the actuators back to the nodes: an instance that had to restart has finished its first cycle.
     fn rearm(&self) {}
 
+    /// Whether nothing but this machine moves: threads then leave their scheduling to the system, unless `--real-time` is given.
+    fn is_simulated(&self) -> bool {
+        false
+    }
+
     /// Lockstep: advances the world until the data of one instance is ready, equal times in manifest order; `None` at the
     /// end of the world.
     ///

@@ -19,7 +19,7 @@ use std::time::{Duration, SystemTime, UNIX_EPOCH};
 use serde::de::DeserializeOwned;
 
 use crate::clock::Clock;
-use crate::driver::threads;
+use crate::driver::Threads;
 use crate::error::{Error, Result};
 use crate::hardware::{Hardware, HardwareContext};
 use crate::parameters::{Layers, Parameters};
@@ -141,7 +141,9 @@ where
     ));
     supervisor.watch(&robot, options.duration);
     let started = clock.now();
-    let result = threads::run(&mut robot.instances, &clock, hardware.as_ref(), stop);
+    let is_real_time = options.is_real_time || !hardware.is_simulated();
+    let threads = Threads::new(&clock, hardware.as_ref(), stop).real_time(is_real_time);
+    let result = threads.run(&mut robot.instances);
     let report = RobotReport::new(target.name, clock.now() - started, &robot);
     let written = match options.format {
         Format::Json => writeln!(output, "{}", report.to_json()),

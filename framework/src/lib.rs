@@ -8,6 +8,7 @@
 //! | [`launch`], [`parameters`], [`hardware`] | from the command line and the parameter layers to a running robot |
 //! | [`robot`], [`driver`] | the instances put together, and the two ways to turn them: threads and lockstep |
 //! | [`cycler`] | one instance: the four calls around its generated body |
+//! | [`scheduling`] | what its thread asks of the operating system, and what it got |
 //! | [`guarded`], [`error`] | one node: failures and panics end here |
 //! | [`mod@context`], [`mod@procedure`] | what a node sees: the kinds of the context fields |
 //! | [`mod@buffer`] | the newest database of an instance, without blocking, lock or copy; the only unsafe code |
@@ -39,6 +40,7 @@ pub mod procedure;
 pub mod reflect;
 pub mod report;
 pub mod robot;
+pub mod scheduling;
 pub mod stop;
 pub mod subscriptions;
 pub mod temporal;
@@ -54,12 +56,12 @@ pub use context::{
     LatestInput, MainOutput, Parameter, PreviousInput, Procedure, ReadState, RequiredInput,
 };
 pub use cycler::{
-    Body, Cycle, Cycler, Finished, Instance, InstanceDescription, Kind, Policy, Restarted,
-    Scheduling, Slots, Swap, Waited,
+    Body, Cycle, Cycler, Finished, Instance, InstanceDescription, Kind, Restarted, Slots, Swap,
+    Waited,
 };
 pub use data::{Data, NodeState, ParameterData};
 pub use digest::Digest;
-pub use driver::{Lockstep, Paused, SafeState};
+pub use driver::{Lockstep, Paused, SafeState, Threads};
 pub use error::{Error, InNode, NoEvent, Result, Stopped};
 pub use framework_macros::{Clear, Reflect, context};
 pub use guarded::{Guarded, Held, OnFailure, State};
@@ -71,6 +73,7 @@ pub use procedure::{Answerer, Call, CallAny, Caller, Pending, PendingAny, Refuse
 pub use reflect::Reflect;
 pub use report::{InstanceReport, NodeReport, QueueReport, RobotReport};
 pub use robot::{Access, Robot, Start};
+pub use scheduling::{Granted, Policy, Scheduling};
 pub use stop::Stop;
 pub use subscriptions::Subscriptions;
 pub use temporal::{

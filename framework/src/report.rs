@@ -9,6 +9,7 @@ use std::time::Duration;
 
 use crate::cycler::{Counts, InstanceDescription};
 use crate::robot::Robot;
+use crate::scheduling::Granted;
 use crate::temporal::QueueCounts;
 use crate::timing::Histogram;
 
@@ -30,6 +31,8 @@ pub struct InstanceReport {
     pub description: InstanceDescription,
     /// Its counts so far.
     pub counts: Counts,
+    /// What the system gave its thread, where something was asked.
+    pub granted: Option<Granted>,
     /// Of the overruns: how many had this node as the one that took longest, as far as they were timed.
     pub slowest: Vec<(&'static str, u64)>,
     /// Durations of timed cycles.

@@ -1,7 +1,9 @@
 //! Counts of one instance that others may read while it runs.
 
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use crate::scheduling::Granted;
 use crate::time::Timestamp;
 
 macro_rules! counters {
@@ -11,6 +13,7 @@ macro_rules! counters {
         pub struct Counters {
             $($(#[doc = $doc])+ pub $name: Counter,)+
             begun_at: AtomicU64,
+            granted: OnceLock<Granted>,
         }
 
         /// The counts of one instance at one moment.
@@ -70,6 +73,16 @@ impl Counter {
 }
 
 impl Counters {
+    /// What the system gave its thread; `None` before it runs, and where nothing was asked.
+    pub fn granted(&self) -> Option<&Granted> {
+        self.granted.get()
+    }
+
+    /// A thread is asked for once; what it got at first stands.
+    pub(crate) fn grant(&self, granted: Granted) {
+        let _ = self.granted.set(granted);
+    }
+
     /// When the cycle began that has not ended; for the watchdog.
     pub fn begun_at(&self) -> Option<Timestamp> {
         // One more than the time, so that zero is free to say that there is none.

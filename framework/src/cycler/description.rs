@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use crate::guarded::OnFailure;
+use crate::scheduling::Scheduling;
 
 /// One instance as the manifest describes it; a struct literal in the generated crate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,28 +37,6 @@ pub enum Kind {
     Perception,
     /// Runs at the pace of the body.
     RealTime,
-}
-
-/// What a cycler's own thread asks of the operating system; targets without real time ignore it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Scheduling {
-    /// The system's own if `None`.
-    pub policy: Option<Policy>,
-    /// 1 to 99 for the real-time policies.
-    pub priority: Option<u8>,
-    /// The cores it may run on; empty: all.
-    pub cores: &'static [usize],
-}
-
-/// A scheduling policy of Linux.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Policy {
-    /// `SCHED_OTHER`: no real time.
-    Other,
-    /// `SCHED_FIFO`.
-    Fifo,
-    /// `SCHED_RR`.
-    RoundRobin,
 }
 
 impl InstanceDescription {

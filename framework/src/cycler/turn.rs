@@ -328,6 +328,7 @@ impl<B: Body> Instance for Cycler<B> {
         InstanceReport {
             description: self.description,
             counts: self.counters.read(),
+            granted: self.counters.granted().cloned(),
             slowest: self.stopwatch.slowest().to_vec(),
             durations: self.stopwatch.durations().clone(),
             nodes: self.nodes_so_far(),

@@ -1,5 +1,6 @@
 //! One named thread per instance; the calling thread is the watchdog.
 
+use std::collections::BTreeSet;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::Duration;
@@ -18,94 +19,146 @@ use crate::report::tell;
 use crate::stop::Stop;
 use crate::time::Timestamp;
 
-/// Runs until the stop is requested or an instance fails for good, which is the error.
-///
-/// Either way the robot stops in order: safe state, [`Hardware::stop`], then every thread ends its cycle. It takes the
-/// instances and not the robot, so that clients may use the rest of it meanwhile.
-pub fn run(
-    instances: &mut [Box<dyn Instance>],
-    clock: &Clock,
-    hardware: &dyn Hardware,
-    stop: &Stop,
-) -> Result<()> {
-    run_observed(instances, clock, hardware, stop, |_| None)
+/// The robot's threads and what they share.
+pub struct Threads<'robot> {
+    clock: &'robot Clock,
+    hardware: &'robot dyn Hardware,
+    stop: &'robot Stop,
+    is_real_time: bool,
 }
 
-/// As [`run`], with the observers that `observer_of` gives.
-pub fn run_observed<'run>(
-    instances: &mut [Box<dyn Instance>],
-    clock: &Clock,
-    hardware: &dyn Hardware,
-    stop: &Stop,
-    mut observer_of: impl FnMut(&InstanceDescription) -> Option<Box<dyn Observer + 'run>>,
-) -> Result<()> {
-    if clock.is_stepped() {
-        return Err(Error::new("threads need a wall clock: Clock::wall()"));
+impl<'robot> Threads<'robot> {
+    /// Threads that leave their scheduling to the system.
+    pub fn new(clock: &'robot Clock, hardware: &'robot dyn Hardware, stop: &'robot Stop) -> Self {
+        Self {
+            clock,
+            hardware,
+            stop,
+            is_real_time: false,
+        }
     }
-    let failure = Mutex::new(None);
-    let fail = |error: Error| {
-        let mut failure = failure.lock().unwrap_or_else(PoisonError::into_inner);
-        match *failure {
-            // The first failure stops the robot; what follows may be its consequence.
-            Some(_) => tell(format_args!("{error}")),
-            None => *failure = Some(error),
+
+    /// Whether every thread asks for the `scheduling` of its instance; what is refused is told once.
+    pub fn real_time(self, is_real_time: bool) -> Self {
+        Self {
+            is_real_time,
+            ..self
         }
-        stop.request();
-    };
-    let safe_state = SafeState::new(hardware);
-    let watched = Watched::all(instances);
-    thread::scope(|scope| {
-        for instance in instances {
-            let description = *instance.description();
-            let turning = Turning {
-                clock,
-                stop,
-                safe_state: &safe_state,
-            };
-            let mut observed = Observed::by(observer_of(&description));
-            let spawned = thread::Builder::new()
-                .name(description.name.to_owned())
-                .spawn_scoped(scope, move || {
-                    // Nodes keep their panics to themselves; this is for everything around them.
-                    let turned = contain(description.name, || {
-                        turning.turn(instance.as_mut(), &mut observed)
-                    });
-                    match turned {
-                        Ok(()) => stop.request(),
-                        Err(error) => fail(error.context(format!("{} failed", description.name))),
-                    }
-                    // What a panic has left.
-                    instance.abandon();
-                });
-            if let Err(error) = spawned {
-                fail(Error::from(error).context(format!("no thread for {}", description.name)));
-                break;
+    }
+
+    /// Runs until the stop is requested or an instance fails for good, which is the error.
+    ///
+    /// Either way the robot stops in order: safe state, [`Hardware::stop`], then every thread ends its cycle. It takes the
+    /// instances and not the robot, so that clients may use the rest of it meanwhile.
+    pub fn run(&self, instances: &mut [Box<dyn Instance>]) -> Result<()> {
+        self.run_observed(instances, |_| None)
+    }
+
+    /// As [`Threads::run`], with the observers that `observer_of` gives.
+    pub fn run_observed<'run>(
+        &self,
+        instances: &mut [Box<dyn Instance>],
+        mut observer_of: impl FnMut(&InstanceDescription) -> Option<Box<dyn Observer + 'run>>,
+    ) -> Result<()> {
+        if self.clock.is_stepped() {
+            return Err(Error::new("threads need a wall clock: Clock::wall()"));
+        }
+        let stop = self.stop;
+        let failure = Mutex::new(None);
+        let fail = |error: Error| {
+            let mut failure = failure.lock().unwrap_or_else(PoisonError::into_inner);
+            match *failure {
+                // The first failure stops the robot; what follows may be its consequence.
+                Some(_) => tell(format_args!("{error}")),
+                None => *failure = Some(error),
             }
-        }
-        let watching = contain("watchdog", || {
-            watch(&watched, clock, stop, &safe_state);
-            Ok(())
+            stop.request();
+        };
+        let safe_state = SafeState::new(self.hardware);
+        let watched = Watched::all(instances);
+        let refusals = Refusals::default();
+        thread::scope(|scope| {
+            for instance in instances {
+                let description = *instance.description();
+                let turning = Turning {
+                    clock: self.clock,
+                    stop,
+                    safe_state: &safe_state,
+                    refusals: self.is_real_time.then_some(&refusals),
+                };
+                let mut observed = Observed::by(observer_of(&description));
+                let spawned = thread::Builder::new()
+                    .name(description.name.to_owned())
+                    .spawn_scoped(scope, move || {
+                        // Nodes keep their panics to themselves; this is for everything around them.
+                        let turned = contain(description.name, || {
+                            turning.ask_for_scheduling(instance.as_ref());
+                            turning.turn(instance.as_mut(), &mut observed)
+                        });
+                        match turned {
+                            Ok(()) => stop.request(),
+                            Err(error) => {
+                                fail(error.context(format!("{} failed", description.name)));
+                            }
+                        }
+                        // What a panic has left.
+                        instance.abandon();
+                    });
+                if let Err(error) = spawned {
+                    fail(Error::from(error).context(format!("no thread for {}", description.name)));
+                    break;
+                }
+            }
+            let watching = contain("watchdog", || {
+                watch(&watched, self.clock, stop, &safe_state);
+                Ok(())
+            });
+            watching.unwrap_or_else(|error| fail(error.context("the watchdog failed")));
+            safe_state.enter();
+            let stopped = contain("Hardware::stop", || {
+                self.hardware.stop();
+                Ok(())
+            });
+            stopped.unwrap_or_else(fail);
         });
-        watching.unwrap_or_else(|error| fail(error.context("the watchdog failed")));
-        safe_state.enter();
-        let stopped = contain("Hardware::stop", || {
-            hardware.stop();
-            Ok(())
-        });
-        stopped.unwrap_or_else(fail);
-    });
-    let failure = failure.into_inner().unwrap_or_else(PoisonError::into_inner);
-    failure.map_or(Ok(()), Err)
+        let failure = failure.into_inner().unwrap_or_else(PoisonError::into_inner);
+        failure.map_or(Ok(()), Err)
+    }
 }
+
+/// What the system refused and was told already: the same cause touches many threads.
+type Refusals = Mutex<BTreeSet<&'static str>>;
 
 /// What a thread needs besides its instance.
 struct Turning<'run> {
     clock: &'run Clock,
     stop: &'run Stop,
     safe_state: &'run SafeState<'run>,
+    /// `None`: scheduling is the system's.
+    refusals: Option<&'run Refusals>,
 }
 
 impl Turning<'_> {
+    /// For the calling thread, before its first cycle.
+    fn ask_for_scheduling(&self, instance: &dyn Instance) {
+        let InstanceDescription {
+            name, scheduling, ..
+        } = instance.description();
+        let Some(refusals) = self.refusals.filter(|_| !scheduling.is_default()) else {
+            return;
+        };
+        let refused = scheduling.apply();
+        let granted = scheduling.granted(&refused);
+        tell(format_args!("{name} runs with {granted}"));
+        instance.counters().grant(granted);
+        let mut told = refusals.lock().unwrap_or_else(PoisonError::into_inner);
+        for refused in refused {
+            if told.insert(refused.deed) {
+                tell(format_args!("warning: {name}: {refused}"));
+            }
+        }
+    }
+
     /// Cycle after cycle until the robot stops.
     fn turn(&self, instance: &mut dyn Instance, observed: &mut Observed<'_>) -> Result<()> {
         while !self.stop.is_requested() {

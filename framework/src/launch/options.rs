@@ -27,6 +27,8 @@ pub(super) struct Options {
     /// (path, value)
     pub(super) settings: Vec<(String, String)>,
     pub(super) run_folder: Option<PathBuf>,
+    /// Also on a simulated target, threads ask for their `scheduling`.
+    pub(super) is_real_time: bool,
     /// Everything after `--`.
     pub(super) hardware: Vec<String>,
 }
@@ -54,6 +56,7 @@ Usage: {name} [OPTIONS] [-- HARDWARE OPTIONS]
   --location NAME     layer of parameters
   --set PATH=VALUE    a parameter, above all layers; may be repeated
   --run-folder DIR    for files of this run, instead of runs/<start>-<process>
+  --real-time         apply the manifest's `scheduling` on a simulated target, too
   --help              this text
 ",
         robot = target.robot,
@@ -84,6 +87,7 @@ pub(super) fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Com
             Arg::Long("location") => options.location = Some(parser.value()?.string()?),
             Arg::Long("set") => options.settings.push(setting(&parser.value()?.string()?)?),
             Arg::Long("run-folder") => options.run_folder = Some(parser.value()?.into()),
+            Arg::Long("real-time") => options.is_real_time = true,
             Arg::Long("help") | Arg::Short('h') => return Ok(Command::Help),
             unexpected => return Err(unexpected.unexpected().into()),
         }
@@ -170,6 +174,7 @@ mod tests {
             "c = x=y",
             "--run-folder",
             "there",
+            "--real-time",
             "--",
             "--for",
             "lamp",
@@ -184,6 +189,7 @@ mod tests {
                 ("c".to_owned(), "x=y".to_owned()),
             ],
             run_folder: Some("there".into()),
+            is_real_time: true,
             hardware: vec!["--for".to_owned(), "lamp".to_owned()],
         };
         assert_eq!(options.expect("all options are valid"), expected);

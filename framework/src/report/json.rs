@@ -5,6 +5,7 @@ use std::time::Duration;
 use serde_json::{Value, json};
 
 use super::{InstanceReport, NodeReport, QueueReport, RobotReport};
+use crate::scheduling::{Granted, Policy};
 use crate::timing::Histogram;
 
 impl RobotReport {
@@ -48,8 +49,18 @@ fn instance_to_json(instance: &InstanceReport, duration: Duration) -> Value {
         "wait_us": quantiles(&durations.wait),
         "setup_us": quantiles(&durations.setup),
         "framework_us": quantiles(&durations.framework),
+        "scheduling": instance.granted.as_ref().map(granted_to_json),
         "nodes": instance.nodes.iter().map(node_to_json).collect::<Vec<_>>(),
         "queues": instance.queues.iter().map(queue_to_json).collect::<Vec<_>>(),
+    })
+}
+
+fn granted_to_json(granted: &Granted) -> Value {
+    json!({
+        "policy": granted.policy.map(Policy::name),
+        "priority": granted.priority,
+        "cores": granted.cores,
+        "memory_locked": granted.memory_is_locked,
     })
 }
 

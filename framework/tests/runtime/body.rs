@@ -320,6 +320,7 @@ pub(crate) struct Setting {
     /// There is an `Ear`, and its cycles take so long.
     pub(crate) ear_takes: Option<Duration>,
     pub(crate) deadline: Option<Duration>,
+    pub(crate) legs_scheduling: Scheduling,
 }
 
 fn description(name: &'static str, kind: Kind, setting: &Setting) -> InstanceDescription {
@@ -337,7 +338,10 @@ fn description(name: &'static str, kind: Kind, setting: &Setting) -> InstanceDes
             "Ear" => setting.ear_takes,
             _ => None,
         },
-        scheduling: Scheduling::default(),
+        scheduling: match name {
+            "Legs" => setting.legs_scheduling,
+            _ => Scheduling::default(),
+        },
     }
 }
 

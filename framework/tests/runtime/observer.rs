@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use framework::cycler::InstanceDescription;
-use framework::driver::{Observer, threads};
+use framework::driver::{Observer, Threads};
 use framework::{Error, Instance, Lockstep, OnFailure, Stop, Timestamp};
 
 use crate::body::{Plan, Setting, robot};
@@ -104,13 +104,8 @@ fn run_threads(
             while legs.cycles.get() < cycles && stop.wait(Duration::from_millis(1)).is_ok() {}
             stop.request();
         });
-        threads::run_observed(
-            &mut robot.instances,
-            &robot.clock,
-            hardware.as_ref(),
-            &stop,
-            observer_of,
-        )
+        Threads::new(&robot.clock, hardware.as_ref(), &stop)
+            .run_observed(&mut robot.instances, observer_of)
     });
     (result, hardware.log.lines(), legs.read())
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use framework::driver::threads;
+use framework::driver::Threads;
 use framework::{Hardware, OnFailure, Robot, Stop, Timestamp};
 use serde_json::json;
 
@@ -37,7 +37,7 @@ fn run_until(
             while !enough() && stop.wait(Duration::from_millis(1)).is_ok() {}
             stop.request();
         });
-        threads::run(&mut robot.instances, &robot.clock, hardware.as_ref(), &stop)
+        Threads::new(&robot.clock, hardware.as_ref(), &stop).run(&mut robot.instances)
     });
     (hardware, robot, result)
 }
@@ -119,7 +119,7 @@ fn a_panic_outside_of_every_node_stops_the_robot_with_an_error() {
             stop.request();
             stopped
         });
-        let result = threads::run(&mut robot.instances, &robot.clock, hardware.as_ref(), &stop);
+        let result = Threads::new(&robot.clock, hardware.as_ref(), &stop).run(&mut robot.instances);
         (result, rescue.join().expect("it only waits"))
     });
     let error = result.expect_err("an instance panicked").to_string();
@@ -161,7 +161,8 @@ fn clients_inject_and_change_parameters_while_the_threads_run() {
             stop.request();
             injected.expect("a valid value");
         });
-        threads::run(instances, clock, hardware.as_ref(), &stop)
+        Threads::new(clock, hardware.as_ref(), &stop)
+            .run(instances)
             .expect("nothing stopped the robot");
     });
     let read = |path| robot.read(path).expect("an output");
@@ -257,7 +258,8 @@ fn a_silent_hardware_is_no_hanging_cycle() {
             hardware.log.add("not in safe state yet");
             stop.request();
         });
-        threads::run(&mut robot.instances, &robot.clock, hardware.as_ref(), &stop)
+        Threads::new(&robot.clock, hardware.as_ref(), &stop)
+            .run(&mut robot.instances)
             .expect("nothing stopped the robot");
     });
     assert_eq!(

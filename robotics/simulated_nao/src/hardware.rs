@@ -117,6 +117,10 @@ impl framework::Hardware for Hardware {
         lock(&self.safety).rearm();
     }
 
+    fn is_simulated(&self) -> bool {
+        true
+    }
+
     fn next_event(&self) -> Result<Option<Event>> {
         if self.thread.is_some() {
             return Err(Error::new(

@@ -80,6 +80,10 @@ impl framework::Hardware for Hardware {
 
     fn enter_safe_state(&self) {}
 
+    fn is_simulated(&self) -> bool {
+        true
+    }
+
     fn next_event(&self) -> Result<Option<Event>> {
         if self.stop.is_requested() {
             return Err(Stopped.into());
