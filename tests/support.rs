@@ -14,6 +14,15 @@ pub fn root() -> PathBuf {
     folder.expect("the crate lies in the repository").to_owned()
 }
 
+/// `target/<profile>`, where this test and hulkgen were built.
+///
+/// A test that compiles a robot does it in the folder above: what it shares with the tests is compiled already.
+pub fn target_folder() -> PathBuf {
+    let test = std::env::current_exe().expect("this test has a path");
+    let folder = test.parent().and_then(Path::parent);
+    folder.expect("target/<profile>/deps/<test>").to_owned()
+}
+
 /// A source file by its path relative to the root.
 pub struct Source {
     pub path: String,

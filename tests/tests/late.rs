@@ -1,10 +1,10 @@
 //! Late errors: what only rustc finds stands at the field or the line of the manifest that it comes from.
 
 use std::fs;
-use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use serde_json::Value;
+use support::target_folder;
 
 /// A blank robot, and the built hulkgen in it.
 struct Robot {
@@ -57,13 +57,6 @@ impl Robot {
         assert!(errors.next().is_none(), "{answer:#}");
         first
     }
-}
-
-/// `target/<profile>`.
-fn target_folder() -> PathBuf {
-    let test = std::env::current_exe().expect("this test has a path");
-    let folder = test.parent().and_then(Path::parent);
-    folder.expect("target/<profile>/deps/<test>").to_owned()
 }
 
 #[test]

@@ -3,6 +3,7 @@
 //! Every mutation of twelve kinds is made at every place, one at a time. An oracle of the test's own, which shares no code
 //! with hulkgen, says which of them break a rule.
 
+mod compiled;
 mod mutants;
 mod oracle;
 mod parameters;

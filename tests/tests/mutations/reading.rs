@@ -6,7 +6,11 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use syn::spanned::Spanned;
-use syn::{Expr, Fields, FnArg, GenericArgument, ImplItem, Item, Lit, PathArguments, Type};
+use syn::token::Brace;
+use syn::{
+    Block, Expr, Fields, FnArg, GenericArgument, ImplItem, Item, Lit, PathArguments, ReturnType,
+    Signature, Type,
+};
 
 /// The three structs of a node, in this order.
 pub(crate) const CONTEXTS: [&str; 3] = ["CreationContext", "CycleContext", "MainOutputs"];
@@ -187,31 +191,64 @@ pub(crate) fn without_bodies(text: &str) -> String {
     let Ok(syntax) = syn::parse_file(text) else {
         return text.to_owned();
     };
+    let tests = syntax.items.iter().filter_map(|item| match item {
+        Item::Mod(module) if module.ident == "tests" => {
+            module.content.as_ref().map(|(brace, _)| inside(brace))
+        }
+        _ => None,
+    });
+    let bodies = bodies(&syntax).map(|(_, block)| inside(&block.brace_token));
     let mut bytes = text.as_bytes().to_vec();
-    let mut blank = |brace: &syn::token::Brace| {
-        let (open, close) = (brace.span.open(), brace.span.close());
-        let inside = open.byte_range().end..close.byte_range().start;
-        for byte in &mut bytes[inside] {
-            *byte = if *byte == b'\n' { b'\n' } else { b' ' };
-        }
-    };
-    for item in &syntax.items {
-        match item {
-            Item::Fn(function) => blank(&function.block.brace_token),
-            Item::Mod(module) if module.ident == "tests" => {
-                module.content.iter().for_each(|(brace, _)| blank(brace));
-            }
-            Item::Impl(implementation) => {
-                for item in &implementation.items {
-                    if let ImplItem::Fn(function) = item {
-                        blank(&function.block.brace_token);
-                    }
-                }
-            }
-            _ => {}
-        }
+    for byte in tests.chain(bodies).flatten() {
+        bytes[byte] = if bytes[byte] == b'\n' { b'\n' } else { b' ' };
     }
     String::from_utf8(bytes).expect("only whole bodies were blanked")
+}
+
+/// The text with functions that compile whatever the contexts are: none of them ever returns.
+pub(crate) fn with_idle_bodies(text: &str) -> String {
+    let Ok(syntax) = syn::parse_file(text) else {
+        return text.to_owned();
+    };
+    // The compiler would run the loop, or look in the body for the type.
+    let must_stay = |signature: &Signature| {
+        let returned = match &signature.output {
+            ReturnType::Type(_, data) => matches!(**data, Type::ImplTrait(_)),
+            ReturnType::Default => false,
+        };
+        signature.constness.is_some() || returned
+    };
+    let mut idle = text.to_owned();
+    let bodies: Vec<_> = bodies(&syntax)
+        .filter(|(signature, _)| !must_stay(signature))
+        .map(|(_, block)| inside(&block.brace_token))
+        .collect();
+    // From the end, so that the bytes before stay where they are.
+    for body in bodies.into_iter().rev() {
+        idle.replace_range(body, " loop {} ");
+    }
+    idle
+}
+
+/// Functions of a file and of its `impl` blocks, in the order of the text.
+fn bodies(syntax: &syn::File) -> impl Iterator<Item = (&Signature, &Block)> {
+    syntax.items.iter().flat_map(|item| match item {
+        Item::Fn(function) => vec![(&function.sig, &*function.block)],
+        Item::Impl(implementation) => implementation
+            .items
+            .iter()
+            .filter_map(|item| match item {
+                ImplItem::Fn(function) => Some((&function.sig, &function.block)),
+                _ => None,
+            })
+            .collect(),
+        _ => Vec::new(),
+    })
+}
+
+/// The bytes between two braces.
+fn inside(brace: &Brace) -> Range<usize> {
+    brace.span.open().byte_range().end..brace.span.close().byte_range().start
 }
 
 /// `Vec<T>` without its `Vec<…>`, for any name.
@@ -315,8 +352,8 @@ fn read_function(function: &syn::ImplItemFn) -> Function {
         receiver: None,
         arguments: Vec::new(),
         returns: match &signature.output {
-            syn::ReturnType::Default => String::new(),
-            syn::ReturnType::Type(_, data) => written(data),
+            ReturnType::Default => String::new(),
+            ReturnType::Type(_, data) => written(data),
         },
     };
     if !read.public {
