@@ -16,7 +16,7 @@ pub use scaffold::{
 /// Heading of the options of every command.
 const GLOBAL: &str = "Global options";
 
-/// hulkgen: from a manifest and plain Rust nodes to the program that runs the robot.
+/// From a manifest and plain Rust nodes to the program that runs the robot.
 #[derive(Clone, Debug, Parser)]
 #[command(
     name = "hulkgen",
@@ -46,7 +46,8 @@ pub struct Global {
         global = true,
         value_enum,
         value_name = "WHEN",
-        default_value = "auto"
+        default_value = "auto",
+        help_heading = GLOBAL
     )]
     pub color: Color,
 }

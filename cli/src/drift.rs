@@ -194,10 +194,7 @@ fn recognize(
     there.first().map_or(Ok(()), |first| {
         Err(DriftError::NotOwned {
             folder: folder.to_owned(),
-            reason: format!(
-                "it has files that hulkgen did not write, such as `{first}`; name another folder as `generated`, or \
-                 remove them"
-            ),
+            reason: format!("it has files that hulkgen did not write, such as `{first}`"),
         })
     })
 }

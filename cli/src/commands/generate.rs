@@ -22,6 +22,10 @@ pub(super) fn run(session: &mut Session<'_>, generate: &Generate) -> Result<Outc
     session.note_diagnostics();
     let files = render(&session.workspace, &understood);
     let drift = compare(session.workspace.root(), &understood, &files)?;
+    // What is said to be written is there.
+    if !generate.check {
+        apply(session, &understood, &files, &drift)?;
+    }
     if generate.format == TextOrJson::Json {
         session.terminal.data(&to_json(&drift))?;
     } else if generate.check {
@@ -29,8 +33,6 @@ pub(super) fn run(session: &mut Session<'_>, generate: &Generate) -> Result<Outc
     }
     if generate.check {
         note_drift(session, &drift);
-    } else {
-        apply(session, &understood, &files, &drift)?;
     }
     // Parameter files do not change the generated code, so their errors keep nothing from it.
     Ok(match () {
@@ -122,9 +124,13 @@ fn texts<'paths>(paths: impl IntoIterator<Item = &'paths Utf8PathBuf>) -> Vec<&'
 pub(super) fn refusal(error: &DriftError) -> Refusal {
     let refusal = Refusal::bad(error.to_string());
     match error {
+        DriftError::NotOwned { .. } => refusal
+            .help("name another folder as `generated` in hulk.toml, or remove what is in this one"),
+        DriftError::Io { .. } => {
+            refusal.help("look at the permissions of the folder and at the free space")
+        }
         DriftError::NotUndone { .. } => {
             refusal.help("look at what has changed, with `git diff` for example, before you go on")
         }
-        _ => refusal,
     }
 }

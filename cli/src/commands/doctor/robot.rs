@@ -2,10 +2,11 @@
 
 use camino::Utf8Path;
 
+use super::Finding;
 use super::machine::answer;
-use super::{Finding, State};
 use crate::commands::session::Session;
 use crate::commands::{Failure, generate, plural};
+use crate::diagnostics::{Diagnostics, Severity};
 use crate::outcome::Refusal;
 use crate::pipeline::Understood;
 use crate::resolve::robot::Target;
@@ -24,14 +25,8 @@ pub(super) fn look(session: &mut Result<Session<'_>, Refusal>) -> Vec<Finding> {
     let root = session.workspace.root().to_string();
     let mut findings = vec![Finding::ok("workspace", root)];
     let understood = session.understand();
-    let has_errors = session.diagnostics.has_errors();
-    findings.push(if has_errors {
-        let number = session.diagnostics.sorted().len();
-        let message = plural(number, "diagnostic");
-        Finding::bad("robot", message, "`hulkgen check` shows them")
-    } else {
-        Finding::ok("robot", "manifest, nodes and parameter files are right")
-    });
+    findings.push(robot(&session.diagnostics));
+    findings.push(lock(&session.workspace));
     if let Ok(understood) = understood {
         findings.push(generated(&session.workspace, &understood));
         findings.extend(
@@ -41,21 +36,50 @@ pub(super) fn look(session: &mut Result<Session<'_>, Refusal>) -> Vec<Finding> {
     findings
 }
 
+fn robot(found: &Diagnostics) -> Finding {
+    let about = "robot";
+    let count = |severity| {
+        let all = found.sorted().into_iter();
+        all.filter(|one| one.severity() == severity).count()
+    };
+    let help = "`hulkgen check` shows what and where";
+    match (count(Severity::Error), count(Severity::Warning)) {
+        (0, 0) => Finding::ok(about, "manifest, nodes and parameter files are right"),
+        (0, warnings) => Finding::warning(about, plural(warnings, "warning"), help),
+        (errors, _) => Finding::bad(about, plural(errors, "error"), help),
+    }
+}
+
+/// Without it every machine builds with whatever versions it finds that day.
+fn lock(workspace: &Workspace) -> Finding {
+    let about = "lock";
+    let file = workspace.below_cargo_root(Utf8Path::new("Cargo.lock"));
+    if workspace.is_file(&file) {
+        return Finding::ok(about, format!("`{file}` is there"));
+    }
+    let message = format!("`{file}` is missing: two builds may use different crates");
+    let help = "run `cargo generate-lockfile` and commit the file";
+    Finding::warning(about, message, help)
+}
+
 fn generated(workspace: &Workspace, understood: &Understood) -> Finding {
     let about = "generated";
     let folder = &understood.robot.generated;
     let files = generate::render(workspace, understood);
     match generate::compare(workspace.root(), understood, &files) {
         Ok(drift) if drift.is_empty() => Finding::ok(about, format!("`{folder}` is current")),
+        Ok(_) if workspace.list(folder).is_empty() => {
+            let message = format!("`{folder}` is missing");
+            Finding::bad(about, message, "run `hulkgen generate`")
+        }
         Ok(_) => {
             let message = format!("`{folder}` is not what would be generated now");
             Finding::bad(about, message, "run `hulkgen generate`")
         }
-        Err(Failure::Refused(refusal)) => Finding {
-            state: State::Bad,
-            help: refusal.help,
-            ..Finding::ok(about, refusal.message)
-        },
+        Err(Failure::Refused(refusal)) => {
+            let help = refusal.help.as_deref().unwrap_or("run `hulkgen generate`");
+            Finding::bad(about, refusal.message, help)
+        }
         Err(Failure::Reported) => Finding::bad(about, "has errors", "run `hulkgen check`"),
     }
 }
