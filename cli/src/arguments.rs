@@ -116,11 +116,12 @@ Exit status: 0 no errors, 1 errors, or warnings with --deny-warnings.
 Examples:
   hulkgen check
   hulkgen check --watch                   # again whenever a file is saved, until Ctrl-C
-  hulkgen check --cargo                   # and what rustc finds, at the field or line that it comes from
+  hulkgen check --cargo                   # and what rustc and the robot's program find, where they come from
   hulkgen check --format json | jq '.diagnostics[].code'
   hulkgen check --format rustc-json       # for editors: rust-analyzer.check.overrideCommand")]
 pub struct Check {
-    /// Compile as well: writes the generated crate and adds what rustc finds
+    /// Compile as well: writes the generated crate, adds what rustc finds, and reads parameters of types that serde alone
+    /// understands with the robot's program
     #[arg(long)]
     pub cargo: bool,
     /// Let warnings be errors

@@ -6,6 +6,7 @@
 //! Invariant: no error of rustc is lost. What cannot be brought home is shown as rustc shows it.
 
 mod origin;
+pub mod parameters;
 pub mod rustc;
 mod surroundings;
 

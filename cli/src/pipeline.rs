@@ -4,6 +4,7 @@ use crate::diagnostics::{Diagnostics, Reported};
 use crate::manifest;
 use crate::model;
 use crate::render::{self, GeneratedFiles};
+use crate::resolve::parameter_files::Unchecked;
 use crate::resolve::robot::Robot;
 use crate::resolve::{self, parameter_files};
 use crate::scan;
@@ -15,6 +16,8 @@ use crate::workspace::Workspace;
 pub struct Understood {
     pub robot: Robot,
     pub schedule: Schedule,
+    /// What only the robot's program can say about its parameter files.
+    pub unchecked: Unchecked,
 }
 
 /// Stages ① to ④: everything that can be wrong with a manifest, its nodes and its parameter files.
@@ -35,8 +38,12 @@ fn bind_and_order(
     let sources = scan::scan(workspace, &manifest, diagnostics)?;
     let robot = resolve::resolve(workspace, &manifest, &sources, diagnostics)?;
     let schedule = schedule::schedule(&robot, diagnostics)?;
-    parameter_files::check(workspace, &manifest, &sources, &robot, diagnostics);
-    Ok(Understood { robot, schedule })
+    let unchecked = parameter_files::check(workspace, &manifest, &sources, &robot, diagnostics);
+    Ok(Understood {
+        robot,
+        schedule,
+        unchecked,
+    })
 }
 
 /// Stages ① to ⑥: from the manifest and the nodes to the files of the generated crate.

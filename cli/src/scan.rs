@@ -38,7 +38,7 @@ use crate::workspace::{MANIFEST, Workspace};
 pub use library::Library;
 pub use node::NodeSource;
 pub use state::StateSource;
-pub(crate) use state::{derives, has_any_serde};
+pub(crate) use state::derives;
 
 /// Every node of the manifest, and the crates of the workspace that names lead to.
 #[derive(Debug)]

@@ -5,6 +5,7 @@
 //! ```
 //! Exit status: 0 done; 1 the robot failed; 2 wrong usage; 130 Ctrl-C.
 
+mod check;
 mod options;
 mod signals;
 mod status;
@@ -83,6 +84,9 @@ where
             return WRONG_USAGE;
         }
     };
+    if options.check_parameters {
+        return check::parameters::<P>(&target, &options, output);
+    }
     let signals = Signals::new();
     let stop = Stop::new();
     let result = signals.and_then(|signals| {
@@ -193,7 +197,8 @@ fn layers(target: &Target, options: &Options) -> Layers {
         location: options
             .location
             .clone()
-            .or_else(|| target.location.map(str::to_owned)),
+            .or_else(|| target.location.map(str::to_owned))
+            .filter(|location| !location.is_empty()),
         identities: Vec::new(),
         environment: environment.collect(),
         settings: options.settings.clone(),

@@ -4,13 +4,14 @@
 //! `<location>/<identity>.<id>.toml`, the environment (`HULK_PARAMETERS__a__b`), `--set a.b=value`. Tables merge; arrays and
 //! all other values are replaced whole. Only `default.toml` has to be there.
 
+mod combinations;
 mod deserialize;
 mod error;
 mod layers;
 mod nearest;
 mod tree;
 
-pub use error::{Origin, ParameterError};
+pub use error::{Fault, Origin, ParameterError};
 pub use layers::{Layers, Parameters};
 
 use serde::de::DeserializeOwned;

@@ -187,6 +187,88 @@ fn identities_of_the_hardware_choose_layers_and_settings_win() {
 }
 
 #[test]
+fn parameters_are_checked_for_every_robot_that_files_name() {
+    let check = |directory: &TempDir, location: &str| {
+        let arguments = [
+            "--check-parameters",
+            "--format",
+            "json",
+            "--location",
+            location,
+        ];
+        let ran = run(directory, &arguments);
+        assert!(ran.hardware.is_none(), "nothing runs");
+        let answer: serde_json::Value = serde_json::from_str(&ran.output).expect("one object");
+        (
+            ran.status,
+            answer["mistakes"].as_array().expect("a list").clone(),
+        )
+    };
+    // Without the hardware's table: only the parameters are looked at.
+    let directory = workspace("gain = 1.0\n");
+    assert_eq!(check(&directory, ""), (0, vec![]));
+    let write = |file: &str, text: &str| {
+        fs::write(directory.path().join(file), text).expect("can be written");
+    };
+    write("head.3.toml", "gain = 3.0\n\ngian = 1\n");
+    write("lab/body.18.toml", "gain = \"much\"\n");
+    // body 17 and nobody, each with head 3 and without.
+    let (status, mistakes) = check(&directory, "");
+    assert_eq!((status, mistakes.len()), (1, 1), "{mistakes:#?}");
+    let mistake = &mistakes[0];
+    let file = directory.path().join("head.3.toml").display().to_string();
+    assert_eq!(
+        (&mistake["file"], &mistake["line"]),
+        (&file.clone().into(), &3.into())
+    );
+    assert_eq!(
+        (&mistake["key"], &mistake["fault"]),
+        (&"gian".into(), &"unknown".into())
+    );
+    assert_eq!(mistake["message"], "nothing reads it; did you mean `gain`?");
+    assert_eq!(mistake["identities"], serde_json::json!({ "head": "3" }));
+
+    let (_, mistakes) = check(&directory, "lab");
+    let faults: Vec<_> = mistakes.iter().map(|one| &one["fault"]).collect();
+    assert_eq!(faults, ["unknown", "invalid"], "{mistakes:#?}");
+    assert_eq!(
+        mistakes[1]["identities"],
+        serde_json::json!({ "body": "18" })
+    );
+
+    // Some robot's file has it, so it is not missing; without any file it is.
+    let directory = workspace("");
+    assert_eq!(check(&directory, ""), (0, vec![]));
+    fs::remove_file(directory.path().join("body.17.toml")).expect("was written");
+    let (status, mistakes) = check(&directory, "");
+    assert_eq!(
+        (status, &mistakes[0]["fault"]),
+        (1, &"missing".into()),
+        "{mistakes:#?}"
+    );
+    assert_eq!(check(&directory, "lab"), (0, vec![]));
+
+    // A file that is no TOML, and a location that is not there.
+    fs::write(directory.path().join("default.toml"), "gain = \n").expect("can be written");
+    let (_, mistakes) = check(&directory, "");
+    assert_eq!(
+        (&mistakes[0]["line"], &mistakes[0]["fault"]),
+        (&1.into(), &"invalid".into())
+    );
+    let (status, mistakes) = check(&directory, "moon");
+    assert_eq!(
+        (status, &mistakes[0]["file"]),
+        (1, &serde_json::Value::Null)
+    );
+    let text = run(&directory, &["--check-parameters"]);
+    assert_eq!(
+        (text.status, text.output.as_str()),
+        (1, ""),
+        "text goes to standard error"
+    );
+}
+
+#[test]
 fn wrong_usage_is_2_help_is_0_and_a_failure_is_1() {
     let directory = workspace(TEXT);
     assert_eq!(run(&directory, &["--for", "ever"]).status, 2);

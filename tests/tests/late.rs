@@ -21,6 +21,13 @@ impl Robot {
         robot
     }
 
+    fn write(&self, path: &str, text: &str) {
+        let path = self.folder.path().join("robot").join(path);
+        let folder = path.parent().expect("it lies in a folder");
+        fs::create_dir_all(folder).expect("the folder is ours");
+        fs::write(path, text).expect("the folder is ours");
+    }
+
     fn edit(&self, path: &str, from: &str, to: &str) {
         let path = self.folder.path().join("robot").join(path);
         let text = fs::read_to_string(&path).expect("every blank robot has it");
@@ -36,6 +43,8 @@ impl Robot {
             .args(["check", "--cargo", "--format", form])
             .current_dir(self.folder.path().join("robot"))
             .env("CARGO_NET_OFFLINE", "true")
+            // Of whoever checks, not of the robot.
+            .env("HULK_PARAMETERS__speed_choice__cruising", "-9.0")
             .env(
                 "CARGO_TARGET_DIR",
                 target.parent().expect("target/<profile>"),
@@ -130,4 +139,112 @@ fn what_only_rustc_finds_stands_where_it_is_mended() {
         "{help}"
     );
     assert!(help.contains("`nodes::control::wheel_sender`"), "{help}");
+}
+
+/// A speed that derived serde reads by a function.
+const SPEED: &str = r#"
+/// Metres per second, never negative.
+#[derive(Clone, Copy, Debug, Deserialize, Reflect, Serialize)]
+#[serde(try_from = "f32")]
+pub struct Speed {
+    /// In metres per second.
+    pub value: f32,
+}
+
+impl TryFrom<f32> for Speed {
+    type Error = String;
+
+    fn try_from(value: f32) -> Result<Self, Self::Error> {
+        if value < 0.0 {
+            return Err(format!("{value} m/s is no speed to cruise at"));
+        }
+        Ok(Self { value })
+    }
+}
+"#;
+
+/// The blank robot with such a parameter.
+fn robot_with_opaque_parameter() -> Robot {
+    let robot = Robot::new();
+    let first = "use serde::{Deserialize, Serialize};\n";
+    robot.edit("nodes/src/types.rs", first, &format!("{first}{SPEED}"));
+    let node = "nodes/src/control/speed_choice.rs";
+    robot.edit(
+        node,
+        "Parameter<f32, \"speed_choice.cruising\">",
+        "Parameter<crate::types::Speed, \"speed_choice.cruising\">",
+    );
+    robot.edit(node, "*context.cruising", "context.cruising.value");
+    let parameters = "parameters = \"parameters\"\n";
+    let identities = format!("{parameters}identities = [\"head\"]\n");
+    robot.edit("hulk.toml", parameters, &identities);
+    robot
+}
+
+#[test]
+fn what_only_serde_can_read_is_asked_of_the_robots_program() {
+    let robot = robot_with_opaque_parameter();
+    let file = "parameters/default.toml";
+    let (status, text) = robot.check("text");
+    assert_eq!(status, Some(0), "{text}");
+    assert!(text.ends_with("all checked\n"), "{text}");
+    robot.edit(file, "cruising = 1.0", "cruising = -1.0");
+    let mut hulkgen = Command::new(target_folder().join("hulkgen"));
+    hulkgen
+        .arg("check")
+        .current_dir(robot.folder.path().join("robot"));
+    let alone = hulkgen.output().expect("hulkgen was built");
+    let alone = String::from_utf8_lossy(&alone.stdout).into_owned();
+    let left = "all checked, 1 parameter left to `check --cargo`\n";
+    assert!(alone.ends_with(left), "{alone}");
+
+    let error = robot.error();
+    assert_eq!(error["code"], "mistyped-parameter", "{error:#}");
+    assert_eq!(
+        error["message"],
+        "`speed_choice.cruising`: -1 m/s is no speed to cruise at"
+    );
+    let span = &error["spans"][0];
+    assert_eq!(
+        (&span["file"], &span["line"]),
+        (&file.into(), &7.into()),
+        "{error:#}"
+    );
+    assert_eq!(
+        (&span["column"], &span["end_column"]),
+        (&12.into(), &16.into())
+    );
+    assert_eq!(span["label"], "");
+    robot.edit(file, "cruising = -1.0", "cruising = 1.0");
+
+    // A location where no target runs: what is there must be right, whatever it leaves out.
+    robot.write(
+        "parameters/field/head.P1.toml",
+        "speed_choice.cruising = -2.0\n",
+    );
+    let error = robot.error();
+    let span = &error["spans"][0];
+    assert_eq!(span["file"], "parameters/field/head.P1.toml", "{error:#}");
+    assert_eq!(span["label"], "at `field`, for head P1");
+    robot.write(
+        "parameters/field/head.P1.toml",
+        "speed_choice.cruising = 2.0\n",
+    );
+    robot.write("parameters/head.P2.toml", "speed_choice.cruising = -2.0\n");
+    let (status, text) = robot.check("text");
+    assert_eq!(status, Some(1), "{text}");
+    // It is read at both locations and is one mistake.
+    assert_eq!(
+        text.matches("error[mistyped-parameter]").count(),
+        1,
+        "{text}"
+    );
+    assert!(text.contains("--> parameters/head.P2.toml:1:25"), "{text}");
+    assert!(text.contains("for head P2"), "{text}");
+    robot.write("parameters/head.P2.toml", "");
+
+    // Without the value nothing starts where a target runs.
+    robot.edit(file, "cruising = 1.0", "# cruising = 1.0");
+    let error = robot.error();
+    assert_eq!(error["code"], "missing-parameter", "{error:#}");
 }

@@ -18,6 +18,13 @@ use crate::outcome::Refusal;
 use crate::pipeline::Understood;
 use crate::resolve::robot::{Robot, Target};
 
+/// The profile that hulkgen itself was built with, so that crates of both are compiled once.
+pub(super) const OWN_PROFILE: &str = if cfg!(debug_assertions) {
+    "dev"
+} else {
+    "release"
+};
+
 /// What cargo said.
 #[derive(Debug, Default)]
 pub(super) struct Said {

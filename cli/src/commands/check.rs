@@ -1,5 +1,7 @@
 //! `check`: every diagnostic, and a summary.
 
+mod parameters;
+
 use super::cargo::Request;
 use super::session::Session;
 use super::{Failure, generate, plural};
@@ -35,7 +37,11 @@ pub(super) fn run(session: &mut Session<'_>, check: &Check) -> Result<Outcome, F
             text.push_str(&summary_of_diagnostics(found));
             if let Ok(understood) = &understood {
                 let graph = graph::describe(&understood.robot, &understood.schedule);
-                text.push_str(&summary_of_robot(&graph));
+                let opaque = understood.unchecked.opaque.len();
+                text.push_str(&summary_of_robot(
+                    &graph,
+                    if check.cargo { 0 } else { opaque },
+                ));
             }
             text
         }
@@ -63,10 +69,22 @@ fn compile(
         session.terminal.note(&note);
     }
     let color = check.format == CheckFormat::Text && session.terminal.colors_data();
+    let first = here.first().copied();
     let said = Request::check(&understood.robot, here).said(session, color)?;
     let late = said.diagnostics(session, understood)?;
     session.diagnostics.extend(late);
-    Ok(said.success)
+    // With an error the program would not start, whatever it reads.
+    if !said.success || session.diagnostics.has_errors() || understood.unchecked.opaque.is_empty() {
+        return Ok(said.success);
+    }
+    match first {
+        Some(target) => parameters::ask_program(session, understood, target),
+        None => {
+            let note = "no target is for this machine: opaque parameters are not checked\n";
+            session.terminal.note(note);
+            Ok(true)
+        }
+    }
 }
 
 /// Whether the host's compiler makes programs for this triple; a version of libc does not matter to a check.
@@ -98,7 +116,9 @@ fn summary_of_diagnostics(found: &Diagnostics) -> String {
 }
 
 /// How much there is, and how much of it was checked.
-fn summary_of_robot(graph: &Graph) -> String {
+///
+/// `opaque` parameters were left to the robot's program.
+fn summary_of_robot(graph: &Graph, opaque: usize) -> String {
     let instances = graph
         .cyclers
         .iter()
@@ -110,8 +130,12 @@ fn summary_of_robot(graph: &Graph) -> String {
         0 => "all checked".to_owned(),
         left => format!("{left} left to rustc"),
     };
+    let opaque = match opaque {
+        0 => String::new(),
+        _ => format!(", {} left to `check --cargo`", plural(opaque, "parameter")),
+    };
     format!(
-        "robot {}: {}, {}, {}, {}, {checked}\n",
+        "robot {}: {}, {}, {}, {}, {checked}{opaque}\n",
         graph.robot,
         plural(graph.cyclers.len(), "cycler"),
         plural(instances, "instance"),

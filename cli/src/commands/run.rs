@@ -2,7 +2,7 @@
 
 mod program;
 
-use super::cargo::Request;
+use super::cargo::{OWN_PROFILE, Request};
 use super::session::Session;
 use super::{Failure, generate};
 use crate::arguments;
@@ -72,13 +72,6 @@ fn refuse_other_machines(target: &Target) -> Result<(), Refusal> {
     ))
     .help("run a target without a `triple`; `hulkgen build`, which builds for others, is a later step"))
 }
-
-/// The profile that hulkgen itself was built with, so that crates of both are compiled once.
-const OWN_PROFILE: &str = if cfg!(debug_assertions) {
-    "dev"
-} else {
-    "release"
-};
 
 /// What is asked for, else what the target asks for.
 fn profile<'a>(asked: Option<&'a str>, target: &'a Target) -> Option<&'a str> {

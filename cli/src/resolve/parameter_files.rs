@@ -7,6 +7,7 @@ mod choice;
 mod expected;
 mod given;
 mod layer;
+mod opaque;
 mod values;
 mod winners;
 
@@ -28,14 +29,25 @@ use layer::Layer;
 pub use given::{Asked, Given, Identity, Robots, Value, given};
 pub use winners::Winner;
 
-/// Checks the files of every target.
+/// What the files of a robot cannot be asked without its program.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Unchecked {
+    /// Parameters, and fields of them, whose types only serde can read; as files write them.
+    pub opaque: Vec<String>,
+    /// Where targets run: there every value must be given. `None`: at no location.
+    pub locations: BTreeSet<Option<String>>,
+    /// Other locations that have files.
+    pub other_locations: BTreeSet<String>,
+}
+
+/// Checks the files of every target, and says what is left to its program.
 pub fn check(
     workspace: &Workspace,
     manifest: &Manifest,
     sources: &Sources<'_>,
     robot: &Robot,
     diagnostics: &mut Diagnostics,
-) {
+) -> Unchecked {
     let choice = choice::load(workspace, &robot.parameters, diagnostics);
     let texts = layer::find(workspace, manifest, choice.as_ref(), diagnostics);
     let mut layers = Vec::new();
@@ -70,6 +82,18 @@ pub fn check(
     }
     checker.check_missing(&layers, diagnostics);
     sources.library.report_problems(diagnostics);
+    let locations = checker.locations();
+    let folders = texts.iter().filter_map(|(file, _)| {
+        let folder = file.parent()?.strip_prefix(&robot.parameters).ok()?;
+        (!folder.as_str().is_empty()).then(|| folder.to_string())
+    });
+    Unchecked {
+        opaque: opaque::opaque(&Expected::Tree(&robot.parameter_tree), sources),
+        other_locations: folders
+            .filter(|folder| !locations.contains(&Some(folder.clone())))
+            .collect(),
+        locations,
+    }
 }
 
 struct Checker<'a> {
@@ -179,19 +203,7 @@ impl Checker<'_> {
             // It does not exist or cannot be parsed; both are told.
             return;
         };
-        let targets = self.robot.targets.iter();
-        let mut locations: BTreeSet<Option<&str>> = targets
-            .map(|target| {
-                target
-                    .location
-                    .as_deref()
-                    .or(self.default_location.as_deref())
-            })
-            .collect();
-        if locations.is_empty() {
-            locations.insert(self.default_location.as_deref());
-        }
-        for location in locations {
+        for location in self.locations() {
             let location = location.map(|location| folder.join(location).join("default.toml"));
             let of_target = |layer: &&Layer<'_>| {
                 layer.file == default
@@ -206,6 +218,18 @@ impl Checker<'_> {
             let root = Expected::Tree(&self.robot.parameter_tree);
             self.report_missing(first, &tables, &root, &mut Vec::new(), diagnostics);
         }
+    }
+
+    /// Where the targets run.
+    fn locations(&self) -> BTreeSet<Option<String>> {
+        let targets = self.robot.targets.iter();
+        let mut locations: BTreeSet<Option<String>> = targets
+            .map(|target| target.location.clone().or(self.default_location.clone()))
+            .collect();
+        if locations.is_empty() {
+            locations.insert(self.default_location.clone());
+        }
+        locations
     }
 
     fn report_missing(

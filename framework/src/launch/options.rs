@@ -22,6 +22,8 @@ pub(super) struct Options {
     /// Until a signal if left out.
     pub(super) duration: Option<Duration>,
     pub(super) format: Format,
+    /// Instead of running.
+    pub(super) check_parameters: bool,
     pub(super) parameters: Option<PathBuf>,
     pub(super) location: Option<String>,
     /// (path, value)
@@ -53,8 +55,9 @@ Usage: {name} [OPTIONS] [-- HARDWARE OPTIONS]
   --headless          show nothing but the status line
   --format FORMAT     text (default) or json: what is reported at the end
   --parameters DIR    instead of {parameters}
-  --location NAME     layer of parameters
+  --location NAME     layer of parameters; empty: none
   --set PATH=VALUE    a parameter, above all layers; may be repeated
+  --check-parameters  load the parameters for every identity that a file names, report mistakes and end
   --run-folder DIR    for files of this run, instead of runs/<start>-<process>
   --real-time         apply the manifest's `scheduling` on a simulated target, too
   --help              this text
@@ -83,6 +86,7 @@ pub(super) fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Com
             // Nothing opens a window yet; scripts may say it already.
             Arg::Long("headless") => {}
             Arg::Long("format") => options.format = format_named(&parser.value()?.string()?)?,
+            Arg::Long("check-parameters") => options.check_parameters = true,
             Arg::Long("parameters") => options.parameters = Some(parser.value()?.into()),
             Arg::Long("location") => options.location = Some(parser.value()?.string()?),
             Arg::Long("set") => options.settings.push(setting(&parser.value()?.string()?)?),
@@ -163,6 +167,7 @@ mod tests {
             "--for",
             "1.5s",
             "--headless",
+            "--check-parameters",
             "--format=json",
             "--parameters",
             "here",
@@ -182,6 +187,7 @@ mod tests {
         let expected = Options {
             duration: Some(Duration::from_millis(1500)),
             format: Format::Json,
+            check_parameters: true,
             parameters: Some("here".into()),
             location: Some("lab".to_owned()),
             settings: vec![

@@ -11,7 +11,7 @@ use serde::de::{
 };
 use serde::forward_to_deserialize_any;
 
-use super::error::{Origin, ParameterError};
+use super::error::{Fault, Origin, ParameterError};
 use super::nearest::nearest;
 use super::tree::{Tree, Value};
 
@@ -26,6 +26,7 @@ struct Node<'tree>(&'tree Tree);
 /// What is wrong, with as much of the place as is known on the way out.
 #[derive(Debug)]
 struct Mistake {
+    fault: Fault,
     message: String,
     /// Innermost first.
     keys: Vec<String>,
@@ -47,11 +48,15 @@ impl Mistake {
     fn finish(mut self) -> ParameterError {
         self.keys.reverse();
         let origin = self.origin.unwrap_or(Origin::Unknown);
-        ParameterError::new(origin, self.keys.join("."), self.message)
+        ParameterError {
+            fault: self.fault,
+            ..ParameterError::new(origin, self.keys.join("."), self.message)
+        }
     }
 
     fn new(message: impl Into<String>) -> Self {
         Self {
+            fault: Fault::Invalid,
             message: message.into(),
             keys: Vec::new(),
             origin: None,
@@ -65,7 +70,11 @@ impl de::Error for Mistake {
     }
 
     fn missing_field(field: &'static str) -> Self {
-        Self::new("is missing: no layer has it").below(field)
+        let mistake = Self::new("is missing: no layer has it").below(field);
+        Self {
+            fault: Fault::Missing,
+            ..mistake
+        }
     }
 
     fn unknown_field(field: &str, expected: &'static [&'static str]) -> Self {
@@ -74,7 +83,10 @@ impl de::Error for Mistake {
             (None, []) => "nothing reads it; nothing is expected here".to_owned(),
             (None, _) => format!("nothing reads it; expected are {}", expected.join(", ")),
         };
-        Self::new(message)
+        Self {
+            fault: Fault::Unknown,
+            ..Self::new(message)
+        }
     }
 
     fn unknown_variant(variant: &str, expected: &'static [&'static str]) -> Self {

@@ -3,6 +3,8 @@
 use std::fmt;
 use std::sync::Arc;
 
+use serde::Serialize;
+
 /// The place that a value was written at.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Origin {
@@ -21,6 +23,18 @@ pub enum Origin {
     Unknown,
 }
 
+/// What kind of mistake it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Fault {
+    /// No layer has the value.
+    Missing,
+    /// Nothing reads the value.
+    Unknown,
+    /// The value is not what its reader takes, or a file cannot be read.
+    Invalid,
+}
+
 /// A value that is missing, superfluous or of the wrong type, or a file that cannot be read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ParameterError {
@@ -28,6 +42,8 @@ pub struct ParameterError {
     pub origin: Origin,
     /// The full path of the value, empty for the whole tree.
     pub key: String,
+    /// What kind of mistake it is.
+    pub fault: Fault,
     /// What is wrong and what would be right.
     pub message: String,
 }
@@ -37,6 +53,7 @@ impl ParameterError {
         Self {
             origin,
             key: key.into(),
+            fault: Fault::Invalid,
             message: message.into(),
         }
     }

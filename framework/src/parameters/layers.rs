@@ -104,7 +104,8 @@ impl Layers {
         files
     }
 
-    fn location(&self) -> Result<Option<String>> {
+    /// As it is given, or else as the directory says.
+    pub(super) fn location(&self) -> Result<Option<String>> {
         if let Some(location) = &self.location {
             return Ok(Some(location.clone()));
         }

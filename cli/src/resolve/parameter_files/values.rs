@@ -48,10 +48,7 @@ fn check(value: &Spanned<DeValue<'_>>, data: &Resolved, sources: &Sources<'_>) -
             if let Some(variants) = sources.library.unit_variants(data) {
                 return check_variant(value, &variants);
             }
-            let is_struct = sources.library.fields(data).is_some_and(|structure| {
-                crate::scan::derives(&structure.attributes, "Deserialize")
-                    && !crate::scan::has_any_serde(&structure.attributes)
-            });
+            let is_struct = Expected::Value(data.clone()).children(sources).is_some();
             match value.get_ref().as_table() {
                 Some(table) => check_element(value, table, data, sources),
                 None => is_struct.then(|| wrong(value, "a table")),
@@ -130,6 +127,11 @@ fn check_element(
         place: value.span(),
         help: Some(format!("add `{name} = …` to it")),
     })
+}
+
+/// Whether [`mistake`] knows what this type of the prelude takes.
+pub(super) fn is_checked(name: &str) -> bool {
+    matches!(name, "bool" | "char" | "f32" | "f64" | "String") || limits(name).is_some()
 }
 
 fn check_primitive(value: &Spanned<DeValue<'_>>, name: &str) -> Option<Mistake> {

@@ -3,6 +3,7 @@
 use super::{explain, text};
 use crate::graph::fixture;
 use crate::pipeline::Understood;
+use crate::resolve::parameter_files::Unchecked;
 use crate::resolve::robot::{OnFailure, Robot};
 
 fn failing(mut robot: Robot, node: &str, policy: OnFailure) -> String {
@@ -14,7 +15,11 @@ fn failing(mut robot: Robot, node: &str, policy: OnFailure) -> String {
         found.on_failure = policy;
     }
     let schedule = fixture::schedule();
-    let understood = Understood { robot, schedule };
+    let understood = Understood {
+        robot,
+        schedule,
+        unchecked: Unchecked::default(),
+    };
     text(&explain(&understood, node).expect("the node is there"))
 }
 

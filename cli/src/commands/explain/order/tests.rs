@@ -5,12 +5,17 @@ use crate::diagnostics::Diagnostics;
 use crate::graph;
 use crate::model::tests::{node, real_time, robot};
 use crate::pipeline::Understood;
+use crate::resolve::parameter_files::Unchecked;
 use crate::resolve::robot::Robot;
 use crate::schedule::schedule;
 
 fn ordered(robot: Robot, one: &str, other: &str) -> String {
     let schedule = schedule(&robot, &mut Diagnostics::new()).expect("the robot has no ring");
-    let understood = Understood { robot, schedule };
+    let understood = Understood {
+        robot,
+        schedule,
+        unchecked: Unchecked::default(),
+    };
     let graph = graph::describe(&understood.robot, &understood.schedule);
     text(&explain(&understood, &graph, [one, other]).expect("the nodes are there"))
 }
