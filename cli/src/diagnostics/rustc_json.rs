@@ -76,9 +76,9 @@ fn message(diagnostic: &Diagnostic, workspace: &Workspace) -> Value {
     })
 }
 
+/// rustc gives it no type of its own.
 fn child(level: &str, message: &str) -> Value {
     json!({
-        "$message_type": "diagnostic",
         "message": message,
         "code": null,
         "level": level,

@@ -2,6 +2,7 @@
 
 mod diff;
 mod doctor;
+mod editor;
 mod explain;
 mod pages;
 mod robot;
