@@ -6,6 +6,7 @@
 mod choice;
 mod expected;
 mod given;
+mod keys;
 mod layer;
 mod opaque;
 mod values;
@@ -26,7 +27,7 @@ use crate::workspace::Workspace;
 use expected::Expected;
 use layer::Layer;
 
-pub use given::{Asked, Given, Identity, Robots, Value, given};
+pub use given::{Answer, Asked, Given, Identity, Robots, Value, given};
 pub use winners::Winner;
 
 /// What the files of a robot cannot be asked without its program.

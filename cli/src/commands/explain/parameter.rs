@@ -7,7 +7,7 @@ use crate::diagnostics::{Diagnostics, Reported};
 use crate::graph::Graph;
 use crate::manifest;
 use crate::pipeline::Understood;
-use crate::resolve::parameter_files::{self, Asked, Robots, Value, Winner};
+use crate::resolve::parameter_files::{self, Answer, Asked, Robots, Value, Winner};
 use crate::resolve::robot::{Access, CreationBinding, CycleBinding, Cycler, Node, Robot};
 use crate::scan;
 use crate::workspace::Workspace;
@@ -88,9 +88,8 @@ pub(super) fn find(
             node: found.node,
             below: &found.below,
         };
-        let values = parameter_files::given(workspace, &manifest, &sources, asked);
-        let is_there = !values.is_empty();
-        is_there.then(|| describe(workspace, &understood.robot, found, values))
+        let answer = parameter_files::given(workspace, &manifest, &sources, asked)?;
+        Some(describe(workspace, &understood.robot, found, answer))
     });
     Ok(subjects.collect())
 }
@@ -119,13 +118,11 @@ fn describe(
     workspace: &Workspace,
     robot: &Robot,
     found: &Match<'_>,
-    values: Vec<Value>,
+    answer: Answer,
 ) -> ParameterSubject {
-    let whole: Vec<&str> = found
-        .path
-        .split('.')
-        .chain(found.below.iter().copied())
-        .collect();
+    // Nodes name fields as code does, whatever files call them.
+    let fields = answer.fields.iter().map(String::as_str);
+    let whole: Vec<&str> = found.path.split('.').chain(fields).collect();
     let mut readers = Vec::new();
     for cycler in &robot.cyclers {
         for node in &cycler.nodes {
@@ -145,7 +142,7 @@ fn describe(
             }
         }
     }
-    let values = values.into_iter().map(|value| ExplainedValue {
+    let values = answer.values.into_iter().map(|value| ExplainedValue {
         winners: value.winners(),
         value,
     });

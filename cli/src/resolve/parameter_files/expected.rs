@@ -2,8 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use syn::{Attribute, Expr, ExprLit, Lit, Meta, Token, punctuated::Punctuated};
-
+use super::keys::keys;
 use crate::resolve::robot::{Content, Reader, Tree};
 use crate::scan::Sources;
 use crate::scan::fields::StructFields;
@@ -87,91 +86,28 @@ fn opaque<'a>(required: bool) -> Child<'a> {
     }
 }
 
-/// Fields by the keys that derived serde reads; `None` where an attribute means more than is understood here.
+/// Fields by the keys that derived serde reads; `None` where an attribute means more than is understood.
 fn fields<'a>(structure: StructFields) -> Option<BTreeMap<String, Child<'a>>> {
-    if !crate::scan::derives(&structure.attributes, "Deserialize") {
-        return None;
-    }
-    let container = serde_items(&structure.attributes)?;
-    let understood = ["default", "deny_unknown_fields"];
-    if !container
-        .iter()
-        .all(|item| understood.iter().any(|name| item.path().is_ident(name)))
-    {
-        return None;
-    }
-    let has_default = container.iter().any(|item| item.path().is_ident("default"));
     let mut children = BTreeMap::new();
-    for field in structure.fields {
-        let mut key = field.name.clone();
-        let mut child = Child {
-            required: !has_default && field.data.option_argument().is_none(),
-            expected: Expected::Value(field.data),
-            aliases: Vec::new(),
+    for key in keys(structure)? {
+        let child = if key.by_function {
+            opaque(key.required)
+        } else {
+            Child {
+                required: key.required,
+                expected: Expected::Value(key.field.data),
+                aliases: Vec::new(),
+            }
         };
-        let mut skipped = false;
-        for item in serde_items(&field.attributes)? {
-            let name = item
-                .path()
-                .get_ident()
-                .map(ToString::to_string)
-                .unwrap_or_default();
-            match (name.as_str(), text(&item)) {
-                ("default", _) => child.required = false,
-                ("skip" | "skip_deserializing", _) => skipped = true,
-                ("rename", Some(name)) => key = name,
-                ("alias", Some(name)) => child.aliases.push(name),
-                ("skip_serializing" | "skip_serializing_if" | "serialize_with" | "borrow", _) => {}
-                ("deserialize_with" | "with", _) => {
-                    child = Child {
-                        aliases: child.aliases,
-                        ..opaque(child.required)
-                    };
-                }
-                _ => return None,
-            }
+        for alias in &key.aliases {
+            let child = Child {
+                required: false,
+                ..child.clone()
+            };
+            children.insert(alias.clone(), child);
         }
-        if !skipped {
-            for alias in child.aliases.clone() {
-                children.insert(
-                    alias,
-                    Child {
-                        required: false,
-                        ..child.clone()
-                    },
-                );
-            }
-            child.aliases.push(field.name);
-            children.insert(key, child);
-        }
+        let aliases = key.aliases;
+        children.insert(key.name, Child { aliases, ..child });
     }
     Some(children)
-}
-
-/// Everything in `#[serde(…)]`; `None` if it cannot be read or depends on `cfg`.
-fn serde_items(attributes: &[Attribute]) -> Option<Vec<Meta>> {
-    let mut items = Vec::new();
-    for attribute in attributes {
-        if attribute.path().is_ident("cfg_attr") || attribute.path().is_ident("cfg") {
-            return None;
-        }
-        if attribute.path().is_ident("serde") {
-            let list = attribute.parse_args_with(Punctuated::<Meta, Token![,]>::parse_terminated);
-            items.extend(list.ok()?);
-        }
-    }
-    Some(items)
-}
-
-fn text(item: &Meta) -> Option<String> {
-    match item {
-        Meta::NameValue(meta) => match &meta.value {
-            Expr::Lit(ExprLit {
-                lit: Lit::Str(text),
-                ..
-            }) => Some(text.value()),
-            _ => None,
-        },
-        _ => None,
-    }
 }

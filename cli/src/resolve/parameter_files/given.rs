@@ -7,6 +7,7 @@ use serde::Serialize;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::keys::{self, Key};
 use super::{choice, layer};
 use crate::diagnostics::{Diagnostics, position};
 use crate::manifest::Manifest;
@@ -67,13 +68,22 @@ pub struct Asked<'a> {
     pub below: &'a [&'a str],
 }
 
-/// Every value of a parameter with the files that give it. Empty: the parameter has no such field.
+/// A parameter or a field of one.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Answer {
+    /// The way to the field as code writes it; empty for the parameter itself.
+    pub fields: Vec<String>,
+    /// As files write them.
+    pub values: Vec<Value>,
+}
+
+/// Every value of a parameter with the files that give it. `None`: the parameter has no such field.
 pub fn given(
     workspace: &Workspace,
     manifest: &Manifest,
     sources: &Sources<'_>,
     asked: Asked<'_>,
-) -> Vec<Value> {
+) -> Option<Answer> {
     let texts = layers(workspace, manifest);
     let tables: Vec<Layer<'_>> = texts.iter().filter_map(Layer::parse).collect();
     let node = sources.nodes.get(asked.node);
@@ -87,15 +97,15 @@ pub fn given(
             .filter_map(|it| it.at(asked.declared))
             .collect(),
     };
+    let mut fields = Vec::new();
     for name in asked.below {
-        match place.below(sources, name) {
-            Some(below) => place = below,
-            None => return Vec::new(),
-        }
+        let key = place.key(sources, name);
+        fields.push(key.map_or_else(|| (*name).to_owned(), |key| key.field.name));
+        place = place.below(sources, name)?;
     }
     let mut values = Vec::new();
     place.collect(sources, &mut values);
-    values
+    Some(Answer { fields, values })
 }
 
 /// The files in the order in which they are merged.
@@ -227,15 +237,13 @@ impl<'a> Place<'a> {
         if tables.is_empty() || self.is_replaced_whole(sources) {
             return Vec::new();
         }
-        let mut names: Vec<String> = self
-            .inner()
-            .and_then(|data| sources.library.fields(data))
-            .map(|structure| structure.fields.into_iter().map(|field| field.name))
-            .map(Iterator::collect)
-            .unwrap_or_default();
+        let known = self.keys(sources);
+        let mut names: Vec<String> = known.iter().map(|key| key.name.clone()).collect();
         for key in tables.iter().flat_map(|table| table.keys()) {
-            if !names.iter().any(|name| name == key.get_ref()) {
-                names.push(key.get_ref().to_string());
+            let name = key.get_ref();
+            let is_known = known.iter().any(|key| key.names().any(|one| one == name));
+            if !is_known && !names.iter().any(|one| one == name) {
+                names.push(name.to_string());
             }
         }
         names
@@ -257,29 +265,45 @@ impl<'a> Place<'a> {
 
     /// None: the type has no such field and no file names it.
     fn below(&self, sources: &Sources<'_>, name: &str) -> Option<Self> {
-        let structure = (self.inner()).and_then(|data| sources.library.fields(data));
-        let field = structure.and_then(|structure| {
-            let mut fields = structure.fields.into_iter();
-            fields.find(|field| field.name == name)
-        });
+        let key = self.key(sources, name);
+        let names: Vec<&str> = match &key {
+            Some(key) => key.names().collect(),
+            None => vec![name],
+        };
         let found: Vec<Found<'a>> = (self.found.iter())
             .filter_map(|found| {
-                let value = found.value.get_ref().as_table()?.get(name)?;
+                let table = found.value.get_ref().as_table()?;
+                let value = names.iter().find_map(|name| table.get(*name))?;
                 Some(Found {
                     layer: found.layer,
                     value,
                 })
             })
             .collect();
-        if field.is_none() && found.is_empty() {
+        if key.is_none() && found.is_empty() {
             return None;
         }
+        let written = names.first().copied().unwrap_or(name);
         Some(Self {
-            path: format!("{}.{name}", self.path),
-            docs: field.as_ref().and_then(|field| docs(&field.attributes)),
-            data: field.map(|field| field.data),
+            path: format!("{}.{written}", self.path),
+            docs: key.as_ref().and_then(|key| docs(&key.field.attributes)),
+            data: key.filter(|key| !key.by_function).map(|key| key.field.data),
             found,
         })
+    }
+
+    /// What files may give below; nothing where that cannot be seen.
+    fn keys(&self, sources: &Sources<'_>) -> Vec<Key> {
+        let structure = (self.inner()).and_then(|data| sources.library.fields(data));
+        structure.and_then(keys::keys).unwrap_or_default()
+    }
+
+    /// The field that files or code call so.
+    fn key(&self, sources: &Sources<'_>, name: &str) -> Option<Key> {
+        let keys = self.keys(sources);
+        let by_files = keys.iter().find(|key| key.names().any(|one| one == name));
+        let found = by_files.or_else(|| keys.iter().find(|key| key.field.name == name));
+        found.cloned()
     }
 
     fn inner(&self) -> Option<&Resolved> {

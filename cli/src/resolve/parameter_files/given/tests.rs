@@ -1,6 +1,6 @@
 //! Values of one robot with all four kinds of layers.
 
-use super::{Asked, Given, Value, comment_in, given};
+use super::{Answer, Asked, Given, Value, comment_in, given};
 use crate::diagnostics::Diagnostics;
 use crate::manifest;
 use crate::scan;
@@ -43,8 +43,8 @@ fn fixture() -> Fixture {
         .file("parameters/body.B1.toml", "filter.time = 0.3")
 }
 
-fn values(below: &[&str]) -> Vec<Value> {
-    let workspace = Workspace::in_memory(fixture().files());
+fn answer(fixture: &Fixture, below: &[&str]) -> Option<Answer> {
+    let workspace = Workspace::in_memory(fixture.files());
     let mut diagnostics = Diagnostics::new();
     let manifest = manifest::load(&workspace, &mut diagnostics).expect("it is right");
     let sources = scan::scan(&workspace, &manifest, &mut diagnostics).expect("they are right");
@@ -55,6 +55,11 @@ fn values(below: &[&str]) -> Vec<Value> {
         below,
     };
     given(&workspace, &manifest, &sources, asked)
+}
+
+fn values(below: &[&str]) -> Vec<Value> {
+    let answer = answer(&fixture(), below);
+    answer.map(|answer| answer.values).unwrap_or_default()
 }
 
 #[test]
@@ -104,7 +109,62 @@ fn a_struct_is_merged_field_by_field_and_an_enum_is_not() {
 
 #[test]
 fn a_field_that_there_is_not_has_no_values() {
-    assert_eq!(values(&["tiem"]), []);
+    assert_eq!(answer(&fixture(), &["tiem"]), None);
+}
+
+#[test]
+fn fields_are_called_as_files_call_them() {
+    let types = "
+        #[derive(Deserialize)]
+        #[serde(rename_all = \"kebab-case\")]
+        pub struct Filter {
+            /// In s.
+            pub half_life: f32,
+            #[serde(rename = \"on\", alias = \"enabled\")]
+            pub is_on: bool,
+            #[serde(skip)]
+            pub count: u8,
+        }
+    ";
+    let robot = fixture()
+        .file("crates/types/src/filter.rs", types)
+        .file(
+            "parameters/default.toml",
+            "[filter]\nhalf-life = 0.1\nenabled = true\n",
+        )
+        .file("parameters/field/default.toml", "filter.enabled = false")
+        .file("parameters/field/head.P1.toml", "")
+        .file("parameters/head.P1.toml", "")
+        .file("parameters/body.B1.toml", "");
+    // The checks of files know them by the same names.
+    assert_eq!(robot.answer().codes, Vec::<&str>::new());
+    let whole = answer(&robot, &[]).expect("it is a parameter").values;
+    let paths: Vec<&str> = whole.iter().map(|value| value.path.as_str()).collect();
+    assert_eq!(paths, ["filter.half-life", "filter.on"]);
+    let given = |value: &Value| {
+        let given = value.given.iter().map(|given| given.value.clone());
+        given.collect::<Vec<_>>()
+    };
+    assert_eq!(given(&whole[0]), ["0.1"]);
+    assert_eq!(given(&whole[1]), ["true", "false"]);
+    assert_eq!(whole[0].docs.as_deref(), Some("In s."));
+    // Whoever asks may use the name of the files or that of the code.
+    for name in ["half-life", "half_life"] {
+        let answer = answer(&robot, &[name]).expect("it is a field");
+        assert_eq!(answer.fields, ["half_life"]);
+        assert_eq!(answer.values, whole[..1]);
+    }
+    for name in ["on", "is_on", "enabled"] {
+        let answer = answer(&robot, &[name]).expect("it is a field");
+        assert_eq!(
+            (answer.fields, answer.values.as_slice()),
+            (vec!["is_on".to_owned()], &whole[1..])
+        );
+    }
+    assert_eq!(answer(&robot, &["count"]), None);
+    // A name that only the code uses is a mistake in a file.
+    let misspelt = robot.file("parameters/field/default.toml", "filter.half_life = 1");
+    assert_eq!(misspelt.answer().codes, ["unknown-parameter"]);
 }
 
 #[test]
