@@ -35,6 +35,47 @@ const DISTINCT_IN_NALGEBRA: &[&str] = &[
     "Vector4",
 ];
 
+/// More types of nalgebra. They may be aliases of each other and of those above, but of nothing outside of nalgebra.
+const OTHERS_OF_NALGEBRA: &[&str] = &[
+    "DMatrix",
+    "DVector",
+    "DualQuaternion",
+    "Isometry",
+    "Matrix",
+    "Matrix1",
+    "Matrix2x3",
+    "Matrix2x4",
+    "Matrix3x2",
+    "Matrix3x4",
+    "Matrix4x2",
+    "Matrix4x3",
+    "Matrix5",
+    "Matrix6",
+    "OMatrix",
+    "OPoint",
+    "OVector",
+    "Point",
+    "Point1",
+    "Point4",
+    "Point5",
+    "Point6",
+    "Rotation",
+    "RowVector2",
+    "RowVector3",
+    "RowVector4",
+    "SMatrix",
+    "SVector",
+    "Similarity",
+    "Translation",
+    "Unit",
+    "UnitDualQuaternion",
+    "UnitVector2",
+    "UnitVector3",
+    "Vector1",
+    "Vector5",
+    "Vector6",
+];
+
 /// Compares two types by definitions.
 pub fn compare(a: &Resolved, b: &Resolved) -> Comparison {
     use Comparison::{Different, Same, Unknown};
@@ -54,10 +95,10 @@ pub fn compare(a: &Resolved, b: &Resolved) -> Comparison {
             Same => compare_all(of_a, of_b),
             answer => answer,
         },
-        // A foreign name may be an alias of anything.
+        // A foreign name may be an alias of a tuple or an array.
         (
             Shape::Named {
-                definition: Definition::Foreign(_),
+                definition: Definition::Foreign(path),
                 ..
             },
             _,
@@ -65,10 +106,10 @@ pub fn compare(a: &Resolved, b: &Resolved) -> Comparison {
         | (
             _,
             Shape::Named {
-                definition: Definition::Foreign(_),
+                definition: Definition::Foreign(path),
                 ..
             },
-        ) => Unknown,
+        ) if !is_of_nalgebra(path) => Unknown,
         (Shape::Tuple(a), Shape::Tuple(b)) if a.len() == b.len() => compare_all(a, b),
         (Shape::Array(a, length_of_a), Shape::Array(b, length_of_b)) => {
             both(compare(a, b), compare(length_of_a, length_of_b))
@@ -118,11 +159,7 @@ fn compare_definitions(a: &Definition, b: &Definition) -> Comparison {
         }
         (Definition::Foreign(a), Definition::Foreign(b)) if a == b => Same,
         (Definition::Foreign(a), Definition::Foreign(b)) => {
-            let distinct = |path: &str| {
-                path.strip_prefix("nalgebra::")
-                    .is_some_and(|name| DISTINCT_IN_NALGEBRA.contains(&name))
-            };
-            if distinct(a) && distinct(b) {
+            if is_distinct_in_nalgebra(a) && is_distinct_in_nalgebra(b) {
                 Different
             } else {
                 Unknown
@@ -131,9 +168,26 @@ fn compare_definitions(a: &Definition, b: &Definition) -> Comparison {
         // No crate outside of the workspace knows the workspace's types.
         (Definition::Foreign(_), Definition::Workspace(_))
         | (Definition::Workspace(_), Definition::Foreign(_)) => Different,
-        (Definition::Foreign(_), _) | (_, Definition::Foreign(_)) => Unknown,
+        // It may be an alias of a primitive or of a type of std.
+        (Definition::Foreign(path), _) | (_, Definition::Foreign(path))
+            if !is_of_nalgebra(path) =>
+        {
+            Unknown
+        }
         _ => Different,
     }
+}
+
+fn is_distinct_in_nalgebra(path: &str) -> bool {
+    let name = path.strip_prefix("nalgebra::");
+    name.is_some_and(|name| DISTINCT_IN_NALGEBRA.contains(&name))
+}
+
+/// Whether it is one of nalgebra's own structs, so that nothing outside of nalgebra is the same.
+fn is_of_nalgebra(path: &str) -> bool {
+    let name = path.strip_prefix("nalgebra::");
+    let is_other = name.is_some_and(|name| OTHERS_OF_NALGEBRA.contains(&name));
+    is_other || is_distinct_in_nalgebra(path)
 }
 
 fn same(same: bool) -> Comparison {

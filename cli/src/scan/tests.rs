@@ -429,8 +429,37 @@ fn types_are_only_told_apart_where_that_is_certain() {
             "nalgebra::SVector<f32, 3>",
             Comparison::Unknown,
         ),
-        ("nalgebra::Point2<f32>", "f32", Comparison::Unknown),
+        ("nalgebra::Point2<f32>", "f32", Comparison::Different),
+        ("nalgebra::SVector<f32, 3>", "f32", Comparison::Different),
+        ("nalgebra::Vector2<f32>", "[f32; 2]", Comparison::Different),
+        ("nalgebra::Point2<f32>", "(f32, f32)", Comparison::Different),
+        (
+            "nalgebra::Point2<f32>",
+            "Option<nalgebra::Point2<f32>>",
+            Comparison::Different,
+        ),
+        ("nalgebra::Point2<f32>", "Vec<f32>", Comparison::Different),
+        ("nalgebra::Vector2<f32>", "Duration", Comparison::Different),
         ("nalgebra::Point2<f32>", "Ball", Comparison::Different),
+        // Nobody here knows what these are.
+        ("nalgebra::Point2<f32>", "Missing", Comparison::Unknown),
+        (
+            "nalgebra::Point2<Missing>",
+            "nalgebra::Point2<f32>",
+            Comparison::Unknown,
+        ),
+        ("nalgebra::Scalar", "f32", Comparison::Unknown),
+        ("ordered_float::NotNan<f32>", "f32", Comparison::Unknown),
+        (
+            "ordered_float::NotNan<f32>",
+            "[f32; 2]",
+            Comparison::Unknown,
+        ),
+        (
+            "ordered_float::NotNan<f32>",
+            "nalgebra::Point2<f32>",
+            Comparison::Unknown,
+        ),
         ("Duration", "core::time::Duration", Comparison::Same),
         (
             "std::collections::HashMap<u8, u8>",

@@ -73,6 +73,22 @@ fn written_type_and_path_agree_by_the_contract() {
             Some("type-mismatch"),
         ),
         ("Ball", "Input<u8, \"x.x\">", Some("type-mismatch")),
+        (
+            "nalgebra::Point2<f32>",
+            "Input<f32, \"x\">",
+            Some("type-mismatch"),
+        ),
+        (
+            "[f32; 2]",
+            "Input<nalgebra::Vector2<f32>, \"x\">",
+            Some("type-mismatch"),
+        ),
+        (
+            "Option<nalgebra::Point2<f32>>",
+            "RequiredInput<Option<f32>, \"x?\">",
+            Some("type-mismatch"),
+        ),
+        ("ordered_float::NotNan<f32>", "Input<f32, \"x\">", None),
         ("Ball", "Input<f32, \"x.y\">", Some("unknown-output")),
         ("u8", "Input<f32, \"x.y\">", Some("unknown-output")),
         ("Side", "Input<f32, \"x.y\">", Some("unknown-output")),
