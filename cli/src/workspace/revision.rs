@@ -198,7 +198,7 @@ mod tests {
 
     #[test]
     fn a_path_that_is_no_utf_8_is_passed_over() {
-        let listing = b"100644 blob 4b82\todd\xff.rs\0100644 blob 5c01\ta.rs\0";
+        let listing = b"100644 blob 4b82\todd\xff.rs\x00100644 blob 5c01\ta.rs\0";
         let found = entries(listing, "".into()).into_iter();
         assert_eq!(found.map(|entry| entry.path).collect::<Vec<_>>(), ["a.rs"]);
     }
