@@ -22,6 +22,7 @@
 //! ```
 
 mod generated;
+mod parameter_file;
 mod skipped;
 mod temporal;
 
@@ -34,6 +35,7 @@ use crate::parameters;
 use crate::time::{CycleTime, Timestamp};
 
 pub use generated::assert_generated;
+pub use parameter_file::ParameterFile;
 pub use skipped::skip;
 pub use temporal::*;
 

@@ -4,10 +4,10 @@ use control::{
     behavior, camera_matrices, head_motion, look_around, look_at, motion_dispatcher,
     motion_selector, motor_commands_collector, penalized_pose, sit_down, stand,
 };
-use framework::{CycleTime, testing};
+use framework::CycleTime;
+use framework::testing::{self, ParameterFile};
 use kinematics::{forward_kinematics, limits};
 use nalgebra::{Point2, Point3};
-use serde::Deserialize;
 use types::ball::Ball;
 use types::camera::{CameraCalibration, CameraMatrices};
 use types::fall_state::{FallDirection, FallState};
@@ -23,73 +23,16 @@ use types::world_state::WorldState;
 /// In s, of the NAO's body.
 const CYCLE: f32 = 0.012;
 
-#[derive(Deserialize)]
-struct Parameters {
-    cameras: Cameras,
-    head_motion: HeadMotion,
-    look_around: LookAround,
-    look_at: LookAt,
-    motion_dispatcher: MotionDispatcher,
-    motor_commands_collector: MotorCommandsCollector,
-    penalized_pose: Pose,
-    sit_down: SitDown,
-    stand: Pose,
-}
-
-#[derive(Deserialize)]
-struct Cameras {
-    top: CameraCalibration,
-    bottom: CameraCalibration,
-}
-
-#[derive(Deserialize)]
-struct HeadMotion {
-    velocity: f32,
-    stiffness: f32,
-}
-
-#[derive(Deserialize)]
-struct LookAround {
-    way_points: Vec<HeadAngles>,
-}
-
-#[derive(Deserialize)]
-struct LookAt {
-    bottom_camera_range: f32,
-    hysteresis: f32,
-}
-
-#[derive(Deserialize)]
-struct MotionDispatcher {
-    stiffness: f32,
-    velocity_share: f32,
-    minimum_duration: f32,
-}
-
-#[derive(Deserialize)]
-struct MotorCommandsCollector {
-    velocity_share: f32,
-}
-
-#[derive(Deserialize)]
-struct Pose {
-    positions: Joints<f32>,
-    stiffness: f32,
-}
-
-#[derive(Deserialize)]
-struct SitDown {
-    crouch: Joints<f32>,
-    sitting: Joints<f32>,
-    stiffness: f32,
-    velocity_share: f32,
-    minimum_duration: f32,
-    release_duration: f32,
-}
-
 /// The nodes, what they keep between cycles, and a body that obeys at once.
 struct Robot {
-    parameters: Parameters,
+    parameters: ParameterFile,
+    top: CameraCalibration,
+    bottom: CameraCalibration,
+    stand_pose: Joints<f32>,
+    penalized: Joints<f32>,
+    crouch: Joints<f32>,
+    sitting: Joints<f32>,
+    way_points: Vec<HeadAngles>,
     behavior: behavior::Behavior,
     motion_selector: motion_selector::MotionSelector,
     stand: stand::Stand,
@@ -121,9 +64,16 @@ struct Wanted {
 
 impl Robot {
     fn new(body: Joints<f32>) -> Self {
-        let parameters = include_str!("../../parameters/default.toml");
+        let parameters = ParameterFile::new(include_str!("../../parameters/default.toml"));
         Self {
-            parameters: toml::from_str(parameters).unwrap(),
+            top: parameters.get("cameras.top"),
+            bottom: parameters.get("cameras.bottom"),
+            stand_pose: parameters.get("stand.positions"),
+            penalized: parameters.get("penalized_pose.positions"),
+            crouch: parameters.get("sit_down.crouch"),
+            sitting: parameters.get("sit_down.sitting"),
+            way_points: parameters.get("look_around.way_points"),
+            parameters,
             behavior: behavior::Behavior::new(behavior::CreationContext {}).unwrap(),
             motion_selector: motion_selector::MotionSelector::new(
                 motion_selector::CreationContext {},
@@ -161,7 +111,7 @@ impl Robot {
     /// Sitting and limp, as before a game.
     fn sitting() -> Self {
         let mut robot = Self::new(Joints::filled(0.0));
-        robot.body = robot.parameters.sit_down.sitting;
+        robot.body = robot.sitting;
         robot
     }
 
@@ -179,8 +129,8 @@ impl Robot {
             support_side: &Side::Left,
             robot_kinematics: &kinematics,
             orientation: &kinematics.soles_to_torso.left.rotation.inverse(),
-            top: &self.parameters.cameras.top,
-            bottom: &self.parameters.cameras.bottom,
+            top: &self.top,
+            bottom: &self.bottom,
         };
         let outputs = self.cameras.cycle(context).unwrap();
         outputs.camera_matrices.value.unwrap()
@@ -214,29 +164,28 @@ impl Robot {
 
     fn move_body(&mut self) -> Wanted {
         let cycle_time = self.time();
-        let parameters = &self.parameters;
         let context = stand::CycleContext {
             motion_selection: &self.selection,
-            positions: &parameters.stand.positions,
-            stiffness: &parameters.stand.stiffness,
+            positions: &self.stand_pose,
+            stiffness: &self.parameters.get("stand.stiffness"),
         };
         let stand = self.stand.cycle(context).unwrap().stand_commands.value;
         let context = penalized_pose::CycleContext {
             motion_selection: &self.selection,
-            positions: &parameters.penalized_pose.positions,
-            stiffness: &parameters.penalized_pose.stiffness,
+            positions: &self.penalized,
+            stiffness: &self.parameters.get("penalized_pose.stiffness"),
         };
         let penalized = self.penalized_pose.cycle(context).unwrap();
         let context = sit_down::CycleContext {
             motion_selection: &self.selection,
             cycle_time,
             safe_exit: &mut self.safe_exits.sit_down,
-            crouch: &parameters.sit_down.crouch,
-            sitting: &parameters.sit_down.sitting,
-            stiffness: &parameters.sit_down.stiffness,
-            velocity_share: &parameters.sit_down.velocity_share,
-            minimum_duration: &parameters.sit_down.minimum_duration,
-            release_duration: &parameters.sit_down.release_duration,
+            crouch: &self.crouch,
+            sitting: &self.sitting,
+            stiffness: &self.parameters.get("sit_down.stiffness"),
+            velocity_share: &self.parameters.get("sit_down.velocity_share"),
+            minimum_duration: &self.parameters.get("sit_down.minimum_duration"),
+            release_duration: &self.parameters.get("sit_down.release_duration"),
         };
         let sit_down = self.sit_down.cycle(context).unwrap();
         let context = motion_dispatcher::CycleContext {
@@ -245,12 +194,12 @@ impl Robot {
             previous: self.motor_commands.as_ref(),
             cycle_time,
             safe_exit: &mut self.safe_exits.dispatch,
-            stand: &parameters.stand.positions,
-            penalized_pose: &parameters.penalized_pose.positions,
-            crouch: &parameters.sit_down.crouch,
-            stiffness: &parameters.motion_dispatcher.stiffness,
-            velocity_share: &parameters.motion_dispatcher.velocity_share,
-            minimum_duration: &parameters.motion_dispatcher.minimum_duration,
+            stand: &self.stand_pose,
+            penalized_pose: &self.penalized,
+            crouch: &self.crouch,
+            stiffness: &self.parameters.get("motion_dispatcher.stiffness"),
+            velocity_share: &self.parameters.get("motion_dispatcher.velocity_share"),
+            minimum_duration: &self.parameters.get("motion_dispatcher.minimum_duration"),
         };
         let dispatch = self.motion_dispatcher.cycle(context).unwrap();
         Wanted {
@@ -265,19 +214,18 @@ impl Robot {
         let camera_matrices = self.camera_matrices();
         let head_to_torso = self.kinematics().head_to_torso;
         let cycle_time = self.time();
-        let parameters = &self.parameters;
         let context = look_around::CycleContext {
             motion_command: command,
             previous: self.head_command.as_ref(),
-            way_points: &parameters.look_around.way_points,
+            way_points: &self.way_points,
         };
         let around = self.look_around.cycle(context).unwrap().look_around.value;
         let context = look_at::CycleContext {
             motion_command: command,
             camera_matrices: Some(&camera_matrices),
             head_to_torso: &head_to_torso,
-            bottom_camera_range: &parameters.look_at.bottom_camera_range,
-            hysteresis: &parameters.look_at.hysteresis,
+            bottom_camera_range: &self.parameters.get("look_at.bottom_camera_range"),
+            hysteresis: &self.parameters.get("look_at.hysteresis"),
         };
         let at_point = self.look_at.cycle(context).unwrap().look_at.value;
         let context = head_motion::CycleContext {
@@ -288,8 +236,8 @@ impl Robot {
             positions: &self.body,
             previous: self.motor_commands.as_ref(),
             cycle_time,
-            velocity: &parameters.head_motion.velocity,
-            stiffness: &parameters.head_motion.stiffness,
+            velocity: &self.parameters.get("head_motion.velocity"),
+            stiffness: &self.parameters.get("head_motion.stiffness"),
             look_at: None,
         };
         self.head_motion.cycle(context).unwrap().head_command.value
@@ -306,7 +254,9 @@ impl Robot {
             previous: self.motor_commands.as_ref(),
             positions: &self.body,
             cycle_time: self.time(),
-            velocity_share: &self.parameters.motor_commands_collector.velocity_share,
+            velocity_share: &self
+                .parameters
+                .get("motor_commands_collector.velocity_share"),
         };
         let outputs = self.collector.cycle(context).unwrap();
         outputs.motor_commands.value.unwrap()
@@ -334,9 +284,9 @@ impl Robot {
         if before.is_dispatching {
             assert!(exits.dispatch, "{before:?} to {:?}", self.selection);
             let begin = match before.current {
-                BodyMotion::SitDown => &self.parameters.sit_down.crouch,
-                BodyMotion::Stand => &self.parameters.stand.positions,
-                BodyMotion::Penalized => &self.parameters.penalized_pose.positions,
+                BodyMotion::SitDown => &self.crouch,
+                BodyMotion::Stand => &self.stand_pose,
+                BodyMotion::Penalized => &self.penalized,
                 BodyMotion::Unstiff => body,
             };
             assert_eq!(begin, body);
@@ -393,7 +343,7 @@ fn a_robot_goes_from_limp_through_a_game_to_limp() {
 
     robot.live(PrimaryState::Penalized, 4.0);
     assert!(robot.has(BodyMotion::Penalized));
-    assert_eq!(robot.body, robot.parameters.penalized_pose.positions);
+    assert_eq!(robot.body, robot.penalized);
     robot.live(PrimaryState::Playing, 4.0);
     assert!(robot.has(BodyMotion::Stand));
 
@@ -412,7 +362,7 @@ fn a_change_of_mind_on_the_way_harms_nobody() {
         }
         robot.live(Unstiff, 10.0);
         assert!(robot.has(BodyMotion::Unstiff), "{seconds}");
-        assert_eq!(robot.body, robot.parameters.sit_down.sitting);
+        assert_eq!(robot.body, robot.sitting);
     }
 }
 

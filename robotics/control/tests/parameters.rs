@@ -1,61 +1,27 @@
 //! The parameters are ones that a robot survives.
 
+use framework::testing::ParameterFile;
 use kinematics::{cameras, forward_kinematics, limits};
 use nalgebra::{Point2, Vector3};
-use serde::Deserialize;
 use types::camera::CameraCalibration;
 use types::feet::Side;
 use types::head::HeadAngles;
 use types::joints::Joints;
 
-#[derive(Deserialize)]
-struct Parameters {
-    cameras: Cameras,
-    head_motion: HeadMotion,
-    look_around: LookAround,
-    penalized_pose: Pose,
-    sit_down: SitDown,
-    stand: Pose,
-}
-
-#[derive(Deserialize)]
-struct Cameras {
-    top: CameraCalibration,
-    bottom: CameraCalibration,
-}
-
-#[derive(Deserialize)]
-struct HeadMotion {
-    velocity: f32,
-}
-
-#[derive(Deserialize)]
-struct LookAround {
-    way_points: Vec<HeadAngles>,
-}
-
-#[derive(Deserialize)]
-struct Pose {
-    positions: Joints<f32>,
-}
-
-#[derive(Deserialize)]
-struct SitDown {
-    crouch: Joints<f32>,
-    sitting: Joints<f32>,
-}
-
-fn parameters() -> Parameters {
-    toml::from_str(include_str!("../../parameters/default.toml")).unwrap()
+fn parameters() -> ParameterFile {
+    ParameterFile::new(include_str!("../../parameters/default.toml"))
 }
 
 /// Stand, penalised, crouch, sitting.
 fn poses() -> [Joints<f32>; 4] {
     let parameters = parameters();
-    let SitDown { crouch, sitting } = parameters.sit_down;
-    let [stand, penalized] =
-        [parameters.stand, parameters.penalized_pose].map(|pose| pose.positions);
-    [stand, penalized, crouch, sitting]
+    [
+        "stand.positions",
+        "penalized_pose.positions",
+        "sit_down.crouch",
+        "sit_down.sitting",
+    ]
+    .map(|path| parameters.get(path))
 }
 
 #[test]
@@ -103,7 +69,7 @@ fn assert_stable(pose: &Joints<f32>, place: &str) {
 
 #[test]
 fn the_head_reaches_all_way_points_without_touching_the_shoulders() {
-    let way_points = parameters().look_around.way_points;
+    let way_points: Vec<HeadAngles> = parameters().get("look_around.way_points");
     assert!(way_points.len() > 1);
     for way_point in way_points {
         assert_eq!(limits::clamp_head(way_point), way_point);
@@ -113,14 +79,14 @@ fn the_head_reaches_all_way_points_without_touching_the_shoulders() {
 #[test]
 fn the_head_is_slow_enough_for_images_to_fit_their_angles() {
     // One sample of 12 ms between image and angles, at 608 px of focal length.
-    let pixels = parameters().head_motion.velocity * 0.012 * 608.0;
+    let pixels = parameters().get::<f32>("head_motion.velocity") * 0.012 * 608.0;
     assert!(pixels < 5.0, "{pixels} px");
 }
 
 #[test]
 fn uncalibrated_cameras_see_as_the_manufacturer_says() {
-    let Cameras { top, bottom } = parameters().cameras;
-    for calibration in [top, bottom] {
+    for path in ["cameras.top", "cameras.bottom"] {
+        let calibration: CameraCalibration = parameters().get(path);
         let [width, height] = cameras::IMAGE_SIZE;
         assert_eq!(
             (calibration.width, calibration.height),

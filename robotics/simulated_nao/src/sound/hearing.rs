@@ -5,9 +5,8 @@ use std::time::Duration;
 
 use audio::whistle_detection::{self, SpectralPeak, WhistleDetection, WhistleDetectionParameters};
 use control::whistle_filter::{self, WhistleFilter};
-use framework::testing::{AdditionalProbe, perception};
+use framework::testing::{AdditionalProbe, ParameterFile, perception};
 use framework::{CycleTime, Timestamp};
-use serde::Deserialize;
 use types::audio::{AudioBlock, MICROPHONE_COUNT};
 
 use super::{BLOCK_LENGTH, SAMPLE_RATE, Sound, SoundSettings, WhistleTruth};
@@ -20,22 +19,12 @@ const REST: f64 = 1.0;
 /// In dB: the margin of what sweeps.
 const UNSTEADY: f32 = -30.0;
 
-#[derive(Deserialize)]
-struct Parameters {
-    whistle_detection: WhistleDetectionParameters,
-    whistle_filter: FilterParameters,
-}
-
-#[derive(Deserialize)]
-struct FilterParameters {
+/// The two nodes that lead from sound to a whistle.
+struct Listener {
+    thresholds: WhistleDetectionParameters,
     least_microphones: u32,
     least_blocks: u32,
     window: f32,
-}
-
-/// The two nodes that lead from sound to a whistle.
-struct Listener {
-    parameters: Parameters,
     detection: WhistleDetection,
     filter: WhistleFilter,
     /// The margins of the newest blocks.
@@ -60,9 +49,12 @@ struct Report {
 
 impl Listener {
     fn new() -> Self {
-        let parameters = include_str!("../../../parameters/default.toml");
+        let parameters = ParameterFile::new(include_str!("../../../parameters/default.toml"));
         Self {
-            parameters: toml::from_str(parameters).unwrap(),
+            thresholds: parameters.get("whistle_detection"),
+            least_microphones: parameters.get("whistle_filter.least_microphones"),
+            least_blocks: parameters.get("whistle_filter.least_blocks"),
+            window: parameters.get("whistle_filter.window"),
             detection: WhistleDetection::new(whistle_detection::CreationContext {}).unwrap(),
             filter: WhistleFilter::new(whistle_filter::CreationContext {}).unwrap(),
             margins: VecDeque::new(),
@@ -76,7 +68,7 @@ impl Listener {
         let mut probe = AdditionalProbe::default();
         let context = whistle_detection::CycleContext {
             audio_block: block,
-            parameters: &self.parameters.whistle_detection,
+            parameters: &self.thresholds,
             peaks: probe.output(),
         };
         let evidence = self
@@ -89,16 +81,15 @@ impl Listener {
 
         let settled = [(captured_at, &evidence)];
         let mut probe = AdditionalProbe::unsubscribed();
-        let parameters = &self.parameters.whistle_filter;
         let context = whistle_filter::CycleContext {
             whistle_evidence: perception(&settled, &[]),
             cycle_time: CycleTime {
                 start: captured_at + Duration::from_millis(5),
                 since_last: Duration::from_millis(12),
             },
-            least_microphones: &parameters.least_microphones,
-            least_blocks: &parameters.least_blocks,
-            window: &parameters.window,
+            least_microphones: &self.least_microphones,
+            least_blocks: &self.least_blocks,
+            window: &self.window,
             votes: probe.output(),
         };
         (
@@ -108,7 +99,7 @@ impl Listener {
     }
 
     fn margin(&mut self, peaks: [SpectralPeak; MICROPHONE_COUNT]) -> f32 {
-        let thresholds = &self.parameters.whistle_detection;
+        let thresholds = &self.thresholds;
         let of_peak = |peak: SpectralPeak| {
             (peak.prominence - thresholds.least_prominence)
                 .min(peak.dominance - thresholds.least_dominance)
@@ -122,17 +113,12 @@ impl Listener {
             }
             of_peak(peak).min(of_peak(before))
         });
-        let FilterParameters {
-            least_microphones,
-            least_blocks,
-            window,
-        } = self.parameters.whistle_filter;
-        let of_block = nth_largest(&mut of_microphones, least_microphones);
+        let of_block = nth_largest(&mut of_microphones, self.least_microphones);
         self.margins.push_front(of_block);
         self.margins
-            .truncate((window * SAMPLE_RATE as f32 / BLOCK_LENGTH as f32) as usize);
+            .truncate((self.window * SAMPLE_RATE as f32 / BLOCK_LENGTH as f32) as usize);
         let mut newest: Vec<_> = self.margins.iter().copied().collect();
-        nth_largest(&mut newest, least_blocks)
+        nth_largest(&mut newest, self.least_blocks)
     }
 }
 

@@ -1,6 +1,6 @@
 //! All nodes of vision on rendered images with the true camera pose, and places to look from.
 
-use framework::testing::AdditionalProbe;
+use framework::testing::{AdditionalProbe, ParameterFile};
 use framework::{Timestamp, testing};
 use kinematics::cameras::{
     FOCAL_LENGTH, IMAGE_SIZE, OPTICAL_CENTER, camera_to_head, optical_to_camera,
@@ -8,7 +8,6 @@ use kinematics::cameras::{
 use kinematics::forward_kinematics;
 use kinematics::links::LinkName;
 use nalgebra::{Point3, Vector2};
-use serde::de::DeserializeOwned;
 use simulated_nao::camera::{Exposure, OwnBody, render};
 use simulated_nao::field::{Field, LENGTH, WIDTH};
 use simulated_nao::ground_truth::ImageTruth;
@@ -53,7 +52,7 @@ pub(crate) struct Sight {
 
 /// The nodes, their parameters, and what they work on.
 pub(crate) struct Vision {
-    parameters: toml::Table,
+    parameters: ParameterFile,
     field: Field,
     image: YuyvImage,
     limb_projector: LimbProjector,
@@ -69,7 +68,7 @@ impl Vision {
     pub(crate) fn new() -> Self {
         let parameters = include_str!("../../../parameters/default.toml");
         Self {
-            parameters: parameters.parse().unwrap(),
+            parameters: ParameterFile::new(parameters),
             field: Field::default(),
             image: YuyvImage::default(),
             limb_projector: LimbProjector::new(limb_projector::CreationContext {}).unwrap(),
@@ -80,13 +79,6 @@ impl Vision {
             balls: BallDetection::new(ball_detection::CreationContext {}).unwrap(),
             obstacles: ObstacleDetection::new(obstacle_detection::CreationContext {}).unwrap(),
         }
-    }
-
-    fn parameter<T: DeserializeOwned>(&self, path: &str) -> T {
-        let mut keys = path.split('.');
-        let first = &self.parameters[keys.next().unwrap()];
-        let value = keys.fold(first, |table, key| &table[key]);
-        value.clone().try_into().unwrap()
     }
 
     /// What the nodes find in the image of this exposure, one after the other as in the robot.
@@ -116,8 +108,8 @@ impl Vision {
                 image: &self.image,
                 camera_matrix: Some(camera_matrix),
                 limb_mask,
-                field_color: &self.parameter("field_color"),
-                steps: &self.parameter(&look.own("scan_steps")),
+                field_color: &self.parameters.get("field_color"),
+                steps: &self.parameters.get(&look.own("scan_steps")),
                 image_segments: &mut image_segments,
             })
             .unwrap();
@@ -135,7 +127,7 @@ impl Vision {
             .cycle(field_border::CycleContext {
                 image_segments,
                 camera_matrix: Some(camera_matrix),
-                parameters: &self.parameter(&look.own("field_border")),
+                parameters: &self.parameters.get(&look.own("field_border")),
                 field_border_points: AdditionalProbe::unsubscribed().output(),
                 field_border: &mut sight.border,
             })
@@ -157,9 +149,9 @@ impl Vision {
                 limb_mask,
                 field_border: &sight.border,
                 camera_matrix,
-                field_color: &self.parameter("field_color"),
-                line_width: &self.parameter("field_dimensions.line_width"),
-                parameters: &self.parameter(&look.own("line_detection")),
+                field_color: &self.parameters.get("field_color"),
+                line_width: &self.parameters.get("field_dimensions.line_width"),
+                parameters: &self.parameters.get(&look.own("line_detection")),
                 line_points: AdditionalProbe::unsubscribed().output(),
                 image_lines: AdditionalProbe::unsubscribed().output(),
                 lines: &mut sight.lines,
@@ -181,10 +173,10 @@ impl Vision {
                 field_border: &sight.border,
                 lines: &sight.lines,
                 camera_matrix,
-                field_color: &self.parameter("field_color"),
-                line_width: &self.parameter("field_dimensions.line_width"),
-                mark_size: &self.parameter("field_dimensions.penalty_mark_size"),
-                parameters: &self.parameter("penalty_mark_detection"),
+                field_color: &self.parameters.get("field_color"),
+                line_width: &self.parameters.get("field_dimensions.line_width"),
+                mark_size: &self.parameters.get("field_dimensions.penalty_mark_size"),
+                parameters: &self.parameters.get("penalty_mark_detection"),
                 penalty_mark_candidates: AdditionalProbe::unsubscribed().output(),
             })
             .unwrap()
@@ -206,10 +198,10 @@ impl Vision {
                 lines: &sight.lines,
                 penalty_mark: sight.penalty_mark.as_ref(),
                 camera_matrix,
-                field_color: &self.parameter("field_color"),
-                parameters: &self.parameter("ball_detection"),
-                ball_radius: &self.parameter("field_dimensions.ball_radius"),
-                line_width: &self.parameter("field_dimensions.line_width"),
+                field_color: &self.parameters.get("field_color"),
+                parameters: &self.parameters.get("ball_detection"),
+                ball_radius: &self.parameters.get("field_dimensions.ball_radius"),
+                line_width: &self.parameters.get("field_dimensions.line_width"),
                 ball_candidates: AdditionalProbe::unsubscribed().output(),
                 balls: &mut sight.balls,
             })
@@ -228,8 +220,8 @@ impl Vision {
                 field_border: &sight.border,
                 lines: &sight.lines,
                 camera_matrix,
-                line_width: &self.parameter("field_dimensions.line_width"),
-                parameters: &self.parameter("obstacle_detection"),
+                line_width: &self.parameters.get("field_dimensions.line_width"),
+                parameters: &self.parameters.get("obstacle_detection"),
                 obstacle_feet: AdditionalProbe::unsubscribed().output(),
                 obstacles: &mut sight.obstacles,
             })
@@ -246,9 +238,9 @@ impl Vision {
                 image: &self.image,
                 robot_kinematics: testing::latest(now, &kinematics, now),
                 camera_position: &look.camera,
-                top: &self.parameter("cameras.top"),
-                bottom: &self.parameter("cameras.bottom"),
-                parameters: &self.parameter("limb_projector"),
+                top: &self.parameters.get("cameras.top"),
+                bottom: &self.parameters.get("cameras.bottom"),
+                parameters: &self.parameters.get("limb_projector"),
                 limb_mask: &mut limb_mask,
             })
             .unwrap();
