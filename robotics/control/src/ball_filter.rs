@@ -22,6 +22,7 @@ use types::odometry::Odometry;
 
 use self::hypotheses::Hypotheses;
 use self::hypothesis::{Hypothesis, Sighting};
+use crate::places::Hypothesis as _;
 use crate::roll_back::RollBack;
 use crate::start_frame::ground_to_start;
 
@@ -123,7 +124,7 @@ impl BallFilter {
                 for sighting in sightings(candidates, timestamp, pose, parameters) {
                     hypotheses.learn(&sighting, parameters);
                 }
-                hypotheses.merge(parameters);
+                hypotheses.merge(parameters.same_place);
             }
         };
         self.hypotheses.settle(context.balls.persistent, see);

@@ -57,5 +57,6 @@ pub mod command_sender;
 pub mod hysteresis;
 mod level;
 pub mod low_pass;
+mod places;
 mod roll_back;
 mod start_frame;

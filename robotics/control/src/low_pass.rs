@@ -53,7 +53,12 @@ impl<T: Measurement> LowPass<T> {
 /// How much of a difference vanishes in `step` seconds, so that a third is left after `time`
 /// seconds; everything where `time` is no positive number.
 pub fn share(step: f32, time: f32) -> f32 {
-    1.0 - (-step / time.max(f32::EPSILON)).exp()
+    1.0 - left(step, time)
+}
+
+/// How much of a difference is left after `step` seconds: the rest of [`share`].
+pub fn left(step: f32, time: f32) -> f32 {
+    (-step / time.max(f32::EPSILON)).exp()
 }
 
 #[cfg(test)]

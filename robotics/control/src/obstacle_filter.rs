@@ -108,7 +108,7 @@ impl ObstacleFilter {
                 {
                     hypotheses.learn(&moved(measurement, pose), timestamp, parameters);
                 }
-                hypotheses.merge(parameters);
+                hypotheses.merge(parameters.same_place);
             }
         };
         self.hypotheses.settle(context.candidates.persistent, see);

@@ -5,6 +5,8 @@ use nalgebra::{Matrix2, Matrix2x4, Matrix4, Matrix4x2, Point2, Vector2, Vector4}
 use serde::{Deserialize, Serialize};
 
 use super::BallFilterParameters;
+use crate::low_pass;
+use crate::places::{self, Hypothesis as _};
 
 /// A ball in the start frame, and how well it is known.
 #[derive(Clone, Copy, Debug, Deserialize, Serialize)]
@@ -38,11 +40,6 @@ impl Hypothesis {
         }
     }
 
-    /// In m.
-    pub(super) fn position(&self) -> Point2<f32> {
-        Point2::new(self.mean.x, self.mean.y)
-    }
-
     /// In m/s; zero where it is so slow that it may as well be noise.
     pub(super) fn velocity(&self, parameters: &BallFilterParameters) -> Vector2<f32> {
         let velocity = Vector2::new(self.mean.z, self.mean.w);
@@ -65,7 +62,7 @@ impl Hypothesis {
 
     /// What becomes of it in so many seconds: it rolls, slower and slower, unless it rests.
     pub(super) fn predict(&mut self, elapsed: f32, parameters: &BallFilterParameters) {
-        let kept = decay(elapsed, parameters.rolling_time);
+        let kept = low_pass::left(elapsed, parameters.rolling_time);
         let reach = parameters.rolling_time * (1.0 - kept);
         let step = self.velocity(parameters) * reach;
         self.mean.x += step.x;
@@ -90,7 +87,7 @@ impl Hypothesis {
         {
             self.covariance[(index, index)] += noise;
         }
-        self.validity *= decay(elapsed, parameters.validity_time);
+        self.validity *= low_pass::left(elapsed, parameters.validity_time);
     }
 
     /// How far away the sighting is, in standard deviations of where it was expected.
@@ -130,14 +127,20 @@ impl Hypothesis {
     }
 }
 
+impl places::Hypothesis for Hypothesis {
+    fn position(&self) -> Point2<f32> {
+        Point2::new(self.mean.x, self.mean.y)
+    }
+
+    fn evidence(&self) -> f32 {
+        self.validity
+    }
+}
+
 /// Of a ball with a velocity that nobody knows.
 fn covariance(position: Matrix2<f32>, parameters: &BallFilterParameters) -> Matrix4<f32> {
     let speed_variance = parameters.initial_speed.powi(2);
     let mut covariance = Matrix4::from_diagonal_element(speed_variance);
     covariance.fixed_view_mut::<2, 2>(0, 0).copy_from(&position);
     covariance
-}
-
-fn decay(elapsed: f32, time: f32) -> f32 {
-    (-elapsed / time.max(f32::EPSILON)).exp()
 }

@@ -3,7 +3,9 @@
 use std::f32::consts::FRAC_PI_2;
 use std::sync::LazyLock;
 
-use framework::testing::{AdditionalProbe, at_millis, cycle_time, history, parameter, perception};
+use framework::testing::{
+    AdditionalProbe, ParameterFile, at_millis, cycle_time, history, perception,
+};
 
 use super::hypotheses::MOST_HYPOTHESES;
 use super::*;
@@ -20,13 +22,10 @@ struct Cycle {
 
 /// Those of the robot.
 fn parameters() -> BallFilterParameters {
-    #[derive(Deserialize)]
-    struct Tree {
-        ball_filter: BallFilterParameters,
-    }
-    static TREE: LazyLock<Tree> =
-        LazyLock::new(|| parameter(include_str!("../../../parameters/default.toml")));
-    TREE.ball_filter
+    static PARAMETERS: LazyLock<BallFilterParameters> = LazyLock::new(|| {
+        ParameterFile::new(include_str!("../../../parameters/default.toml")).get("ball_filter")
+    });
+    *PARAMETERS
 }
 
 fn node() -> BallFilter {
@@ -276,6 +275,17 @@ fn a_wrong_candidate_beside_the_ball_changes_nothing() {
     cycle(&mut node, 400, images(0, 10, &ball), vec![]);
     let found = cycle(&mut node, 500, images(400, 1, &both), vec![]);
     assert_near(found.ball.unwrap().position, 1.0, 0.0, 1e-5);
+}
+
+#[test]
+fn several_candidates_of_one_image_at_one_place_are_one_sighting() {
+    let mut node = node();
+    let pair = [candidate(1.0, 0.2), candidate(1.05, 0.22)].concat();
+    let found = cycle(&mut node, 10, images(0, 1, &pair), vec![]);
+    assert_eq!(found.ball, None);
+    assert_eq!(found.hypotheses.len(), 1);
+    let validity = found.hypotheses[0].validity;
+    assert!((0.9..=1.0).contains(&validity), "{validity}");
 }
 
 #[test]

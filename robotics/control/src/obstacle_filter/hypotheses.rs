@@ -6,8 +6,9 @@ use serde::{Deserialize, Serialize};
 use types::obstacles::ObstacleKind;
 
 use super::ObstacleFilterParameters;
+use crate::places::{self, Places};
 
-/// More are not kept: the one that was perceived longest ago makes room.
+/// More are not kept: the one that least speaks for makes room.
 pub(super) const MOST_HYPOTHESES: usize = 16;
 
 /// Something that stands in the start frame.
@@ -36,28 +37,16 @@ pub(super) struct Measurement {
 }
 
 /// Hypotheses as they are at one time.
-#[derive(Clone, Copy, Debug, Default, Deserialize, Serialize)]
-pub(super) struct Hypotheses {
-    time: Timestamp,
-    places: [Option<Hypothesis>; MOST_HYPOTHESES],
-}
+pub(super) type Hypotheses = Places<Hypothesis, MOST_HYPOTHESES>;
 
 impl Hypotheses {
-    pub(super) fn iter(&self) -> impl Iterator<Item = &Hypothesis> {
-        self.places.iter().flatten()
-    }
-
     /// What becomes of them until `time`; nothing where that is in the past.
     pub(super) fn predict(&mut self, time: Timestamp, parameters: &ObstacleFilterParameters) {
-        let elapsed = (time - self.time).as_secs_f32();
-        self.time = self.time.max(time);
-        for place in &mut self.places {
-            place.take_if(|hypothesis| {
-                hypothesis.variance += parameters.position_noise.powi(2) * elapsed;
-                let silence = (self.time - hypothesis.seen_at).as_secs_f32();
-                !(hypothesis.is_finite() && silence <= parameters.forget_after)
-            });
-        }
+        self.advance(time, |hypothesis, elapsed, now| {
+            hypothesis.variance += parameters.position_noise.powi(2) * elapsed;
+            let silence = (now - hypothesis.seen_at).as_secs_f32();
+            hypothesis.is_finite() && silence <= parameters.forget_after
+        });
     }
 
     /// Gives what was measured at `seen_at` to the nearest hypothesis, or begins a new one.
@@ -69,8 +58,8 @@ impl Hypotheses {
     ) {
         let distance =
             |hypothesis: &Hypothesis| (hypothesis.position - measurement.position).norm();
-        let known = self.places.iter_mut().flatten();
-        let nearest = known
+        let nearest = self
+            .iter_mut()
             .map(|hypothesis| (distance(hypothesis), hypothesis))
             .filter(|(distance, _)| *distance <= parameters.same_place)
             .min_by(|(a, _), (b, _)| a.total_cmp(b));
@@ -85,29 +74,15 @@ impl Hypotheses {
             }),
         }
     }
+}
 
-    /// Of hypotheses that have come to the same place only the one with most evidence stays.
-    pub(super) fn merge(&mut self, parameters: &ObstacleFilterParameters) {
-        let evidence =
-            |place: &Option<Hypothesis>| place.map_or(0.0, |hypothesis| hypothesis.evidence);
-        self.places
-            .sort_by(|a, b| evidence(b).total_cmp(&evidence(a)));
-        for index in 1..MOST_HYPOTHESES {
-            let (surer, rest) = self.places.split_at_mut(index);
-            rest[0].take_if(|hypothesis| {
-                let mut others = surer.iter().flatten();
-                others.any(|other| {
-                    (other.position - hypothesis.position).norm() <= parameters.same_place
-                })
-            });
-        }
+impl places::Hypothesis for Hypothesis {
+    fn position(&self) -> Point2<f32> {
+        self.position
     }
 
-    fn insert(&mut self, hypothesis: Hypothesis) {
-        let seen_at = |place: &&mut Option<Hypothesis>| place.map(|place| place.seen_at);
-        if let Some(place) = self.places.iter_mut().min_by_key(seen_at) {
-            *place = Some(hypothesis);
-        }
+    fn evidence(&self) -> f32 {
+        self.evidence
     }
 }
 

@@ -4,7 +4,7 @@ use std::f32::consts::FRAC_PI_2;
 use std::sync::LazyLock;
 
 use framework::Timestamp;
-use framework::testing::{at_millis, cycle_time, history, parameter, perception};
+use framework::testing::{ParameterFile, at_millis, cycle_time, history, perception};
 use nalgebra::{Point2, Vector2};
 
 use super::hypotheses::MOST_HYPOTHESES;
@@ -32,13 +32,10 @@ const LEFT_ECHO: Felt = Felt {
 
 /// Those of the robot.
 fn parameters() -> ObstacleFilterParameters {
-    #[derive(Deserialize)]
-    struct Tree {
-        obstacle_filter: ObstacleFilterParameters,
-    }
-    static TREE: LazyLock<Tree> =
-        LazyLock::new(|| parameter(include_str!("../../../parameters/default.toml")));
-    TREE.obstacle_filter
+    static PARAMETERS: LazyLock<ObstacleFilterParameters> = LazyLock::new(|| {
+        ParameterFile::new(include_str!("../../../parameters/default.toml")).get("obstacle_filter")
+    });
+    *PARAMETERS
 }
 
 fn node() -> ObstacleFilter {
@@ -236,12 +233,15 @@ fn an_echo_counts_the_same_however_often_it_is_repeated() {
 }
 
 #[test]
-fn however_many_candidates_there_are_few_obstacles_are_kept() {
-    let many: Vec<_> = (0..40)
-        .flat_map(|index| candidate((index % 8) as f32, (index / 8) as f32))
+fn what_is_sure_stays_however_many_things_are_seen_once() {
+    let (mut node, sure) = (node(), candidate(1.0, 0.0));
+    cycle(&mut node, 400, images(0, 10, &sure));
+    let once: Vec<_> = (0..MOST_HYPOTHESES)
+        .flat_map(|index| candidate(2.0 + (index % 4) as f32, 1.0 + (index / 4) as f32))
         .collect();
-    let obstacles = cycle(&mut node(), 400, images(0, 10, &many));
-    assert!(obstacles.len() <= MOST_HYPOTHESES, "{}", obstacles.len());
+    let obstacles = cycle(&mut node, 500, images(400, 1, &once));
+    assert_eq!(obstacles.len(), 1, "{obstacles:?}");
+    assert_near(obstacles[0].position, 1.2, 0.0);
 }
 
 #[test]
