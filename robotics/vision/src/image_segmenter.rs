@@ -36,6 +36,7 @@ pub struct CycleContext {
     limb_mask: Input<LimbMask, "limb_mask">,
     field_color: Parameter<FieldColor, "field_color">,
     steps: Parameter<ScanSteps, "$cycler_instance.scan_steps">,
+    /// Columns from left to right, each from the horizon down to the robot's own limbs.
     image_segments: MainOutput<ImageSegments>,
 }
 
@@ -67,7 +68,7 @@ impl ImageSegmenter {
             };
             scan.cut(
                 first as u32,
-                context.steps.rows.max(1),
+                context.steps.rows.clamp(1, image.height.max(1)),
                 &mut context.image_segments.segments,
             );
         }
@@ -162,6 +163,19 @@ mod tests {
         camera_matrix: Option<&CameraMatrix>,
         limb_mask: &LimbMask,
     ) -> ImageSegments {
+        let steps = ScanSteps {
+            columns: 16,
+            rows: 4,
+        };
+        cut_every(&steps, image, camera_matrix, limb_mask)
+    }
+
+    fn cut_every(
+        steps: &ScanSteps,
+        image: &YuyvImage,
+        camera_matrix: Option<&CameraMatrix>,
+        limb_mask: &LimbMask,
+    ) -> ImageSegments {
         let mut image_segments = ImageSegments::default();
         ImageSegmenter::new(CreationContext {})
             .unwrap()
@@ -170,10 +184,7 @@ mod tests {
                 camera_matrix,
                 limb_mask,
                 field_color: &field_color(),
-                steps: &ScanSteps {
-                    columns: 16,
-                    rows: 4,
-                },
+                steps,
                 image_segments: &mut image_segments,
             })
             .unwrap();
@@ -230,6 +241,21 @@ mod tests {
         let segments = cut_above(&image(), None, &limb_mask);
         assert_eq!(column(&segments, 24), [(0, 20, true), (20, 25, false)]);
         assert_eq!(column(&segments, 40).len(), 3);
+    }
+
+    #[test]
+    fn steps_longer_than_the_image_see_the_first_pixel_of_a_column() {
+        for rows in [60, u32::MAX] {
+            let steps = ScanSteps { columns: 16, rows };
+            let segments = cut_every(&steps, &image(), None, &LimbMask::default());
+            assert_eq!(column(&segments, 24), [(0, 60, true)], "{rows} rows");
+        }
+        let steps = ScanSteps {
+            columns: u32::MAX,
+            rows: 4,
+        };
+        let segments = cut_every(&steps, &image(), None, &LimbMask::default());
+        assert_eq!(segments.segments, []);
     }
 
     #[test]
