@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use types::camera::CameraMatrix;
 use types::field_features::{FieldBorder, ImageLine};
 
-use crate::sampler::Sampler;
+use crate::sampler::{self, Sampler};
 use crate::segments::{ImageSegments, Segment};
 
 /// What makes a border.
@@ -46,6 +46,7 @@ pub struct CycleContext {
     parameters: Parameter<FieldBorderParameters, "$cycler_instance.field_border">,
     /// Where the field begins in each column, px.
     field_border_points: AdditionalOutput<Vec<Point2<f32>>, "field_border_points">,
+    /// One line, or two that meet in a corner; none where the image shows no border, px.
     field_border: MainOutput<FieldBorder>,
 }
 
@@ -80,7 +81,7 @@ impl FieldBorderDetection {
             }
         }
         // The field is below both, so the left one is the lower at the left edge.
-        lines.sort_by(|one, other| other.at_left.total_cmp(&one.at_left));
+        lines.sort_unstable_by(|one, other| other.at_left.total_cmp(&one.at_left));
         self.points.clear();
         Ok(MainOutputs {})
     }
@@ -121,7 +122,7 @@ fn take_line(
     let is_near =
         |line: &ImageLine, point: &Point2<f32>| distance(line, point) <= parameters.tolerance;
     let support = |line: &ImageLine| points.iter().filter(|point| is_near(line, point)).count();
-    let attempts = (0..parameters.attempts).filter_map(|_| {
+    let attempts = sampler::attempts(parameters.attempts).filter_map(|_| {
         let (one, other) = sampler.pair(points.len());
         let line = fit([points[one], points[other]].iter())?;
         Some((support(&line), line))
@@ -190,6 +191,14 @@ mod tests {
     }
 
     fn border(boards: &[Board], is_field: impl Fn(Point2<f32>) -> bool) -> FieldBorder {
+        border_with(&parameters(), boards, is_field)
+    }
+
+    fn border_with(
+        parameters: &FieldBorderParameters,
+        boards: &[Board],
+        is_field: impl Fn(Point2<f32>) -> bool,
+    ) -> FieldBorder {
         let matrix = camera_matrix(0.2);
         let floor = |point| if is_field(point) { GREEN } else { GREY };
         let image = paint(&matrix, boards, floor);
@@ -199,7 +208,7 @@ mod tests {
             .cycle(CycleContext {
                 image_segments: &painting::segments(&image, &matrix),
                 camera_matrix: Some(&matrix),
-                parameters: &parameters(),
+                parameters,
                 field_border_points: AdditionalProbe::unsubscribed().output(),
                 field_border: &mut field_border,
             })
@@ -224,6 +233,16 @@ mod tests {
         assert_eq!(border.lines.len(), 1, "{border:?}");
         assert_at(&border, 3.0, 0.0);
         assert_at(&border, 2.8, 1.0);
+    }
+
+    #[test]
+    fn however_many_attempts_are_wanted_the_search_ends() {
+        let parameters = FieldBorderParameters {
+            attempts: u32::MAX,
+            ..parameters()
+        };
+        let border = border_with(&parameters, &[], |point| point.x < 3.0);
+        assert_at(&border, 3.0, 0.0);
     }
 
     #[test]

@@ -6,7 +6,7 @@ use types::field_features::LineSegment;
 
 use super::LineDetectionParameters;
 use super::points::LinePoint;
-use crate::sampler::Sampler;
+use crate::sampler::{self, Sampler};
 
 /// After so many proposals without a line there is none; as many as ten lines may take.
 const MOST_FAILED_PROPOSALS: u32 = 20;
@@ -86,7 +86,7 @@ impl Fit {
         self.supporters
             .extend(near.map(|point| (rough.along(point), *point)));
         self.supporters
-            .sort_by(|one, other| one.0.total_cmp(&other.0));
+            .sort_unstable_by(|one, other| one.0.total_cmp(&other.0));
         let is_joined =
             |one: &(f32, _), other: &(f32, _)| other.0 - one.0 <= parameters.largest_gap;
         let (mut start, mut best) = (0, 0..0);
@@ -112,7 +112,7 @@ fn propose(
     parameters: &LineDetectionParameters,
     sampler: &mut Sampler,
 ) -> Option<Ray> {
-    let rays = (0..parameters.attempts).filter_map(|_| {
+    let rays = sampler::attempts(parameters.attempts).filter_map(|_| {
         let (one, other) = sampler.pair(points.len());
         let (one, other) = (&points[one], &points[other]);
         let direction = (other.position - one.position).try_normalize(0.05)?;
@@ -219,6 +219,17 @@ mod tests {
         let mut lines = Vec::new();
         Fit::default().find(&mut points, &parameters(most_lines), &mut lines);
         lines
+    }
+
+    #[test]
+    fn however_many_attempts_are_wanted_the_search_ends() {
+        let parameters = LineDetectionParameters {
+            attempts: u32::MAX,
+            ..parameters(10)
+        };
+        let (mut points, mut lines) = (points_ahead(Vector2::x()), Vec::new());
+        Fit::default().find(&mut points, &parameters, &mut lines);
+        assert_eq!(lines.len(), 1);
     }
 
     #[test]
