@@ -8,7 +8,8 @@
 pub mod field_color;
 pub mod segments;
 
-mod border_distance;
+mod landmarks;
+mod nearest_pixel;
 mod sampler;
 
 pub mod ball_detection;

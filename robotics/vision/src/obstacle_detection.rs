@@ -14,7 +14,7 @@ use types::camera::CameraMatrix;
 use types::field_features::{FieldBorder, LineSegment};
 use types::obstacles::ObstacleCandidate;
 
-use crate::border_distance::border_distance;
+use crate::landmarks::{is_near_border, is_on_line};
 use crate::segments::{ImageSegments, Segment};
 
 /// What makes an obstacle.
@@ -115,7 +115,7 @@ impl ObstacleDetection {
         self.clusters
             .retain(|cluster| view.is_wide(cluster, context.image_segments));
         self.clusters
-            .sort_by(|one, other| distance(&one.mean).total_cmp(&distance(&other.mean)));
+            .sort_unstable_by(|one, other| distance(&one.mean).total_cmp(&distance(&other.mean)));
         let parameters = context.parameters;
         let is_cut = |cluster: &&Cluster| cluster.is_cut;
         for Cluster { mean, .. } in self.clusters.iter().filter(|cluster| !cluster.is_cut) {
@@ -192,8 +192,10 @@ impl View<'_> {
             return None;
         }
         let position = self.matrix.pixel_to_ground(foot, 0.0)?;
+        // So near to the border it may be a net's or belong to what is beyond.
+        let before_border = self.parameters.before_border;
         let is_obstacle = position.coords.norm() <= self.parameters.greatest_distance
-            && !self.is_at_border(x, position)
+            && !is_near_border(self.border, self.matrix, x, position, before_border)
             && self.is_high(piece, position, index == 0)
             && !self.is_line(piece);
         let place = ObstacleCandidate { foot, position };
@@ -212,22 +214,13 @@ impl View<'_> {
             || may_rise_further && rises_to(self.parameters.least_cut_height)
     }
 
-    /// Whether the border follows so soon that the foot may be a net's or belong to what is beyond.
-    fn is_at_border(&self, column: f32, foot: Point2<f32>) -> bool {
-        border_distance(self.border, self.matrix, column, foot)
-            .is_some_and(|distance| distance < self.parameters.before_border)
-    }
-
     /// Whether a piece lies flat on lines: a line that leads away fills its columns.
     fn is_line(&self, piece: &Segment) -> bool {
         let length = (piece.end - piece.start) as f32;
         [0.25, 0.5, 0.75].into_iter().all(|part| {
             let pixel = Point2::new(piece.column as f32, piece.start as f32 + length * part);
             let place = self.matrix.pixel_to_ground(pixel, 0.0);
-            place.is_some_and(|place| {
-                let is_on = |line: &LineSegment| line.distance_to(place) <= self.line_width;
-                self.lines.iter().any(is_on)
-            })
+            place.is_some_and(|place| is_on_line(self.lines, self.line_width, place))
         })
     }
 
@@ -347,14 +340,15 @@ mod tests {
             &[board(1.5, -3.0..3.0, 0.0..0.55)],
             plain,
         );
-        let least_columns = u32::MAX;
-        let parameters = ObstacleDetectionParameters {
-            same_place: 10.0,
-            least_columns,
-            ..parameters()
+        let count = |least_columns| {
+            let parameters = ObstacleDetectionParameters {
+                same_place: 10.0,
+                least_columns,
+                ..parameters()
+            };
+            detect_with(&parameters, &image, &FieldBorder::default(), &Vec::new()).len()
         };
-        let found = detect_with(&parameters, &image, &FieldBorder::default(), &Vec::new());
-        assert_eq!(found, []);
+        assert_eq!((count(4), count(u32::MAX)), (1, 0));
     }
 
     #[test]
@@ -376,11 +370,15 @@ mod tests {
     #[test]
     fn what_is_as_low_as_a_ball_is_no_obstacle() {
         assert_eq!(obstacles(&[board(1.5, -0.05..0.05, 0.0..0.1)]), []);
+        // As wide, but higher.
+        assert_eq!(obstacles(&[board(1.5, -0.05..0.05, 0.0..0.3)]).len(), 1);
     }
 
     #[test]
     fn what_is_cut_by_the_lower_edge_has_no_foot() {
         assert_eq!(obstacles(&[board(0.5, -0.1..0.1, 0.0..0.5)]), []);
+        // The same where its foot is in the image.
+        assert_eq!(obstacles(&[board(1.0, -0.1..0.1, 0.0..0.5)]).len(), 1);
     }
 
     #[test]
@@ -394,8 +392,16 @@ mod tests {
             start: Point2::new(1.0, 0.1),
             end: Point2::new(5.0, 0.1),
         };
-        let found = detect(&image, &FieldBorder::default(), &vec![line]);
-        assert_eq!(found, []);
+        // As it is, a line is too narrow; where lines meet they are wider.
+        let parameters = ObstacleDetectionParameters {
+            least_width: 0.02,
+            ..parameters()
+        };
+        let count = |lines: Vec<LineSegment>| {
+            detect_with(&parameters, &image, &FieldBorder::default(), &lines).len()
+        };
+        assert_eq!(count(vec![line]), 0);
+        assert!(count(Vec::new()) > 0);
     }
 
     #[test]
@@ -408,5 +414,8 @@ mod tests {
         let obstacles = detect(&image, &border_at(border.y), &Vec::new());
         assert_eq!(obstacles.len(), 1, "{obstacles:?}");
         assert_at(&obstacles[0], 1.4, 0.05);
+        // Nobody would know without the border.
+        let all = detect(&image, &FieldBorder::default(), &Vec::new());
+        assert!(all.len() > 1, "{all:?}");
     }
 }

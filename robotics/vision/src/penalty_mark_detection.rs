@@ -11,9 +11,10 @@ use types::camera::CameraMatrix;
 use types::field_features::{FieldBorder, LineSegment, PenaltyMark};
 use types::image::YuyvImage;
 
-use crate::border_distance::border_distance;
 use crate::field_color::FieldColor;
-use crate::segments::{ImageSegments, Segment};
+use crate::landmarks::{is_near_border, is_on_line};
+use crate::nearest_pixel::nearest_pixel;
+use crate::segments::ImageSegments;
 
 /// What makes a penalty mark.
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
@@ -57,6 +58,7 @@ pub struct CycleContext {
 
 #[context]
 pub struct MainOutputs {
+    /// The one that looks most like one; `None` where the image shows none.
     penalty_mark: MainOutput<Option<PenaltyMark>>,
 }
 
@@ -118,26 +120,20 @@ fn candidates<'a>(
     border: &'a FieldBorder,
     lines: &'a [LineSegment],
 ) -> impl Iterator<Item = Point2<f32>> + 'a {
-    let inner = |column: &'a [Segment]| column.windows(3).map(|pieces| pieces[1]);
-    let pieces = image_segments.columns().flat_map(inner);
-    pieces
-        .filter(|piece| !piece.is_field)
-        .filter_map(move |piece| {
-            let at = |row: f32| Point2::new(piece.column as f32, row);
-            let (start, end) = (at(piece.start as f32 - 0.5), at(piece.end as f32 - 0.5));
-            let (far, near) = (view.ground(start)?, view.ground(end)?);
-            let place = nalgebra::center(&far, &near);
-            let is_candidate = nalgebra::distance(&far, &near) <= 2.0 * view.mark_size
-                && place.coords.norm() <= view.parameters.greatest_distance
-                && border.is_inside(start)
-                && border_distance(border, view.matrix, start.x, place)
-                    .is_none_or(|distance| distance >= view.parameters.before_border)
-                && lines
-                    .iter()
-                    .all(|line| line.distance_to(place) > view.line_width)
-                && view.field_around(place, 1.6) >= view.parameters.least_field_around;
-            is_candidate.then_some(place)
-        })
+    let before_border = view.parameters.before_border;
+    image_segments.enclosed().filter_map(move |piece| {
+        let at = |row: f32| Point2::new(piece.column as f32, row);
+        let (start, end) = (at(piece.start as f32 - 0.5), at(piece.end as f32 - 0.5));
+        let (far, near) = (view.ground(start)?, view.ground(end)?);
+        let place = nalgebra::center(&far, &near);
+        let is_candidate = nalgebra::distance(&far, &near) <= 2.0 * view.mark_size
+            && place.coords.norm() <= view.parameters.greatest_distance
+            && border.is_inside(start)
+            && !is_near_border(border, view.matrix, start.x, place, before_border)
+            && !is_on_line(lines, view.line_width, place)
+            && view.field_around(place, 1.6) >= view.parameters.least_field_around;
+        is_candidate.then_some(place)
+    })
 }
 
 /// An image with the knowledge of where the floor is.
@@ -236,11 +232,8 @@ impl View<'_> {
 
     /// Whether a place of the floor shows field, and its luminance; `None` where it is not seen.
     fn look(&self, place: Point2<f32>) -> Option<(bool, f32)> {
-        let pixel = self.pixel(place)?.coords.map(f32::round);
-        if pixel.x < 0.0 || pixel.y < 0.0 {
-            return None;
-        }
-        let color = self.image.yuv(pixel.x as u32, pixel.y as u32)?;
+        let (column, row) = nearest_pixel(self.pixel(place)?)?;
+        let color = self.image.yuv(column, row)?;
         Some((self.color.matches(color), f32::from(color.y)))
     }
 

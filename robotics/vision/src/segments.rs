@@ -18,6 +18,13 @@ impl ImageSegments {
         self.segments
             .chunk_by(|one, other| one.column == other.column)
     }
+
+    /// The pieces that are not field between two that are, column by column.
+    pub fn enclosed(&self) -> impl Iterator<Item = &Segment> {
+        self.columns()
+            .flat_map(|column| column.windows(3).map(|pieces| &pieces[1]))
+            .filter(|piece| !piece.is_field)
+    }
 }
 
 /// A piece of a column whose pixels all are field or all are not.

@@ -5,6 +5,7 @@ use types::ball::BallCandidate;
 use types::field_features::{FieldBorder, LineSegment, PenaltyMark};
 
 use super::view::View;
+use crate::landmarks::is_on_line;
 use crate::segments::Segment;
 
 /// Border, lines and mark of one image.
@@ -25,10 +26,7 @@ impl Known<'_> {
         }
         let is_on_line = |row: u32| {
             let place = view.matrix.pixel_to_ground(at(row), 0.0);
-            place.is_some_and(|place| {
-                let is_on = |line: &LineSegment| line.distance_to(place) <= self.line_width;
-                self.lines.iter().any(is_on)
-            })
+            place.is_some_and(|place| is_on_line(self.lines, self.line_width, place))
         };
         is_on_line(piece.start) && is_on_line(piece.end)
     }
@@ -39,5 +37,102 @@ impl Known<'_> {
         let is_mark =
             |mark: &PenaltyMark| nalgebra::distance(&mark.center, &ball.center) < ball.radius;
         !self.border.is_inside(foot) || self.penalty_mark.is_some_and(is_mark)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use types::image::YuyvImage;
+
+    use super::*;
+    use crate::field_color::tests::field_color;
+    use crate::painting::{border_at, camera_matrix};
+
+    const LINE_WIDTH: f32 = 0.05;
+
+    /// Whether a piece of the middle column is explained, from one place ahead to another, in m.
+    fn explains(border: &FieldBorder, lines: &[LineSegment], from: f32, to: f32) -> bool {
+        let matrix = camera_matrix(0.4);
+        let view = View {
+            image: &YuyvImage::default(),
+            matrix: &matrix,
+            field_color: &field_color(),
+            ball_radius: 0.05,
+        };
+        let known = Known {
+            border,
+            lines,
+            line_width: LINE_WIDTH,
+            penalty_mark: None,
+        };
+        let row = |ahead: f32| {
+            let place = nalgebra::Point3::new(ahead, 0.0, 0.0);
+            matrix.ground_to_pixel(place).unwrap().y.round() as u32
+        };
+        let piece = Segment {
+            column: 320,
+            start: row(to),
+            end: row(from),
+            is_field: false,
+        };
+        known.explains(&view, &piece)
+    }
+
+    /// So far ahead, from one place to another.
+    fn line_ahead(from: f32, to: f32) -> LineSegment {
+        LineSegment {
+            start: Point2::new(from, 0.0),
+            end: Point2::new(to, 0.0),
+        }
+    }
+
+    #[test]
+    fn a_piece_is_explained_where_both_ends_lie_on_lines() {
+        let nothing = FieldBorder::default();
+        let line = line_ahead(1.0, 2.0);
+        assert!(explains(&nothing, &[line], 1.2, 1.8));
+        for (from, to) in [(0.7, 1.5), (1.5, 2.6), (0.7, 2.6)] {
+            assert!(!explains(&nothing, &[line], from, to), "{from} to {to}");
+        }
+        // From one line to another one.
+        let lines = [line_ahead(0.6, 0.8), line];
+        assert!(explains(&nothing, &lines, 0.7, 1.5));
+        assert!(!explains(&nothing, &[], 1.2, 1.8));
+    }
+
+    #[test]
+    fn a_piece_that_ends_beyond_the_border_is_explained() {
+        let border = camera_matrix(0.4)
+            .ground_to_pixel(nalgebra::Point3::new(2.0, 0.0, 0.0))
+            .unwrap();
+        let border = border_at(border.y);
+        assert!(explains(&border, &[], 2.2, 3.0));
+        // The upper half of a ball before the border may hide what is beyond.
+        assert!(!explains(&border, &[], 1.8, 3.0));
+        assert!(!explains(&border, &[], 1.2, 1.8));
+    }
+
+    #[test]
+    fn a_ball_beyond_the_border_and_the_penalty_mark_are_refused() {
+        let border = border_at(100.0);
+        let mark = PenaltyMark {
+            center: Point2::new(320.0, 200.0),
+            ..PenaltyMark::default()
+        };
+        let known = Known {
+            border: &border,
+            lines: &[],
+            line_width: LINE_WIDTH,
+            penalty_mark: Some(&mark),
+        };
+        let ball = |x: f32, y: f32| BallCandidate {
+            center: Point2::new(x, y),
+            radius: 10.0,
+            ..BallCandidate::default()
+        };
+        assert!(known.refuses(&ball(200.0, 85.0)));
+        assert!(!known.refuses(&ball(200.0, 95.0)));
+        assert!(known.refuses(&ball(325.0, 205.0)));
+        assert!(!known.refuses(&ball(335.0, 205.0)));
     }
 }

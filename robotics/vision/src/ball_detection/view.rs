@@ -5,6 +5,7 @@ use types::camera::CameraMatrix;
 use types::image::YuyvImage;
 
 use crate::field_color::FieldColor;
+use crate::nearest_pixel::nearest_pixel;
 
 /// An image, and what is known about it before anything is looked for.
 #[derive(Clone, Copy)]
@@ -37,9 +38,4 @@ impl View<'_> {
         let center = nalgebra::Point3::new(ground.x, ground.y, self.ball_radius);
         self.matrix.pixel_radius(center, self.ball_radius)
     }
-}
-
-fn nearest_pixel(point: Point2<f32>) -> Option<(u32, u32)> {
-    let pixel = point.coords.map(f32::round);
-    (pixel.x >= 0.0 && pixel.y >= 0.0).then_some((pixel.x as u32, pixel.y as u32))
 }

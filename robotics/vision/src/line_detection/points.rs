@@ -8,7 +8,7 @@ use types::field_features::FieldBorder;
 use types::image::YuyvImage;
 
 use super::LineDetectionParameters;
-use crate::border_distance::border_distance;
+use crate::landmarks::is_near_border;
 use crate::segments::ImageSegments;
 
 /// What is known before anything is looked for.
@@ -39,9 +39,7 @@ pub(super) fn in_columns<'a>(
     view: &'a View<'a>,
     image_segments: &'a ImageSegments,
 ) -> impl Iterator<Item = LinePoint> + 'a {
-    let inner = |column: &'a [_]| column.windows(3).map(|pieces| pieces[1]);
-    let pieces = image_segments.columns().flat_map(inner);
-    pieces.filter(|piece| !piece.is_field).filter_map(|piece| {
+    image_segments.enclosed().filter_map(|piece| {
         let at = |row: u32| Point2::new(piece.column as f32, row as f32);
         view.inspect(at(piece.start), at(piece.end - 1), Vector2::y())
     })
@@ -62,8 +60,9 @@ impl View<'_> {
         let pixel = nalgebra::center(&start, &end);
         let position = self.ground(pixel)?;
         let distance = position.coords.norm();
-        let is_at_border = border_distance(self.border, self.matrix, pixel.x, position)
-            .is_some_and(|distance| distance < self.parameters.before_border);
+        let before_border = self.parameters.before_border;
+        let is_at_border =
+            is_near_border(self.border, self.matrix, pixel.x, position, before_border);
         if distance > self.parameters.greatest_distance
             || is_at_border
             || !self.border.is_inside(pixel)
