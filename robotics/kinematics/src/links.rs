@@ -91,3 +91,18 @@ pub enum LinkName {
     /// After `RAnkleRoll`.
     RightFoot,
 }
+
+impl LinkName {
+    /// Where the joint that carries this part is in the frame of its parent, in m; the torso, which
+    /// nothing carries, is where its own frame is.
+    pub const fn origin(self) -> [f64; 3] {
+        let mut index = 0;
+        while index < LINKS.len() {
+            if LINKS[index].name as usize == self as usize {
+                return LINKS[index].origin;
+            }
+            index += 1;
+        }
+        [0.0; 3]
+    }
+}

@@ -97,7 +97,7 @@ mod tests {
     use framework::testing::{at_millis, latest, parameter};
     use kinematics::forward_kinematics;
     use kinematics::links::LinkName;
-    use nalgebra::{Point2, Point3};
+    use nalgebra::{Isometry3, Point2, Point3, Vector3};
     use types::joints::Joints;
 
     use super::*;
@@ -165,13 +165,16 @@ mod tests {
         }
     }
 
-    /// Where the bottom camera sees a point of a link.
+    /// Where the bottom camera sees a point of a link, from the numbers of the NAO V6 URDF alone.
     fn seen(joints: &Joints<f32>, link: LinkName, point: Point3<f32>) -> Point2<f32> {
         let poses = forward_kinematics(joints);
-        let camera = optical_to_head(CameraPosition::Bottom, &CALIBRATION);
-        let link_to_camera = (poses.link(LinkName::Head) * camera).inverse() * poses.link(link);
-        let intrinsics = CALIBRATION.intrinsics();
-        intrinsics.project(link_to_camera * point).unwrap()
+        let mount = Vector3::new(0.05071, 0.0, 0.01774);
+        let camera_to_head = Isometry3::new(mount, Vector3::y() * 0.692_895_7);
+        let camera_to_torso = poses.link(LinkName::Head) * camera_to_head;
+        let seen = camera_to_torso.inverse() * poses.link(link) * point;
+        // x leads away, y to the left, z up; 0.95 widths and 1.27 heights of focal length.
+        let (left, up) = (seen.y / seen.x, seen.z / seen.x);
+        Point2::new(320.0 - 608.0 * left, 240.0 - 609.6 * up)
     }
 
     #[test]

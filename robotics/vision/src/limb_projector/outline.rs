@@ -6,7 +6,7 @@ use nalgebra::{Isometry3, Point2, Vector3};
 use types::camera::Intrinsics;
 use types::limbs::LimbOutline;
 
-use super::parts::Part;
+use super::parts::{FOOT_CORNERS, Part};
 
 /// Corners of the polygon that stands for a ball.
 const CORNERS: usize = 12;
@@ -26,7 +26,7 @@ pub(super) struct Projection {
 /// The upper edge of the convex hull; `None` where the image shows nothing of it.
 pub(super) fn outline(projection: &Projection, part: &Part, margin: f32) -> Option<LimbOutline> {
     let radius = part.radius + margin;
-    let mut points = [Point2::origin(); CORNERS * 32];
+    let mut points = [Point2::origin(); CORNERS * FOOT_CORNERS];
     let mut count = 0;
     for ball in part.balls() {
         let center = projection.torso_to_camera * ball;

@@ -1,20 +1,17 @@
 //! Owns the shape of the body around its bones: balls in the torso frame.
 
-use kinematics::feet::{LEFT_SOLE, SOLE_BELOW_ANKLE};
+use kinematics::feet::{LEFT_SOLE, SOLE_BELOW_ANKLE, sole_outline};
+use kinematics::links::LinkName;
 use nalgebra::{Isometry3, Point3, Vector3};
 use types::feet::Side;
 use types::robot_kinematics::RobotKinematics;
 
 use super::LimbProjectorParameters;
 
-/// The joints of hips and shoulders on the left in the torso frame, in m (NAO V6 URDF); mirrored on
-/// the right.
-const HIP: [f32; 3] = [0.0, 0.05, -0.085];
-const SHOULDER: [f32; 3] = [0.0, 0.098, 0.1];
 /// How many balls a bone carries.
 const BALLS: usize = 5;
-/// Corners of a sole, below and at the top of the foot's shell.
-const FOOT_CORNERS: usize = 2 * LEFT_SOLE.len();
+/// Corners of a sole, below and at the top of the foot's shell; no part has more balls.
+pub(super) const FOOT_CORNERS: usize = 2 * LEFT_SOLE.len();
 
 /// A limb as a cloud of balls.
 pub(super) struct Part {
@@ -44,10 +41,9 @@ impl Part {
 
     fn foot(sole_to_torso: &Isometry3<f32>, side: Side, height: f32) -> Self {
         let mut balls = [Point3::origin(); FOOT_CORNERS];
-        for (corner, [x, y]) in LEFT_SOLE.iter().enumerate() {
-            let y = mirrored(*y as f32, side);
-            balls[2 * corner] = sole_to_torso * Point3::new(*x as f32, y, 0.0);
-            balls[2 * corner + 1] = sole_to_torso * Point3::new(*x as f32, y, height);
+        for (corner, below) in sole_outline(side).into_iter().enumerate() {
+            balls[2 * corner] = sole_to_torso * below;
+            balls[2 * corner + 1] = sole_to_torso * (below + Vector3::z() * height);
         }
         Self {
             balls,
@@ -74,12 +70,15 @@ fn leg(
     parameters: &LimbProjectorParameters,
     side: Side,
 ) -> [Part; 3] {
-    let hip = joint(HIP, side);
+    let hip = match side {
+        Side::Left => LinkName::LeftPelvis,
+        Side::Right => LinkName::RightPelvis,
+    };
     let knee = origin(kinematics.knees_to_torso.on(side));
     let sole = kinematics.soles_to_torso.on(side);
     let ankle = sole * Point3::new(0.0, 0.0, SOLE_BELOW_ANKLE as f32);
     [
-        Part::bone(hip, knee, parameters.thigh_radius),
+        Part::bone(joint(hip), knee, parameters.thigh_radius),
         Part::bone(knee, ankle, parameters.shin_radius),
         Part::foot(sole, side, parameters.foot_height),
     ]
@@ -90,12 +89,14 @@ fn arm(
     parameters: &LimbProjectorParameters,
     side: Side,
 ) -> [Part; 2] {
-    let (elbow, hand) = match side {
+    let (shoulder, elbow, hand) = match side {
         Side::Left => (
+            LinkName::LeftShoulder,
             &kinematics.elbows_to_torso.left,
             &kinematics.hands_to_torso.left,
         ),
         Side::Right => (
+            LinkName::RightShoulder,
             &kinematics.elbows_to_torso.right,
             &kinematics.hands_to_torso.right,
         ),
@@ -103,7 +104,7 @@ fn arm(
     let elbow = origin(elbow);
     let fingers = hand * Point3::new(parameters.finger_length, 0.0, 0.0);
     [
-        Part::bone(joint(SHOULDER, side), elbow, parameters.arm_radius),
+        Part::bone(joint(shoulder), elbow, parameters.arm_radius),
         Part::bone(elbow, fingers, parameters.arm_radius),
     ]
 }
@@ -121,15 +122,9 @@ fn chest(parameters: &LimbProjectorParameters) -> Part {
     Part::bone(from, to, 0.0)
 }
 
-fn joint([x, y, z]: [f32; 3], side: Side) -> Point3<f32> {
-    Point3::new(x, mirrored(y, side), z)
-}
-
-fn mirrored(y: f32, side: Side) -> f32 {
-    match side {
-        Side::Left => y,
-        Side::Right => -y,
-    }
+/// Where the joint is that carries a link of the torso, in the torso frame, m.
+fn joint(link: LinkName) -> Point3<f32> {
+    Point3::from(link.origin().map(|component| component as f32))
 }
 
 fn origin(pose: &Isometry3<f32>) -> Point3<f32> {
