@@ -3,8 +3,6 @@
 //! It falls when the torso tilts beyond what comes back, or when it tilts and the centre of mass
 //! has left the outline of the soles. Gravity, smoothed, tells how it lies in the end.
 
-use std::time::Duration;
-
 use framework::{AdditionalOutput, CycleTime, Input, MainOutput, Parameter, Reflect};
 use framework::{Result, Timestamp, context};
 use kinematics::inertial::GRAVITY;
@@ -87,6 +85,7 @@ pub struct CycleContext {
     /// In s: after so long a fall is over, whatever the sensors say.
     longest_fall: Parameter<f32, "fall_state_filter.longest_fall">,
 
+    /// In m: how far the centre of mass is outside of the soles; negative inside of them.
     center_of_mass_overhang: AdditionalOutput<f32, "fall_state_filter.center_of_mass_overhang">,
 }
 
@@ -149,8 +148,8 @@ impl FallStateFilter {
     }
 
     fn lasts_too_long(&self, context: &CycleContext) -> bool {
-        let longest = Duration::try_from_secs_f32(*context.longest_fall).unwrap_or_default();
-        context.cycle_time.start - self.since >= longest
+        // What is no number, and what is infinite, is no end.
+        (context.cycle_time.start - self.since).as_secs_f32() >= *context.longest_fall
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::f32::consts::FRAC_PI_2;
 
-use framework::testing::{AdditionalProbe, at_millis};
+use framework::testing::{AdditionalProbe, cycle_time};
 use kinematics::forward_kinematics;
 
 use super::*;
@@ -13,6 +13,7 @@ struct Robot {
     now: u64,
     positions: Joints<f32>,
     has_ground_contact: bool,
+    longest_fall: f32,
 }
 
 impl Robot {
@@ -32,6 +33,7 @@ impl Robot {
                 ..Joints::default()
             },
             has_ground_contact: true,
+            longest_fall: 1.0,
         }
     }
 
@@ -73,10 +75,7 @@ impl Robot {
             robot_kinematics: &RobotKinematics::from(&poses),
             center_of_mass: &poses.center_of_mass(),
             has_ground_contact: &self.has_ground_contact,
-            cycle_time: CycleTime {
-                start: at_millis(self.now),
-                since_last: Duration::from_millis(12),
-            },
+            cycle_time: cycle_time(self.now, 12),
             tilt: &TiltLimits {
                 forward: 0.5,
                 backward: 0.3,
@@ -94,7 +93,7 @@ impl Robot {
                 ankle_pitch: -1.18,
                 legs_deviation: 1.2,
             },
-            longest_fall: &1.0,
+            longest_fall: &self.longest_fall,
             center_of_mass_overhang: overhang.output(),
         };
         self.node.cycle(context).unwrap().fall_state.value
@@ -191,6 +190,17 @@ fn no_fall_lasts_longer_than_a_second() {
     assert!(matches!(state, FallState::Lying(_)), "{state:?}");
     assert!(matches!(robot.rest(5.0, 1.5, 0.0), FallState::Lying(_)));
     assert_eq!(robot.rest(0.5, 0.0, 0.0), FallState::Upright);
+}
+
+#[test]
+fn a_longest_fall_that_is_infinite_or_no_number_ends_no_fall() {
+    for longest_fall in [f32::INFINITY, f32::NAN] {
+        let mut robot = Robot::standing();
+        robot.longest_fall = longest_fall;
+        robot.rest(0.5, 0.0, 0.0);
+        let falling = FallState::Falling(FallDirection::Right);
+        assert_eq!(robot.rest(3.0, 1.5, 0.0), falling, "{longest_fall}");
+    }
 }
 
 #[test]
