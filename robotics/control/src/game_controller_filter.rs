@@ -118,7 +118,7 @@ fn after(
         _ => return None,
     };
     let since = known
-        .filter(|known| known.game_state == message.game_state)
+        .filter(|known| known.sender == packet.sender && known.game_state == message.game_state)
         .map_or(timestamp, |known| known.game_state_since);
     Some(GameControllerState {
         game_phase: message.game_phase,
@@ -294,6 +294,23 @@ mod tests {
         let heard = vec![(at_millis(4020), &other), (at_millis(4040), &first)];
         let state = cycle(&mut node, 4050, PLAYER, heard, vec![]).unwrap();
         assert_eq!(state.sender.address, [10, 0, 0, 2]);
+    }
+
+    #[test]
+    fn a_state_of_another_computer_begins_with_that_computer() {
+        let (first, other) = (
+            packet_of(1, 7, GameState::Ready),
+            packet_of(2, 0, GameState::Ready),
+        );
+        let mut node = node();
+        let heard = vec![(at_millis(10), &first), (at_millis(4020), &other)];
+        let state = cycle(&mut node, 4030, PLAYER, heard, vec![]).unwrap();
+        assert_eq!(state.sender.address, [10, 0, 0, 2]);
+        assert_eq!(state.game_state_since, at_millis(4020));
+        let again = packet_of(2, 1, GameState::Ready);
+        let heard = vec![(at_millis(4500), &again)];
+        let state = cycle(&mut node, 4510, PLAYER, heard, vec![]).unwrap();
+        assert_eq!(state.game_state_since, at_millis(4020));
     }
 
     #[test]
