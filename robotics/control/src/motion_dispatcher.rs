@@ -92,10 +92,10 @@ impl MotionDispatcher {
         };
         let progress = transition::progress(way.elapsed, duration);
         *context.safe_exit = progress == 1.0;
-        let commands = MotorCommands {
-            positions: transition::pose(&way.start, target, progress),
-            stiffnesses: Joints::filled(*context.stiffness),
-        };
+        let commands = MotorCommands::holding(
+            transition::pose(&way.start, target, progress),
+            *context.stiffness,
+        );
         Ok(MainOutputs {
             dispatch_commands: Some(commands).into(),
         })

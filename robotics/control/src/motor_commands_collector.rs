@@ -54,7 +54,7 @@ impl MotorCommandsCollector {
     /// Merges, then limits speed, then limits angles.
     pub fn cycle(&mut self, context: CycleContext) -> Result<MainOutputs> {
         let wanted = context.body_commands().map_or_else(
-            || limp(context.positions),
+            || MotorCommands::holding(*context.positions, 0.0),
             |body| merge(body, context.head_command),
         );
         let step = context
@@ -95,13 +95,6 @@ impl<'context> CycleContext<'context> {
             BodyMotion::Stand => self.stand_commands,
             BodyMotion::Penalized => self.penalized_commands,
         }
-    }
-}
-
-fn limp(positions: &Joints<f32>) -> MotorCommands {
-    MotorCommands {
-        positions: *positions,
-        stiffnesses: Joints::filled(0.0),
     }
 }
 
@@ -243,10 +236,10 @@ mod tests {
         pushed.left_shoulder_pitch = 1.0;
         for selection in [STAND, MotionSelection::default()] {
             let commands = collect(CycleContext {
-                previous: Some(&limp(&start())),
+                previous: Some(&MotorCommands::holding(start(), 0.0)),
                 ..nobody(&selection, &pushed)
             });
-            assert_eq!(commands, limp(&pushed));
+            assert_eq!(commands, MotorCommands::holding(pushed, 0.0));
         }
     }
 
@@ -256,7 +249,7 @@ mod tests {
         pushed.left_knee_pitch = 1.0;
         let commands = collect(CycleContext {
             stand_commands: Some(&everywhere(0.0)),
-            previous: Some(&limp(&start())),
+            previous: Some(&MotorCommands::holding(start(), 0.0)),
             ..nobody(&STAND, &pushed)
         });
         let reach = limits::of(JointName::LeftKneePitch).velocity as f32 * 0.5 * 0.012;

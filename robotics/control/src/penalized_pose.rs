@@ -40,10 +40,7 @@ impl PenalizedPose {
         let has_body = context.motion_selection.is_at(BodyMotion::Penalized);
         Ok(MainOutputs {
             penalized_commands: has_body
-                .then(|| MotorCommands {
-                    positions: *context.positions,
-                    stiffnesses: Joints::filled(*context.stiffness),
-                })
+                .then(|| MotorCommands::holding(*context.positions, *context.stiffness))
                 .into(),
         })
     }

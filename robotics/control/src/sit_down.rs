@@ -73,10 +73,10 @@ impl SitDown {
             _ => 0.0,
         };
         *context.safe_exit = released == 1.0;
-        let commands = MotorCommands {
-            positions: transition::pose(crouch, sitting, lowered),
-            stiffnesses: Joints::filled(*context.stiffness * (1.0 - released)),
-        };
+        let commands = MotorCommands::holding(
+            transition::pose(crouch, sitting, lowered),
+            *context.stiffness * (1.0 - released),
+        );
         Ok(MainOutputs {
             sit_down_commands: Some(commands).into(),
         })

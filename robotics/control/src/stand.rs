@@ -40,10 +40,7 @@ impl Stand {
         let has_body = context.motion_selection.is_at(BodyMotion::Stand);
         Ok(MainOutputs {
             stand_commands: has_body
-                .then(|| MotorCommands {
-                    positions: *context.positions,
-                    stiffnesses: Joints::filled(*context.stiffness),
-                })
+                .then(|| MotorCommands::holding(*context.positions, *context.stiffness))
                 .into(),
         })
     }

@@ -13,3 +13,13 @@ pub struct MotorCommands {
     /// Share of the motors' torque that may be used, 0 (limp) to 1.
     pub stiffnesses: Joints<f32>,
 }
+
+impl MotorCommands {
+    /// Holds a pose, all joints equally stiff.
+    pub fn holding(positions: Joints<f32>, stiffness: f32) -> Self {
+        Self {
+            positions,
+            stiffnesses: Joints::filled(stiffness),
+        }
+    }
+}
