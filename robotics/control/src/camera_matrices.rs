@@ -102,9 +102,18 @@ mod tests {
     }
 
     fn matrices(positions: &Joints<f32>, orientation: UnitQuaternion<f32>) -> CameraMatrices {
+        matrices_on(Side::Left, positions, orientation)
+    }
+
+    /// While that sole supports the robot.
+    fn matrices_on(
+        support_side: Side,
+        positions: &Joints<f32>,
+        orientation: UnitQuaternion<f32>,
+    ) -> CameraMatrices {
         let mut node = CameraMatricesProvider::new(CreationContext {}).unwrap();
         let context = CycleContext {
-            support_side: &Side::Left,
+            support_side: &support_side,
             robot_kinematics: &RobotKinematics::from(&forward_kinematics(positions)),
             orientation: &orientation,
             top: &calibration(),
@@ -122,6 +131,26 @@ mod tests {
             "{}",
             top.position()
         );
+    }
+
+    #[test]
+    fn the_floor_is_below_the_supporting_foot_however_high_the_other_one_is() {
+        let straight = matrices(&Joints::filled(0.0), UnitQuaternion::identity()).top;
+        let mut raised = Joints::filled(0.0);
+        // A right knee so bent lifts its sole by some centimetres.
+        raised.right_hip_pitch = -0.5;
+        raised.right_knee_pitch = 1.0;
+        raised.right_ankle_pitch = -0.5;
+        let height = |side| {
+            let top = matrices_on(side, &raised, UnitQuaternion::identity()).top;
+            top.position().z
+        };
+        assert!((height(Side::Left) - straight.position().z).abs() < 1e-5);
+        let soles = RobotKinematics::from(&forward_kinematics(&raised)).soles_to_torso;
+        let lifted = soles.right.translation.z - soles.left.translation.z;
+        assert!(lifted > 0.02, "{lifted} m");
+        let error = height(Side::Left) - height(Side::Right) - lifted;
+        assert!(error.abs() < 1e-5, "{error} m");
     }
 
     #[test]

@@ -125,6 +125,18 @@ mod tests {
     const RED: Color = Color::new(1.0, 0.0, 0.0);
     const BLUE: Color = Color::new(0.0, 0.0, 1.0);
 
+    /// Eight different ones.
+    const CHEST: ChestColors = ChestColors {
+        unstiff: BLUE,
+        initial: Color::new(0.1, 0.0, 0.0),
+        standby: Color::new(0.2, 0.0, 0.0),
+        ready: Color::new(0.3, 0.0, 0.0),
+        set: Color::new(0.4, 0.0, 0.0),
+        playing: GREEN,
+        penalized: RED,
+        finished: Color::new(0.5, 0.0, 0.0),
+    };
+
     fn leds_at(millis: u64, world_state: &WorldState, hears_referee: bool) -> Leds {
         let mut node = LedStatus::new(CreationContext {}).unwrap();
         let game_controller_state = GameControllerState::default();
@@ -132,12 +144,7 @@ mod tests {
             world_state,
             game_controller_state: hears_referee.then_some(&game_controller_state),
             cycle_time: testing::cycle_time(millis, 12),
-            chest: &ChestColors {
-                unstiff: BLUE,
-                playing: GREEN,
-                penalized: RED,
-                ..ChestColors::default()
-            },
+            chest: &CHEST,
             blink_period: &1.0,
             ball_known: &GREEN,
             ball_unknown: &Color::OFF,
@@ -163,9 +170,19 @@ mod tests {
             };
             leds(&world_state).chest
         };
-        assert_eq!(chest(PrimaryState::Playing), GREEN);
-        assert_eq!(chest(PrimaryState::Penalized), RED);
-        assert_eq!(chest(PrimaryState::Finished), Color::OFF);
+        let states = [
+            (PrimaryState::Unstiff, CHEST.unstiff),
+            (PrimaryState::Initial, CHEST.initial),
+            (PrimaryState::Standby, CHEST.standby),
+            (PrimaryState::Ready, CHEST.ready),
+            (PrimaryState::Set, CHEST.set),
+            (PrimaryState::Playing, CHEST.playing),
+            (PrimaryState::Penalized, CHEST.penalized),
+            (PrimaryState::Finished, CHEST.finished),
+        ];
+        for (state, color) in states {
+            assert_eq!(chest(state), color, "{state:?}");
+        }
     }
 
     #[test]

@@ -39,6 +39,15 @@ fn node() -> OdometryProvider {
 }
 
 fn cycle(node: &mut OdometryProvider, felt: Felt) -> Isometry2<f32> {
+    cycle_scaled(node, felt, [1.0, 1.0])
+}
+
+/// With these scales of what the joints say, ahead and to the left.
+fn cycle_scaled(
+    node: &mut OdometryProvider,
+    felt: Felt,
+    [forward_scale, left_scale]: [f32; 2],
+) -> Isometry2<f32> {
     let context = CycleContext {
         robot_kinematics: &RobotKinematics {
             soles_to_torso: felt.soles_to_torso,
@@ -52,8 +61,8 @@ fn cycle(node: &mut OdometryProvider, felt: Felt) -> Isometry2<f32> {
         },
         fall_state: &felt.fall_state,
         cycle_time: cycle_time(12, 12),
-        forward_scale: &1.0,
-        left_scale: &1.0,
+        forward_scale: &forward_scale,
+        left_scale: &left_scale,
         still_distance: &0.005,
         still_angle: &0.03,
         still_rotation: &0.05,
@@ -145,6 +154,31 @@ fn noise(seed: &mut u32) -> f32 {
 fn walking_gets_the_robot_as_far_as_its_steps_are_long() {
     assert_place(&walk(&mut node(), 11, 0.04), 0.4, 0.0, 0.0);
     assert_place(&walk(&mut node(), 11, -0.03), -0.3, 0.0, 0.0);
+}
+
+#[test]
+fn steps_are_scaled_along_and_across_the_heading_of_the_robot() {
+    let mut node = node();
+    let side = Side::Left;
+    let soles = Felt::new(&standing(), side).soles_to_torso;
+    let felt = |soles_to_torso, yaw| Felt {
+        soles_to_torso,
+        orientation: UnitQuaternion::from_euler_angles(0.0, 0.0, yaw),
+        gyroscope: Vector3::z(),
+        ..Felt::new(&standing(), side)
+    };
+    let scales = [1.5, 0.5];
+    cycle_scaled(&mut node, felt(soles, 0.0), scales);
+    let turned = cycle_scaled(&mut node, felt(soles, FRAC_PI_2), scales);
+    // The right sole swings 4 cm ahead and 2 cm to the left, the middle between both half as far.
+    let moved_soles = Feet {
+        right: Translation3::new(0.04, 0.02, 0.0) * soles.right,
+        ..soles
+    };
+    let reached = cycle_scaled(&mut node, felt(moved_soles, FRAC_PI_2), scales);
+    let way = turned.inverse() * reached;
+    let expected = Vector2::new(1.5 * 0.02, 0.5 * 0.01);
+    assert!((way.translation.vector - expected).norm() < 1e-4, "{way}");
 }
 
 #[test]
