@@ -196,3 +196,13 @@ fn is_timeout(kind: ErrorKind) -> bool {
         ErrorKind::WouldBlock | ErrorKind::TimedOut | ErrorKind::Interrupted
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn readers_look_for_a_stop_more_often_than_every_100_ms() {
+        assert!(PATIENCE < Duration::from_millis(100));
+    }
+}
