@@ -15,6 +15,7 @@ pub struct CreationContext {}
 #[context]
 pub struct CycleContext {
     hardware_interface: HardwareInterface,
+    /// The samples of all microphones, each of full scale.
     audio_block: MainOutput<AudioBlock>,
 }
 

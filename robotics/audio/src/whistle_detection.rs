@@ -69,6 +69,7 @@ pub struct CycleContext {
 
 #[context]
 pub struct MainOutputs {
+    /// Which microphones hear a whistle in this block.
     whistle_evidence: MainOutput<WhistleEvidence>,
 }
 

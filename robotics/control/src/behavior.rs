@@ -34,7 +34,7 @@ impl Behavior {
         Ok(Self {})
     }
 
-    /// Decides.
+    /// What the state of the game allows, unless the robot falls or lies.
     pub fn cycle(&mut self, context: CycleContext) -> Result<MainOutputs> {
         Ok(MainOutputs {
             motion_command: decide(context.world_state).into(),

@@ -45,6 +45,7 @@ pub struct CycleContext {
     /// In rad/s: a robot that turns less is taken to be still.
     still_rotation: Parameter<f32, "orientation_filter.still_rotation">,
 
+    /// In rad: how far gravity is from where the gyroscope expected it.
     innovation: AdditionalOutput<f32, "orientation_filter.innovation">,
 }
 

@@ -15,6 +15,7 @@ pub struct CreationContext {}
 #[context]
 pub struct CycleContext {
     hardware_interface: HardwareInterface,
+    /// What came, from whom, and for whom.
     datagram: MainOutput<Datagram>,
 }
 

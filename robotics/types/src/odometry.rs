@@ -10,10 +10,3 @@ pub struct Odometry {
     /// From the ground frame of this cycle to the ground frame of the first cycle, m and rad.
     pub ground_to_start: Isometry2<f32>,
 }
-
-impl Odometry {
-    /// From the ground frame of `earlier` to the ground frame of `self`.
-    pub fn from_earlier(&self, earlier: &Self) -> Isometry2<f32> {
-        self.ground_to_start.inverse() * earlier.ground_to_start
-    }
-}
