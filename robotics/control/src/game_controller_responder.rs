@@ -1,13 +1,13 @@
 //! Tells the referee's computer that this robot is alive, and where it believes itself and the ball.
 
-use framework::{
-    CycleTime, HardwareInterface, Parameter, RequiredInput, Result, Timestamp, context,
-};
+use framework::{CycleTime, HardwareInterface, Parameter, RequiredInput, Result, context};
 use hardware::MessageInterface;
 use serde::{Deserialize, Serialize};
 use spl_messages::return_data::{self, ReturnData};
 use types::game::{GameControllerState, Player};
 use types::team::TeamMessage;
+
+use crate::pace::Pace;
 
 /// RoboCup SPL rules 2025 allow two answers per second; in s.
 const LEAST_INTERVAL: f32 = 0.5;
@@ -15,7 +15,7 @@ const LEAST_INTERVAL: f32 = 0.5;
 /// When it answered last.
 #[derive(Debug, Deserialize, Serialize)]
 pub struct GameControllerResponder {
-    answered_at: Option<Timestamp>,
+    pace: Pace,
 }
 
 #[context]
@@ -40,19 +40,15 @@ pub struct MainOutputs {}
 impl GameControllerResponder {
     /// Has answered nobody.
     pub fn new(_context: CreationContext) -> Result<Self> {
-        Ok(Self { answered_at: None })
+        Ok(Self {
+            pace: Pace::default(),
+        })
     }
 
     /// Called only while a referee's computer is heard.
     pub fn cycle(&mut self, context: CycleContext<impl MessageInterface>) -> Result<MainOutputs> {
         let now = context.cycle_time.start;
-        let interval = context.interval.max(LEAST_INTERVAL);
-        let is_silent = self
-            .answered_at
-            .is_some_and(|answered_at| (now - answered_at).as_secs_f32() < interval);
-        if !is_silent {
-            // Before anything can fail: a failure is no reason to answer more often.
-            self.answered_at = Some(now);
+        if self.pace.is_due(now, *context.interval, LEAST_INTERVAL) {
             let answer = answer(context.report, *context.player);
             let sender = context.game_controller_state.sender;
             context

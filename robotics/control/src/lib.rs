@@ -57,6 +57,7 @@ pub mod command_sender;
 pub mod hysteresis;
 mod level;
 pub mod low_pass;
+mod pace;
 mod places;
 mod roll_back;
 mod start_frame;

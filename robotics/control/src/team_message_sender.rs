@@ -3,14 +3,14 @@
 //! A team has a budget of messages for the game, and loses all its goals where it sends more. Only the
 //! referee's computer knows what is left: while none is heard, nothing is sent.
 
-use framework::{
-    CycleTime, HardwareInterface, Parameter, RequiredInput, Result, Timestamp, context,
-};
+use framework::{CycleTime, HardwareInterface, Parameter, RequiredInput, Result, context};
 use hardware::MessageInterface;
 use serde::{Deserialize, Serialize};
 use spl_messages::team_message;
 use types::game::GameControllerState;
 use types::team::TeamMessage;
+
+use crate::pace::Pace;
 
 /// Whatever the parameters say, a robot does not talk more often, in s.
 const LEAST_INTERVAL: f32 = 1.0;
@@ -18,9 +18,7 @@ const LEAST_INTERVAL: f32 = 1.0;
 /// When it sent last.
 #[derive(Debug, Deserialize, Serialize)]
 pub struct TeamMessageSender {
-    sent_at: Option<Timestamp>,
-    /// What it sent last, for its heap memory.
-    bytes: Vec<u8>,
+    pace: Pace,
 }
 
 #[context]
@@ -46,24 +44,18 @@ impl TeamMessageSender {
     /// Has sent nothing.
     pub fn new(_context: CreationContext) -> Result<Self> {
         Ok(Self {
-            sent_at: None,
-            bytes: Vec::new(),
+            pace: Pace::default(),
         })
     }
 
     /// Called only while a referee's computer is heard and this robot is in the game.
     pub fn cycle(&mut self, context: CycleContext<impl MessageInterface>) -> Result<MainOutputs> {
         let now = context.cycle_time.start;
-        let interval = context.interval.max(LEAST_INTERVAL);
-        let is_silent = self
-            .sent_at
-            .is_some_and(|sent_at| (now - sent_at).as_secs_f32() < interval);
         let budget = context.game_controller_state.message_budget;
-        if !is_silent && budget > *context.reserve {
-            // Before anything can fail: a failure is no reason to send more often.
-            self.sent_at = Some(now);
-            team_message::encode(context.report, &mut self.bytes)?;
-            context.hardware_interface.send_to_team(&self.bytes)?;
+        if budget > *context.reserve && self.pace.is_due(now, *context.interval, LEAST_INTERVAL) {
+            let mut room = [0; team_message::GREATEST_LENGTH];
+            let bytes = team_message::encode(context.report, &mut room)?;
+            context.hardware_interface.send_to_team(bytes)?;
         }
         Ok(MainOutputs {})
     }
@@ -139,8 +131,8 @@ mod tests {
     #[test]
     fn no_parameter_makes_a_robot_chatter() {
         for interval in [0.0, -1.0, f32::NAN] {
-            let count = messages(1200, interval).len();
-            assert!(count <= 60, "{count} messages every {interval} s");
+            // One a second, at the first of the 12 ms cycles that is late enough.
+            assert_eq!(messages(1200, interval).len(), 60, "every {interval} s");
         }
     }
 }

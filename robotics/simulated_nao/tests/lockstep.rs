@@ -138,9 +138,9 @@ fn what_the_robot_says_is_heard_and_counted() {
         player_number: 4,
         ..TeamMessage::default()
     };
-    let mut bytes = Vec::new();
-    team_message::encode(&message, &mut bytes).unwrap();
-    hardware.send_to_team(&bytes).unwrap();
+    let mut room = [0; team_message::GREATEST_LENGTH];
+    let bytes = team_message::encode(&message, &mut room).unwrap();
+    hardware.send_to_team(bytes).unwrap();
     let truth = hardware.network_truth();
     let at = Timestamp::ZERO;
     assert_eq!(truth.return_data, [Received { at, message: data }]);

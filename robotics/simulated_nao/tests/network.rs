@@ -79,9 +79,9 @@ fn the_mate_is_heard_and_hears_and_the_own_broadcast_comes_back() {
         player_number: 3,
         ..TeamMessage::default()
     };
-    let mut bytes = Vec::new();
-    team_message::encode(&own, &mut bytes).unwrap();
-    hardware.send_to_team(&bytes).unwrap();
+    let mut room = [0; team_message::GREATEST_LENGTH];
+    let bytes = team_message::encode(&own, &mut room).unwrap();
+    hardware.send_to_team(bytes).unwrap();
     let returned = read(&hardware, |datagram| datagram.bytes == bytes);
     assert_eq!(returned.sender.port, hardware.ports().unwrap()[1]);
     let begun = Instant::now();

@@ -5,6 +5,7 @@ use types::game::PLAYER_COUNT;
 use crate::error::{DecodeError, EncodeError};
 
 const FINITE: &str = "a finite number";
+const AGE: &str = "a number of seconds";
 const SHIRTS: &str = "a shirt's number from 1 to 20";
 
 /// Takes values from the front of a message whose length has been checked.
@@ -60,6 +61,19 @@ impl<'bytes> Reader<'bytes> {
                 found,
             })
         }
+    }
+
+    /// Seconds since something.
+    pub(crate) fn age(&mut self, field: &'static str) -> Result<f32, DecodeError> {
+        let found = self.f32(field)?;
+        if found >= 0.0 {
+            return Ok(found);
+        }
+        Err(DecodeError::OutOfRange {
+            field,
+            expected: AGE,
+            found,
+        })
     }
 
     pub(crate) fn boolean(&mut self, field: &'static str) -> Result<bool, DecodeError> {
@@ -149,6 +163,18 @@ impl<'bytes> Writer<'bytes> {
         }
         self.bytes(&found.to_le_bytes());
         Ok(())
+    }
+
+    /// Seconds since something.
+    pub(crate) fn age(&mut self, field: &'static str, found: f32) -> Result<(), EncodeError> {
+        if found < 0.0 {
+            return Err(EncodeError {
+                field,
+                expected: AGE,
+                found,
+            });
+        }
+        self.f32(field, found)
     }
 
     /// The number of a shirt.

@@ -57,18 +57,11 @@ pub fn encode(data: &ReturnData) -> Result<[u8; LENGTH], EncodeError> {
         writer.f32("pose", length * MILLIMETERS_PER_METER)?;
     }
     writer.f32("pose", rotation.angle())?;
-    let TeamBall { position, age } = data.ball.unwrap_or(TeamBall {
-        position: Point2::origin(),
-        age: NEVER,
-    });
-    if data.ball.is_some() && age < 0.0 {
-        return Err(EncodeError {
-            field: "ballAge",
-            expected: AGES,
-            found: age,
-        });
+    match data.ball {
+        Some(ball) => writer.age("ballAge", ball.age)?,
+        None => writer.f32("ballAge", NEVER)?,
     }
-    writer.f32("ballAge", age)?;
+    let position = data.ball.map_or(Point2::origin(), |ball| ball.position);
     for length in position.iter() {
         writer.f32("ball", length * MILLIMETERS_PER_METER)?;
     }

@@ -37,19 +37,19 @@ const KNOWS_BALL: u8 = 4;
 /// How far the length of a cosine and its sine may be from 1: more than rounding, less than matters.
 const TURN_TOLERANCE: f32 = 1e-4;
 const TURN: &str = "the cosine or sine of an angle";
-const AGE: &str = "a number of seconds";
 
 const _: () = assert!(GREATEST_LENGTH <= PERMITTED_LENGTH);
 
-/// Writes a message in place of what `bytes` held: at most [`GREATEST_LENGTH`] bytes.
+/// Writes a message into `room`; its bytes.
 ///
 /// # Errors
 /// Names what nobody may send: a shirt that there is not, what is infinite or no number, an age from
-/// the future. `bytes` is empty then.
-pub fn encode(message: &TeamMessage, bytes: &mut Vec<u8>) -> Result<(), EncodeError> {
-    bytes.clear();
-    let mut room = [0; GREATEST_LENGTH];
-    let mut writer = Writer::new(&mut room);
+/// the future.
+pub fn encode<'room>(
+    message: &TeamMessage,
+    room: &'room mut [u8; GREATEST_LENGTH],
+) -> Result<&'room [u8], EncodeError> {
+    let mut writer = Writer::new(room);
     writer.bytes(&HEADER);
     writer.u8(VERSION);
     writer.shirt("player number", message.player_number)?;
@@ -61,8 +61,7 @@ pub fn encode(message: &TeamMessage, bytes: &mut Vec<u8>) -> Result<(), EncodeEr
         encode_ball(ball, &mut writer)?;
     }
     let length = writer.written();
-    bytes.extend_from_slice(&room[..length]);
-    Ok(())
+    Ok(&room[..length])
 }
 
 /// The message that these bytes are.
@@ -156,25 +155,11 @@ fn encode_ball(ball: &TeamBall, writer: &mut Writer<'_>) -> Result<(), EncodeErr
     for length in ball.position.iter() {
         writer.f32("ball", *length)?;
     }
-    if ball.age < 0.0 {
-        return Err(EncodeError {
-            field: "age",
-            expected: AGE,
-            found: ball.age,
-        });
-    }
-    writer.f32("age", ball.age)
+    writer.age("age", ball.age)
 }
 
 fn decode_ball(reader: &mut Reader<'_>) -> Result<TeamBall, DecodeError> {
     let position = Point2::new(reader.f32("ball")?, reader.f32("ball")?);
-    let age = reader.f32("age")?;
-    if age < 0.0 {
-        return Err(DecodeError::OutOfRange {
-            field: "age",
-            expected: AGE,
-            found: age,
-        });
-    }
+    let age = reader.age("age")?;
     Ok(TeamBall { position, age })
 }

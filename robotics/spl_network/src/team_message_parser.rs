@@ -94,8 +94,8 @@ mod tests {
             is_fallen: true,
             ..TeamMessage::default()
         };
-        let mut bytes = Vec::new();
-        team_message::encode(&message, &mut bytes).unwrap();
+        let mut room = [0; team_message::GREATEST_LENGTH];
+        let bytes = team_message::encode(&message, &mut room).unwrap().to_vec();
         (message, bytes)
     }
 

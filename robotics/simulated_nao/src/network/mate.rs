@@ -23,7 +23,6 @@ pub(crate) struct Mate {
     number: u8,
     ground_to_field: Isometry2<f32>,
     pub(super) rhythm: Rhythm,
-    bytes: Vec<u8>,
     pub(super) inbox: Inbox<TeamMessage>,
 }
 
@@ -35,7 +34,6 @@ impl Mate {
             number: settings.game.mate_number(),
             ground_to_field: Isometry2::new(Vector2::new(x, y), heading).cast(),
             rhythm: Rhythm::new(FIRST, PERIOD),
-            bytes: Vec::new(),
             inbox: Inbox::default(),
         })
     }
@@ -59,8 +57,8 @@ impl Mate {
                 age: 0.0,
             }),
         };
-        team_message::encode(&message, &mut self.bytes)?;
-        Ok(self.bytes.clone())
+        let mut room = [0; team_message::GREATEST_LENGTH];
+        Ok(team_message::encode(&message, &mut room)?.to_vec())
     }
 
     /// Takes all that has come.

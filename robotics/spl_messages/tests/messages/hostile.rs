@@ -8,9 +8,8 @@ use types::team::TeamMessage;
 use crate::values::{any_control_data, any_return_data, any_team_message};
 
 fn team_bytes(message: &TeamMessage) -> Vec<u8> {
-    let mut bytes = Vec::new();
-    team_message::encode(message, &mut bytes).unwrap();
-    bytes
+    let mut room = [0; team_message::GREATEST_LENGTH];
+    team_message::encode(message, &mut room).unwrap().to_vec()
 }
 
 /// What is taken is encoded as the same bytes again.
