@@ -66,7 +66,7 @@ pub struct Parameters {
     /// vision::penalty_mark_detection
     pub penalty_mark_detection: PenaltyMarkDetectionParameters,
     /// control::game_controller_filter, control::game_controller_responder,
-    /// control::self_report, control::team_message_filter, spl_network::team_message_parser
+    /// control::self_report, spl_network::team_message_parser
     pub player: Player,
     pub recording_switch: RecordingSwitch,
     pub sit_down: SitDown,

@@ -88,6 +88,9 @@ where
         ],
     );
     let (spl_network_injections, [spl_network_injected], []) = buffer([]);
+    let spl_network_subscriptions = Subscriptions::new(
+        &["game_controller_parser.refusal", "team_message_parser.refusal"],
+    );
     let (audio_injections, [audio_injected], []) = buffer([]);
     let audio_subscriptions = Subscriptions::new(&["whistle_detection.peaks"]);
     let (control_injections, [control_injected], []) = buffer([]);
@@ -145,11 +148,14 @@ where
         spl_network::SPL_NETWORK,
         spl_network::SplNetwork {
             nodes: cyclers::spl_network::Nodes::new()?,
+            additional_outputs: databases::spl_network::AdditionalOutputs::default(),
             capture_time: None,
             hardware_interface: hardware.clone(),
             injections: spl_network_injected,
             own: Swap::default(),
             parameters: parameters_for_spl_network,
+            subscribed: databases::spl_network::Subscribed::default(),
+            subscriptions: spl_network_subscriptions.clone(),
         },
         spl_network_writer,
         start.clock.clone(),
@@ -238,7 +244,7 @@ where
             },
             Access {
                 instance: "SplNetwork",
-                subscriptions: Subscriptions::new(&[]),
+                subscriptions: spl_network_subscriptions,
                 injector: Box::new(Injector::new(spl_network_injections)),
                 procedures: Vec::new(),
             },

@@ -265,7 +265,7 @@ impl Nodes {
             ),
             tone_player: Guarded::new(
                 "control::tone_player",
-                OnFailure::Stop,
+                OnFailure::Skip,
                 Self::create_tone_player()?,
             ),
             self_report: Guarded::new(
@@ -660,7 +660,6 @@ impl Nodes {
         let context = team_message_filter::CycleContext {
             messages: PerceptionInput::new(&messages),
             cycle_time: frame.cycle.time,
-            player: &frame.parameters.player,
             forget_after: &frame.parameters.team_message_filter.forget_after,
             teammates: &mut frame.own.teammates,
         };
@@ -1097,12 +1096,13 @@ impl Nodes {
         &mut self,
         frame: &mut Frame<'_, impl SpeakerInterface>,
     ) -> Result<()> {
+        self.tone_player.renew_if_broken(Self::create_tone_player)?;
         if let Some(tone) = frame.own.tone.as_ref() {
             let context = tone_player::CycleContext {
                 hardware_interface: frame.hardware_interface,
                 tone,
             };
-            self.tone_player.call(frame.cycle, |node| node.cycle(context))?;
+            self.tone_player.call_or_skip(frame.cycle, |node| node.cycle(context))?;
         } else {
             // A required input is absent.
             self.tone_player.skip();

@@ -2,6 +2,7 @@
 //!
 //! Written by `hulkgen generate` from hulk.toml and the nodes it names. Do not edit.
 
+use framework::AdditionalOutput;
 use framework::Clear;
 use framework::Guarded;
 use framework::InNode;
@@ -79,13 +80,19 @@ impl Nodes {
         Ok(())
     }
 
-    /// datagram -> game_controller_packet, game_controller_counts
+    /// datagram -> game_controller_packet, game_controller_counts; when subscribed:
+    /// game_controller_parser.refusal
     fn game_controller_parser<Hardware>(
         &mut self,
         frame: &mut Frame<'_, Hardware>,
     ) -> Result<()> {
         let context = game_controller_parser::CycleContext {
             datagram: &frame.own.datagram,
+            refusal: AdditionalOutput::new(
+                frame.subscribed.game_controller_parser_refusal,
+                frame.cycle.number,
+                &mut frame.additional_outputs.game_controller_parser.refusal,
+            ),
         };
         let outputs = self
             .game_controller_parser
@@ -103,7 +110,8 @@ impl Nodes {
         Ok(())
     }
 
-    /// datagram -> team_message, team_message_counts
+    /// datagram -> team_message, team_message_counts; when subscribed:
+    /// team_message_parser.refusal
     fn team_message_parser<Hardware>(
         &mut self,
         frame: &mut Frame<'_, Hardware>,
@@ -111,6 +119,11 @@ impl Nodes {
         let context = team_message_parser::CycleContext {
             datagram: &frame.own.datagram,
             player_number: &frame.parameters.player.number,
+            refusal: AdditionalOutput::new(
+                frame.subscribed.team_message_parser_refusal,
+                frame.cycle.number,
+                &mut frame.additional_outputs.team_message_parser.refusal,
+            ),
         };
         let outputs = self
             .team_message_parser

@@ -4,6 +4,7 @@
 
 use std::sync::Arc;
 
+use framework::AdditionalSlot;
 use framework::Cycle;
 use framework::Injection;
 use framework::InjectionCell;
@@ -39,6 +40,32 @@ pub struct SharedOutputs {
     pub team_message: Option<TeamMessage>,
 }
 
+/// Computed only while somebody listens.
+#[derive(Debug, Default)]
+pub struct AdditionalOutputs {
+    pub game_controller_parser: AdditionalOutputsGameControllerParser,
+    pub team_message_parser: AdditionalOutputsTeamMessageParser,
+}
+
+#[derive(Debug, Default)]
+pub struct AdditionalOutputsGameControllerParser {
+    /// spl_network::game_controller_parser
+    pub refusal: AdditionalSlot<String>,
+}
+
+#[derive(Debug, Default)]
+pub struct AdditionalOutputsTeamMessageParser {
+    /// spl_network::team_message_parser
+    pub refusal: AdditionalSlot<String>,
+}
+
+/// Who listens to which additional output, decided once per cycle.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Subscribed {
+    pub game_controller_parser_refusal: bool,
+    pub team_message_parser_refusal: bool,
+}
+
 /// Values of clients in place of main outputs.
 #[derive(Clone, Debug, Default)]
 pub struct Injections {
@@ -64,6 +91,7 @@ impl InjectionTable for Injections {
 
 /// Everything the nodes of one cycle may touch, borrowed.
 pub struct Frame<'a, Hardware> {
+    pub additional_outputs: &'a mut AdditionalOutputs,
     pub capture_time: &'a mut Option<Timestamp>,
     pub cycle: Cycle,
     pub hardware_interface: &'a Arc<Hardware>,
@@ -71,4 +99,5 @@ pub struct Frame<'a, Hardware> {
     pub own: &'a mut OwnOutputs,
     pub parameters: &'a Parameters,
     pub shared: &'a mut SharedOutputs,
+    pub subscribed: Subscribed,
 }

@@ -20,15 +20,18 @@ use framework::Result;
 use framework::Scheduling;
 use framework::Slots;
 use framework::State;
+use framework::Subscriptions;
 use framework::Swap;
 use framework::Timestamp;
 use hardware::NetworkInterface;
 
 use crate::cyclers::spl_network::Nodes;
+use crate::databases::spl_network::AdditionalOutputs;
 use crate::databases::spl_network::Frame;
 use crate::databases::spl_network::Injections;
 use crate::databases::spl_network::OwnOutputs;
 use crate::databases::spl_network::SharedOutputs;
+use crate::databases::spl_network::Subscribed;
 use crate::parameters::Parameters;
 
 /// What the manifest says about `SplNetwork`.
@@ -52,11 +55,14 @@ pub const SPL_NETWORK: InstanceDescription = InstanceDescription {
 /// One instance: its nodes, and its ends of all buffers.
 pub struct SplNetwork<Hardware> {
     pub nodes: Nodes,
+    pub additional_outputs: AdditionalOutputs,
     pub capture_time: Option<Timestamp>,
     pub hardware_interface: Arc<Hardware>,
     pub injections: Reader<Injected<Injections>>,
     pub own: Swap<OwnOutputs>,
     pub parameters: Reader<Parameters>,
+    pub subscribed: Subscribed,
+    pub subscriptions: Subscriptions,
 }
 
 impl<Hardware> SplNetwork<Hardware> {
@@ -68,6 +74,7 @@ impl<Hardware> SplNetwork<Hardware> {
     ) -> (&'a mut Nodes, Frame<'a, Hardware>) {
         let parameters = self.parameters.view().value();
         let frame = Frame {
+            additional_outputs: &mut self.additional_outputs,
             capture_time: &mut self.capture_time,
             cycle,
             hardware_interface: &self.hardware_interface,
@@ -75,6 +82,7 @@ impl<Hardware> SplNetwork<Hardware> {
             own: self.own.both().0,
             parameters,
             shared: slots.current,
+            subscribed: self.subscribed,
         };
         (&mut self.nodes, frame)
     }
@@ -104,6 +112,10 @@ impl<Hardware: NetworkInterface + Send + Sync> Body for SplNetwork<Hardware> {
     fn begin(&mut self, slots: Slots<'_, SharedOutputs>, cycle: Cycle) {
         self.parameters.take();
         self.injections.take();
+        self.subscribed = Subscribed {
+            game_controller_parser_refusal: self.subscriptions.contains(0),
+            team_message_parser_refusal: self.subscriptions.contains(1),
+        };
         let (_, mut frame) = self.frame(slots, cycle);
         Nodes::inject(&mut frame);
     }
@@ -153,8 +165,16 @@ impl<Hardware: NetworkInterface + Send + Sync> Body for SplNetwork<Hardware> {
         }
     }
 
-    fn additional_output(&self, _name: &str, _cycle: u64) -> Option<&dyn Reflect> {
-        None
+    fn additional_output(&self, name: &str, cycle: u64) -> Option<&dyn Reflect> {
+        match name {
+            "game_controller_parser.refusal" => {
+                Some(self.additional_outputs.game_controller_parser.refusal.get(cycle)?)
+            }
+            "team_message_parser.refusal" => {
+                Some(self.additional_outputs.team_message_parser.refusal.get(cycle)?)
+            }
+            _ => None,
+        }
     }
 
     fn nodes(&self, visit: &mut dyn FnMut(NodeReport)) {

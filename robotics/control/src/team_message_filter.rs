@@ -1,8 +1,10 @@
 //! Knows what the other robots of the own team said last, from messages that come when they come.
+//!
+//! What this robot said itself is no message: `team_message_parser` leaves it out.
 
 use framework::{CycleTime, MainOutput, Parameter, PerceptionInput, Result, Timestamp, context};
 use serde::{Deserialize, Serialize};
-use types::game::{PLAYER_COUNT, Player};
+use types::game::PLAYER_COUNT;
 use types::team::{TeamMessage, Teammate};
 
 use crate::roll_back::RollBack;
@@ -24,12 +26,10 @@ pub struct CycleContext {
     messages: PerceptionInput<Option<TeamMessage>, "SplNetwork", "team_message">,
     cycle_time: CycleTime,
 
-    /// Who this robot is in the game.
-    player: Parameter<Player, "player">,
     /// In s: a robot that is silent for so long is not there.
     forget_after: Parameter<f32, "team_message_filter.forget_after">,
 
-    /// The robots of the own team that were heard lately, by their number, this one left out.
+    /// The other robots of the own team that were heard lately, by their number.
     teammates: MainOutput<Vec<Teammate>>,
 }
 
@@ -46,9 +46,8 @@ impl TeamMessageFilter {
 
     /// Learns from what is settled, then listens to what is not.
     pub fn cycle(&mut self, context: CycleContext) -> Result<MainOutputs> {
-        let own_number = context.player.number;
         let hear = |team: &mut Team, timestamp, message: &Option<TeamMessage>| {
-            if let Some(message) = message.filter(|message| message.player_number != own_number) {
+            if let Some(message) = message {
                 remember(team, timestamp, message);
             }
         };
@@ -65,10 +64,13 @@ impl TeamMessageFilter {
 }
 
 /// A number that no shirt has is nobody's.
-fn remember(team: &mut Team, heard_at: Timestamp, message: TeamMessage) {
+fn remember(team: &mut Team, heard_at: Timestamp, message: &TeamMessage) {
     let index = usize::from(message.player_number).checked_sub(1);
     if let Some(place) = index.and_then(|index| team.get_mut(index)) {
-        *place = Some(Teammate { message, heard_at });
+        *place = Some(Teammate {
+            message: *message,
+            heard_at,
+        });
     }
 }
 
@@ -102,10 +104,6 @@ mod tests {
         let context = CycleContext {
             messages: perception(&persistent, &transient),
             cycle_time: cycle_time(now, 12),
-            player: &Player {
-                number: 3,
-                team: 77,
-            },
             forget_after: &10.0,
             teammates: &mut teammates,
         };
@@ -133,14 +131,9 @@ mod tests {
     }
 
     #[test]
-    fn the_own_number_numbers_without_a_shirt_and_no_messages_are_ignored() {
-        let (own, zero, large, nothing) = (
-            message(3, false),
-            message(0, false),
-            message(21, false),
-            None,
-        );
-        let heard = [&own, &zero, &large, &nothing].map(|message| (at_millis(10), message));
+    fn numbers_without_a_shirt_and_no_messages_are_ignored() {
+        let (zero, large, nothing) = (message(0, false), message(21, false), None);
+        let heard = [&zero, &large, &nothing].map(|message| (at_millis(10), message));
         assert_eq!(cycle(&mut node(), 20, heard.to_vec(), vec![]), []);
     }
 

@@ -1,6 +1,6 @@
 //! Understands what the referee's computer says, and counts what it cannot have said.
 
-use framework::{Input, MainOutput, Result, context};
+use framework::{AdditionalOutput, Input, MainOutput, Result, context};
 use serde::{Deserialize, Serialize};
 use spl_messages::control_data;
 use types::game::GameControllerPacket;
@@ -18,6 +18,9 @@ pub struct CreationContext {}
 #[context]
 pub struct CycleContext {
     datagram: Input<Datagram, "datagram">,
+
+    /// Why this cycle's datagram is no control data; no value where it is or is for another channel.
+    refusal: AdditionalOutput<String, "game_controller_parser.refusal">,
 }
 
 #[context]
@@ -37,9 +40,9 @@ impl GameControllerParser {
     }
 
     /// Never fails: anybody may send anything.
-    pub fn cycle(&mut self, context: CycleContext) -> Result<MainOutputs> {
+    pub fn cycle(&mut self, mut context: CycleContext) -> Result<MainOutputs> {
         let packet = match context.datagram.channel {
-            Channel::GameController => self.understand(context.datagram),
+            Channel::GameController => self.understand(&mut context),
             Channel::Team => None,
         };
         Ok(MainOutputs {
@@ -48,21 +51,28 @@ impl GameControllerParser {
         })
     }
 
-    fn understand(&mut self, datagram: &Datagram) -> Option<GameControllerPacket> {
-        let message = control_data::decode(&datagram.bytes).ok();
-        match message {
-            Some(_) => self.counts.accepted += 1,
-            None => self.counts.rejected += 1,
+    fn understand(&mut self, context: &mut CycleContext) -> Option<GameControllerPacket> {
+        let datagram = context.datagram;
+        match control_data::decode(&datagram.bytes) {
+            Ok(message) => {
+                self.counts.accepted += 1;
+                Some(GameControllerPacket {
+                    message,
+                    sender: datagram.sender,
+                })
+            }
+            Err(error) => {
+                self.counts.rejected += 1;
+                context.refusal.fill_if_subscribed(|| error.to_string());
+                None
+            }
         }
-        Some(GameControllerPacket {
-            message: message?,
-            sender: datagram.sender,
-        })
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use framework::testing::AdditionalProbe;
     use types::game::{GameControllerMessage, GameState};
     use types::network::Endpoint;
 
@@ -78,12 +88,26 @@ mod tests {
     }
 
     fn cycle(node: &mut GameControllerParser, channel: Channel, bytes: &[u8]) -> MainOutputs {
+        cycle_heard(node, channel, bytes).0
+    }
+
+    /// And the reason of a refusal.
+    fn cycle_heard(
+        node: &mut GameControllerParser,
+        channel: Channel,
+        bytes: &[u8],
+    ) -> (MainOutputs, Option<String>) {
         let datagram = &Datagram {
             channel,
             sender: SENDER,
             bytes: bytes.to_vec(),
         };
-        node.cycle(CycleContext { datagram }).unwrap()
+        let mut refusal = AdditionalProbe::default();
+        let context = CycleContext {
+            datagram,
+            refusal: refusal.output(),
+        };
+        (node.cycle(context).unwrap(), refusal.value().cloned())
     }
 
     fn message() -> GameControllerMessage {
@@ -121,6 +145,23 @@ mod tests {
         }
         let outputs = cycle(&mut node, Channel::GameController, &good);
         assert!(outputs.game_controller_packet.value.is_some());
+    }
+
+    #[test]
+    fn who_listens_hears_why_a_packet_is_refused() {
+        let mut node = parser();
+        let good = control_data::encode(&message());
+        let mut old = good;
+        old[4] = 17;
+        let refusals = [&good[..117], &old, &good]
+            .map(|bytes| cycle_heard(&mut node, Channel::GameController, bytes).1);
+        let expected = [
+            Some("the message has 117 bytes instead of 118"),
+            Some("the version is 17 instead of 18"),
+            None,
+        ];
+        assert_eq!(refusals.each_ref().map(Option::as_deref), expected);
+        assert_eq!(cycle_heard(&mut node, Channel::Team, b"HGtm").1, None);
     }
 
     #[test]

@@ -2,7 +2,7 @@
 //!
 //! Messages are broadcast, so that the own ones come back: they are no news.
 
-use framework::{Input, MainOutput, Parameter, Result, context};
+use framework::{AdditionalOutput, Input, MainOutput, Parameter, Result, context};
 use serde::{Deserialize, Serialize};
 use spl_messages::team_message;
 use types::network::{Channel, Datagram, PacketCounts};
@@ -21,6 +21,9 @@ pub struct CreationContext {}
 pub struct CycleContext {
     datagram: Input<Datagram, "datagram">,
     player_number: Parameter<u8, "player.number">,
+
+    /// Why this cycle's datagram is no team message; no value where it is or is for another channel.
+    refusal: AdditionalOutput<String, "team_message_parser.refusal">,
 }
 
 #[context]
@@ -41,9 +44,9 @@ impl TeamMessageParser {
     }
 
     /// Never fails: anybody may send anything.
-    pub fn cycle(&mut self, context: CycleContext) -> Result<MainOutputs> {
+    pub fn cycle(&mut self, mut context: CycleContext) -> Result<MainOutputs> {
         let message = match context.datagram.channel {
-            Channel::Team => self.understand(&context.datagram.bytes, *context.player_number),
+            Channel::Team => self.understand(&mut context),
             Channel::GameController => None,
         };
         Ok(MainOutputs {
@@ -52,15 +55,16 @@ impl TeamMessageParser {
         })
     }
 
-    fn understand(&mut self, bytes: &[u8], player_number: u8) -> Option<TeamMessage> {
-        match team_message::decode(bytes) {
-            Ok(message) if message.player_number == player_number => None,
+    fn understand(&mut self, context: &mut CycleContext) -> Option<TeamMessage> {
+        match team_message::decode(&context.datagram.bytes) {
+            Ok(message) if message.player_number == *context.player_number => None,
             Ok(message) => {
                 self.counts.accepted += 1;
                 Some(message)
             }
-            Err(_) => {
+            Err(error) => {
                 self.counts.rejected += 1;
+                context.refusal.fill_if_subscribed(|| error.to_string());
                 None
             }
         }
@@ -69,6 +73,8 @@ impl TeamMessageParser {
 
 #[cfg(test)]
 mod tests {
+    use framework::testing::AdditionalProbe;
+
     use super::*;
 
     fn parser() -> TeamMessageParser {
@@ -76,16 +82,27 @@ mod tests {
     }
 
     fn cycle(node: &mut TeamMessageParser, channel: Channel, bytes: &[u8]) -> MainOutputs {
+        cycle_heard(node, channel, bytes).0
+    }
+
+    /// And the reason of a refusal.
+    fn cycle_heard(
+        node: &mut TeamMessageParser,
+        channel: Channel,
+        bytes: &[u8],
+    ) -> (MainOutputs, Option<String>) {
         let datagram = Datagram {
             channel,
             bytes: bytes.to_vec(),
             ..Datagram::default()
         };
+        let mut refusal = AdditionalProbe::default();
         let context = CycleContext {
             datagram: &datagram,
             player_number: &4,
+            refusal: refusal.output(),
         };
-        node.cycle(context).unwrap()
+        (node.cycle(context).unwrap(), refusal.value().cloned())
     }
 
     fn message(player_number: u8) -> (TeamMessage, Vec<u8>) {
@@ -132,6 +149,25 @@ mod tests {
         }
         let outputs = cycle(&mut node, Channel::Team, &good);
         assert!(outputs.team_message.value.is_some());
+    }
+
+    #[test]
+    fn who_listens_hears_why_a_message_is_refused() {
+        let mut node = parser();
+        let (_, good) = message(2);
+        let mut nobody = good.clone();
+        nobody[5] = 0;
+        let refusals = [&good[..6], &nobody[..], &good, &message(4).1]
+            .map(|bytes| cycle_heard(&mut node, Channel::Team, bytes).1);
+        let expected = [
+            Some("the message has 6 bytes instead of 7"),
+            Some("`player number` is 0 instead of a shirt's number from 1 to 20"),
+            None,
+            None,
+        ];
+        assert_eq!(refusals.each_ref().map(Option::as_deref), expected);
+        let other = cycle_heard(&mut node, Channel::GameController, b"RGme");
+        assert_eq!(other.1, None);
     }
 
     #[test]
