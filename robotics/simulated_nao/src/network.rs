@@ -26,6 +26,7 @@ use types::network::{Channel, Endpoint};
 use self::mate::Mate;
 use self::referee::Referee;
 pub(crate) use self::robot::RobotSockets;
+use self::robot::reachable;
 pub use self::truth::{NetworkTruth, Received};
 use crate::ground_truth::GroundTruth;
 use crate::settings::Settings;
@@ -171,11 +172,15 @@ impl Network {
     }
 
     /// Lets the team mate speak; whether something arrived at the robot.
-    pub(crate) fn mate_speaks(&mut self, now: Timestamp, truth: &GroundTruth) -> Result<bool> {
+    pub(crate) fn mate_speaks(
+        &mut self,
+        now: Timestamp,
+        truth: impl FnOnce() -> GroundTruth,
+    ) -> Result<bool> {
         let Some(mate) = &mut self.mate else {
             return Ok(false);
         };
-        let bytes = mate.speak(truth)?;
+        let bytes = mate.speak(&truth())?;
         self.deliver(now, Sender::Mate, Channel::Team, &bytes)
     }
 
@@ -268,7 +273,7 @@ impl Network {
             return Ok(false);
         }
         let sent = socket.send_to(bytes, destination).is_ok();
-        let address = socket.local_addr()?;
+        let address = reachable(socket)?;
         if sent && self.is_stepped {
             self.unread.push_back(Arrival {
                 at: now,

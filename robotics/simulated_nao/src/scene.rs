@@ -10,6 +10,7 @@ use kinematics::forward_kinematics;
 use nalgebra::{Point2, Point3};
 use serde::Deserialize;
 use types::feet::{Feet, Side};
+use types::game::PLAYER_COUNT;
 
 use crate::camera::figure::{self, Capsule, PARTS};
 use crate::field::{GOAL_POST_RADIUS, goal_posts};
@@ -131,9 +132,9 @@ pub fn check(robots: &[RobotSettings], images: &ImageSettings) -> Result<()> {
                 robot.heading
             ));
         }
-        if !(1..=20).contains(&robot.number) {
+        if !(1..=PLAYER_COUNT).contains(&robot.number.into()) {
             return wrong(format!(
-                "robots[{index}].number: shirts have numbers from 1 to 20, not {}",
+                "robots[{index}].number: shirts have numbers from 1 to {PLAYER_COUNT}, not {}",
                 robot.number
             ));
         }

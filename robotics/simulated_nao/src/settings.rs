@@ -260,7 +260,6 @@ mod tests {
                 "[game]\nplayer_number = 21",
                 "game.player_number: shirts have numbers from 1 to 20, not 21",
             ),
-            ("[game]\nmate_pose = [0, nan, 0]", "game.mate_pose"),
             (
                 "[game]\nschedule = [{ at = 3, state = 'Set' }, { at = 2, state = 'Playing' }]",
                 "game.schedule: Playing at 2 s does not come after 3 s",
@@ -283,12 +282,13 @@ mod tests {
     #[test]
     fn announcements_say_more_than_the_state() {
         let table = "schedule = [{ at = 1, state = 'Ready', penalty = 'Manual', \
-                     kicking_team = 'Opponent', set_play = 'PenaltyKick' }]";
+                     kicking_team = 'Opponent', set_play = 'PenaltyKick', score = [2, 1] }]";
         let game: GameSettings = toml::from_str(table).unwrap();
         let announcement = &game.schedule[0];
         assert_eq!(announcement.penalty, Penalty::Manual);
         assert_eq!(announcement.kicking_team, KickingTeam::Opponent);
         assert_eq!(announcement.set_play, SetPlay::PenaltyKick);
+        assert_eq!(announcement.score, [2, 1]);
     }
 
     #[test]

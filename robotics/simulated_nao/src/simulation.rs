@@ -221,8 +221,8 @@ impl Simulation {
             }
             Step::RefereeSpeaks => self.network.referee_speaks(at)?.then_some("SplNetwork"),
             Step::MateSpeaks => {
-                let truth = self.ground_truth();
-                let has_arrived = self.network.mate_speaks(at, &truth)?;
+                let truth = || GroundTruth::new(&self.world);
+                let has_arrived = self.network.mate_speaks(at, truth)?;
                 has_arrived.then_some("SplNetwork")
             }
             Step::DatagramArrives => self.network.datagram_arrives(at)?.then_some("SplNetwork"),

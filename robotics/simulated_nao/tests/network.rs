@@ -14,9 +14,14 @@ use types::team::TeamMessage;
 const PATIENCE: Duration = Duration::from_secs(20);
 
 fn create(options: &[&str]) -> Hardware {
+    create_with(options, "")
+}
+
+/// With these settings of `[hardware.simulated]`.
+fn create_with(options: &[&str], table: &str) -> Hardware {
     Hardware::new(HardwareContext {
         options: options.iter().map(|&option| option.to_owned()).collect(),
-        table: toml::Table::new(),
+        table: table.parse().unwrap(),
         run_folder: std::env::temp_dir(),
         clock: Clock::wall(),
         stop: Stop::new(),
@@ -68,11 +73,12 @@ fn the_referee_is_heard_and_hears_the_answer() {
 
 #[test]
 fn the_mate_is_heard_and_hears_and_the_own_broadcast_comes_back() {
-    let hardware = create(&["--ball", "2,1", "--no-referee"]);
+    let mate = "robots = [{ position = [1.0, 0.5], team = 'own', number = 2 }]";
+    let hardware = create_with(&["--ball", "2,1", "--no-referee"], mate);
     let datagram = read(&hardware, |_| true);
     let message = team_message::decode(&datagram.bytes).unwrap();
-    let ball = message.ground_to_field.unwrap() * message.ball.unwrap().position;
-    assert!((ball.x - 2.0).abs() < 1e-5 && (ball.y - 1.0).abs() < 1e-5);
+    let ball = message.ball.unwrap().position;
+    assert!((ball.x - 1.0).abs() < 1e-5 && (ball.y - 0.5).abs() < 1e-5);
     assert_eq!(message.player_number, 2);
 
     let own = TeamMessage {
@@ -106,6 +112,23 @@ fn anybody_can_send_anything_and_it_is_cut_a_byte_above_what_is_allowed() {
         let port = stranger.local_addr().unwrap().port();
         assert_eq!(datagram.sender.port, port);
         assert_eq!(datagram.sender.address, [127, 0, 0, 1]);
+    }
+}
+
+#[test]
+fn other_addresses_are_heard_only_where_that_was_chosen() {
+    let stranger = UdpSocket::bind("127.0.0.1:0").unwrap();
+    for (table, is_heard) in [
+        ("network.address = '127.0.0.1'", false),
+        ("network.address = '0.0.0.0'", true),
+    ] {
+        let hardware = create_with(&["--no-referee", "--no-mate"], table);
+        let [control_port, ..] = hardware.ports().unwrap();
+        // Nobody there may be told to later senders.
+        let _ = stranger.send_to(b"elsewhere", ("127.0.0.2", control_port));
+        let _ = stranger.send_to(b"here", ("127.0.0.1", control_port));
+        let first = read(&hardware, |_| true);
+        assert_eq!(first.bytes == b"elsewhere", is_heard, "{table}");
     }
 }
 

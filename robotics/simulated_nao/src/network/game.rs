@@ -48,7 +48,7 @@ pub(super) fn message_at(game: &GameSettings, seconds: f64) -> GameControllerMes
         },
         seconds_remaining: count_down(HALF, playing_seconds(&game.schedule, seconds)),
         secondary_seconds: secondary(current, since),
-        teams: [own_team(game, current, since), other_team(game)],
+        teams: [own_team(game, current, since), other_team(game, current)],
         ..GameControllerMessage::default()
     }
 }
@@ -85,6 +85,7 @@ fn own_team(game: &GameSettings, current: &Announcement, since: f64) -> TeamStat
         number: game.team,
         field_player_color: TeamColor::Blue,
         goalkeeper_color: TeamColor::Black,
+        score: current.score[0],
         ..team_state()
     };
     let robot = &mut team.players[usize::from(game.player_number) - 1];
@@ -96,11 +97,12 @@ fn own_team(game: &GameSettings, current: &Announcement, since: f64) -> TeamStat
     team
 }
 
-fn other_team(game: &GameSettings) -> TeamState {
+fn other_team(game: &GameSettings, current: &Announcement) -> TeamState {
     TeamState {
         number: game.opponent,
         field_player_color: TeamColor::Red,
         goalkeeper_color: TeamColor::Green,
+        score: current.score[1],
         ..team_state()
     }
 }
@@ -163,6 +165,14 @@ mod tests {
         };
         assert_eq!((penalized(&own), penalized(&other)), (1, 0));
         assert_eq!(own.players[7].penalty, Penalty::Substitute);
+    }
+
+    #[test]
+    fn goals_are_those_of_the_team_that_shot_them() {
+        let mut game = GameSettings::default();
+        game.schedule[3].score = [2, 1];
+        let goals = |seconds| message_at(&game, seconds).teams.map(|team| team.score);
+        assert_eq!((goals(20.0), goals(30.0)), ([0, 0], [2, 1]));
     }
 
     #[test]

@@ -1,10 +1,12 @@
 //! A team mate: it tells the robot where it is and where the ball is, and keeps what the robot says.
+//!
+//! It is the own robot of that number that the cameras see; where there is none, it is lost.
 
-use std::net::{SocketAddr, UdpSocket};
+use std::net::{Ipv4Addr, SocketAddr, UdpSocket};
 use std::time::Duration;
 
 use framework::{Result, Timestamp};
-use nalgebra::{Isometry2, Vector2};
+use nalgebra::Isometry2;
 use spl_messages::team_message;
 use types::team::{TeamBall, TeamMessage};
 
@@ -12,6 +14,7 @@ use super::rhythm::Rhythm;
 use super::robot::{BUFFER_LENGTH, bind, receive_from};
 use super::truth::Inbox;
 use crate::ground_truth::GroundTruth;
+use crate::scene::{Robot, Team};
 use crate::settings::Settings;
 
 const PERIOD: Duration = Duration::from_secs(1);
@@ -21,18 +24,15 @@ const FIRST: Duration = Duration::from_millis(650);
 pub(crate) struct Mate {
     socket: UdpSocket,
     number: u8,
-    ground_to_field: Isometry2<f32>,
     pub(super) rhythm: Rhythm,
     pub(super) inbox: Inbox<TeamMessage>,
 }
 
 impl Mate {
     pub(super) fn new(settings: &Settings) -> Result<Self> {
-        let [x, y, heading] = settings.game.mate_pose;
         Ok(Self {
-            socket: bind(settings.network.mate_port, "mate_port")?,
+            socket: bind(Ipv4Addr::LOCALHOST, settings.network.mate_port, "mate_port")?,
             number: settings.game.mate_number(),
-            ground_to_field: Isometry2::new(Vector2::new(x, y), heading).cast(),
             rhythm: Rhythm::new(FIRST, PERIOD),
             inbox: Inbox::default(),
         })
@@ -48,12 +48,15 @@ impl Mate {
 
     pub(super) fn speak(&mut self, truth: &GroundTruth) -> Result<Vec<u8>> {
         self.rhythm.advance();
+        let is_self = |robot: &&Robot| robot.team == Team::Own && robot.number == self.number;
+        let ground_to_field = truth.robots.iter().find(is_self).map(pose);
+        let ball = ground_to_field.zip(truth.ball);
         let message = TeamMessage {
             player_number: self.number,
             is_fallen: false,
-            ground_to_field: Some(self.ground_to_field),
-            ball: truth.ball.map(|ball| TeamBall {
-                position: self.ground_to_field.inverse_transform_point(&ball.xy()),
+            ground_to_field,
+            ball: ball.map(|(pose, ball)| TeamBall {
+                position: pose.inverse_transform_point(&ball.xy()),
                 age: 0.0,
             }),
         };
@@ -79,4 +82,8 @@ impl Mate {
     fn keep(&mut self, at: Timestamp, bytes: &[u8]) {
         self.inbox.keep(at, team_message::decode(bytes).ok());
     }
+}
+
+fn pose(robot: &Robot) -> Isometry2<f32> {
+    Isometry2::new(robot.position.coords, robot.heading).cast()
 }

@@ -1,6 +1,6 @@
 //! The referee's computer: it tells the robot how the game stands and keeps what the robot answers.
 
-use std::net::{SocketAddr, UdpSocket};
+use std::net::{Ipv4Addr, SocketAddr, UdpSocket};
 use std::time::Duration;
 
 use framework::{Result, Timestamp};
@@ -29,7 +29,11 @@ pub(crate) struct Referee {
 impl Referee {
     pub(super) fn new(settings: &Settings) -> Result<Self> {
         Ok(Self {
-            socket: bind(settings.network.return_port, "return_port")?,
+            socket: bind(
+                Ipv4Addr::LOCALHOST,
+                settings.network.return_port,
+                "return_port",
+            )?,
             game: settings.game.clone(),
             rhythm: Rhythm::new(FIRST, PERIOD),
             message: None,

@@ -1,6 +1,6 @@
 //! The robot's own sockets: one for the referee's computer, one for the team.
 
-use std::net::{SocketAddr, UdpSocket};
+use std::net::{Ipv4Addr, SocketAddr, UdpSocket};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
@@ -29,11 +29,11 @@ pub(crate) struct RobotSockets {
 
 impl RobotSockets {
     /// # Errors
-    /// Names the port that is in use.
+    /// Names the port that is in use, or the address that this machine does not have.
     pub(crate) fn new(settings: &NetworkSettings) -> Result<Self> {
         Ok(Self {
-            control: bind(settings.control_port, "control_port")?,
-            team: bind(settings.team_port, "team_port")?,
+            control: bind(settings.address, settings.control_port, "control_port")?,
+            team: bind(settings.address, settings.team_port, "team_port")?,
             is_teams_turn: AtomicBool::new(false),
         })
     }
@@ -46,12 +46,14 @@ impl RobotSockets {
         &self.team
     }
 
+    /// Where this machine reaches the socket for the referee's computer.
     pub(crate) fn control_address(&self) -> Result<SocketAddr> {
-        Ok(self.control.local_addr()?)
+        reachable(&self.control)
     }
 
+    /// Where this machine reaches the socket for the team.
     pub(crate) fn team_address(&self) -> Result<SocketAddr> {
-        Ok(self.team.local_addr()?)
+        reachable(&self.team)
     }
 
     /// Waits for the next datagram on any socket; whether one came in time.
@@ -121,16 +123,34 @@ impl RobotSockets {
 /// A socket of the simulated network.
 ///
 /// # Errors
-/// Names the port that is in use.
-pub(super) fn bind(port: u16, key: &str) -> Result<UdpSocket> {
-    let socket = UdpSocket::bind(loopback(port)).map_err(|error| {
-        Error::from(error).context(format!(
-            "cannot use UDP port {port} (hardware.simulated.network.{key}); stop the program that \
-             does, choose another one, or use --free-ports"
-        ))
+/// Names the port that is in use, or the address that this machine does not have.
+pub(super) fn bind(address: Ipv4Addr, port: u16, key: &str) -> Result<UdpSocket> {
+    let socket = UdpSocket::bind((address, port)).map_err(|error| {
+        let is_foreign = error.kind() == std::io::ErrorKind::AddrNotAvailable;
+        Error::from(error).context(if is_foreign {
+            format!(
+                "this machine does not have the address {address} \
+                 (hardware.simulated.network.address); 0.0.0.0 is all that it has"
+            )
+        } else {
+            format!(
+                "cannot use UDP port {port} (hardware.simulated.network.{key}); stop the program \
+                 that does, choose another one, or use --free-ports"
+            )
+        })
     })?;
     socket.set_nonblocking(true)?;
     Ok(socket)
+}
+
+/// Who listens everywhere is reached on the loopback interface, too.
+pub(super) fn reachable(socket: &UdpSocket) -> Result<SocketAddr> {
+    let address = socket.local_addr()?;
+    Ok(if address.ip().is_unspecified() {
+        loopback(address.port())
+    } else {
+        address
+    })
 }
 
 /// Takes one datagram, if there is one. What went wrong with an earlier one is nobody's concern.

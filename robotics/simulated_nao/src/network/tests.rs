@@ -3,12 +3,14 @@
 use std::time::Instant;
 
 use framework::Stop;
+use nalgebra::{Isometry2, Vector2};
 use spl_messages::{control_data, team_message};
 use types::game::GameState;
 use types::network::Datagram;
 
 use super::*;
-use crate::settings::Settings;
+use crate::scene::{RobotSettings, Team};
+use crate::settings::{NetworkSettings, Settings};
 use crate::simulator::Shared;
 
 struct Lockstep {
@@ -18,11 +20,12 @@ struct Lockstep {
 
 impl Lockstep {
     fn new(options: &[&str]) -> Self {
-        let options: Vec<_> = options.iter().map(|&option| option.to_owned()).collect();
-        let mut settings = Settings::default();
-        settings.apply(&options).unwrap();
+        Self::with(&settings(options))
+    }
+
+    fn with(settings: &Settings) -> Self {
         let sockets = Arc::new(RobotSockets::new(&settings.network).unwrap());
-        let shared = Shared::new(&settings, Some(Arc::clone(&sockets)), true).unwrap();
+        let shared = Shared::new(settings, Some(Arc::clone(&sockets)), true).unwrap();
         Self { shared, sockets }
     }
 
@@ -47,9 +50,30 @@ impl Lockstep {
     }
 }
 
+/// With a team mate on the field.
+fn settings(options: &[&str]) -> Settings {
+    let options: Vec<_> = options.iter().map(|&option| option.to_owned()).collect();
+    let mut settings = Settings::default();
+    settings.apply(&options).unwrap();
+    settings.robots = vec![robot(Team::Own, 2, 3.0)];
+    settings
+}
+
+fn robot(team: Team, number: u8, x: f64) -> RobotSettings {
+    RobotSettings {
+        position: [x, -1.0],
+        heading: 0.5,
+        team,
+        number,
+    }
+}
+
 /// Everything that comes in 30 s.
 fn datagrams(options: &[&str]) -> Vec<(Timestamp, Datagram)> {
-    let lockstep = Lockstep::new(options);
+    all_datagrams(&Lockstep::new(options))
+}
+
+fn all_datagrams(lockstep: &Lockstep) -> Vec<(Timestamp, Datagram)> {
     let mut datagrams = Vec::new();
     loop {
         let now = lockstep.next();
@@ -110,6 +134,62 @@ fn the_same_options_give_the_same_datagrams_whatever_ports_are_free() {
     assert_eq!(once, datagrams(&["--no-cameras"]));
     assert_ne!(once, datagrams(&["--no-cameras", "--game", "Set"]));
     assert_ne!(once, datagrams(&["--no-cameras", "--ball", "1,1"]));
+}
+
+#[test]
+fn a_robot_that_listens_everywhere_hears_the_same() {
+    let mut settings = settings(&["--no-cameras"]);
+    settings.network.address = Ipv4Addr::UNSPECIFIED;
+    let lockstep = Lockstep::with(&settings);
+    assert_eq!(all_datagrams(&lockstep), datagrams(&["--no-cameras"]));
+    // Its own broadcast comes back.
+    let now = lockstep.shared.lock().world().now();
+    let mut simulation = lockstep.shared.lock();
+    simulation.network.robot_has_broadcast(now, b"own");
+    drop(simulation);
+    let heard = std::iter::from_fn(|| {
+        let now = lockstep.next();
+        lockstep.read(now).map(|(_, _, datagram)| datagram.bytes)
+    });
+    assert!(heard.take(3).any(|bytes| bytes == b"own"));
+}
+
+#[test]
+fn an_address_that_the_machine_does_not_have_is_named() {
+    let settings = NetworkSettings {
+        address: Ipv4Addr::new(192, 0, 2, 1),
+        ..NetworkSettings::default()
+    };
+    let error = RobotSockets::new(&settings).unwrap_err().to_string();
+    assert!(error.contains("address 192.0.2.1"), "{error}");
+}
+
+#[test]
+fn the_mate_is_the_own_robot_of_its_number_and_lost_without_one() {
+    let said = |settings: &Settings| {
+        let datagrams = all_datagrams(&Lockstep::with(settings));
+        let mut team = datagrams
+            .iter()
+            .filter(|(_, datagram)| datagram.channel == Channel::Team);
+        team_message::decode(&team.next().unwrap().1.bytes).unwrap()
+    };
+    let mut settings = settings(&["--no-cameras"]);
+    settings.robots.clear();
+    let lost = said(&settings);
+    assert_eq!((lost.ground_to_field, lost.ball), (None, None));
+    settings.robots = vec![
+        robot(Team::Opponent, 2, 1.0),
+        robot(Team::Own, 4, 2.0),
+        robot(Team::Own, 2, 3.0),
+    ];
+    let message = said(&settings);
+    let pose = message.ground_to_field.unwrap();
+    let expected = Isometry2::new(Vector2::new(3.0, -1.0), 0.5);
+    assert!((pose.translation.vector - expected.translation.vector).norm() < 1e-6);
+    assert!(pose.rotation.angle_to(&expected.rotation).abs() < 1e-6);
+    let [x, y] = settings.ball_position().unwrap().map(|place| place as f32);
+    let ball = pose * message.ball.unwrap().position;
+    assert!((ball - nalgebra::Point2::new(x, y)).norm() < 1e-5, "{ball}");
 }
 
 #[test]

@@ -21,8 +21,6 @@ pub struct GameSettings {
     pub opponent: u8,
     /// Number of the robot's shirt.
     pub player_number: u8,
-    /// Where the team mate stands in the field frame: x and y in m, heading in rad.
-    pub mate_pose: [f64; 3],
     /// What the referee's computer says, in the order of time.
     pub schedule: Vec<Announcement>,
 }
@@ -44,6 +42,9 @@ pub struct Announcement {
     /// How the game is resumed; left out: with a kick-off.
     #[serde(default)]
     pub set_play: SetPlay,
+    /// Goals of the own and of the other team; left out: none.
+    #[serde(default)]
+    pub score: [u8; 2],
 }
 
 impl Announcement {
@@ -55,6 +56,7 @@ impl Announcement {
             penalty: Penalty::None,
             kicking_team: own_team(),
             set_play: SetPlay::None,
+            score: [0; 2],
         }
     }
 }
@@ -67,7 +69,6 @@ impl Default for GameSettings {
             team: 5,
             opponent: 6,
             player_number: 3,
-            mate_pose: [-1.0, 1.5, 0.0],
             schedule: vec![
                 Announcement::of(0.0, GameState::Initial),
                 Announcement::of(3.0, GameState::Ready),
@@ -114,9 +115,6 @@ impl GameSettings {
                 "player_number",
                 format!("shirts have numbers from 1 to {PLAYER_COUNT}, not {number}"),
             );
-        }
-        if self.mate_pose.iter().any(|number| !number.is_finite()) {
-            return wrong("mate_pose", "this is no place on the field".to_owned());
         }
         let mut before = 0.0;
         for Announcement { at, state, .. } in &self.schedule {

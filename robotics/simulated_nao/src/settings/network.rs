@@ -1,12 +1,16 @@
-//! The ports of the simulated network, and who is on it.
+//! Where the robot listens on the simulated network, and who is on it.
+
+use std::net::Ipv4Addr;
 
 use framework::{Error, Result};
 use serde::Deserialize;
 
-/// UDP ports on the loopback interface; 0 takes a free one.
+/// The robot's address and UDP ports; port 0 takes a free one.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct NetworkSettings {
+    /// Where the robot listens: 127.0.0.1 to this machine alone, 0.0.0.0 to every network that it is on.
+    pub address: Ipv4Addr,
     /// Where the robot hears the referee's computer; 3838 on a real field.
     pub control_port: u16,
     /// Where the referee's computer hears answers; 3939 on a real field.
@@ -24,6 +28,7 @@ pub struct NetworkSettings {
 impl Default for NetworkSettings {
     fn default() -> Self {
         Self {
+            address: Ipv4Addr::LOCALHOST,
             control_port: 0,
             return_port: 0,
             team_port: 0,
