@@ -1,8 +1,11 @@
 """A robot that shares no code with ours: reads control data with the published layout, answers.
 
-Usage: python_referee.py RETURN_DATA_IN_HEX. Prints its control port first, then waits for packets.
+Usage: python_referee.py RETURN_DATA TEAM_MESSAGE CONTROL_DATA, all in hex: what the robot's own nodes
+sent, and control data with a value of its own in every field. Prints its control port first, then
+waits for packets.
 """
 
+import math
 import socket
 import struct
 import sys
@@ -39,6 +42,7 @@ PLAYERS_OFFSET, PLAYERS, PLAYER_BYTES = 10, 20, 2
 CONTROL_BYTES = 118
 RETURN_FORMAT = "<4sBBBB3ff2f"  # header, version, playerNum, teamNum, fallen, pose, ballAge, ball
 RETURN_BYTES = 32
+TEAM_MESSAGE_FORMAT = "<4sBBB7f"  # header, version, player, flags, pose with cosine and sine, ball, age
 INITIAL, READY, SET = 0, 1, 2
 
 
@@ -58,9 +62,37 @@ def control_data(data):
     return message
 
 
-def check(message, number):
+def check_every_field(data):
+    message = control_data(data)
+    teams = message.pop("teams")
+    assert message == {
+        "header": b"RGme",
+        "version": 18,
+        "packetNumber": 77,
+        "playersPerTeam": 7,
+        "competitionPhase": 1,
+        "competitionType": 1,
+        "gamePhase": 2,
+        "state": 4,
+        "setPlay": 4,
+        "firstHalf": 1,
+        "kickingTeam": 99,
+        "secsRemaining": -258,
+        "secondaryTime": 513,
+    }, message
+    players = [team.pop("players") for team in teams]
+    expected = [
+        (24, 2, 7, 11, 12, 13, 0x1234, 1111),
+        (200, 8, 9, 14, 15, 16, 0x5678, 2222),
+    ]
+    for team, values in zip(teams, expected):
+        assert tuple(team[name] for _, _, name in TEAM) == values, team
+    for team, first in zip(players, [1, 101]):
+        assert team == [(10, first + index) for index in range(PLAYERS)], team
+
+
+def check(message):
     assert message["header"] == b"RGme" and message["version"] == 18, message
-    assert message["packetNumber"] == number, message
     assert message["playersPerTeam"] == 7, message
     assert message["competitionPhase"] == 0 and message["competitionType"] == 0, message
     assert message["gamePhase"] == 0 and message["firstHalf"] == 1, message
@@ -75,12 +107,12 @@ def check(message, number):
         penalized = [(0, 0)] * 7 + [(14, 0)] * 13
     elif message["state"] == READY:
         assert message["setPlay"] == 5 and message["kickingTeam"] == 200, message
-        assert 28 <= message["secondaryTime"] <= 30, message
+        assert 0 < message["secondaryTime"] <= 30, message
         penalized = [(0, 0)] * 7 + [(14, 0)] * 13
     else:
         assert message["state"] == SET and message["kickingTeam"] == 255, message
         penalty, seconds = own["players"][3]
-        assert penalty == 9 and 40 <= seconds <= 45, own
+        assert penalty == 9 and 0 < seconds <= 45, own
         penalized = [(0, 0)] * 3 + [(9, seconds)] + [(0, 0)] * 3 + [(14, 0)] * 13
     assert own["players"] == penalized, own
 
@@ -93,20 +125,32 @@ def check_return_data(data):
     assert all(abs(one - other) < 1e-3 for one, other in zip(values[5:], expected)), values
 
 
+def check_team_message(data):
+    assert len(data) == struct.calcsize(TEAM_MESSAGE_FORMAT) <= 128, len(data)
+    values = struct.unpack(TEAM_MESSAGE_FORMAT, data)
+    assert values[:4] == (b"HGtm", 1, 4, 7), values
+    expected = (-1.5, 0.25, math.cos(0.5), math.sin(0.5), 2.0, -0.125, 1.5)
+    assert all(abs(one - other) < 1e-6 for one, other in zip(values[4:], expected)), values
+
+
 def main():
-    check_return_data(bytes.fromhex(sys.argv[1]))
+    return_data, team_message, every_field = (bytes.fromhex(argument) for argument in sys.argv[1:])
+    check_return_data(return_data)
+    check_team_message(team_message)
+    check_every_field(every_field)
     robot = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
     robot.bind(("127.0.0.1", 0))
-    robot.settimeout(20)
+    robot.settimeout(60)
     print(robot.getsockname()[1], flush=True)
     states = []
-    first = None
+    last = None
     while states[-1:] != [SET]:
         data, sender = robot.recvfrom(2000)
         message = control_data(data)
-        # A slow start may leave out the first ones.
-        first = message["packetNumber"] - len(states) if first is None else first
-        check(message, first + len(states))
+        # A stall may leave some out.
+        assert last is None or message["packetNumber"] > last, (message, last)
+        last = message["packetNumber"]
+        check(message)
         states.append(message["state"])
         answer = struct.pack(RETURN_FORMAT, b"RGrt", 4, 4, 24, 0, -3000.0, 1.0, -0.25, -1.0, 0.0, 0.0)
         robot.sendto(answer, sender)
