@@ -131,7 +131,7 @@ mod tests {
         assert_eq!(at(4, "filter.gain.0"), "-1.5");
         // The line of another layer's file, or of a table.
         assert_eq!(at(4, "a"), "gain = -1.5  # none");
-        assert_eq!(at(3, "filter.missing"), "filter");
+        assert_eq!(at(3, "filter.missing"), "[filter]");
         assert_eq!(at(8, "other.list.0"), "1,");
         assert_eq!(at(99, "a"), "");
     }

@@ -1,6 +1,9 @@
 //! Parameter files: what lacks, what is too much, what has the wrong type.
 
+use crate::diagnostics::Diagnostics;
+use crate::pipeline;
 use crate::scan::fixture::{Fixture, Node, cycler};
+use crate::workspace::Workspace;
 
 /// A robot whose node `a` has these parameters.
 fn robot(fields: &str, targets: &str) -> Fixture {
@@ -289,4 +292,68 @@ fn a_file_that_is_no_toml_is_shown() {
     robot("a: Parameter<f32, \"a\">,", "")
         .file("parameters/default.toml", "a = \n")
         .expect("syntax", &["parameters/default.toml:1:"]);
+}
+
+#[test]
+fn what_serde_alone_can_read_is_opaque_and_nothing_else() {
+    let types = "
+        #[derive(Deserialize)]
+        #[serde(rename_all = \"camelCase\")]
+        pub struct Mixed {
+            pub plain_field: [u8; 2],
+            pub free_point: nalgebra::Point2<f32>,
+            #[serde(deserialize_with = \"read\")]
+            pub angle: f32,
+            pub inner: Inner,
+        }
+        #[derive(Deserialize)]
+        pub struct Inner { pub list: Vec<Option<Kind>>, pub time: std::time::Duration, pub more: Option<Box<Self>> }
+        #[derive(Deserialize)]
+        pub enum Kind { One, Two }
+        #[derive(Deserialize)]
+        pub enum Data { One, Two(f32) }
+        #[derive(Deserialize)]
+        #[serde(try_from = \"f32\")]
+        pub struct Speed { pub value: f32 }
+        pub struct ByHand { pub value: f32 }
+        #[derive(Deserialize)]
+        pub struct Clear { pub kind: Kind, pub pair: (f32, String), #[serde(default)] pub on: bool }
+    ";
+    let fields = "
+        a: Parameter<mixed::Mixed, \"mixed\">,
+        b: Parameter<mixed::Data, \"deep.data\">,
+        c: Parameter<mixed::Speed, \"deep.speed\">,
+        d: Parameter<mixed::ByHand, \"deep.by_hand\">,
+        e: Parameter<mixed::Clear, \"deep.clear\">,
+        f: Parameter<Vec<mixed::Clear>, \"list\">,
+        g: Parameter<Vec<mixed::Speed>, \"speeds\">,
+        h: Parameter<Option<char>, \"letter\">,
+    ";
+    let fixture = robot(fields, NAO)
+        .file("crates/types/src/lib.rs", "pub mod mixed;")
+        .file("crates/types/src/mixed.rs", types)
+        .file("parameters/default.toml", "")
+        .file("parameters/field/default.toml", "")
+        .file("parameters/lab/head.P1.toml", "");
+    let workspace = Workspace::in_memory(fixture.files());
+    let understood = pipeline::understand(&workspace, &mut Diagnostics::new());
+    let unchecked = understood
+        .expect("only parameter files have mistakes")
+        .unchecked;
+    assert_eq!(
+        unchecked.opaque,
+        [
+            "deep.by_hand",
+            "deep.data",
+            "deep.speed",
+            "mixed.angle",
+            "mixed.freePoint",
+            "mixed.inner.more",
+            "mixed.inner.time",
+            "speeds",
+        ]
+    );
+    let field = [Some("field".to_owned())];
+    assert!(unchecked.locations.iter().eq(&field));
+    assert!(unchecked.other_locations.iter().eq(["lab"]));
 }
