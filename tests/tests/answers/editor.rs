@@ -14,7 +14,7 @@ use crate::robot::Robot;
 #[derive(Debug, Deserialize)]
 #[serde(tag = "reason", rename_all = "kebab-case")]
 enum Line {
-    CompilerMessage(Compiled),
+    CompilerMessage(Box<Compiled>),
     BuildFinished(Finished),
     /// Of cargo alone.
     CompilerArtifact {},
@@ -277,8 +277,8 @@ fn check(message: &Message) -> (String, &'static str) {
             assert!(line.highlight_end <= length + 1, "{line:?}");
         }
         assert!(
-            !span.file_name.starts_with('/'),
-            "relative to the workspace: {span:?}"
+            span.file_name.starts_with('/'),
+            "found wherever cargo's workspace begins: {span:?}"
         );
         assert!(span.label.as_deref() != Some(""));
         // Nothing of ours is applied without being read.
@@ -286,7 +286,7 @@ fn check(message: &Message) -> (String, &'static str) {
         assert!(span.expansion.is_none());
     }
     for child in &message.children {
-        assert_eq!(child.level, Level::Help);
+        assert!([Level::Help, Level::Note].contains(&child.level));
         assert_eq!(child.message_type, None);
         assert!(child.spans.is_empty() && child.children.is_empty() && child.code.is_none());
     }
@@ -319,7 +319,7 @@ fn an_umlaut_is_one_column() {
         _ => None,
     });
     let mut spans = messages.flat_map(|message| message.spans);
-    let key = spans.find(|span| span.file_name == "parameters/default.toml");
+    let key = spans.find(|span| span.file_name.ends_with("/parameters/default.toml"));
     let key = key.expect("the parameter is unknown");
     assert_eq!(key.text[0].text, "\"größe\" = 1");
     assert_eq!((key.column_start, key.column_end), (1, 8));
