@@ -226,7 +226,7 @@ fn manifest() -> String {
     members.retain(|member| {
         let member = member.as_str().unwrap_or_default();
         let is_below = |folder: &&str| Path::new(member).starts_with(folder);
-        FOLDERS.iter().any(|folder| is_below(&folder)) && member != "framework/loom"
+        FOLDERS.iter().any(is_below) && member != "framework/loom"
     });
     manifest.to_string()
 }
