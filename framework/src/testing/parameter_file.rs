@@ -22,7 +22,7 @@ impl ParameterFile {
         }
     }
 
-    /// The value at a path, as a node's `Parameter` names it: `ball_filter.gate`.
+    /// The value at a path, as a node's `Parameter` names it: `filter.gate`.
     ///
     /// # Panics
     /// If the file has no such value, or one of another type.

@@ -157,6 +157,7 @@ fn the_json_has_the_keys_of_the_contract() {
             "wait_us",
             "setup_us",
             "framework_us",
+            "scheduling",
             "nodes",
             "queues"
         ]
