@@ -1,7 +1,10 @@
 //! Late errors: what only rustc finds stands at the field or the line of the manifest that it comes from.
 
 use std::fs;
+use std::path::Path;
 use std::process::Command;
+use std::sync::{Mutex, PoisonError};
+use std::time::SystemTime;
 
 use serde_json::Value;
 use support::target_folder;
@@ -36,7 +39,13 @@ impl Robot {
     }
 
     /// `check --cargo` with packages compiled where those of the tests are.
+    ///
+    /// To cargo the packages of all blank robots are the same, whichever folder they lie in: one robot at a time, and what
+    /// another one compiled is always old.
     fn check(&self, form: &str) -> (Option<i32>, String) {
+        static TURN: Mutex<()> = Mutex::new(());
+        let _turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
+        touch_sources(&self.folder.path().join("robot"));
         let target = target_folder();
         let mut command = Command::new(target.join("hulkgen"));
         command
@@ -65,6 +74,20 @@ impl Robot {
         let first = errors.next().expect("there is an error").clone();
         assert!(errors.next().is_none(), "{answer:#}");
         first
+    }
+}
+
+/// Gives every Rust file below the folder the time of now.
+fn touch_sources(folder: &Path) {
+    for entry in fs::read_dir(folder).expect("the folder is ours") {
+        let path = entry.expect("it was just listed").path();
+        if path.is_dir() {
+            touch_sources(&path);
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            let file = fs::File::options().append(true).open(&path);
+            let touched = file.and_then(|file| file.set_modified(SystemTime::now()));
+            touched.expect("the folder is ours");
+        }
     }
 }
 
