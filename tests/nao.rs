@@ -79,11 +79,12 @@ impl Nao {
     }
 
     /// Runs until `seconds` of virtual time; `observe` sees every instance after each finished cycle.
+    /// No node fails and no event is missed.
     pub fn run(&mut self, seconds: f64, observe: impl FnMut(&Hardware, &dyn Instance)) {
         self.drive(None, seconds, observe);
     }
 
-    /// The same under chaos.
+    /// The same under chaos, where events may be missed.
     pub fn run_in_chaos(
         &mut self,
         seed: u64,
@@ -114,6 +115,14 @@ impl Nao {
             .run_until(end, |instance| observe(&hardware, instance))
             .expect("the robot does not stop");
         self.paused = Some(lockstep.pause());
+        for instance in &self.robot.instances {
+            let (name, counts) = (instance.description().name, instance.report().counts);
+            assert_eq!(counts.failures, 0, "calls of nodes failed in {name}");
+            // Under chaos cycles take so long that events are missed.
+            if chaos.is_none() {
+                assert_eq!(counts.missed, 0, "events were missed by {name}");
+            }
+        }
     }
 }
 

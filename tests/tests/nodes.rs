@@ -1,4 +1,4 @@
-//! Every node of the NAO is needed: without any one of them the generator or a named robot-level test complains.
+//! Every node of the NAO is needed, since without any one of them the generator complains, and has a test of its own.
 
 use std::fs;
 
@@ -6,9 +6,6 @@ use hulkgen::diagnostics::Diagnostics;
 use hulkgen::pipeline;
 use hulkgen::workspace::Workspace;
 use support::{root, sources};
-
-/// Nodes whose absence the generator cannot see, and the test that does.
-const SEEN_BY_TESTS: &[(&str, &str)] = &[];
 
 /// What `check --deny-warnings` says first about the NAO with this manifest; `None` if nothing.
 fn complaint(files: &[(String, String)], manifest: &str) -> Option<String> {
@@ -89,11 +86,7 @@ fn the_robot_without_any_one_node_is_noticed() {
     assert!(nodes.len() >= 50, "{} nodes", nodes.len());
     let (mut unnoticed, mut table) = (Vec::new(), String::new());
     for (node, manifest) in nodes {
-        let noticed = complaint(&files, &manifest).or_else(|| {
-            let seen = SEEN_BY_TESTS.iter().find(|(seen, _)| *seen == node);
-            seen.map(|(_, test)| format!("test `{test}`"))
-        });
-        match noticed {
+        match complaint(&files, &manifest) {
             Some(noticed) => table.push_str(&format!("| `{node}` | {noticed} |\n")),
             None => unnoticed.push(node),
         }
@@ -105,4 +98,26 @@ fn the_robot_without_any_one_node_is_noticed() {
         page.ends_with(&table),
         "the table of docs/nao.md is another: replace it by the one above"
     );
+}
+
+#[test]
+fn every_node_has_a_test_in_its_file_or_beside_it() {
+    let manifest = fs::read_to_string(root().join("hulk.toml")).expect("the NAO has a manifest");
+    let untested: Vec<String> = without_each_node(&manifest)
+        .into_iter()
+        .map(|(node, _)| node)
+        .filter(|node| {
+            let (package, module) = node.split_once("::").expect("a node is `crate::module`");
+            let module = module.replace("::", "/");
+            let folder = root().join(format!("robotics/{package}/src"));
+            let file = fs::read_to_string(folder.join(format!("{module}.rs")))
+                .expect("the node's file is there");
+            let beside = fs::read_to_string(folder.join(format!("{module}/tests.rs")));
+            let is_tested = file.contains("#[test]")
+                || file.contains("mod tests;")
+                    && beside.is_ok_and(|beside| beside.contains("#[test]"));
+            !is_tested
+        })
+        .collect();
+    assert!(untested.is_empty(), "no test in {untested:?}");
 }

@@ -1,19 +1,26 @@
 //! What the NAO hears, reads, feels and sees, in lockstep, against the truth that its nodes cannot see.
 
-use std::collections::VecDeque;
+use std::collections::{BTreeSet, VecDeque};
 
+use framework::report::QueueReport;
 use framework::{Digest, Timestamp};
 use nalgebra::{Isometry2, Point2, Point3};
-use simulated_nao::RobotTruth;
+use simulated_nao::scene::{Robot, Team};
+use simulated_nao::{BallTruth, GroundTruth, ImageTruth, RobotTruth};
+use spl_messages::{control_data, team_message};
 use support::nao::{Nao, balls, camera_of, output};
 use types::audio::Whistle;
 use types::ball::LearntImage;
 use types::fall_state::FallState;
-use types::game::{GameControllerState, GameState, Penalty, PrimaryState};
+use types::game::{
+    GameControllerMessage, GameControllerState, GameState, KickingTeam, PrimaryState,
+};
+use types::leds::Leds;
+use types::motion::{BodyMotion, HeadMotion, MotionCommand};
 use types::network::PacketCounts;
 use types::obstacles::Obstacle;
 use types::odometry::Odometry;
-use types::team::Teammate;
+use types::team::{TeamMessage, Teammate};
 
 /// Until then the robot takes its pose.
 const SETTLED: Timestamp = Timestamp::from_nanos(4_000_000_000);
@@ -74,10 +81,10 @@ const GAME: &str = r#"[
     { at = 0.0, state = "Standby" },
     { at = 2.0, state = "Ready", kicking_team = "Opponent" },
     { at = 4.0, state = "Set" },
-    { at = 6.0, state = "Playing" },
-    { at = 8.0, state = "Playing", penalty = "PlayerPushing" },
-    { at = 10.0, state = "Playing" },
-    { at = 12.0, state = "Finished" },
+    { at = 6.0, state = "Playing", score = [2, 0] },
+    { at = 8.0, state = "Playing", score = [2, 1], penalty = "PlayerPushing", kicking_team = "Nobody" },
+    { at = 10.0, state = "Playing", score = [2, 1] },
+    { at = 12.0, state = "Finished", score = [2, 3] },
 ]"#;
 
 #[test]
@@ -90,7 +97,8 @@ fn the_robot_is_in_the_state_that_the_packets_say() {
         ],
     );
     let mut states: Vec<(f64, PrimaryState)> = Vec::new();
-    let mut compared = 0;
+    let (mut compared, mut penalized) = (0, 0);
+    let (mut kickers, mut scores) = (BTreeSet::new(), BTreeSet::new());
     nao.run(14.0, |hardware, instance| {
         if instance.description().name != "Control" {
             return;
@@ -100,20 +108,38 @@ fn the_robot_is_in_the_state_that_the_packets_say() {
         if states.last().is_none_or(|(_, last)| *last != primary_state) {
             states.push((now, primary_state));
         }
+        let command: MotionCommand = output(instance, "motion_command");
+        let chest = output::<Option<Leds>>(instance, "leds")
+            .expect("the node does not fail")
+            .chest;
+        let is_penalized = primary_state == PrimaryState::Penalized;
+        assert_eq!(command.body == BodyMotion::Penalized, is_penalized, "{now}");
+        let is_red = chest.red > 0.5 && chest.green < 0.1 && chest.blue < 0.1;
+        assert_eq!(is_red, is_penalized, "{chest:?} at {now}");
+        penalized += usize::from(is_penalized);
         let known: Option<GameControllerState> = output(instance, "game_controller_state");
         // A packet takes 1 ms, and up to one cycle until it is used.
         if let (Some(known), Some(sent)) = (known, hardware.network_truth().game_message)
             && instance.cycle().time.start - known.received_at
                 < std::time::Duration::from_millis(400)
         {
-            let own = sent
-                .teams
-                .iter()
-                .find(|team| team.number == 77)
-                .expect("our team plays");
+            let [own, opponent] = sent.teams;
+            assert_eq!(own.number, 77);
+            let kicking_team = match sent.kicking_team {
+                Some(77) => KickingTeam::Own,
+                Some(_) => KickingTeam::Opponent,
+                None => KickingTeam::Nobody,
+            };
             assert_eq!(known.game_state, sent.game_state, "at {now}");
+            assert_eq!(known.kicking_team, kicking_team, "at {now}");
             assert_eq!(known.penalty, own.players[0].penalty, "at {now}");
             assert_eq!(known.seconds_remaining, sent.seconds_remaining, "at {now}");
+            let score = [known.own_score, known.opponent_score];
+            assert_eq!(score, [own.score, opponent.score], "at {now}");
+            assert_eq!(known.message_budget, own.message_budget, "at {now}");
+            assert!(known.message_budget > 0);
+            kickers.insert(format!("{kicking_team:?}"));
+            scores.insert(score);
             compared += 1;
         }
     });
@@ -131,36 +157,95 @@ fn the_robot_is_in_the_state_that_the_packets_say() {
         assert!((said..said + 0.6).contains(at), "{state:?} at {at}");
     }
     assert!(compared > 500, "{compared} comparisons");
+    assert!(penalized > 100, "penalised in {penalized} cycles");
+    assert_eq!(kickers.len(), 3, "{kickers:?}");
+    assert_eq!(scores.len(), 4, "{scores:?}");
 }
 
 #[test]
 fn hostile_packets_are_counted_and_change_nothing() {
-    let options = ["--no-cameras", "--no-sound"];
+    let options = ["--no-cameras", "--no-sound", "--game", "Playing"];
     let mut nao = Nao::new(&options, &[]);
     nao.run(1.0, |_, _| {});
-    let hostile: [&[u8]; 4] = [b"", b"RGme", &[0xff; 118], &[0; 1500]];
-    for bytes in hostile {
+    let before = game_and_mates(&nao);
+    let (game, mates) = &before;
+    assert_eq!(game.game_state, GameState::Playing);
+    assert_eq!(mates.len(), 1, "{mates:?}");
+
+    // What would end the game, and what would make the mate fall, but for one byte.
+    let end = control_data::encode(&GameControllerMessage {
+        game_state: GameState::Finished,
+        packet_number: 10,
+        ..nao.hardware.network_truth().game_message.expect("it spoke")
+    });
+    let fallen = TeamMessage {
+        player_number: 2,
+        is_fallen: true,
+        ..TeamMessage::default()
+    };
+    let mut room = [0; team_message::GREATEST_LENGTH];
+    let fallen = team_message::encode(&fallen, &mut room).expect("it can be said");
+    let with_version = |bytes: &[u8], version: u8| {
+        let mut bytes = bytes.to_vec();
+        bytes[4] = version;
+        bytes
+    };
+    let [end_of_another_version, fallen_of_another_version] =
+        [with_version(&end, 17), with_version(fallen, 2)];
+    let hostile: [&[u8]; 8] = [
+        b"",
+        b"RGme",
+        &[0xff; 118],
+        &[0; 1500],
+        &end_of_another_version,
+        &end[..117],
+        &fallen_of_another_version,
+        &fallen[..fallen.len() - 1],
+    ];
+    for (bytes, until) in hostile.into_iter().zip(1..) {
         nao.hardware
             .send_to_control_port(bytes)
             .expect("it has sockets");
         nao.hardware
             .send_to_team_port(bytes)
             .expect("it has sockets");
+        // Time for two cycles and a packet of somebody else.
+        nao.run(1.0 + 0.07 * f64::from(until), |_, _| {});
     }
     nao.run(2.0, |_, _| {});
     let network = nao.robot.instance("SplNetwork").expect("it runs");
     let counts = |name| output::<PacketCounts>(network, name);
-    assert_eq!(counts("game_controller_counts").rejected, 4);
-    assert_eq!(counts("team_message_counts").rejected, 4);
+    assert_eq!(counts("game_controller_counts").rejected, 8);
+    assert_eq!(counts("team_message_counts").rejected, 8);
+    // The referee's computer and the mate were heard meanwhile, and say the same.
     assert_eq!(counts("game_controller_counts").accepted, 4);
-    assert_eq!(network.report().counts.failures, 0);
+    assert_eq!(counts("team_message_counts").accepted, 2);
+    assert_eq!(game_and_mates(&nao), before);
+    // Whole and of the right version they would not be harmless.
+    nao.hardware
+        .send_to_control_port(&end)
+        .expect("it has sockets");
+    nao.hardware
+        .send_to_team_port(fallen)
+        .expect("it has sockets");
+    nao.run(2.09, |_, _| {});
+    let network = nao.robot.instance("SplNetwork").expect("it runs");
+    let counts = |name| output::<PacketCounts>(network, name);
+    assert_eq!(counts("game_controller_counts").accepted, 5);
+    assert!(game_and_mates(&nao).1[0].is_fallen);
+}
+
+/// What the robot knows from others, without the times and clocks that go on.
+fn game_and_mates(nao: &Nao) -> (GameControllerState, Vec<TeamMessage>) {
     let control = nao.robot.instance("Control").expect("it runs");
-    let known: Option<GameControllerState> = output(control, "game_controller_state");
-    let known = known.expect("the referee is heard");
-    assert_eq!(
-        (known.game_state, known.penalty),
-        (GameState::Initial, Penalty::None)
-    );
+    let game: Option<GameControllerState> = output(control, "game_controller_state");
+    let game = GameControllerState {
+        received_at: Timestamp::ZERO,
+        seconds_remaining: 0,
+        ..game.expect("the referee is heard")
+    };
+    let mates: Vec<Teammate> = output(control, "teammates");
+    (game, mates.into_iter().map(|mate| mate.message).collect())
 }
 
 #[test]
@@ -185,11 +270,27 @@ fn a_standing_robot_does_not_move_and_does_not_fall() {
         poses[0],
         poses.last()
     );
+    // Taking its pose the robot has moved its feet, but not from its place.
+    let (way, turn) = (
+        poses[0].translation.vector.norm(),
+        poses[0].rotation.angle(),
+    );
+    println!("{way} m and {turn} rad from the start");
+    assert!(way < 0.01 && turn.abs() < 0.01, "{way} m, {turn} rad");
+}
+
+/// Whether no pixel of the image can show the ball.
+fn is_out_of_sight(truth: &ImageTruth) -> bool {
+    truth.ball.is_none_or(|BallTruth { center, radius, .. }| {
+        let is_within =
+            |place: f32, size: f32| (-radius - 1.0..size + radius + 1.0).contains(&place);
+        !is_within(center.x, 640.0) || !is_within(center.y, 480.0)
+    })
 }
 
 #[test]
 fn a_ball_that_is_seen_lies_where_it_is_said_to_lie() {
-    let (mut seen, mut worst) = (0, 0.0_f32);
+    let (mut seen, mut worst, mut without, mut wrong) = (0, 0.0_f32, 0, Vec::new());
     for ball in ["2.9,0.3", "3.4,-0.3", "4.0,0.5"] {
         let mut nao = Nao::new(&["--ball", ball, "--no-sound"], &[]);
         nao.run(12.0, |hardware, instance| {
@@ -202,12 +303,21 @@ fn a_ball_that_is_seen_lies_where_it_is_said_to_lie() {
             let truth = hardware
                 .image_truth(camera, instance.cycle().time.start)
                 .expect("every cycle of Vision is about an image that was exposed");
+            let found = balls(instance);
+            if is_out_of_sight(&truth) {
+                without += 1;
+                wrong.extend(found);
+                return;
+            }
             if !truth.ball.is_some_and(|ball| ball.is_whole) {
                 return;
             }
             let field = hardware.ground_truth().ball.expect("there is one");
             let expected = (truth.ground_to_field.inverse() * field).xy();
-            for position in balls(instance).iter().filter_map(|ball| ball.position) {
+            for ball in found {
+                let position = ball
+                    .position
+                    .expect("the robot stands, so it knows where its cameras are");
                 let distance = (position - expected).norm();
                 let allowed = 0.05 + 0.1 * expected.coords.norm();
                 worst = worst.max(distance / allowed);
@@ -217,10 +327,13 @@ fn a_ball_that_is_seen_lies_where_it_is_said_to_lie() {
         });
     }
     println!(
-        "{seen} balls, the worst at {:.0} % of what is allowed",
-        worst * 100.0
+        "{seen} balls, the worst at {:.0} % of what is allowed; {} in {without} images without",
+        worst * 100.0,
+        wrong.len()
     );
     assert!(seen >= 200, "{seen} balls only");
+    assert!(without >= 200, "{without} images without a ball only");
+    assert!(wrong.is_empty(), "{wrong:?}");
 }
 
 /// Whether the image of this cycle shows both feet of a robot, uncovered by the image's edge, within 3.5 m.
@@ -326,12 +439,17 @@ fn what_leaves_the_robot_is_what_people_and_computers_expect() {
     assert_eq!(network.team_message_counts.rejected, 0);
     let control = nao.robot.instance("Control").expect("it runs");
     let teammates: Vec<Teammate> = output(control, "teammates");
-    let numbers: Vec<u8> = teammates
-        .iter()
-        .map(|mate| mate.message.player_number)
-        .collect();
-    assert_eq!(numbers.len(), 1, "{teammates:?}");
-    assert_ne!(numbers[0], 1, "the robot is no team mate of itself");
+    // One: the robot is no team mate of itself.
+    assert_eq!(teammates.len(), 1, "{teammates:?}");
+    let mate = teammates[0].message;
+    let truth = nao.hardware.ground_truth();
+    let is_mate = |robot: &&Robot| robot.team == Team::Own && robot.number == mate.player_number;
+    let robot = truth.robots.iter().find(is_mate);
+    let robot = robot.expect("the cameras could see who speaks");
+    let expected = Isometry2::new(robot.position.coords, robot.heading).cast::<f32>();
+    let pose = mate.ground_to_field.expect("it knows its place");
+    assert!((pose.translation.vector - expected.translation.vector).norm() < 1e-6);
+    assert!(pose.rotation.angle_to(&expected.rotation).abs() < 1e-6);
     // The whistle at 12 s began the game: one tone for it, and none in Set.
     let tones = nao.hardware.tones();
     let whistle_tones: Vec<f64> = tones
@@ -355,40 +473,126 @@ fn what_leaves_the_robot_is_what_people_and_computers_expect() {
     assert!(output::<bool>(control, "is_recording_wanted"));
 }
 
-/// Delivered measurements of the ball filter, and a digest of everything, in one chaos.
-fn chaotic(seed: u64) -> (Vec<Timestamp>, String, u64) {
+#[test]
+fn what_the_robot_tells_of_itself_and_the_ball_is_true() {
+    let options = ["--no-sound", "--game", "Playing", "--ball", "2.9,0.3"];
+    let mut nao = Nao::new(&options, &[]);
+    let (mut looks, mut worst) = (0, 0.0_f32);
+    nao.run(16.0, |hardware, instance| {
+        if instance.description().name != "Control" || instance.cycle().time.start < SETTLED {
+            return;
+        }
+        let command: MotionCommand = output(instance, "motion_command");
+        if let HeadMotion::LookAt(point) = command.head {
+            looks += 1;
+            worst = worst.max(share_of_allowed(&hardware.ground_truth(), point));
+        }
+    });
+    println!("looked at the ball in {looks} cycles, at most {worst} of what is allowed off");
+    assert!(looks > 500, "looked at the ball in {looks} cycles");
+    assert!(worst <= 1.0, "{worst}");
+    let (network, truth) = (nao.hardware.network_truth(), nao.hardware.ground_truth());
+    let answer = network.return_data.last().expect("the robot has answered");
+    let message = network.team_messages.last().expect("the robot has spoken");
+    assert!(seconds(answer.at) > 14.0 && seconds(message.at) > 14.0);
+    let told = [
+        (answer.message.is_fallen, answer.message.ball),
+        (message.message.is_fallen, message.message.ball),
+    ];
+    for (is_fallen, ball) in told {
+        let ball = ball.expect("the ball lies before the robot");
+        assert!(!is_fallen);
+        assert!(ball.age < 2.0, "{ball:?}");
+        let share = share_of_allowed(&truth, ball.position);
+        assert!(share <= 1.0, "{ball:?} is {share} of what is allowed off");
+    }
+    let answer = answer.message;
+    assert_eq!((answer.player_number, answer.team_number), (1, 77));
+    assert_eq!(message.message.player_number, 1);
+}
+
+/// How far a place in the ground frame is from the ball, as a share of 10 % and 5 cm.
+fn share_of_allowed(truth: &GroundTruth, place: Point2<f32>) -> f32 {
+    let ball = truth.ball.expect("there is one");
+    let ball = (truth.ground_to_field.inverse() * ball).xy();
+    (place - ball).norm() / (0.05 + 0.1 * ball.coords.norm())
+}
+
+/// What became of the images of one chaos.
+#[derive(Debug, PartialEq)]
+struct Chaotic {
+    /// The images that the ball filter learnt, as it learnt them.
+    delivered: Vec<Timestamp>,
+    /// The images of both cameras in the order in which Vision had finished with them.
+    finished: Vec<Timestamp>,
+    queues: Vec<QueueReport>,
+    /// Of everything.
+    digest: String,
+}
+
+fn chaotic(seed: u64) -> Chaotic {
     let mut nao = Nao::new(&["--ball", "2.9,0.2"], &[]);
     let access = nao.robot.access("Control").expect("it is an instance");
     assert!(access.subscriptions.subscribe("ball_filter.delivered"));
-    let (mut delivered, mut digest) = (Vec::new(), Digest::default());
+    let (mut delivered, mut finished) = (Vec::new(), Vec::new());
+    let mut digest = Digest::default();
     nao.run_in_chaos(seed, 3.0, |_, instance| {
         digest.add_cycle(instance).expect("outputs can be digested");
+        if camera_of(instance).is_some() {
+            finished.push(instance.cycle().time.start);
+        }
         if let Some(times) = instance.additional_output("ball_filter.delivered") {
             let times = serde_json::to_value(times.as_serialize()).expect("outputs serialise");
             let images: Vec<LearntImage> = serde_json::from_value(times).expect("they are images");
             delivered.extend(images.iter().map(|image| image.captured_at));
         }
     });
-    let cameras = ["VisionTop", "VisionBottom"].map(|name| {
-        let report = nao.robot.instance(name).expect("it runs").report();
-        report.counts.cycles
-    });
-    (delivered, digest.to_string(), cameras.iter().sum())
+    let control = nao.robot.instance("Control").expect("it runs");
+    Chaotic {
+        delivered,
+        finished,
+        queues: control.report().queues,
+        digest: digest.to_string(),
+    }
 }
 
 #[test]
 fn whatever_the_chaos_the_ball_filter_takes_images_in_the_order_of_their_capture() {
     let runs: Vec<_> = (0..8).map(chaotic).collect();
-    for (seed, (delivered, _, images)) in runs.iter().enumerate() {
-        assert!(delivered.is_sorted(), "seed {seed}: {delivered:?}");
+    let mut overtaking = 0;
+    for (seed, run) in runs.iter().enumerate() {
+        let Chaotic {
+            delivered,
+            finished,
+            queues,
+            ..
+        } = run;
+        let is_later = |pair: &[Timestamp]| pair[0] < pair[1];
         assert!(
-            delivered.len() as u64 + 8 >= *images,
-            "seed {seed}: {} of {images}",
-            delivered.len()
+            delivered.windows(2).all(is_later),
+            "seed {seed}: {delivered:?}"
         );
-        assert!(delivered.len() > 160, "seed {seed}: {}", delivered.len());
+        overtaking += finished.windows(2).filter(|pair| !is_later(pair)).count();
+        // The last ones may not be settled yet.
+        let (learnt, images) = (delivered.len(), finished.len());
+        assert!(
+            learnt <= images && learnt + 8 >= images,
+            "seed {seed}: {learnt} of {images}"
+        );
+        assert!(learnt > 160, "seed {seed}: {learnt}");
+        assert!(delivered.iter().all(|image| finished.contains(image)));
+        for queue in queues {
+            let lost = (queue.counts.dropped, queue.counts.expired);
+            assert_eq!(lost, (0, 0), "seed {seed}: {queue:?}");
+        }
+        assert_eq!(queues.len(), 4, "{queues:?}");
     }
-    let mut digests: Vec<&String> = runs.iter().map(|(_, digest, _)| digest).collect();
+    println!("images were finished before older ones {overtaking} times");
+    assert!(
+        overtaking > 0,
+        "no chaos finished images out of order: nothing was shown"
+    );
+    let mut digests: Vec<&String> = runs.iter().map(|run| &run.digest).collect();
     digests.sort();
     digests.dedup();
     assert_eq!(digests.len(), runs.len(), "every chaos is another");
