@@ -1,7 +1,8 @@
 //! Computes from the joint angles where the robot's centre of mass is: over it the robot balances.
 //!
-//! It walks the chains again because `robot_kinematics` does not hold every link, and is a node of its
-//! own so that whoever replaces the mass model replaces one node.
+//! It walks the chains a second time in a cycle, after `forward_kinematics`: `robot_kinematics` holds
+//! only the links that others read, and not every link that has a mass. It is a node of its own so
+//! that whoever replaces the mass model replaces one node.
 
 use framework::{Input, MainOutput, Result, context};
 use kinematics::forward_kinematics;

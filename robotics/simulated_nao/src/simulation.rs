@@ -104,7 +104,8 @@ pub(crate) struct Simulation {
     /// When the states that nobody has read were sent.
     unread: VecDeque<Timestamp>,
     bodies: VecDeque<BodyTruth>,
-    image_truths: PerCamera<VecDeque<ImageTruth>>,
+    /// What the images of the last exposures show, read or not.
+    exposed: PerCamera<VecDeque<Exposure>>,
     tones: VecDeque<Received<Tone>>,
     /// Instances that have more to read than they had events, since their cycles took too long.
     pub(crate) is_behind: BTreeSet<&'static str>,
@@ -135,7 +136,7 @@ impl Simulation {
             waiting: PerCamera::default(),
             unread: VecDeque::new(),
             bodies: VecDeque::new(),
-            image_truths: PerCamera::default(),
+            exposed: PerCamera::default(),
             tones: VecDeque::new(),
             is_behind: BTreeSet::new(),
             garble_state: false,
@@ -300,10 +301,7 @@ impl Simulation {
         let number = self.exposures.of_mut(camera);
         let exposure = self.world.expose(camera, *number);
         *number += 1;
-        remember(
-            self.image_truths.of_mut(camera),
-            ImageTruth::from(&exposure),
-        );
+        remember(self.exposed.of_mut(camera), exposure.clone());
         let waiting = self.waiting.of_mut(camera);
         waiting.push_back(exposure);
         // A camera has two buffers; the older image is lost.
@@ -388,11 +386,11 @@ impl Simulation {
         camera: CameraPosition,
         captured_at: Timestamp,
     ) -> Option<ImageTruth> {
-        let truths = self.image_truths.of(camera);
-        truths
+        let exposed = self.exposed.of(camera);
+        exposed
             .iter()
-            .rfind(|truth| truth.captured_at == captured_at)
-            .cloned()
+            .rfind(|exposure| exposure.captured_at == captured_at)
+            .map(ImageTruth::from)
     }
 }
 
