@@ -16,7 +16,7 @@ use hulkgen::pipeline;
 use hulkgen::render::GeneratedFiles;
 use hulkgen::workspace::{Changes, Workspace};
 use serde_json::Value;
-use support::{root, target_folder};
+use support::root;
 
 use crate::mutants::{self, KINDS, Mutant};
 use crate::reading::{with_idle_bodies, without_bodies};
@@ -127,7 +127,8 @@ impl Copy {
         let output = Command::new(cargo)
             .args(["check", "--offline", "--message-format=json"])
             .args(["--package", "nao_runtime", "--keep-going", "--target-dir"])
-            .arg(target_folder().parent().expect("target/<profile>"))
+            // To cargo its packages are those of the repository: what is compiled here must not take their place.
+            .arg(self.folder.with_file_name("target"))
             .current_dir(&self.folder)
             .output()
             .expect("cargo runs these tests, so it is there");
