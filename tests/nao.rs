@@ -118,8 +118,9 @@ impl Nao {
         for instance in &self.robot.instances {
             let (name, counts) = (instance.description().name, instance.report().counts);
             assert_eq!(counts.failures, 0, "calls of nodes failed in {name}");
-            // Under chaos cycles take so long that events are missed.
-            if chaos.is_none() {
+            // Under chaos cycles take so long that events are missed. A datagram that comes while another one waits is an
+            // event less and read all the same.
+            if chaos.is_none() && name != "SplNetwork" {
                 assert_eq!(counts.missed, 0, "events were missed by {name}");
             }
         }
