@@ -65,9 +65,16 @@ const CHOOSE_CORES: &str =
 const CHOOSE_PRIORITY: &str = "a real-time policy takes `priority = 1` to `99`, `other` takes none";
 
 impl Scheduling {
+    /// Leaves everything to the system.
+    pub const BY_THE_SYSTEM: Self = Self {
+        policy: None,
+        priority: None,
+        cores: &[],
+    };
+
     /// Whether it leaves everything to the system.
     pub fn is_default(&self) -> bool {
-        *self == Self::default()
+        *self == Self::BY_THE_SYSTEM
     }
 
     /// Asks for all of it, for the calling thread; what is refused stays as the system has it.

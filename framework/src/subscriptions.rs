@@ -37,15 +37,13 @@ impl Subscriptions {
         }
     }
 
-    /// Whether somebody listens to the name at this index: one atomic load.
+    /// Whether somebody listens, name after name in the order of [`Subscriptions::names`].
     #[inline]
-    pub fn contains(&self, index: usize) -> bool {
-        self.listeners
-            .get(index)
-            .is_some_and(|listeners| listeners.load(Ordering::Relaxed) > 0)
+    pub fn wanted(&self) -> Wanted<'_> {
+        Wanted(self.listeners.iter())
     }
 
-    /// All that can be listened to, in the order of the indices.
+    /// All that can be listened to.
     pub fn names(&self) -> &'static [&'static str] {
         self.names
     }
@@ -53,5 +51,18 @@ impl Subscriptions {
     fn listeners_of(&self, name: &str) -> Option<&AtomicU32> {
         let index = self.names.iter().position(|known| *known == name)?;
         self.listeners.get(index)
+    }
+}
+
+/// Answers for one name after the other. Generated code asks in the order in which it gave the names.
+#[derive(Debug)]
+pub struct Wanted<'a>(std::slice::Iter<'a, AtomicU32>);
+
+impl Wanted<'_> {
+    /// Whether somebody listens to the next name: one atomic load. `false` behind the last.
+    #[inline]
+    pub fn next_one(&mut self) -> bool {
+        let listeners = self.0.next();
+        listeners.is_some_and(|listeners| listeners.load(Ordering::Relaxed) > 0)
     }
 }

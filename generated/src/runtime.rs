@@ -55,55 +55,27 @@ where
     let (control_writer, [control_for_vision_top, control_for_vision_bottom], []) = buffer([]);
     let (
         parameters,
-        [parameters_for_vision_top,
-        parameters_for_vision_bottom,
-        parameters_for_spl_network,
-        parameters_for_audio,
-        parameters_for_control,
+        [
+            parameters_for_vision_top,
+            parameters_for_vision_bottom,
+            parameters_for_spl_network,
+            parameters_for_audio,
+            parameters_for_control,
         ],
         [],
     ) = buffer_of(|| start.parameters.clone(), []);
 
     // What clients write, listen to and call.
     let (vision_top_injections, [vision_top_injected], []) = buffer([]);
-    let vision_top_subscriptions = Subscriptions::new(
-        &[
-            "ball_candidates",
-            "field_border_points",
-            "image_lines",
-            "line_points",
-            "obstacle_feet",
-            "penalty_mark_candidates",
-        ],
-    );
+    let vision_top_subscriptions = Subscriptions::new(vision::ADDITIONAL_OUTPUTS);
     let (vision_bottom_injections, [vision_bottom_injected], []) = buffer([]);
-    let vision_bottom_subscriptions = Subscriptions::new(
-        &[
-            "ball_candidates",
-            "field_border_points",
-            "image_lines",
-            "line_points",
-            "obstacle_feet",
-            "penalty_mark_candidates",
-        ],
-    );
+    let vision_bottom_subscriptions = Subscriptions::new(vision::ADDITIONAL_OUTPUTS);
     let (spl_network_injections, [spl_network_injected], []) = buffer([]);
-    let spl_network_subscriptions = Subscriptions::new(
-        &["game_controller_parser.refusal", "team_message_parser.refusal"],
-    );
+    let spl_network_subscriptions = Subscriptions::new(spl_network::ADDITIONAL_OUTPUTS);
     let (audio_injections, [audio_injected], []) = buffer([]);
-    let audio_subscriptions = Subscriptions::new(&["whistle_detection.peaks"]);
+    let audio_subscriptions = Subscriptions::new(audio::ADDITIONAL_OUTPUTS);
     let (control_injections, [control_injected], []) = buffer([]);
-    let control_subscriptions = Subscriptions::new(
-        &[
-            "ball_filter.delivered",
-            "ball_filter.hypotheses",
-            "ball_filter.persistent_ball",
-            "fall_state_filter.center_of_mass_overhang",
-            "orientation_filter.innovation",
-            "whistle_filter.votes",
-        ],
-    );
+    let control_subscriptions = Subscriptions::new(control::ADDITIONAL_OUTPUTS);
     let (control_look_at, control_look_at_answerer) = procedure();
 
     let vision_top = Cycler::new(

@@ -179,6 +179,13 @@ impl CyclerModel {
         self.outputs.iter().any(|output| output.shared)
     }
 
+    /// Whether clients see the same names of additional outputs in every instance.
+    pub fn names_are_shared(&self) -> bool {
+        self.additional_outputs
+            .iter()
+            .all(|output| output.names.len() == 1)
+    }
+
     /// Whether the parameters are read at all.
     pub fn has_parameters(&self) -> bool {
         self.frame

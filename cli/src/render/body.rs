@@ -28,8 +28,11 @@ pub(super) fn render_body(cycler: &CyclerModel, runtime: &Runtime) -> String {
     let (parameter, argument) = quote_generics(cycler, false);
     let (bounded, _) = quote_generics(cycler, true);
     let name = ident(&cycler.body);
+    let additional_outputs = quote_additional_outputs(cycler);
     let items = quote! {
         #(#descriptions)*
+
+        #additional_outputs
 
         #body
 
@@ -49,6 +52,20 @@ pub(super) fn render_body(cycler: &CyclerModel, runtime: &Runtime) -> String {
         cycler.name
     );
     layout::rust_file(&title, &database_modules(cycler), items)
+}
+
+/// The constant with the names of additional outputs, where all instances have the same.
+fn quote_additional_outputs(cycler: &CyclerModel) -> Option<TokenStream> {
+    let mut names = cycler.additional_outputs.iter().map(|output| &output.names);
+    if !cycler.names_are_shared() || names.len() == 0 {
+        return None;
+    }
+    let names = names.by_ref().flatten();
+    let about = doc("What clients can listen to, in the order of `Subscribed`.");
+    Some(quote! {
+        #about
+        pub const ADDITIONAL_OUTPUTS: &[&str] = &[#(#names),*];
+    })
 }
 
 /// A type of the cycler's own database.

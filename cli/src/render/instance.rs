@@ -63,6 +63,9 @@ pub(super) fn quote_duration(duration: Duration) -> TokenStream {
 }
 
 fn quote_scheduling(scheduling: &Scheduling) -> TokenStream {
+    if *scheduling == Scheduling::default() {
+        return quote!(::framework::Scheduling::BY_THE_SYSTEM);
+    }
     let policy = quote_option(scheduling.policy.as_deref().map(|policy| match policy {
         "fifo" => quote!(::framework::Policy::Fifo),
         "round-robin" => quote!(::framework::Policy::RoundRobin),

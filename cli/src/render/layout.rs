@@ -91,17 +91,43 @@ fn formatted(item: syn::Item) -> String {
         items: vec![item],
     };
     let mut text = String::new();
+    let mut pattern = SlicePattern::default();
     for line in prettyplease::unparse(&file).lines() {
         // prettyplease breaks an empty struct literal in two lines.
         if text.ends_with(" {\n") && matches!(line.trim_start(), "}" | "};" | "},") {
             text.pop();
             text.push_str(line.trim_start());
         } else if line.trim_start().strip_prefix("//") != Some(EMPTY_LINE) {
-            text.push_str(line);
+            text.push_str(&pattern.indented(line));
         }
         text.push('\n');
     }
     text
+}
+
+/// What prettyplease does not indent: a slice pattern of several lines.
+#[derive(Default)]
+struct SlicePattern {
+    is_open: bool,
+}
+
+impl SlicePattern {
+    fn indented(&mut self, line: &str) -> String {
+        let written = line.trim_start();
+        let margin = &line[..line.len() - written.len()];
+        if self.is_open {
+            self.is_open = written != "],";
+            let further = if self.is_open { "    " } else { "" };
+            return format!("{further}{line}");
+        }
+        match written.strip_prefix('[') {
+            Some(first) if first.ends_with(',') && !first.contains(']') => {
+                self.is_open = true;
+                format!("{margin}[\n{margin}    {first}")
+            }
+            _ => line.to_owned(),
+        }
+    }
 }
 
 /// Items of one line stand together: each kind of `use`, and `mod`.

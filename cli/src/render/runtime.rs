@@ -132,13 +132,17 @@ fn quote_ends(model: &RuntimeModel, instance: &InstanceModel) -> TokenStream {
     let injected = (!cycler.outputs.is_empty()).then(|| ident(&format!("{variable}_injected")));
     let subscriptions = (!cycler.additional_outputs.is_empty()).then(|| {
         let subscriptions = ident(&format!("{variable}_subscriptions"));
-        let names = cycler.additional_outputs.iter().map(|output| {
-            output
-                .names
-                .get(instance.id.instance)
-                .unwrap_or(&output.names[0])
-        });
-        quote!(let #subscriptions = ::framework::Subscriptions::new(&[#(#names),*]);)
+        let names = if cycler.names_are_shared() {
+            let module = ident(&cycler.module);
+            quote!(#module::ADDITIONAL_OUTPUTS)
+        } else {
+            let names = cycler.additional_outputs.iter().map(|output| {
+                let own = output.names.get(instance.id.instance);
+                own.unwrap_or(&output.names[0])
+            });
+            quote!(&[#(#names),*])
+        };
+        quote!(let #subscriptions = ::framework::Subscriptions::new(#names);)
     });
     let procedures = instance.procedures.iter().map(|procedure| {
         let (caller, answerer) = (ident(&procedure.caller), ident(&procedure.answerer));

@@ -45,7 +45,7 @@ impl Body for Adding {
     fn begin(&mut self, _: Slots<'_, Self::Shared>, _: Cycle) {
         self.injections.take();
         self.procedure.take();
-        assert!(!self.subscriptions.contains(0));
+        assert!(!self.subscriptions.wanted().next_one());
     }
 
     fn run(&mut self, slots: Slots<'_, Self::Shared>, cycle: Cycle) -> Result<()> {

@@ -208,7 +208,7 @@ impl Body for TestBody {
         self.log("begin");
         self.parameters.take();
         self.injections.take();
-        self.subscribed = self.subscriptions.contains(0);
+        self.subscribed = self.subscriptions.wanted().next_one();
         self.double.take();
         self.perception.consume(cycle.time.start);
         if let Some(injections) = self.injections.view().get() {

@@ -45,12 +45,11 @@ pub const AUDIO: InstanceDescription = InstanceDescription {
     watchdog: Duration::from_millis(300),
     history: Duration::from_secs(1),
     lockstep_duration: None,
-    scheduling: Scheduling {
-        policy: None,
-        priority: None,
-        cores: &[],
-    },
+    scheduling: Scheduling::BY_THE_SYSTEM,
 };
+
+/// What clients can listen to, in the order of `Subscribed`.
+pub const ADDITIONAL_OUTPUTS: &[&str] = &["whistle_detection.peaks"];
 
 /// One instance: its nodes, and its ends of all buffers.
 pub struct Audio<Hardware> {
@@ -112,8 +111,9 @@ impl<Hardware: MicrophoneInterface + Send + Sync> Body for Audio<Hardware> {
     fn begin(&mut self, slots: Slots<'_, SharedOutputs>, cycle: Cycle) {
         self.parameters.take();
         self.injections.take();
+        let mut wanted = self.subscriptions.wanted();
         self.subscribed = Subscribed {
-            whistle_detection_peaks: self.subscriptions.contains(0),
+            whistle_detection_peaks: wanted.next_one(),
         };
         let (_, mut frame) = self.frame(slots, cycle);
         Nodes::inject(&mut frame);

@@ -53,12 +53,18 @@ pub const CONTROL: InstanceDescription = InstanceDescription {
     watchdog: Duration::from_millis(300),
     history: Duration::from_secs(1),
     lockstep_duration: None,
-    scheduling: Scheduling {
-        policy: None,
-        priority: None,
-        cores: &[],
-    },
+    scheduling: Scheduling::BY_THE_SYSTEM,
 };
+
+/// What clients can listen to, in the order of `Subscribed`.
+pub const ADDITIONAL_OUTPUTS: &[&str] = &[
+    "ball_filter.delivered",
+    "ball_filter.hypotheses",
+    "ball_filter.persistent_ball",
+    "fall_state_filter.center_of_mass_overhang",
+    "orientation_filter.innovation",
+    "whistle_filter.votes",
+];
 
 /// One instance: its nodes, and its ends of all buffers.
 pub struct Control<Hardware> {
@@ -148,13 +154,14 @@ impl<
         self.perception
             .vision
             .merge([&self.perception.vision_top, &self.perception.vision_bottom]);
+        let mut wanted = self.subscriptions.wanted();
         self.subscribed = Subscribed {
-            ball_filter_delivered: self.subscriptions.contains(0),
-            ball_filter_hypotheses: self.subscriptions.contains(1),
-            ball_filter_persistent_ball: self.subscriptions.contains(2),
-            fall_state_filter_center_of_mass_overhang: self.subscriptions.contains(3),
-            orientation_filter_innovation: self.subscriptions.contains(4),
-            whistle_filter_votes: self.subscriptions.contains(5),
+            ball_filter_delivered: wanted.next_one(),
+            ball_filter_hypotheses: wanted.next_one(),
+            ball_filter_persistent_ball: wanted.next_one(),
+            fall_state_filter_center_of_mass_overhang: wanted.next_one(),
+            orientation_filter_innovation: wanted.next_one(),
+            whistle_filter_votes: wanted.next_one(),
         };
         self.procedures.look_at.take();
         let (_, mut frame) = self.frame(slots, cycle);

@@ -45,12 +45,14 @@ pub const SPL_NETWORK: InstanceDescription = InstanceDescription {
     watchdog: Duration::from_millis(300),
     history: Duration::from_secs(1),
     lockstep_duration: None,
-    scheduling: Scheduling {
-        policy: None,
-        priority: None,
-        cores: &[],
-    },
+    scheduling: Scheduling::BY_THE_SYSTEM,
 };
+
+/// What clients can listen to, in the order of `Subscribed`.
+pub const ADDITIONAL_OUTPUTS: &[&str] = &[
+    "game_controller_parser.refusal",
+    "team_message_parser.refusal",
+];
 
 /// One instance: its nodes, and its ends of all buffers.
 pub struct SplNetwork<Hardware> {
@@ -112,9 +114,10 @@ impl<Hardware: NetworkInterface + Send + Sync> Body for SplNetwork<Hardware> {
     fn begin(&mut self, slots: Slots<'_, SharedOutputs>, cycle: Cycle) {
         self.parameters.take();
         self.injections.take();
+        let mut wanted = self.subscriptions.wanted();
         self.subscribed = Subscribed {
-            game_controller_parser_refusal: self.subscriptions.contains(0),
-            team_message_parser_refusal: self.subscriptions.contains(1),
+            game_controller_parser_refusal: wanted.next_one(),
+            team_message_parser_refusal: wanted.next_one(),
         };
         let (_, mut frame) = self.frame(slots, cycle);
         Nodes::inject(&mut frame);

@@ -48,11 +48,7 @@ pub const VISION_TOP: InstanceDescription = InstanceDescription {
     watchdog: Duration::from_millis(300),
     history: Duration::from_secs(1),
     lockstep_duration: None,
-    scheduling: Scheduling {
-        policy: None,
-        priority: None,
-        cores: &[],
-    },
+    scheduling: Scheduling::BY_THE_SYSTEM,
 };
 
 /// What the manifest says about `VisionBottom`.
@@ -66,12 +62,18 @@ pub const VISION_BOTTOM: InstanceDescription = InstanceDescription {
     watchdog: Duration::from_millis(300),
     history: Duration::from_secs(1),
     lockstep_duration: None,
-    scheduling: Scheduling {
-        policy: None,
-        priority: None,
-        cores: &[],
-    },
+    scheduling: Scheduling::BY_THE_SYSTEM,
 };
+
+/// What clients can listen to, in the order of `Subscribed`.
+pub const ADDITIONAL_OUTPUTS: &[&str] = &[
+    "ball_candidates",
+    "field_border_points",
+    "image_lines",
+    "line_points",
+    "obstacle_feet",
+    "penalty_mark_candidates",
+];
 
 /// One instance: its nodes, and its ends of all buffers.
 pub struct Vision<Hardware> {
@@ -140,13 +142,14 @@ impl<Hardware: CameraInterface + Send + Sync> Body for Vision<Hardware> {
         self.parameters.take();
         self.injections.take();
         self.control.take();
+        let mut wanted = self.subscriptions.wanted();
         self.subscribed = Subscribed {
-            ball_candidates: self.subscriptions.contains(0),
-            field_border_points: self.subscriptions.contains(1),
-            image_lines: self.subscriptions.contains(2),
-            line_points: self.subscriptions.contains(3),
-            obstacle_feet: self.subscriptions.contains(4),
-            penalty_mark_candidates: self.subscriptions.contains(5),
+            ball_candidates: wanted.next_one(),
+            field_border_points: wanted.next_one(),
+            image_lines: wanted.next_one(),
+            line_points: wanted.next_one(),
+            obstacle_feet: wanted.next_one(),
+            penalty_mark_candidates: wanted.next_one(),
         };
         let (_, mut frame) = self.frame(slots, cycle);
         Nodes::inject(&mut frame);

@@ -150,6 +150,9 @@ fn place(cycler: &Cycler, schedule: &CyclerSchedule, position: usize, node: &Nod
         let part = if node.setup { "setup nodes" } else { "nodes" };
         return format!("waits for none of the {part}: stands here by the order of the manifest");
     }
+    // As the fields stand, so that the manifest's order does not move them.
+    let mut reasons: Vec<_> = reasons.into_iter().collect();
+    reasons.sort_by_key(|(_, edges)| edges.iter().map(|edge| edge.field).min());
     let reasons = reasons.into_iter().map(|(from, edges)| {
         let fields: Vec<String> = edges.into_iter().map(reason).collect();
         format!("`{}` ({})", cycler.nodes[from].path, fields.join(", "))

@@ -1,6 +1,6 @@
 //! The calls that turn a body: create, wait, begin, run, finish, abandon, restore.
 
-use proc_macro2::{Literal, TokenStream};
+use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::{argument, own, quote_shared};
@@ -174,16 +174,14 @@ fn quote_subscribed(cycler: &CyclerModel) -> TokenStream {
         return quote!();
     }
     let subscribed = own(cycler, "Subscribed");
-    let flags = cycler
-        .additional_outputs
-        .iter()
-        .enumerate()
-        .map(|(index, output)| {
-            let flag = ident(&output.flag);
-            let index = Literal::usize_unsuffixed(index);
-            quote!(#flag: self.subscriptions.contains(#index),)
-        });
-    quote!(self.subscribed = #subscribed { #(#flags)* };)
+    let flags = cycler.additional_outputs.iter().map(|output| {
+        let flag = ident(&output.flag);
+        quote!(#flag: wanted.next_one(),)
+    });
+    quote! {
+        let mut wanted = self.subscriptions.wanted();
+        self.subscribed = #subscribed { #(#flags)* };
+    }
 }
 
 fn quote_run(cycler: &CyclerModel) -> TokenStream {

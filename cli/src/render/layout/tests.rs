@@ -173,3 +173,24 @@ fn layout_does_not_count_as_meaning() {
     assert_eq!(without_layout(bare), without_layout(laid_out));
     assert_ne!(without_layout(quote!(a.b())), without_layout(quote!(a.c())));
 }
+
+#[test]
+fn long_slice_patterns_are_indented() {
+    let names: Vec<_> = (0..9)
+        .map(|index| quote::format_ident!("reader_with_a_long_name_{index}"))
+        .collect();
+    let text = body(quote! {
+        fn run() {
+            let (writer, [#(#names),*], []) = buffer();
+        }
+    });
+    let readers: String = (names.iter())
+        .map(|name| format!("            {name},\n"))
+        .collect();
+    assert_eq!(
+        text,
+        format!(
+            "fn run() {{\n    let (\n        writer,\n        [\n{readers}        ],\n        [],\n    ) = buffer();\n}}\n"
+        )
+    );
+}

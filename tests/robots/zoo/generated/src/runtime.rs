@@ -50,28 +50,33 @@ where
     // Readers of the newest cycle on the left, queues of consumers on the right.
     let (
         vision_top_writer,
-        [vision_top_for_vision_top,
-        vision_top_for_vision_bottom,
+        [
+            vision_top_for_vision_top,
+            vision_top_for_vision_bottom,
         ],
-        [vision_top_queue_for_control,
+        [
+            vision_top_queue_for_control,
         ],
     ) = buffer([8]);
     let (
         vision_bottom_writer,
-        [vision_bottom_for_vision_top,
-        vision_bottom_for_vision_bottom,
+        [
+            vision_bottom_for_vision_top,
+            vision_bottom_for_vision_bottom,
         ],
-        [vision_bottom_queue_for_control,
-        vision_bottom_queue_for_reflexes,
+        [
+            vision_bottom_queue_for_control,
+            vision_bottom_queue_for_reflexes,
         ],
     ) = buffer([8, 8]);
     let (hearing_writer, [], [hearing_queue_for_control]) = buffer([32]);
     let (
         control_writer,
-        [control_for_vision_top,
-        control_for_vision_bottom,
-        control_for_reflexes,
-        control_for_lights,
+        [
+            control_for_vision_top,
+            control_for_vision_bottom,
+            control_for_reflexes,
+            control_for_lights,
         ],
         [],
     ) = buffer([]);
@@ -79,10 +84,11 @@ where
     let (lights_writer, [], []) = buffer([]);
     let (
         parameters,
-        [parameters_for_vision_top,
-        parameters_for_vision_bottom,
-        parameters_for_control,
-        parameters_for_reflexes,
+        [
+            parameters_for_vision_top,
+            parameters_for_vision_bottom,
+            parameters_for_control,
+            parameters_for_reflexes,
         ],
         [],
     ) = buffer_of(|| start.parameters.clone(), []);
@@ -98,9 +104,7 @@ where
     );
     let (hearing_injections, [hearing_injected], []) = buffer([]);
     let (control_injections, [control_injected], []) = buffer([]);
-    let control_subscriptions = Subscriptions::new(
-        &["debug.certainty", "debug.watcher.seen"],
-    );
+    let control_subscriptions = Subscriptions::new(control::ADDITIONAL_OUTPUTS);
     let (control_stop, control_stop_answerer) = procedure();
     let (control_walk, control_walk_answerer) = procedure();
     let (reflexes_injections, [reflexes_injected], []) = buffer([]);
