@@ -78,7 +78,7 @@ pub use stop::Stop;
 pub use subscriptions::Subscriptions;
 pub use temporal::{
     Consumer, Horizon, Interleaved, Interleaving, Item, Lane, PerceptionInput, Projection,
-    QueueCounts, Reference, ReferenceKind, Series, Timeline, interleave,
+    QueueCounts, Reference, ReferenceKind, RollBack, Series, Timeline, interleave,
 };
 pub use time::{CycleTime, Timestamp};
 pub use timing::{Histogram, blocking};

@@ -30,10 +30,12 @@ mod consumer;
 mod horizon;
 mod interleaving;
 mod reference;
+mod roll_back;
 mod series;
 
 pub use consumer::{Consumer, Projection, QueueCounts};
 pub use horizon::{Bounds, Horizon, Lane};
 pub use interleaving::{Interleaved, Interleaving, interleave};
 pub use reference::{Reference, ReferenceKind};
+pub use roll_back::RollBack;
 pub use series::{Item, Items, Iter, PerceptionInput, Series, Timeline};

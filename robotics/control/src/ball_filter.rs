@@ -13,7 +13,7 @@ mod hypothesis;
 
 use framework::{
     AdditionalOutput, CycleTime, HistoricInput, MainOutput, Parameter, PerceptionInput, Reflect,
-    Result, Timestamp, context,
+    Result, RollBack, Timestamp, context,
 };
 use nalgebra::{Isometry2, Matrix2, Point2, Unit, Vector2};
 use serde::{Deserialize, Serialize};
@@ -23,7 +23,6 @@ use types::odometry::Odometry;
 use self::hypotheses::Hypotheses;
 use self::hypothesis::{Hypothesis, Sighting};
 use crate::places::Hypothesis as _;
-use crate::roll_back::RollBack;
 use crate::start_frame::ground_to_start;
 
 /// What is believed of balls and of those who see them.

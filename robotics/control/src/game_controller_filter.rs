@@ -6,13 +6,13 @@
 
 use std::time::Duration;
 
-use framework::{CycleTime, MainOutput, Parameter, PerceptionInput, Result, Timestamp, context};
+use framework::{
+    CycleTime, MainOutput, Parameter, PerceptionInput, Result, RollBack, Timestamp, context,
+};
 use serde::{Deserialize, Serialize};
 use types::game::{
     GameControllerPacket, GameControllerState, KickingTeam, Player, PlayerState, TeamState,
 };
-
-use crate::roll_back::RollBack;
 
 /// What was heard so far.
 #[derive(Debug, Deserialize, Serialize)]

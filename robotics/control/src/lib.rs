@@ -59,5 +59,4 @@ mod level;
 pub mod low_pass;
 mod pace;
 mod places;
-mod roll_back;
 mod start_frame;

@@ -9,7 +9,7 @@ mod nearby;
 
 use framework::{
     CycleTime, HistoricInput, Input, MainOutput, Parameter, PerceptionInput, Reflect, Result,
-    context,
+    RollBack, context,
 };
 use nalgebra::Isometry2;
 use serde::{Deserialize, Serialize};
@@ -20,7 +20,6 @@ use types::sonar::SonarDistances;
 
 use self::hypotheses::{Hypotheses, Hypothesis, Measurement};
 use self::nearby::{bumps, echoes};
-use crate::roll_back::RollBack;
 use crate::start_frame::ground_to_start;
 
 /// What is believed of obstacles and of those who perceive them.

@@ -2,12 +2,12 @@
 //!
 //! What this robot said itself is no message: `team_message_parser` leaves it out.
 
-use framework::{CycleTime, MainOutput, Parameter, PerceptionInput, Result, Timestamp, context};
+use framework::{
+    CycleTime, MainOutput, Parameter, PerceptionInput, Result, RollBack, Timestamp, context,
+};
 use serde::{Deserialize, Serialize};
 use types::game::PLAYER_COUNT;
 use types::team::{TeamMessage, Teammate};
-
-use crate::roll_back::RollBack;
 
 /// By the number of the shirt, 1 first.
 type Team = [Option<Teammate>; PLAYER_COUNT];

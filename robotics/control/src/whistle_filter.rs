@@ -7,12 +7,11 @@
 use std::time::Duration;
 
 use framework::{
-    AdditionalOutput, CycleTime, MainOutput, Parameter, PerceptionInput, Result, Timestamp, context,
+    AdditionalOutput, CycleTime, MainOutput, Parameter, PerceptionInput, Result, RollBack,
+    Timestamp, context,
 };
 use serde::{Deserialize, Serialize};
 use types::audio::{MICROPHONE_COUNT, Whistle, WhistleEvidence};
-
-use crate::roll_back::RollBack;
 
 /// How many blocks with a whistle are remembered at most; 0.7 s of 46 ms each.
 pub const REMEMBERED_BLOCKS: usize = 16;
