@@ -47,6 +47,7 @@ pub mod temporal;
 pub mod testing;
 pub mod time;
 pub mod timing;
+mod unwinding;
 
 pub use buffer::{Entry, Latest, Queue, Reader, View, Writer, buffer, buffer_of};
 pub use clear::Clear;
