@@ -27,6 +27,9 @@ pub struct Hardware {
     /// What the world has produced so far; lockstep only.
     world: Mutex<Sources>,
     commands: AtomicU64,
+    /// How often the actuators were taken away, and given back.
+    safe_states: AtomicU64,
+    rearmed: AtomicU64,
 }
 
 /// `[hardware.<target>]` of the parameter files.
@@ -42,6 +45,12 @@ impl Hardware {
     /// How many commands nodes have written.
     pub fn commands(&self) -> u64 {
         self.commands.load(Ordering::Relaxed)
+    }
+
+    /// How often the actuators were taken away, and given back.
+    pub fn safe_states(&self) -> (u64, u64) {
+        let read = |count: &AtomicU64| count.load(Ordering::Relaxed);
+        (read(&self.safe_states), read(&self.rearmed))
     }
 
     /// The newest data of a source that was not read yet: its number and time.
@@ -67,6 +76,8 @@ impl framework::Hardware for Hardware {
             read: Mutex::default(),
             world: Mutex::default(),
             commands: AtomicU64::new(0),
+            safe_states: AtomicU64::new(0),
+            rearmed: AtomicU64::new(0),
         })
     }
 
@@ -78,7 +89,13 @@ impl framework::Hardware for Hardware {
         self.stop.request();
     }
 
-    fn enter_safe_state(&self) {}
+    fn enter_safe_state(&self) {
+        self.safe_states.fetch_add(1, Ordering::Relaxed);
+    }
+
+    fn rearm(&self) {
+        self.rearmed.fetch_add(1, Ordering::Relaxed);
+    }
 
     fn is_simulated(&self) -> bool {
         true

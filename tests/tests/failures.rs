@@ -1,0 +1,237 @@
+//! Every node of the zoo fails once under every policy of the manifest: contract section 5.6, in lockstep.
+//!
+//! The zoo is copied, each node gets a place where it can be struck, and one robot is generated for each policy; all four are
+//! compiled into the program `tests/robots/zoo/failures`, which strikes and judges.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use camino::Utf8Path;
+use hulkgen::diagnostics::{self, Diagnostics};
+use hulkgen::pipeline;
+use hulkgen::resolve::robot::Robot;
+use hulkgen::workspace::{Changes, Workspace};
+use serde_json::json;
+use support::{root, sources, target_folder};
+
+const POLICIES: [&str; 4] = ["stop", "restart", "skip", "hold"];
+
+/// Where the nodes of the copy can be struck.
+fn struck(text: &str) -> String {
+    let cycle = text.find("pub fn cycle").expect("every node has it");
+    let body = text[cycle..].find("{\n").expect("it has a body");
+    let (head, tail) = text.split_at(cycle + body + 2);
+    format!("{head}        crate::fault::strike(module_path!())?;\n{tail}")
+}
+
+/// The zoo's manifest with one policy for every node.
+fn with_policy(policy: &str) -> String {
+    let manifest =
+        fs::read_to_string(root().join("tests/robots/zoo/hulk.toml")).expect("the zoo has it");
+    let mut manifest: toml::Table = manifest.parse().expect("hulkgen reads it, too");
+    let robot = manifest["robot"].as_table_mut().expect("a table");
+    robot.insert("name".to_owned(), policy.into());
+    robot.insert("generated".to_owned(), policy.into());
+    for cycler in manifest["cycler"].as_array_mut().expect("a list") {
+        let cycler = cycler.as_table_mut().expect("a table");
+        cycler.insert("on_failure".to_owned(), policy.into());
+        for list in ["setup_nodes", "nodes"] {
+            for node in cycler[list].as_array_mut().expect("a list") {
+                if let Some(path) = node.get("node").cloned() {
+                    *node = path;
+                }
+            }
+        }
+    }
+    manifest.to_string()
+}
+
+/// The repository's workspace with other members: what is compiled of the registry is compiled already.
+fn workspace_manifest() -> String {
+    let text = fs::read_to_string(root().join("Cargo.toml")).expect("the root has it");
+    let mut manifest: toml::Table = text.parse().expect("cargo reads it, too");
+    let workspace = manifest["workspace"].as_table_mut().expect("a workspace");
+    workspace.remove("default-members");
+    workspace.remove("exclude");
+    let members = ["failures", "hardware", "nodes"]
+        .into_iter()
+        .chain(POLICIES);
+    workspace.insert("members".to_owned(), members.collect::<Vec<_>>().into());
+    let dependencies = workspace["dependencies"].as_table_mut().expect("a table");
+    for (name, dependency) in dependencies.iter_mut() {
+        let Some(path) = dependency.get_mut("path") else {
+            continue;
+        };
+        *path = match name.as_str() {
+            "zoo_nodes" => "nodes".into(),
+            "zoo_hardware" => "hardware".into(),
+            _ => {
+                let path = root().join(path.as_str().expect("a path"));
+                path.to_string_lossy().into_owned().into()
+            }
+        };
+    }
+    dependencies.remove("zoo_runtime");
+    manifest.to_string()
+}
+
+fn program_manifest() -> String {
+    let runtimes = POLICIES.map(|policy| {
+        format!("{policy}_runtime = {{ path = \"../{policy}\", default-features = false }}\n")
+    });
+    format!(
+        "[package]\nname = \"zoo_failures\"\nversion.workspace = true\nedition.workspace = true\n\n\
+         [[bin]]\nname = \"zoo_failures\"\npath = \"main.rs\"\n\n\
+         [dependencies]\nframework.workspace = true\nserde_json.workspace = true\n\
+         zoo_hardware.workspace = true\nzoo_nodes.workspace = true\n{}",
+        runtimes.concat()
+    )
+}
+
+struct Zoo(PathBuf);
+
+impl Zoo {
+    /// In the same place every time: what did not change is not compiled again.
+    fn new() -> Self {
+        let zoo = Self(Path::new(env!("CARGO_TARGET_TMPDIR")).join("failures"));
+        let from = "tests/robots/zoo/";
+        for source in sources(&["tests/robots/zoo"], "") {
+            let path = source.path.strip_prefix(from).expect("it lies there");
+            let text = match path {
+                "hulk.toml" => continue,
+                _ if path.starts_with("generated/") || path.contains("/tests/") => continue,
+                "nodes/src/lib.rs" => format!("{}pub mod fault;\n", source.text),
+                // Two of its nodes fail by themselves: where it is dark, and where it is loud.
+                "hardware/src/lib.rs" => {
+                    let bright = replaced(&source.text, "number % 10 != 9", "number < u64::MAX");
+                    replaced(&bright, "number % 25 == 24", "number == u64::MAX")
+                }
+                "hardware/Cargo.toml" => {
+                    replaced(&source.text, "zoo_runtime.workspace = true\n", "")
+                }
+                _ if source.text.contains("pub fn cycle") => struck(&source.text),
+                _ => source.text,
+            };
+            zoo.write(path, &text);
+        }
+        zoo.write(
+            "nodes/src/fault.rs",
+            include_str!("../robots/zoo/failures/fault.rs"),
+        );
+        zoo.write("Cargo.toml", &workspace_manifest());
+        zoo.write("failures/Cargo.toml", &program_manifest());
+        for policy in POLICIES {
+            // Each robot sees the packages of the others.
+            let package = format!("[package]\nname = \"{policy}_runtime\"\n");
+            zoo.write(&format!("{policy}/Cargo.toml"), &package);
+        }
+        let lock = fs::read_to_string(root().join("Cargo.lock")).expect("it is checked in");
+        zoo.write("Cargo.lock", &lock);
+        zoo
+    }
+
+    fn write(&self, path: &str, text: &str) {
+        let path = self.0.join(path);
+        // What is touched is compiled again.
+        if fs::read_to_string(&path).ok().as_deref() != Some(text) {
+            fs::create_dir_all(path.parent().expect("a file lies in a folder"))
+                .and_then(|()| fs::write(&path, text))
+                .expect("the folder is ours");
+        }
+    }
+
+    /// Writes the robot whose nodes all have this policy.
+    fn generate(&self, policy: &str) -> Robot {
+        let manifest = Changes::from([("hulk.toml".into(), Some(with_policy(policy)))]);
+        let folder = Utf8Path::from_path(&self.0).expect("the path is UTF-8");
+        let workspace = Workspace::at_root(folder).after(&manifest);
+        let mut found = Diagnostics::new();
+        let files = pipeline::generate(&workspace, &mut found);
+        let told = || diagnostics::render(&found, &workspace, false);
+        let files = files.unwrap_or_else(|_| panic!("{}", told()));
+        for (path, text) in files {
+            // Its test asks for a manifest of its own.
+            if !path.as_str().contains("/tests/") {
+                self.write(path.as_str(), &text);
+            }
+        }
+        let understood = pipeline::understand(&workspace, &mut found);
+        understood.expect("it was just generated").robot
+    }
+}
+
+fn replaced(text: &str, from: &str, to: &str) -> String {
+    assert_eq!(text.matches(from).count(), 1, "{from}");
+    text.replace(from, to)
+}
+
+/// The nodes as the program wants them, each once.
+fn plan(robot: &Robot) -> serde_json::Value {
+    let mut nodes: Vec<serde_json::Value> = Vec::new();
+    for cycler in &robot.cyclers {
+        let instances: Vec<_> = cycler
+            .instances
+            .iter()
+            .map(|instance| &instance.name)
+            .collect();
+        for node in &cycler.nodes {
+            let outputs = cycler
+                .outputs
+                .iter()
+                .filter(|output| cycler.nodes[output.producer].path == node.path);
+            let outputs: Vec<_> = outputs.map(|output| &output.name).collect();
+            if let Some(known) = nodes
+                .iter_mut()
+                .find(|known| known["path"] == node.path.as_str())
+            {
+                let known = known["instances"].as_array_mut().expect("a list");
+                known.extend(instances.iter().map(|name| json!(name)));
+            } else {
+                nodes.push(json!({
+                    "path": node.path,
+                    "setup": node.setup,
+                    "instances": instances,
+                    "outputs": outputs,
+                }));
+            }
+        }
+    }
+    nodes.into()
+}
+
+#[test]
+fn every_node_may_fail_under_every_policy() {
+    let zoo = Zoo::new();
+    zoo.write(
+        "failures/main.rs",
+        include_str!("../robots/zoo/failures/main.rs"),
+    );
+    let robots = POLICIES.map(|policy| zoo.generate(policy));
+    let plan = plan(&robots[0]);
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let target = target_folder();
+    let output = Command::new(cargo)
+        .args([
+            "run",
+            "--offline",
+            "--quiet",
+            "--package",
+            "zoo_failures",
+            "--target-dir",
+        ])
+        .arg(target.parent().expect("target/<profile>"))
+        .args(["--", &plan.to_string()])
+        .current_dir(&zoo.0)
+        .output()
+        .expect("cargo runs these tests, so it is there");
+    let (said, words) = (
+        String::from_utf8_lossy(&output.stdout),
+        String::from_utf8_lossy(&output.stderr),
+    );
+    let tried: Vec<_> = said.lines().collect();
+    assert!(output.status.success(), "{:?}\n{words}", tried.last());
+    let nodes = plan.as_array().map_or(0, Vec::len);
+    assert!(nodes >= 21, "only {nodes} nodes");
+    assert_eq!(tried.len(), nodes * POLICIES.len() * 2);
+}
