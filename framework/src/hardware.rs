@@ -30,8 +30,15 @@ pub trait Hardware: Send + Sync {
     /// Called at most once until [`Hardware::rearm`].
     fn enter_safe_state(&self);
 
-    /// Gives the actuators back to the nodes: an instance that had to restart has finished its first cycle.
+    /// Gives the actuators back to the nodes: an instance that had to restart has finished its first
+    /// cycle, or somebody wants it.
     fn rearm(&self) {}
+
+    /// Whether somebody has pressed the hardware's own button for it since the last call: a safe state of stop or watchdog
+    /// then ends with [`Hardware::rearm`]. Asked many times a second.
+    fn is_rearm_wanted(&self) -> bool {
+        false
+    }
 
     /// Whether nothing but this machine moves: threads then leave their scheduling to the system, unless `--real-time` is given.
     fn is_simulated(&self) -> bool {

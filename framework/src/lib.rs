@@ -6,7 +6,7 @@
 //! | Module | Owns |
 //! |---|---|
 //! | [`launch`], [`parameters`], [`hardware`] | from the command line and the parameter layers to a running robot |
-//! | [`robot`], [`driver`] | the instances put together, and the two ways to turn them: threads and lockstep |
+//! | [`robot`], [`driver`], [`rearm`] | the instances put together, and the two ways to turn them: threads and lockstep |
 //! | [`cycler`] | one instance: the four calls around its generated body |
 //! | [`scheduling`] | what its thread asks of the operating system, and what it got |
 //! | [`guarded`], [`error`] | one node: failures and panics end here |
@@ -37,6 +37,7 @@ pub mod injection;
 pub mod launch;
 pub mod parameters;
 pub mod procedure;
+pub mod rearm;
 pub mod reflect;
 pub mod report;
 pub mod robot;
@@ -71,6 +72,7 @@ pub use history::{HistoricInput, History, Past, Stored};
 pub use injection::{Inject, Injected, Injection, InjectionCell, InjectionTable, Injector};
 pub use launch::Target;
 pub use procedure::{Answerer, Call, CallAny, Caller, Pending, PendingAny, Refused, procedure};
+pub use rearm::Rearm;
 pub use reflect::Reflect;
 pub use report::{InstanceReport, NodeReport, QueueReport, RobotReport};
 pub use robot::{Access, Robot, Start};

@@ -14,6 +14,7 @@ use super::{Observer, SafeState};
 use crate::cycler::{Finished, Instance, InstanceDescription, Restarted, Waited};
 use crate::error::{Error, Result};
 use crate::hardware::{Event, Hardware};
+use crate::rearm::Rearm;
 use crate::robot::Robot;
 use crate::time::Timestamp;
 
@@ -25,6 +26,7 @@ pub struct Lockstep<'robot, P> {
     robot: &'robot mut Robot<P>,
     hardware: &'robot dyn Hardware,
     safe_state: SafeState<'robot>,
+    rearm: Rearm,
     tracks: Vec<Track>,
     /// In the order of the instances.
     observers: Vec<Observed<'robot>>,
@@ -130,6 +132,7 @@ impl<'robot, P> Lockstep<'robot, P> {
             robot,
             hardware,
             safe_state: SafeState::new(hardware),
+            rearm: Rearm::default(),
             ahead: None,
             world_has_ended: false,
             stopped: false,
@@ -182,6 +185,11 @@ impl<'robot, P> Lockstep<'robot, P> {
             chaos: self.chaos.take(),
             causes: self.safe_state.take_causes(),
         }
+    }
+
+    /// Gives the nodes the actuators back before the next step.
+    pub fn rearming(&self) -> Rearm {
+        self.rearm.clone()
     }
 
     /// The robot between two steps.
@@ -302,6 +310,7 @@ impl<'robot, P> Lockstep<'robot, P> {
 
     fn carry_out(&mut self, at: Timestamp, deed: Deed, index: usize) -> Result<Stepped> {
         self.robot.clock.advance_to(at);
+        self.safe_state.rearm_if_wanted(&self.rearm);
         let step = match deed {
             Deed::Finish => self.finish(at, index),
             Deed::Restart => self.restart(at, index),

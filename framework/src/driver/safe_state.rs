@@ -6,6 +6,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use crate::cycler::{InstanceDescription, Kind};
 use crate::guarded::contain;
 use crate::hardware::Hardware;
+use crate::rearm::Rearm;
 use crate::report::tell;
 
 /// Calls [`Hardware::enter_safe_state`] at most once until it is re-armed, whoever asks.
@@ -63,6 +64,20 @@ impl<'hardware> SafeState<'hardware> {
         let mut causes = self.causes();
         causes.restarting.remove(instance.name);
         self.apply(&mut causes);
+    }
+
+    /// [`SafeState::rearm`] where a client or the hardware's own button asked for it.
+    pub(super) fn rearm_if_wanted(&self, rearm: &Rearm) {
+        let button = contain("Hardware::is_rearm_wanted", || {
+            Ok(self.hardware.is_rearm_wanted())
+        });
+        let button = button.unwrap_or_else(|error| {
+            tell(format_args!("{error}"));
+            false
+        });
+        if rearm.take() | button {
+            self.rearm();
+        }
     }
 
     /// Somebody wants the nodes to have the actuators again.

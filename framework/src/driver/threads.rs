@@ -15,15 +15,20 @@ use crate::cycler::{
 use crate::error::{Error, Result};
 use crate::guarded::contain;
 use crate::hardware::Hardware;
+use crate::rearm::Rearm;
 use crate::report::tell;
 use crate::stop::Stop;
 use crate::time::Timestamp;
+
+/// The watchdog looks at least so often, also where nobody moves.
+const LONGEST_PERIOD: Duration = Duration::from_millis(50);
 
 /// The robot's threads and what they share.
 pub struct Threads<'robot> {
     clock: &'robot Clock,
     hardware: &'robot dyn Hardware,
     stop: &'robot Stop,
+    rearm: Rearm,
     is_real_time: bool,
 }
 
@@ -34,6 +39,7 @@ impl<'robot> Threads<'robot> {
             clock,
             hardware,
             stop,
+            rearm: Rearm::default(),
             is_real_time: false,
         }
     }
@@ -44,6 +50,11 @@ impl<'robot> Threads<'robot> {
             is_real_time,
             ..self
         }
+    }
+
+    /// Gives the nodes the actuators back while it runs.
+    pub fn rearming(&self) -> Rearm {
+        self.rearm.clone()
     }
 
     /// Runs until the stop is requested or an instance fails for good, which is the error.
@@ -110,7 +121,7 @@ impl<'robot> Threads<'robot> {
                 }
             }
             let watching = contain("watchdog", || {
-                watch(&watched, self.clock, stop, &safe_state);
+                self.watch(&watched, &safe_state);
                 Ok(())
             });
             watching.unwrap_or_else(|error| fail(error.context("the watchdog failed")));
@@ -223,33 +234,38 @@ impl Watched {
             })
             .collect()
     }
+
+    /// When the cycle began that takes longer than the watchdog permits.
+    fn hangs_since(&self, now: Timestamp) -> Option<Timestamp> {
+        let begun_at = self.counters.begun_at()?;
+        (now - begun_at > self.description.watchdog).then_some(begun_at)
+    }
 }
 
-/// Until the robot stops, looks for cycles that have begun and are not finished after `watchdog`.
-fn watch(watched: &[Watched], clock: &Clock, stop: &Stop, safe_state: &SafeState<'_>) {
-    let shortest = watched
-        .iter()
-        .map(|watched| watched.description.watchdog)
-        .min();
-    let period = shortest.map_or(Duration::from_secs(1), |shortest| {
-        (shortest / 4).clamp(Duration::from_millis(1), Duration::from_millis(50))
-    });
-    // One alarm per cycle that hangs: after a re-arm the same cycle does not count again.
-    let mut alarmed = vec![None; watched.len()];
-    while stop.wait(period).is_ok() {
-        let now = clock.now();
-        for (watched, alarmed) in watched.iter().zip(&mut alarmed) {
-            let Some(begun_at) = watched.counters.begun_at() else {
-                continue;
-            };
-            let limit = watched.description.watchdog;
-            if now - begun_at > limit && *alarmed != Some(begun_at) {
-                *alarmed = Some(begun_at);
-                let name = watched.description.name;
-                tell(format_args!(
-                    "{name} has not finished a cycle for {limit:?}: safe state"
-                ));
-                safe_state.enter();
+impl Threads<'_> {
+    /// Until the robot stops, looks for cycles that have begun and are not finished after `watchdog`, and for whoever wants
+    /// the actuators back.
+    fn watch(&self, watched: &[Watched], safe_state: &SafeState<'_>) {
+        let limits = watched.iter().map(|watched| watched.description.watchdog);
+        let period = limits.min().map_or(LONGEST_PERIOD, |shortest| {
+            (shortest / 4).clamp(Duration::from_millis(1), LONGEST_PERIOD)
+        });
+        // One alarm per cycle that hangs: after a re-arm the same cycle does not count again.
+        let mut alarmed = vec![None; watched.len()];
+        while self.stop.wait(period).is_ok() {
+            safe_state.rearm_if_wanted(&self.rearm);
+            let now = self.clock.now();
+            for (watched, alarmed) in watched.iter().zip(&mut alarmed) {
+                if let Some(begun_at) = watched.hangs_since(now)
+                    && *alarmed != Some(begun_at)
+                {
+                    *alarmed = Some(begun_at);
+                    let InstanceDescription { name, watchdog, .. } = watched.description;
+                    tell(format_args!(
+                        "{name} has not finished a cycle for {watchdog:?}: safe state"
+                    ));
+                    safe_state.enter();
+                }
             }
         }
     }

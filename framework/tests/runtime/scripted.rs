@@ -1,7 +1,7 @@
 //! Hardware and nodes that do what a test wrote down.
 
 use std::collections::VecDeque;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
@@ -88,6 +88,8 @@ pub(crate) struct ScriptedHardware {
     /// Threads: data comes so often.
     pub(crate) period: Duration,
     reads: AtomicU64,
+    /// Somebody presses the button that gives the nodes the actuators back.
+    pub(crate) button: AtomicBool,
 }
 
 impl ScriptedHardware {
@@ -115,6 +117,7 @@ impl ScriptedHardware {
             latency: Duration::from_millis(5),
             period: Duration::from_millis(2),
             reads: AtomicU64::new(0),
+            button: AtomicBool::new(false),
         }
     }
 
@@ -150,6 +153,10 @@ impl Hardware for ScriptedHardware {
 
     fn rearm(&self) {
         self.log.add("rearm");
+    }
+
+    fn is_rearm_wanted(&self) -> bool {
+        self.button.swap(false, Ordering::Relaxed)
     }
 
     fn next_event(&self) -> Result<Option<Event>> {

@@ -236,6 +236,53 @@ fn the_watchdog_brings_a_hanging_real_time_cycle_to_safe_state_once() {
     assert_eq!(hardware.log.lines(), ["safe state", "stop"]);
 }
 
+/// A cycle hangs once; then somebody asks for the actuators, and the robot stops a while later.
+fn rearmed(ask: impl FnOnce(&ScriptedHardware, &framework::Rearm) + Send) -> Vec<String> {
+    let legs = Plan {
+        work: Script::new([Act::Work, Act::Take(400)]),
+        ..Plan::default()
+    };
+    let setting = Setting {
+        legs,
+        ..Setting::default()
+    };
+    let hardware = ScriptedHardware::threads();
+    let mut robot = robot(&hardware, &setting);
+    let stop = Stop::new();
+    let threads = Threads::new(&robot.clock, hardware.as_ref(), &stop);
+    let rearm = threads.rearming();
+    std::thread::scope(|scope| {
+        scope.spawn(|| {
+            let until = |lines: usize| {
+                while hardware.log.lines().len() < lines
+                    && stop.wait(Duration::from_millis(1)).is_ok()
+                {}
+            };
+            // Nobody has taken them away yet, so this changes nothing.
+            rearm.request();
+            until(1);
+            ask(&hardware, &rearm);
+            until(2);
+            stop.request();
+        });
+        threads.run(&mut robot.instances)
+    })
+    .expect("a hanging cycle is no error");
+    hardware.log.lines()
+}
+
+#[test]
+fn a_client_or_the_own_button_gives_the_actuators_back() {
+    let expected = ["safe state", "rearm", "safe state", "stop"];
+    assert_eq!(rearmed(|_, rearm| rearm.request()), expected);
+    let pressed = |hardware: &ScriptedHardware, _: &framework::Rearm| {
+        hardware
+            .button
+            .store(true, std::sync::atomic::Ordering::Relaxed);
+    };
+    assert_eq!(rearmed(pressed), expected);
+}
+
 #[test]
 fn a_silent_hardware_is_no_hanging_cycle() {
     let receive = Script::new([Act::Work, Act::Take(250)]);

@@ -117,6 +117,15 @@ impl framework::Hardware for Hardware {
         lock(&self.safety).rearm();
     }
 
+    fn is_rearm_wanted(&self) -> bool {
+        let (is_down, now) = {
+            let simulation = self.shared.lock();
+            let world = simulation.world();
+            (world.touch().chest_button, world.now())
+        };
+        lock(&self.safety).is_rearm_wanted(is_down, now)
+    }
+
     fn is_simulated(&self) -> bool {
         true
     }

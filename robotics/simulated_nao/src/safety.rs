@@ -14,6 +14,8 @@ const RAMP: Duration = Duration::from_millis(500);
 pub(crate) struct Safety {
     last: MotorCommands,
     phase: Phase,
+    /// The chest button, when somebody looked last.
+    was_down: bool,
 }
 
 #[derive(Debug, Default)]
@@ -38,6 +40,14 @@ impl Safety {
     /// Gives the motors back.
     pub(crate) fn rearm(&mut self) {
         self.phase = Phase::Armed;
+    }
+
+    /// Whether the chest button, which is down or not now, was pressed to give the motors back: not while the robot is being
+    /// let down, nor while the nodes have them.
+    pub(crate) fn is_rearm_wanted(&mut self, is_down: bool, now: Timestamp) -> bool {
+        let is_pressed = is_down && !self.was_down;
+        self.was_down = is_down;
+        is_pressed && !matches!(self.phase, Phase::Armed) && !self.is_fading(now)
     }
 
     /// Remembers a command of the nodes; whether it may be sent.
@@ -81,6 +91,29 @@ mod tests {
 
     fn at(milliseconds: u64) -> Timestamp {
         Timestamp::from_nanos(milliseconds * 1_000_000)
+    }
+
+    #[test]
+    fn the_chest_button_counts_once_when_the_robot_is_down() {
+        let mut safety = Safety::default();
+        assert!(
+            !safety.is_rearm_wanted(true, at(0)),
+            "the nodes have the motors"
+        );
+        safety.is_rearm_wanted(false, at(10));
+        safety.enter();
+        safety.command(at(20));
+        assert!(
+            !safety.is_rearm_wanted(true, at(30)),
+            "it is being let down"
+        );
+        assert!(
+            !safety.is_rearm_wanted(true, at(600)),
+            "it is still the same press"
+        );
+        safety.is_rearm_wanted(false, at(610));
+        assert!(safety.is_rearm_wanted(true, at(620)));
+        assert!(!safety.is_rearm_wanted(true, at(630)));
     }
 
     #[test]

@@ -5,6 +5,7 @@
 
 mod command;
 
+use std::collections::VecDeque;
 use std::io::{ErrorKind, Read, Write};
 use std::os::unix::fs::FileTypeExt;
 use std::os::unix::net::{UnixListener, UnixStream};
@@ -25,7 +26,12 @@ pub(crate) struct LolaServer {
     client: Option<UnixStream>,
     received: CommandStream,
     command: Command,
+    /// The newest commands for motors, each with its number; for tests.
+    commands: VecDeque<(u64, MotorCommands)>,
 }
+
+/// So many commands are remembered: 6 s of a robot that sends every 12 ms.
+const REMEMBERED: usize = 512;
 
 impl LolaServer {
     /// Listens at `path`. A socket that nobody serves any more is replaced.
@@ -46,6 +52,7 @@ impl LolaServer {
             client: None,
             received: CommandStream::default(),
             command,
+            commands: VecDeque::new(),
         })
     }
 
@@ -93,9 +100,24 @@ impl LolaServer {
                 Err(error) if error.kind() == ErrorKind::Interrupted => {}
                 Ok(_) | Err(_) => self.drop_client(),
             }
-            while self.received.next(&mut self.command) {}
+            while self.received.next(&mut self.command) {
+                self.remember();
+            }
         }
         self.command.motors
+    }
+
+    /// The newest commands that came, oldest first, numbered from 0.
+    pub(crate) fn commands(&self) -> Vec<(u64, MotorCommands)> {
+        self.commands.iter().copied().collect()
+    }
+
+    fn remember(&mut self) {
+        let number = self.commands.back().map_or(0, |(last, _)| last + 1);
+        if self.commands.len() == REMEMBERED {
+            self.commands.pop_front();
+        }
+        self.commands.push_back((number, self.command.motors));
     }
 
     /// Sends one state to the client; whether there is one.

@@ -18,7 +18,7 @@ use kinematics::links::LinkName;
 use nalgebra::{Isometry3, Point2, Point3, UnitQuaternion, Vector2, Vector3};
 use types::camera::{CameraPosition, Intrinsics};
 use types::motor_commands::MotorCommands;
-use types::sensor_data::{RobotConfiguration, SensorData};
+use types::sensor_data::{RobotConfiguration, SensorData, Touch};
 
 use self::motor_boards::MotorBoards;
 use self::power::Power;
@@ -133,11 +133,16 @@ impl World {
             currents: power::currents(&body.joints, commands),
             temperatures: self.power.temperatures(),
             status: self.power.status(),
-            touch: touch::touch(&self.presses, self.now),
+            touch: self.touch(),
             sonar: sonar::echoes(&body.torso_to_field, self.obstacles()),
             battery: self.power.battery(&stiffnesses),
             ..sensors::sample(body, gyroscope, stiffnesses, self.configuration)
         }
+    }
+
+    /// Everything that is pressed now.
+    pub(crate) fn touch(&self) -> Touch {
+        touch::touch(&self.presses, self.now)
     }
 
     /// Takes what an image of one camera depends on.

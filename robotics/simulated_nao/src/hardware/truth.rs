@@ -4,6 +4,7 @@ use framework::{Result, Timestamp};
 use types::audio::Tone;
 use types::camera::CameraPosition;
 use types::leds::Leds;
+use types::motor_commands::MotorCommands;
 use types::network::Channel;
 
 use super::Hardware;
@@ -20,6 +21,11 @@ impl Hardware {
     /// The body at each of LoLA's last 512 states, oldest first, for tests.
     pub fn body_truths(&self) -> Vec<BodyTruth> {
         self.shared.lock().bodies()
+    }
+
+    /// The last 512 commands for motors that came over LoLA's socket, oldest first, numbered from 0, for tests.
+    pub fn received_commands(&self) -> Vec<(u64, MotorCommands)> {
+        self.shared.lock().server().commands()
     }
 
     /// Where the camera was at one of its last 512 exposures and what it saw, for tests.
