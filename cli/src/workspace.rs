@@ -14,7 +14,7 @@ mod revision;
 mod watch;
 
 use std::cell::{OnceCell, RefCell};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use camino::{Utf8Path, Utf8PathBuf};
@@ -31,6 +31,9 @@ pub use watch::Glance;
 /// Name of the manifest at the workspace root.
 pub const MANIFEST: &str = "hulk.toml";
 
+/// The byte order mark, which some editors write.
+const MARK: char = '\u{feff}';
+
 /// How the header of every generated file begins, whatever the version of hulkgen.
 pub const SIGNATURE: &str = "Written by `hulkgen generate`";
 
@@ -46,6 +49,8 @@ pub struct Workspace {
     /// What is taken to be written already.
     changes: Changes,
     texts: RefCell<BTreeMap<Utf8PathBuf, Arc<str>>>,
+    /// Files that begin with a byte order mark, which their texts do not have.
+    marked: RefCell<BTreeSet<Utf8PathBuf>>,
     members: OnceCell<Members>,
 }
 
@@ -125,6 +130,7 @@ impl Workspace {
             files: self.files.clone(),
             changes: all,
             texts: RefCell::new(texts),
+            marked: self.marked.clone(),
             members: OnceCell::new(),
         }
     }
@@ -134,6 +140,7 @@ impl Workspace {
             files,
             changes: Changes::default(),
             texts: RefCell::default(),
+            marked: RefCell::default(),
             members: OnceCell::new(),
         }
     }
@@ -158,8 +165,11 @@ impl Workspace {
             (None, Files::Memory(memory)) => memory.read(file),
         }?;
         // Not every parser counts it, so places would not fit each other.
-        let text = match text.strip_prefix('\u{feff}') {
-            Some(unmarked) => unmarked.into(),
+        let text = match text.strip_prefix(MARK) {
+            Some(unmarked) => {
+                self.marked.borrow_mut().insert(file.to_owned());
+                unmarked.into()
+            }
             None => text,
         };
         self.texts
@@ -171,6 +181,14 @@ impl Workspace {
     /// The text of a file that was read before, as it was then.
     pub fn text(&self, file: &Utf8Path) -> Option<Arc<str>> {
         self.texts.borrow().get(file).cloned()
+    }
+
+    /// The new text of a file with the byte order mark that the file had when it was read.
+    pub fn marked(&self, file: &Utf8Path, text: String) -> String {
+        match self.marked.borrow().contains(file) {
+            true => format!("{MARK}{text}"),
+            false => text,
+        }
     }
 
     /// Every file that was read so far, sorted: what the answer depends on.

@@ -706,6 +706,40 @@ fn edits_hit_their_place_in_a_file_with_a_byte_order_mark() {
 }
 
 #[test]
+fn a_file_that_begins_with_a_byte_order_mark_keeps_it() {
+    const MARK: char = '\u{feff}';
+    let robot = Scaffolded::new(&[]);
+    let own = |path: &Path| path.ends_with("hulk.toml") || path.extension() == Some("rs".as_ref());
+    let mut before = files(&robot.path());
+    before.retain(|path, _| own(path) && !path.starts_with(robot.path().join("generated")));
+    for (path, content) in &mut before {
+        let text = String::from_utf8_lossy(content);
+        *content = format!("{MARK}{text}").into_bytes();
+        fs::write(path, &content).expect("the folder is ours");
+    }
+    robot.run("add-node nodes::control::watcher --cycler Control", 0);
+    let after = files(&robot.path());
+    let changed: Vec<_> = before
+        .iter()
+        .filter(|(path, text)| after[*path] != **text)
+        .collect();
+    assert_eq!(changed.len(), 2, "manifest and module: {changed:?}");
+    for path in before.keys() {
+        let text = String::from_utf8_lossy(&after[path]);
+        let rest = text.strip_prefix(MARK);
+        assert!(
+            rest.is_some_and(|rest| !rest.contains(MARK)),
+            "{}",
+            path.display()
+        );
+    }
+    let others = after.iter().filter(|(path, _)| !before.contains_key(*path));
+    let marked = others.filter(|(_, text)| text.starts_with("\u{feff}".as_bytes()));
+    assert_eq!(marked.count(), 0, "what hulkgen writes has none");
+    robot.run("generate --check", 0);
+}
+
+#[test]
 fn nodes_and_cyclers_of_the_nao_come_and_go() {
     let workspace = nao_workspace();
     let robot = understood(&workspace).robot;

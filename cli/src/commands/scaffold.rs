@@ -130,6 +130,9 @@ fn apply(
     let root = session.workspace.root().to_owned();
     let files = generate::render(&after, &understood);
     let drift = generate::compare(&root, &understood, &files)?;
+    for (file, text) in &mut changes {
+        *text = text.take().map(|text| session.workspace.marked(file, text));
+    }
     changes.extend(drift.changes(&files));
     let answer = Answer::new(session, &changes);
     drift::write_all(&root, &changes).map_err(|error| not_written(&error))?;
