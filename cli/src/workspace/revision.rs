@@ -100,6 +100,9 @@ impl Git<'_> {
         command
             .args(words)
             .current_dir(self.root)
+            // A partial clone would fetch what it lacks, and ask for a password: git is to answer from what is here.
+            .env("GIT_NO_LAZY_FETCH", "1")
+            .env("GIT_TERMINAL_PROMPT", "0")
             .stdin(Stdio::null());
         command
     }

@@ -147,6 +147,34 @@ fn names(changes: &Value) -> Vec<&str> {
         .collect()
 }
 
+/// A git that says whether it could wait for somebody.
+#[cfg(unix)]
+const GIT: &str = r#"#!/bin/sh
+[ /dev/stdin -ef /dev/null ] || asks="reads what people type, "
+[ "$GIT_TERMINAL_PROMPT" = 0 ] || asks="${asks}asks for passwords, "
+[ "$GIT_NO_LAZY_FETCH" = 1 ] || asks="${asks}fetches, "
+echo "fatal: ${asks:-asks nobody}" >&2
+exit 128
+"#;
+
+#[cfg(unix)]
+#[test]
+fn git_waits_for_nobody() {
+    use std::os::unix::fs::PermissionsExt;
+
+    let robot = Robot::new("smallest");
+    robot.write("bin/git", GIT);
+    let folder = robot.folder().join("bin");
+    let executable = std::fs::Permissions::from_mode(0o755);
+    std::fs::set_permissions(folder.join("git"), executable).expect("the folder is ours");
+    let path = std::env::var("PATH").unwrap_or_default();
+    let mut diff = crate::hulkgen(robot.folder(), "diff HEAD");
+    diff.env("PATH", format!("{}:{path}", folder.display()))
+        .stdin(Stdio::piped());
+    let said = Ended::of(&mut diff).expect(2).stderr;
+    assert!(said.contains("cannot read `HEAD`: asks nobody"), "{said}");
+}
+
 #[test]
 fn nothing_changed_is_said_in_a_sentence() {
     let Some(repository) = Repository::new("nothing_changed_is_said_in_a_sentence") else {
