@@ -4,7 +4,7 @@
 //! is read with the crate `grammar`, by which the macro `#[context]` reads it, too. Whether other nodes agree with it is
 //! the matter of [`crate::resolve`].
 //!
-//! Invariant: a file is parsed once, and only if a node or one of its names leads there, or it belongs to the crate of a
+//! Invariant: a file is parsed once for each text that it has, and only if a node or one of its names leads there, or it belongs to the crate of a
 //! target's hardware.
 
 pub mod compare;
@@ -58,8 +58,7 @@ pub fn scan<'workspace>(
     manifest: &Manifest,
     diagnostics: &mut Diagnostics,
 ) -> Result<Sources<'workspace>, Reported> {
-    // Spans of files that an earlier run parsed (`--watch`) are never asked for again.
-    proc_macro2::extra::invalidate_current_thread_spans();
+    workspace.begin_parsing();
     let library = Library::new(workspace, &manifest.robot.generated);
     let file = Utf8Path::new(MANIFEST);
     let mut nodes = BTreeMap::new();

@@ -10,17 +10,20 @@ mod disk;
 mod glob;
 mod members;
 mod memory;
+mod parsed;
 mod revision;
 mod watch;
 
 use std::cell::{OnceCell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
 use std::sync::Arc;
 
 use camino::{Utf8Path, Utf8PathBuf};
 
 use disk::Disk;
 use memory::Memory;
+use parsed::Parsed;
 
 pub use changes::Changes;
 pub use members::{Member, Members};
@@ -51,6 +54,7 @@ pub struct Workspace {
     texts: RefCell<BTreeMap<Utf8PathBuf, Arc<str>>>,
     /// Files that begin with a byte order mark, which their texts do not have.
     marked: RefCell<BTreeSet<Utf8PathBuf>>,
+    parsed: Parsed,
     members: OnceCell<Members>,
 }
 
@@ -119,7 +123,7 @@ impl Workspace {
 
     /// This workspace as it would be after some changes, of which nothing is written.
     ///
-    /// Files that were read before are kept as they were read.
+    /// Files that were read before are kept as they were read, and those that stay are not parsed again.
     #[must_use]
     pub fn after(&self, changes: &Changes) -> Self {
         let mut all = self.changes.clone();
@@ -131,6 +135,7 @@ impl Workspace {
             changes: all,
             texts: RefCell::new(texts),
             marked: self.marked.clone(),
+            parsed: self.parsed.clone(),
             members: OnceCell::new(),
         }
     }
@@ -141,6 +146,7 @@ impl Workspace {
             changes: Changes::default(),
             texts: RefCell::default(),
             marked: RefCell::default(),
+            parsed: Parsed::default(),
             members: OnceCell::new(),
         }
     }
@@ -181,6 +187,21 @@ impl Workspace {
     /// The text of a file that was read before, as it was then.
     pub fn text(&self, file: &Utf8Path) -> Option<Arc<str>> {
         self.texts.borrow().get(file).cloned()
+    }
+
+    /// Has to be called before the files of a robot are parsed: [`Self::parsed`] gives what was parsed since.
+    pub(crate) fn begin_parsing(&self) {
+        self.parsed.begin();
+    }
+
+    /// A Rust file that this workspace, or one that this is made [`after`](Self::after), has parsed with this text.
+    pub(crate) fn parsed(&self, file: &Utf8Path, text: &str) -> Option<Rc<syn::File>> {
+        self.parsed.get(file, text)
+    }
+
+    /// Keeps a file that was parsed.
+    pub(crate) fn keep_parsed(&self, file: &Utf8Path, text: &Arc<str>, syntax: &Rc<syn::File>) {
+        self.parsed.keep(file, text, syntax);
     }
 
     /// The new text of a file with the byte order mark that the file had when it was read.

@@ -196,7 +196,7 @@ impl<'workspace> Library<'workspace> {
                 path,
                 parent.file.clone(),
                 folder,
-                syntax,
+                Rc::new(syntax),
             )));
         }
         let files = places(&parent.file, &parent.folder, item);
@@ -250,6 +250,9 @@ impl<'workspace> Library<'workspace> {
                 return None;
             }
         };
+        if let Some(syntax) = self.workspace.parsed(&file, &text) {
+            return Some(Rc::new(Module::new(path, file, folder, syntax)));
+        }
         if let Some(place) = too_deep(&text) {
             let problem = problem("this is nested too deeply".to_owned())
                 .at(&file, range(place), "from here on")
@@ -258,7 +261,11 @@ impl<'workspace> Library<'workspace> {
             return None;
         }
         match syn::parse_file(&text) {
-            Ok(syntax) => Some(Rc::new(Module::new(path, file, folder, syntax))),
+            Ok(syntax) => {
+                let syntax = Rc::new(syntax);
+                self.workspace.keep_parsed(&file, &text, &syntax);
+                Some(Rc::new(Module::new(path, file, folder, syntax)))
+            }
             Err(error) => {
                 let problem = problem(error.to_string()).at(&file, range(error.span()), "");
                 self.problems.borrow_mut().push(problem);

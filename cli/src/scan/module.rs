@@ -1,6 +1,7 @@
 //! One module of a crate: its items, and what it brings in with `use`.
 
 use std::collections::BTreeMap;
+use std::rc::Rc;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use syn::{Attribute, Item, UseTree, Visibility};
@@ -14,7 +15,7 @@ pub struct Module {
     pub file: Utf8PathBuf,
     /// Where files of its own modules lie.
     pub(crate) folder: Utf8PathBuf,
-    pub syntax: syn::File,
+    pub syntax: Rc<syn::File>,
     pub(super) entries: BTreeMap<String, Entry>,
     pub(super) globs: Vec<Import>,
 }
@@ -57,7 +58,7 @@ impl Module {
         path: String,
         file: Utf8PathBuf,
         folder: Utf8PathBuf,
-        syntax: syn::File,
+        syntax: Rc<syn::File>,
     ) -> Self {
         let mut module = Self {
             path,
@@ -65,16 +66,11 @@ impl Module {
             folder,
             entries: BTreeMap::new(),
             globs: Vec::new(),
-            syntax: syn::File {
-                shebang: None,
-                attrs: Vec::new(),
-                items: Vec::new(),
-            },
+            syntax: syntax.clone(),
         };
         for (index, item) in syntax.items.iter().enumerate() {
             module.add(index, item);
         }
-        module.syntax = syntax;
         module
     }
 

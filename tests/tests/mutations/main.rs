@@ -177,6 +177,9 @@ fn judge_all(
     let work = || {
         let mut judged = Vec::new();
         let workspace = Workspace::in_memory(texts.clone());
+        // What a mutation does not touch is parsed here, once.
+        let understood = pipeline::understand(&workspace, &mut Diagnostics::new());
+        assert!(understood.is_ok(), "the robot itself is right");
         loop {
             // Only the count is shared; each thread keeps its own results.
             let index = next.fetch_add(1, Ordering::Relaxed);
