@@ -8,6 +8,7 @@
 //! target's hardware.
 
 pub mod compare;
+pub mod components;
 mod depth;
 pub mod fields;
 #[cfg(test)]
@@ -15,6 +16,7 @@ pub(crate) mod fixture;
 pub mod library;
 pub(crate) mod lookup;
 pub mod module;
+pub mod nalgebra;
 mod node;
 pub mod nondeterminism;
 mod public;

@@ -5,11 +5,13 @@
 
 mod choice;
 mod expected;
+mod form;
 mod given;
 mod keys;
 mod layer;
 mod opaque;
 mod values;
+mod variants;
 mod winners;
 
 use std::collections::BTreeSet;
@@ -155,11 +157,11 @@ impl Checker<'_> {
                 continue;
             }
             path.push(name.to_string());
-            match children.get(name.as_ref()) {
+            match children.get(name) {
                 Some(child) => self.check_value(file, value, &child.expected, path, diagnostics),
                 None => {
-                    let names = children.keys().map(String::as_str);
-                    let help = nearest(name, names).map(|near| format!("did you mean `{near}`?"));
+                    let help = nearest(name, children.names())
+                        .map(|near| format!("did you mean `{near}`?"));
                     let message = format!("nobody declares the parameter `{}`", path.join("."));
                     let error = Diagnostic::new(Code::UnknownParameter, message)
                         .at(file, key.span(), "")
@@ -241,7 +243,10 @@ impl Checker<'_> {
         path: &mut Vec<String>,
         diagnostics: &mut Diagnostics,
     ) {
-        for (name, child) in expected.children(self.sources).unwrap_or_default() {
+        let Some(children) = expected.children(self.sources) else {
+            return;
+        };
+        for (name, child) in children.of_tables(tables) {
             let values: Vec<&DeValue<'_>> = tables
                 .iter()
                 .filter_map(|table| child.names(&name).find_map(|name| table.get(name)))

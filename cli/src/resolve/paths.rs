@@ -5,6 +5,7 @@ use grammar::{DataPath, Segment as GrammarSegment, SegmentName};
 use super::robot::{Access, Segment};
 use crate::scan::Library;
 use crate::scan::compare::{Comparison, compare};
+use crate::scan::components::{Component, component};
 use crate::scan::types::{Definition, Resolved, Shape};
 
 /// What comparing a reader's type with the value at the end of its path shows.
@@ -182,9 +183,12 @@ fn enter(
             help: format!("write `?` behind `{}`", owner.name),
         });
     }
-    let structure = library
-        .fields(data)
-        .ok_or_else(|| without_fields(data, field))?;
+    if let Some(inner) = data.boxed() {
+        return enter(library, inner, owner, segment);
+    }
+    let Some(structure) = library.fields(data) else {
+        return enter_other(library, data, field);
+    };
     match structure.fields.iter().find(|one| one.name == *field) {
         Some(found) if found.public => Ok(found.data.clone()),
         Some(_) => Err(Agreement::Private {
@@ -192,33 +196,29 @@ fn enter(
             field: field.clone(),
         }),
         None if structure.dereferences => Err(Agreement::Unknown),
-        None => Err(Agreement::Field {
-            message: format!("`{}` has no field `{field}`", data.text),
-            names: structure.fields.into_iter().map(|one| one.name).collect(),
-            wrong: field.clone(),
-        }),
+        None => {
+            let names = structure.fields.into_iter().map(|one| one.name);
+            Err(no_field(data, field, names.collect()))
+        }
     }
 }
 
-/// Only what certainly has no fields is an error.
-fn without_fields(data: &Resolved, field: &str) -> Agreement {
-    match &data.shape {
-        Shape::Named {
-            definition: Definition::Prelude(name),
-            ..
-        } if name != "Box" => no_field(data, field),
-        Shape::Named {
-            definition: Definition::Workspace(item),
-            ..
-        } if matches!(item.item(), syn::Item::Enum(_)) => no_field(data, field),
-        _ => Agreement::Unknown,
+/// A field of what is no struct of the workspace; only what certainly has no such field is an error.
+fn enter_other(library: &Library<'_>, data: &Resolved, field: &str) -> Result<Resolved, Agreement> {
+    match component(data, field) {
+        Component::Field(data) => Ok(data),
+        Component::Absent(names) => Err(no_field(data, field, names)),
+        Component::Unknown if library.is_without_fields(data) => {
+            Err(no_field(data, field, Vec::new()))
+        }
+        Component::Unknown => Err(Agreement::Unknown),
     }
 }
 
-fn no_field(data: &Resolved, field: &str) -> Agreement {
+fn no_field(data: &Resolved, field: &str, names: Vec<String>) -> Agreement {
     Agreement::Field {
         message: format!("`{}` has no field `{field}`", data.text),
-        names: Vec::new(),
+        names,
         wrong: field.to_owned(),
     }
 }

@@ -1,6 +1,7 @@
 //! Fields of the workspace's structs, as far as they can be trusted to be what they seem.
 
 use std::ops::Range;
+use std::rc::Rc;
 
 use camino::Utf8PathBuf;
 use syn::ext::IdentExt;
@@ -8,9 +9,10 @@ use syn::{Attribute, Fields, Item, Meta};
 
 use super::library::Library;
 use super::lookup::ItemId;
+use super::module::Module;
 use super::range;
-use super::state::{derives, has_any_serde};
-use super::types::{Definition, Resolved, Shape, substitutions};
+use super::state::derives;
+use super::types::{Definition, Resolved, Shape, Substitutions, substitutions};
 
 /// Fields of a struct, with generic parameters filled in.
 #[derive(Clone, Debug)]
@@ -37,6 +39,25 @@ pub struct StructField {
     pub range: Range<usize>,
     pub public: bool,
     pub attributes: Vec<Attribute>,
+}
+
+/// The variants of an enum, with generic parameters filled in.
+#[derive(Clone, Debug)]
+pub struct Variants {
+    /// Attributes of the enum.
+    pub attributes: Vec<Attribute>,
+    pub variants: Vec<Variant>,
+}
+
+/// One variant of an enum.
+#[derive(Clone, Debug)]
+pub struct Variant {
+    /// Without `r#`.
+    pub name: String,
+    pub attributes: Vec<Attribute>,
+    /// Its fields have names; else they are called `0`, `1`, ….
+    pub has_names: bool,
+    pub fields: Vec<StructField>,
 }
 
 /// Attributes that leave a struct as it is written.
@@ -95,15 +116,15 @@ impl Library<'_> {
             range: range(definition.ident.span()),
             attributes: definition.attrs.clone(),
             fields,
-            dereferences: dereferences(&item.module.syntax, &definition.ident),
+            dereferences: dereferences(&item.module.syntax, &definition.ident, &definition.attrs),
         })
     }
 
-    /// The names that derived serde reads for an enum of unit variants; `None` where that cannot be seen.
-    pub fn unit_variants(&self, data: &Resolved) -> Option<Vec<String>> {
+    /// The variants of an enum of the workspace; `None` for everything else, and where a macro may have changed it.
+    pub fn variants(&self, data: &Resolved) -> Option<Variants> {
         let Shape::Named {
             definition: Definition::Workspace(item),
-            ..
+            arguments,
         } = &data.shape
         else {
             return None;
@@ -111,15 +132,58 @@ impl Library<'_> {
         let Item::Enum(definition) = item.item() else {
             return None;
         };
-        let plain = derives(&definition.attrs, "Deserialize")
-            && !has_any_serde(&definition.attrs)
-            && definition.attrs.iter().all(is_harmless);
-        let variants = definition.variants.iter();
-        let unit = variants.clone().all(|variant| {
-            matches!(variant.fields, Fields::Unit) && !has_any_serde(&variant.attrs)
+        if !definition.attrs.iter().all(is_harmless) {
+            return None;
+        }
+        let generics = substitutions(&definition.generics, arguments.clone())?;
+        let variants = definition.variants.iter().map(|variant| Variant {
+            name: variant.ident.unraw().to_string(),
+            attributes: variant.attrs.clone(),
+            has_names: matches!(variant.fields, Fields::Named(_)),
+            fields: self.variant_fields(&item.module, &variant.fields, &generics),
         });
-        let names = variants.map(|variant| variant.ident.unraw().to_string());
-        (plain && unit).then(|| names.collect())
+        Some(Variants {
+            attributes: definition.attrs.clone(),
+            variants: variants.collect(),
+        })
+    }
+
+    /// Whether a type of the workspace certainly has no field with a name.
+    pub fn is_without_fields(&self, data: &Resolved) -> bool {
+        let Shape::Named {
+            definition: Definition::Workspace(item),
+            ..
+        } = &data.shape
+        else {
+            return false;
+        };
+        let (name, attributes) = match item.item() {
+            Item::Enum(item) => (&item.ident, &item.attrs),
+            Item::Struct(item) if !matches!(item.fields, Fields::Named(_)) => {
+                (&item.ident, &item.attrs)
+            }
+            _ => return false,
+        };
+        attributes.iter().all(is_harmless) && !dereferences(&item.module.syntax, name, attributes)
+    }
+
+    fn variant_fields(
+        &self,
+        module: &Rc<Module>,
+        fields: &Fields,
+        generics: &Substitutions,
+    ) -> Vec<StructField> {
+        let fields = fields.iter().enumerate().map(|(index, field)| {
+            let name = field.ident.as_ref().map(|name| name.unraw().to_string());
+            StructField {
+                name: name.unwrap_or_else(|| index.to_string()),
+                data: self.resolve_with(module, &field.ty, generics, 0),
+                range: range(syn::spanned::Spanned::span(&field.ty)),
+                public: true,
+                attributes: field.attrs.clone(),
+            }
+        });
+        fields.collect()
     }
 
     /// The place of an item's name in its file.
@@ -136,8 +200,9 @@ impl Library<'_> {
     }
 }
 
-fn dereferences(file: &syn::File, name: &syn::Ident) -> bool {
-    file.items.iter().any(|item| match item {
+/// Whether a type stands for another value, by `impl Deref` beside it or by a derive.
+fn dereferences(file: &syn::File, name: &syn::Ident, attributes: &[Attribute]) -> bool {
+    let by_hand = file.items.iter().any(|item| match item {
         Item::Impl(block) => {
             let is_deref = block.trait_.as_ref().is_some_and(|(_, path, _)| {
                 path.segments
@@ -155,7 +220,8 @@ fn dereferences(file: &syn::File, name: &syn::Ident) -> bool {
             is_deref && of_name
         }
         _ => false,
-    })
+    });
+    by_hand || derives(attributes, "Deref")
 }
 
 pub(super) fn is_harmless(attribute: &Attribute) -> bool {

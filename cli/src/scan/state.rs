@@ -73,14 +73,6 @@ fn has_serde(attributes: &[Attribute], fits: impl Fn(&Meta) -> bool) -> bool {
         })
 }
 
-/// Whether there is any `#[serde(…)]`, also one that depends on `cfg`.
-pub(crate) fn has_any_serde(attributes: &[Attribute]) -> bool {
-    let names = ["serde", "cfg_attr"];
-    attributes
-        .iter()
-        .any(|one| names.iter().any(|name| one.path().is_ident(name)))
-}
-
 fn is_skip(meta: &Meta) -> bool {
     ["skip", "skip_serializing", "skip_deserializing"]
         .iter()

@@ -1,10 +1,12 @@
 //! Types as an author wrote them, made absolute: what generated code names, and what can be compared.
 
+mod constants;
+
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use quote::ToTokens;
-use syn::{Expr, GenericArgument, GenericParam, Item, PathArguments, Type};
+use syn::{GenericArgument, GenericParam, Item, PathArguments, Type};
 
 use super::library::Library;
 use super::lookup::{Found, ItemId};
@@ -83,12 +85,29 @@ impl Resolved {
         }
     }
 
+    /// `U`, if this is a `Box<U>`.
+    pub fn boxed(&self) -> Option<&Self> {
+        match &self.shape {
+            Shape::Named {
+                definition: Definition::Prelude(name),
+                arguments,
+            } if name == "Box" => arguments.first(),
+            _ => None,
+        }
+    }
+
     /// Crates that its text names.
     pub fn libraries(&self, found: &mut Vec<String>) {
         if let Shape::Named { definition, .. } = &self.shape {
             found.extend(definition.library().map(str::to_owned));
         }
         self.shape.parts().for_each(|part| part.libraries(found));
+    }
+
+    /// A type without arguments that is in scope everywhere.
+    pub fn prelude(name: &str) -> Self {
+        let definition = Definition::Prelude(name.to_owned());
+        named(name.to_owned(), definition, Vec::new())
     }
 
     /// A type about which nothing is known.
@@ -342,55 +361,6 @@ impl Library<'_> {
         }
         self.resolve_with(module, data, generics, depth)
     }
-
-    fn constant(&self, module: &Rc<Module>, value: &Expr) -> Resolved {
-        if let Some(number) = number(value) {
-            return Resolved {
-                shape: Shape::Constant(number.clone()),
-                text: number,
-                private: Vec::new(),
-            };
-        }
-        let value = match value {
-            Expr::Block(block) => match block.block.stmts.as_slice() {
-                [syn::Stmt::Expr(value, None)] => value,
-                _ => value,
-            },
-            value => value,
-        };
-        if let Expr::Path(path) = value
-            && let Some(Found::Item(item)) = self.find(module, &path.path)
-        {
-            return self.constant_item(&item);
-        }
-        Resolved::unknown(written(value))
-    }
-
-    /// A constant by its number, where its definition is one.
-    fn constant_item(&self, item: &ItemId) -> Resolved {
-        let Item::Const(constant) = item.item() else {
-            return Resolved::unknown(item.path());
-        };
-        let public = self.public_path(item);
-        match (number(&constant.expr), public) {
-            (Some(number), Some(text)) => Resolved {
-                text,
-                shape: Shape::Constant(number),
-                private: Vec::new(),
-            },
-            (Some(number), None) => Resolved {
-                text: number.clone(),
-                shape: Shape::Constant(number),
-                private: Vec::new(),
-            },
-            (None, Some(text)) => Resolved::unknown(text),
-            (None, None) => Resolved {
-                text: item.path(),
-                shape: Shape::Unknown,
-                private: vec![item.clone()],
-            },
-        }
-    }
 }
 
 /// What the parameters of an alias or a struct stand for; `None` if their numbers differ.
@@ -410,7 +380,7 @@ pub(super) fn substitutions(
     (names.len() == arguments.len()).then(|| names.into_iter().zip(arguments).collect())
 }
 
-fn named(name: String, definition: Definition, arguments: Vec<Resolved>) -> Resolved {
+pub(super) fn named(name: String, definition: Definition, arguments: Vec<Resolved>) -> Resolved {
     Resolved::of(
         arguments,
         |texts| {
@@ -446,18 +416,6 @@ fn pair(parts: Vec<Resolved>, shape: fn(Box<Resolved>, Box<Resolved>) -> Shape) 
     match (parts.next(), parts.next()) {
         (Some(first), Some(second)) => shape(Box::new(first), Box::new(second)),
         _ => Shape::Unknown,
-    }
-}
-
-/// An integer without its suffix, a bool, or a character.
-fn number(value: &Expr) -> Option<String> {
-    let Expr::Lit(literal) = value else {
-        return None;
-    };
-    match &literal.lit {
-        syn::Lit::Int(number) => Some(number.base10_digits().to_owned()),
-        syn::Lit::Bool(_) | syn::Lit::Char(_) => Some(written(literal)),
-        _ => None,
     }
 }
 

@@ -30,7 +30,7 @@ pub(crate) struct Segment {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum End {
     Type(String),
-    /// It leads into a type of another workspace.
+    /// It leads into a type that the oracle does not know.
     Unseen,
     Broken,
 }
@@ -324,8 +324,8 @@ impl<'r> Oracle<'r> {
                 }
             }
             Some(Definition::Enum { .. }) => End::Broken,
-            None if primitive.contains(&head) => End::Broken,
-            None => End::Unseen,
+            None if primitive.contains(&head) || data.starts_with(['(', '[']) => End::Broken,
+            None => of_nalgebra(head, arguments.trim_end_matches('>'), name),
         }
     }
 
@@ -488,6 +488,33 @@ pub(crate) fn agrees(data: &str, end: &End, path: &[Segment]) -> bool {
         End::Broken => false,
         End::Type(end) if marked => argument(data, "Option") == Some(end),
         End::Type(end) => data == end,
+    }
+}
+
+/// Parts of points, vectors and poses.
+fn of_nalgebra(head: &str, element: &str, name: &str) -> End {
+    let size = head.chars().last().and_then(|last| last.to_digit(10));
+    let axes = &["x", "y", "z", "w"][..size.unwrap_or_default().min(4) as usize];
+    let of_element = |kind: &str| End::Type(format!("{kind}<{element}>"));
+    match (head.trim_end_matches(|one: char| one.is_numeric()), name) {
+        ("Point" | "Vector" | "Translation", axis) if axes.contains(&axis) => {
+            End::Type(element.to_owned())
+        }
+        ("Point", "coords") | ("Translation", "vector") => {
+            of_element(&format!("Vector{}", axes.len()))
+        }
+        ("Vector", "data") => End::Unseen,
+        ("Isometry", "translation") => of_element(&format!("Translation{}", axes.len())),
+        ("Isometry", "rotation") if axes.len() == 2 => of_element("UnitComplex"),
+        ("Isometry", "rotation") => of_element("UnitQuaternion"),
+        ("UnitQuaternion", "i" | "j" | "k" | "w") | ("UnitComplex", "re" | "im") => {
+            End::Type(element.to_owned())
+        }
+        ("UnitQuaternion", "coords") => of_element("Vector4"),
+        ("Point" | "Vector" | "Translation" | "Isometry" | "UnitQuaternion" | "UnitComplex", _) => {
+            End::Broken
+        }
+        _ => End::Unseen,
     }
 }
 

@@ -1,11 +1,13 @@
 //! What a table of a parameter file may hold.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-use super::keys::keys;
+use toml::de::DeTable;
+
+use super::form::{Form, is_optional};
+use super::keys::Key;
 use crate::resolve::robot::{Content, Reader, Tree};
 use crate::scan::Sources;
-use crate::scan::fields::StructFields;
 use crate::scan::types::Resolved;
 
 /// A place of the parameter tree.
@@ -24,84 +26,132 @@ pub(super) struct Child<'a> {
     /// It has to be given.
     pub(super) required: bool,
     /// Other keys that mean the same.
-    aliases: Vec<String>,
+    pub(super) aliases: Vec<String>,
+    /// It is another name of the value under this key.
+    pub(super) alias_of: Option<String>,
+}
+
+/// What stands below a place.
+#[derive(Clone, Debug)]
+pub(super) enum Children<'a> {
+    /// These keys, with the other names of some.
+    Named(BTreeMap<String, Child<'a>>),
+    /// Any keys, each with a value of this type.
+    Any(Resolved),
 }
 
 impl Child<'_> {
+    /// A value that has to be there.
+    pub(super) fn of(data: Resolved) -> Self {
+        Self {
+            required: !is_optional(&data),
+            expected: Expected::Value(data),
+            aliases: Vec::new(),
+            alias_of: None,
+        }
+    }
+
+    fn opaque(required: bool) -> Self {
+        Self {
+            required,
+            ..Self::of(Resolved::opaque())
+        }
+    }
+
     /// Every key under which the value may stand.
     pub(super) fn names<'a>(&'a self, name: &'a str) -> impl Iterator<Item = &'a str> {
         std::iter::once(name).chain(self.aliases.iter().map(String::as_str))
     }
 }
 
-impl<'a> Expected<'a> {
-    /// What stands below, by key; `None` where that cannot be seen.
-    pub(super) fn children(&self, sources: &Sources<'_>) -> Option<BTreeMap<String, Child<'a>>> {
+impl<'a> Children<'a> {
+    /// What stands under a key.
+    pub(super) fn get(&self, name: &str) -> Option<Child<'a>> {
         match self {
-            Self::Tree(tree) => {
-                let branches = tree.branches.iter();
-                Some(
-                    branches
-                        .map(|branch| (branch.name.clone(), child(&branch.content, sources)))
-                        .collect(),
-                )
-            }
-            Self::Value(data) => {
-                let data = data.option_argument().unwrap_or(data);
-                fields(sources.library.fields(data)?)
+            Self::Named(children) => children.get(name).cloned(),
+            Self::Any(data) => Some(Child::of(data.clone())),
+        }
+    }
+
+    /// Every key that is known.
+    pub(super) fn names(&self) -> impl Iterator<Item = &str> {
+        let children = match self {
+            Self::Named(children) => Some(children),
+            Self::Any(_) => None,
+        };
+        children
+            .into_iter()
+            .flat_map(BTreeMap::keys)
+            .map(String::as_str)
+    }
+
+    /// What these tables have, and what they should have.
+    pub(super) fn of_tables(self, tables: &[&DeTable<'_>]) -> BTreeMap<String, Child<'a>> {
+        match self {
+            Self::Named(children) => children,
+            Self::Any(data) => {
+                let keys = tables.iter().flat_map(|table| table.keys());
+                let names: BTreeSet<String> = keys.map(|key| key.get_ref().to_string()).collect();
+                let child = |name| (name, Child::of(data.clone()));
+                names.into_iter().map(child).collect()
             }
         }
     }
 }
+
+impl<'a> Expected<'a> {
+    /// What stands below, by key; `None` where that cannot be seen.
+    pub(super) fn children(&self, sources: &Sources<'_>) -> Option<Children<'a>> {
+        match self {
+            Self::Tree(tree) => {
+                let branches = tree.branches.iter();
+                let child =
+                    |branch: &'a Branch| (branch.name.clone(), child(&branch.content, sources));
+                Some(Children::Named(branches.map(child).collect()))
+            }
+            Self::Value(data) => match Form::of(data, sources) {
+                Form::Fields { children, .. } => Some(children),
+                Form::Map(data) => Some(Children::Any(data)),
+                _ => None,
+            },
+        }
+    }
+}
+
+type Branch = crate::resolve::robot::Branch<Reader>;
 
 fn child<'a>(content: &'a Content<Reader>, sources: &Sources<'_>) -> Child<'a> {
     match content {
         Content::Leaf { data, users } => {
-            let data = users
-                .first()
-                .and_then(|user| sources.nodes.get(&user.node))
-                .map(|node| sources.library.resolve_absolute(&node.module, &data.text));
-            match data {
-                Some(data) => Child {
-                    required: data.option_argument().is_none(),
-                    expected: Expected::Value(data),
-                    aliases: Vec::new(),
-                },
-                None => opaque(true),
-            }
+            let node = users.first().and_then(|user| sources.nodes.get(&user.node));
+            node.map_or_else(
+                || Child::opaque(true),
+                |node| Child::of(sources.library.resolve_absolute(&node.module, &data.text)),
+            )
         }
         Content::Inner(tree) | Content::Instance { tree, .. } => Child {
             expected: Expected::Tree(tree),
-            required: false,
-            aliases: Vec::new(),
+            ..Child::opaque(false)
         },
     }
 }
 
-fn opaque<'a>(required: bool) -> Child<'a> {
-    Child {
-        expected: Expected::Value(Resolved::opaque()),
-        required,
-        aliases: Vec::new(),
-    }
-}
-
-/// Fields by the keys that derived serde reads; `None` where an attribute means more than is understood.
-fn fields<'a>(structure: StructFields) -> Option<BTreeMap<String, Child<'a>>> {
+/// Fields by the keys that derived serde reads.
+pub(super) fn children(keys: Vec<Key>) -> Children<'static> {
     let mut children = BTreeMap::new();
-    for key in keys(structure)? {
+    for key in keys {
         let child = if key.by_function {
-            opaque(key.required)
+            Child::opaque(key.required)
         } else {
             Child {
                 required: key.required,
-                expected: Expected::Value(key.field.data),
-                aliases: Vec::new(),
+                ..Child::of(key.field.data)
             }
         };
         for alias in &key.aliases {
             let child = Child {
                 required: false,
+                alias_of: Some(key.name.clone()),
                 ..child.clone()
             };
             children.insert(alias.clone(), child);
@@ -109,5 +159,5 @@ fn fields<'a>(structure: StructFields) -> Option<BTreeMap<String, Child<'a>>> {
         let aliases = key.aliases;
         children.insert(key.name, Child { aliases, ..child });
     }
-    Some(children)
+    Children::Named(children)
 }

@@ -2,6 +2,7 @@
 
 use syn::{Attribute, Expr, ExprLit, Lit, Meta, Token, punctuated::Punctuated};
 
+use super::form::is_optional;
 use crate::scan::fields::{StructField, StructFields};
 
 /// A field that a table may give.
@@ -43,9 +44,18 @@ pub(super) fn keys(structure: StructFields) -> Option<Vec<Key>> {
             _ => return None,
         }
     }
-    let keys = structure.fields.into_iter().map(|field| {
-        let required = !has_default && field.data.option_argument().is_none();
-        let name = renamed(&field.name, &rule)?;
+    field_keys(structure.fields, &rule, has_default)
+}
+
+/// The keys of fields that have names by the rule of `rename_all`.
+pub(super) fn field_keys(
+    fields: Vec<StructField>,
+    rule: &str,
+    has_default: bool,
+) -> Option<Vec<Key>> {
+    let keys = fields.into_iter().map(|field| {
+        let required = !has_default && !is_optional(&field.data);
+        let name = renamed(&field.name, rule)?;
         key(field, name, required)
     });
     let keys: Option<Vec<Option<Key>>> = keys.collect();
@@ -91,20 +101,22 @@ fn renamed(field: &str, rule: &str) -> Option<String> {
         "lowercase" | "snake_case" => field.to_owned(),
         "UPPERCASE" | "SCREAMING_SNAKE_CASE" => field.to_ascii_uppercase(),
         "PascalCase" => pascal(),
-        "camelCase" => {
-            let pascal = pascal();
-            let mut characters = pascal.chars();
-            let first = characters.next().map(|first| first.to_ascii_lowercase());
-            first.into_iter().chain(characters).collect()
-        }
+        "camelCase" => with_small_beginning(&pascal()),
         "kebab-case" => field.replace('_', "-"),
         "SCREAMING-KEBAB-CASE" => field.to_ascii_uppercase().replace('_', "-"),
         _ => return None,
     })
 }
 
+/// `HalfLife` as `halfLife`.
+pub(super) fn with_small_beginning(name: &str) -> String {
+    let mut characters = name.chars();
+    let first = characters.next().map(|first| first.to_ascii_lowercase());
+    first.into_iter().chain(characters).collect()
+}
+
 /// Everything in `#[serde(…)]`; `None` if it cannot be read or depends on `cfg`.
-fn serde_items(attributes: &[Attribute]) -> Option<Vec<Meta>> {
+pub(super) fn serde_items(attributes: &[Attribute]) -> Option<Vec<Meta>> {
     let mut items = Vec::new();
     for attribute in attributes {
         if attribute.path().is_ident("cfg_attr") || attribute.path().is_ident("cfg") {
@@ -118,12 +130,14 @@ fn serde_items(attributes: &[Attribute]) -> Option<Vec<Meta>> {
     Some(items)
 }
 
-fn name(item: &Meta) -> String {
+/// The name of one of them.
+pub(super) fn name(item: &Meta) -> String {
     let name = item.path().get_ident();
     name.map(ToString::to_string).unwrap_or_default()
 }
 
-fn text(item: &Meta) -> Option<String> {
+/// The text behind the `=` of one of them.
+pub(super) fn text(item: &Meta) -> Option<String> {
     match item {
         Meta::NameValue(meta) => match &meta.value {
             Expr::Lit(ExprLit {

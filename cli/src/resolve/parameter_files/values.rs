@@ -3,12 +3,14 @@
 use std::ops::Range;
 
 use toml::Spanned;
-use toml::de::{DeInteger, DeTable, DeValue};
+use toml::de::{DeInteger, DeValue};
 
-use super::expected::Expected;
+use super::expected::{Children, Expected};
+use super::form::Form;
+use super::variants::{Content, Variant};
 use crate::diagnostics::{listed, nearest};
 use crate::scan::Sources;
-use crate::scan::types::{Definition, Resolved, Shape};
+use crate::scan::types::Resolved;
 
 /// A value of the wrong type.
 pub(super) struct Mistake {
@@ -31,55 +33,33 @@ pub(super) fn mistake(
     }
 }
 
+/// A value that stands in no table which other files add to, so it is whole.
 fn check(value: &Spanned<DeValue<'_>>, data: &Resolved, sources: &Sources<'_>) -> Option<Mistake> {
-    match &data.shape {
-        Shape::Named {
-            definition: Definition::Prelude(name),
-            arguments,
-        } => match (name.as_str(), arguments.as_slice()) {
-            ("Option" | "Box", [inner]) => check(value, inner, sources),
-            ("Vec", [element]) => check_elements(value, element, sources),
-            (name, _) => check_primitive(value, name),
-        },
-        Shape::Named {
-            definition: Definition::Workspace(_),
-            ..
-        } => {
-            if let Some(variants) = sources.library.unit_variants(data) {
-                return check_variant(value, &variants);
-            }
-            let is_struct = Expected::Value(data.clone()).children(sources).is_some();
-            match value.get_ref().as_table() {
-                Some(table) => check_element(value, table, data, sources),
-                None => is_struct.then(|| wrong(value, "a table")),
-            }
-        }
-        Shape::Array(element, length) => {
+    match Form::of(data, sources) {
+        Form::Unknown => None,
+        Form::List(element) => check_elements(value, &element, sources),
+        Form::Repeated { element, length } => {
             let items = value.get_ref().as_array().map(|items| items.len());
-            match (&length.shape, items) {
-                (Shape::Constant(length), Some(items)) if length.parse() != Ok(items) => {
-                    Some(Mistake {
-                        message: format!("has {items} elements, not {length}"),
-                        place: value.span(),
-                        help: None,
-                    })
-                }
-                _ => check_elements(value, element, sources),
+            match items {
+                Some(items) if length != items => Some(Mistake {
+                    message: match items {
+                        1 => format!("has 1 element, not {length}"),
+                        _ => format!("has {items} elements, not {length}"),
+                    },
+                    place: value.span(),
+                    help: None,
+                }),
+                _ => check_elements(value, &element, sources),
             }
         }
-        Shape::Tuple(parts) => {
-            let Some(items) = value.get_ref().as_array() else {
-                return Some(wrong(value, "an array"));
-            };
-            if items.len() != parts.len() {
-                return Some(wrong(value, &format!("an array of {}", parts.len())));
-            }
-            items
-                .iter()
-                .zip(parts)
-                .find_map(|(item, part)| check(item, part, sources))
+        Form::Several(parts) => check_parts(value, &parts, sources),
+        Form::Map(data) => check_fields(value, &Children::Any(data), sources),
+        Form::Fields { order, .. } if !order.is_empty() && value.get_ref().is_array() => {
+            check_parts(value, &order, sources)
         }
-        _ => None,
+        Form::Fields { children, .. } => check_fields(value, &children, sources),
+        Form::Variants(variants) => check_variant(value, &variants, sources),
+        simple => check_simple(value, &simple),
     }
 }
 
@@ -94,20 +74,36 @@ fn check_elements(
     items.iter().find_map(|item| check(item, element, sources))
 }
 
-/// A table within an array: no other file adds to it, so it is whole.
-fn check_element(
+/// An array with one element of each of these types.
+fn check_parts(
     value: &Spanned<DeValue<'_>>,
-    table: &DeTable<'_>,
-    data: &Resolved,
+    parts: &[Resolved],
     sources: &Sources<'_>,
 ) -> Option<Mistake> {
-    let children = Expected::Value(data.clone()).children(sources)?;
+    let Some(items) = value.get_ref().as_array() else {
+        return Some(wrong(value, "an array"));
+    };
+    if items.len() != parts.len() {
+        return Some(wrong(value, &format!("an array of {}", parts.len())));
+    }
+    let mut items = items.iter().zip(parts);
+    items.find_map(|(item, part)| check(item, part, sources))
+}
+
+fn check_fields(
+    value: &Spanned<DeValue<'_>>,
+    children: &Children<'_>,
+    sources: &Sources<'_>,
+) -> Option<Mistake> {
+    let Some(table) = value.get_ref().as_table() else {
+        return Some(wrong(value, "a table"));
+    };
     for (key, value) in table {
         let name = key.get_ref();
-        let Some(child) = children.get(name.as_ref()) else {
-            let near = nearest(name, children.keys().map(String::as_str));
+        let Some(child) = children.get(name) else {
+            let near = nearest(name, children.names());
             return Some(Mistake {
-                message: format!("has an element with `{name}`, which nobody declares"),
+                message: format!("has a table with `{name}`, which nobody declares"),
                 place: key.span(),
                 help: Some(near.map_or_else(
                     || "remove it".to_owned(),
@@ -115,70 +111,116 @@ fn check_element(
                 )),
             });
         };
+        if let Some(name) = child
+            .alias_of
+            .filter(|name| table.contains_key(name.as_str()))
+        {
+            return Some(Mistake {
+                message: format!(
+                    "has a table with `{name}` and its other name `{}`",
+                    key.get_ref()
+                ),
+                place: key.span(),
+                help: Some("remove one of them".to_owned()),
+            });
+        }
         if let Some(mistake) = mistake(value, &child.expected, sources) {
             return Some(mistake);
         }
     }
+    let children = children.clone().of_tables(&[table]);
     let lacking = children.iter().find(|(name, child)| {
         child.required && !child.names(name).any(|name| table.contains_key(name))
     });
     lacking.map(|(name, _)| Mistake {
-        message: format!("has an element without `{name}`"),
+        message: format!("has a table without `{name}`"),
         place: value.span(),
         help: Some(format!("add `{name} = …` to it")),
     })
 }
 
-/// Whether [`mistake`] knows what this type of the prelude takes.
-pub(super) fn is_checked(name: &str) -> bool {
-    matches!(name, "bool" | "char" | "f32" | "f64" | "String") || limits(name).is_some()
-}
-
-fn check_primitive(value: &Spanned<DeValue<'_>>, name: &str) -> Option<Mistake> {
-    let expected = match (name, value.get_ref()) {
-        ("bool", DeValue::Boolean(_))
-        | ("String", DeValue::String(_))
-        | ("f32" | "f64", DeValue::Float(_) | DeValue::Integer(_)) => return None,
-        ("bool", _) => "true or false",
-        ("String", _) => "a string",
-        ("f32" | "f64", _) => "a number",
-        ("char", DeValue::String(text)) if text.chars().count() == 1 => return None,
-        ("char", _) => "a string of one character",
-        (integer, DeValue::Integer(number)) => match limits(integer) {
-            Some((least, greatest)) if !(least..=greatest).contains(&parse(number)?) => {
-                return Some(Mistake {
-                    message: format!("does not fit into a `{integer}`"),
-                    place: value.span(),
-                    help: Some(format!("write a number from {least} to {greatest}")),
-                });
+fn check_simple(value: &Spanned<DeValue<'_>>, form: &Form) -> Option<Mistake> {
+    let expected = match (form, value.get_ref()) {
+        (Form::Boolean, DeValue::Boolean(_))
+        | (Form::Text, DeValue::String(_))
+        | (Form::Number, DeValue::Float(_) | DeValue::Integer(_)) => return None,
+        (Form::Boolean, _) => "true or false",
+        (Form::Text, _) => "a string",
+        (Form::Number, _) => "a number",
+        (Form::Letter, DeValue::String(text)) if text.chars().count() == 1 => return None,
+        (Form::Letter, _) => "a string of one character",
+        (Form::Address(is_right), DeValue::String(text)) if is_right(text) => return None,
+        (Form::Address(_), _) => "an address",
+        (
+            Form::Whole {
+                name,
+                least,
+                greatest,
+                zero,
+            },
+            DeValue::Integer(number),
+        ) => {
+            let number = parse(number)?;
+            if (*least..=*greatest).contains(&number) && (*zero || number != 0) {
+                return None;
             }
-            _ => return None,
-        },
-        (integer, _) => {
-            limits(integer)?;
-            "a whole number"
+            let but = if *zero { "" } else { ", but not 0" };
+            return Some(Mistake {
+                message: format!("does not fit into a `{name}`"),
+                place: value.span(),
+                help: Some(format!("write a number from {least} to {greatest}{but}")),
+            });
         }
+        (Form::Whole { .. }, _) => "a whole number",
+        _ => return None,
     };
     Some(wrong(value, expected))
 }
 
-fn check_variant(value: &Spanned<DeValue<'_>>, variants: &[String]) -> Option<Mistake> {
-    let Some(name) = value.get_ref().as_str() else {
-        return Some(wrong(value, "a string"));
+/// The name of a variant, or a table of that name with what the variant holds.
+fn check_variant(
+    value: &Spanned<DeValue<'_>>,
+    variants: &[Variant],
+    sources: &Sources<'_>,
+) -> Option<Mistake> {
+    let (name, place, content) = match value.get_ref() {
+        DeValue::String(name) => (name, value.span(), None),
+        DeValue::Table(table) => match table.iter().next() {
+            Some((key, content)) if table.len() == 1 => (key.get_ref(), key.span(), Some(content)),
+            _ => return Some(wrong(value, "a table with one variant")),
+        },
+        _ => return Some(wrong(value, "a string")),
     };
-    if variants.iter().any(|variant| variant == name) {
-        return None;
-    }
-    let names = || variants.iter().map(String::as_str);
-    let help = match nearest(name, names()) {
-        Some(near) => format!("did you mean \"{near}\"?"),
-        None => format!("write one of {}", listed(names())),
-    };
-    Some(Mistake {
-        message: format!("has no variant `{name}`"),
-        place: value.span(),
+    let mistake = |message: String, help: String| Mistake {
+        message,
+        place: place.clone(),
         help: Some(help),
-    })
+    };
+    let mut named = variants
+        .iter()
+        .filter(|one| one.names().any(|one| one == name));
+    let Some(variant) = named.next() else {
+        let names = || variants.iter().flat_map(Variant::names);
+        let help = match nearest(name, names()) {
+            Some(near) => format!("did you mean \"{near}\"?"),
+            None => format!("write one of {}", listed(names())),
+        };
+        return Some(mistake(format!("has no variant `{name}`"), help));
+    };
+    match (&variant.content, content) {
+        (Content::Unknown, _) | (Content::Nothing, None) => None,
+        (Content::Nothing, Some(_)) => {
+            let message = format!("has a value for `{name}`, which takes none");
+            Some(mistake(message, format!("write \"{name}\"")))
+        }
+        (_, None) => {
+            let message = format!("has no value for `{name}`");
+            Some(mistake(message, format!("write {{ {name} = … }}")))
+        }
+        (Content::One(data), Some(content)) => check(content, data, sources),
+        (Content::Several(parts), Some(content)) => check_parts(content, parts, sources),
+        (Content::Fields(children), Some(content)) => check_fields(content, children, sources),
+    }
 }
 
 fn wrong(value: &Spanned<DeValue<'_>>, expected: &str) -> Mistake {
@@ -202,20 +244,4 @@ fn described(value: &DeValue<'_>) -> &'static str {
 
 fn parse(number: &DeInteger<'_>) -> Option<i128> {
     i128::from_str_radix(number.as_str(), number.radix()).ok()
-}
-
-/// TOML's integers have 64 bits with a sign.
-fn limits(integer: &str) -> Option<(i128, i128)> {
-    let (least, greatest) = match integer {
-        "i8" => (i128::from(i8::MIN), i128::from(i8::MAX)),
-        "i16" => (i128::from(i16::MIN), i128::from(i16::MAX)),
-        "i32" => (i128::from(i32::MIN), i128::from(i32::MAX)),
-        "i64" | "i128" | "isize" => (i128::from(i64::MIN), i128::from(i64::MAX)),
-        "u8" => (0, i128::from(u8::MAX)),
-        "u16" => (0, i128::from(u16::MAX)),
-        "u32" => (0, i128::from(u32::MAX)),
-        "u64" | "u128" | "usize" => (0, i128::from(i64::MAX)),
-        _ => return None,
-    };
-    Some((least, greatest))
 }

@@ -48,6 +48,22 @@ fn written_type_and_path_agree_by_the_contract() {
             None,
         ),
         ("nalgebra::Point2<f32>", "Input<f32, \"x.x\">", None),
+        ("Box<Ball>", "Input<f32, \"x.x\">", None),
+        ("Box<Ball>", "Input<f32, \"x.y\">", Some("unknown-output")),
+        ("(f32, f32)", "Input<f32, \"x.x\">", Some("unknown-output")),
+        ("[f32; 2]", "Input<f32, \"x.x\">", Some("unknown-output")),
+        (
+            "std::time::Duration",
+            "Input<u64, \"x.secs\">",
+            Some("unknown-output"),
+        ),
+        ("std::ops::Range<f32>", "Input<f32, \"x.end\">", None),
+        (
+            "std::ops::Range<f32>",
+            "Input<f32, \"x.begin\">",
+            Some("unknown-output"),
+        ),
+        ("ordered_float::NotNan<f32>", "Input<f32, \"x.y\">", None),
         ("Option<u8>", "Input<u8, \"x\">", Some("option-mismatch")),
         ("u8", "Input<Option<u8>, \"x\">", Some("option-mismatch")),
         ("u8", "Input<Option<u8>, \"x?\">", Some("option-mismatch")),
@@ -97,6 +113,77 @@ fn written_type_and_path_agree_by_the_contract() {
         let (codes, text) = answer(output, field);
         assert_eq!(codes, Vec::from_iter(code), "{output} {field}\n{text}");
     }
+}
+
+/// Every line was compiled against nalgebra 0.35.
+#[test]
+fn paths_lead_into_values_of_nalgebra() {
+    for (output, read, path, is_right) in [
+        ("Point2<f32>", "f32", "y", true),
+        ("Point2<f32>", "f64", "y", false),
+        ("Point2<f32>", "f32", "z", false),
+        ("Point2<f32>", "nalgebra::Vector2<f32>", "coords", true),
+        ("Point2<f32>", "nalgebra::Vector3<f32>", "coords", false),
+        ("Point2<f32>", "f32", "coords.y", true),
+        ("Point2<f32>", "f32", "cords.y", false),
+        ("Point2<f32>", "f32", "coords.z", false),
+        ("Point<f32, 3>", "f32", "z", true),
+        ("SVector<f32, 4>", "f32", "w", true),
+        ("Vector6<f32>", "f32", "b", true),
+        ("RowVector2<f32>", "f32", "y", true),
+        ("Vector3<f32>", "f32", "coords", false),
+        ("Matrix3<f32>", "f32", "m12", true),
+        ("Matrix3<f32>", "f32", "m14", false),
+        ("Matrix3x4<f32>", "f32", "m14", true),
+        ("SMatrix<f32, 2, 2>", "f32", "m22", true),
+        ("SMatrix<f32, 9, 9>", "f32", "m22", false),
+        (
+            "Translation3<f32>",
+            "nalgebra::Vector3<f32>",
+            "vector",
+            true,
+        ),
+        ("Rotation3<f32>", "f32", "matrix", false),
+        ("Quaternion<f32>", "f32", "k", true),
+        ("UnitQuaternion<f32>", "f32", "i", true),
+        ("UnitQuaternion<f32>", "f32", "x", false),
+        ("UnitQuaternion<f32>", "f32", "coords.x", true),
+        ("UnitComplex<f32>", "f32", "re", true),
+        ("UnitVector3<f32>", "f32", "z", true),
+        ("Unit<nalgebra::Vector3<f32>>", "f32", "z", true),
+        ("Unit<nalgebra::Vector3<f32>>", "f32", "w", false),
+        ("Isometry3<f32>", "f32", "translation.z", true),
+        (
+            "Isometry3<f32>",
+            "nalgebra::UnitQuaternion<f32>",
+            "rotation",
+            true,
+        ),
+        ("Isometry2<f32>", "f32", "rotation.im", true),
+        ("Isometry2<f32>", "f32", "rotation.i", false),
+        ("Isometry2<f32>", "f32", "translation.z", false),
+        (
+            "IsometryMatrix3<f32>",
+            "nalgebra::Rotation3<f32>",
+            "rotation",
+            true,
+        ),
+        ("Similarity3<f32>", "f32", "isometry.translation.x", true),
+        ("Similarity3<f32>", "f32", "scaling", false),
+        // What the type of the data is, and what has no size in its name, is left to rustc.
+        ("Vector3<f32>", "f32", "data", true),
+        ("DVector<f32>", "f32", "x", true),
+        ("OPoint<f32, nalgebra::Const<2>>", "f32", "x", true),
+    ] {
+        let (codes, text) = answer(
+            &format!("nalgebra::{output}"),
+            &format!("Input<{read}, \"x.{path}\">"),
+        );
+        assert_eq!(codes.is_empty(), is_right, "{output} {path}\n{text}");
+    }
+    let (codes, text) = answer("nalgebra::Point2<f32>", "Input<f32, \"x.cords.y\">");
+    assert_eq!(codes, ["unknown-output"]);
+    assert!(text.contains("did you mean `coords`?"), "{text}");
 }
 
 #[test]
