@@ -87,16 +87,27 @@ Example:
 }
 
 /// Write the generated crate: unchanged files stay untouched, orphans are removed
+///
+/// With --only it is a second crate beside the robot's: a library without targets, for a test, a simulator or a tool that
+/// brings the hardware. What its cyclers read of the others comes from stubs, which count as never written until they are
+/// fed. The whole robot must be free of errors, and its own crate is not touched.
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "\
 Exit status: 0 written or nothing to do, 1 errors in the manifest or a node (nothing was written)
-             or in a parameter file, 3 with --check if something would be written.
+             or in a parameter file, 2 there is no such cycler, 3 with --check if something would be written.
 
 Examples:
   hulkgen generate
-  hulkgen generate --check     # in CI: print the diff, write nothing
-  hulkgen generate --watch     # again whenever a file is saved, until Ctrl-C")]
+  hulkgen generate --check           # in CI: print the diff, write nothing
+  hulkgen generate --watch           # again whenever a file is saved, until Ctrl-C
+  hulkgen generate --only Control    # a second crate, in generated-control")]
 pub struct Generate {
+    /// Write a crate of these cyclers alone, for example `Control,Vision`, with stubs for what they read of the others
+    #[arg(long, value_name = "CYCLERS", value_delimiter = ',')]
+    pub only: Vec<String>,
+    /// Folder of that crate, relative to the robot's [default: the generated one's and the names, `generated-control`]
+    #[arg(long, value_name = "FOLDER", requires = "only")]
+    pub output: Option<Utf8PathBuf>,
     /// Write nothing; print the diff and end with 3 if there is one
     #[arg(long)]
     pub check: bool,

@@ -9,6 +9,7 @@
 //! | ② | scan | [`scan::Sources`]: node files by themselves, and the names that they use | `scan.rs` |
 //! | ③ | resolve | [`resolve::robot::Robot`]: every name bound to what it means | `resolve.rs` |
 //! | ④ | schedule | `Schedule`: the order of the nodes of every cycler, and why | `schedule.rs` |
+//! | – | partial | a [`resolve::robot::Robot`] of some cyclers, for `generate --only` | `partial.rs` |
 //! | ⑤ | describe | `RuntimeModel`: what each file will say; no decisions left | `model.rs` |
 //! | ⑥ | render | `GeneratedFiles`: path → text | `render.rs` |
 //! | – | door out | `Drift`: what differs on disk; written or only shown | `drift.rs` |
@@ -31,6 +32,7 @@ pub mod late;
 pub mod manifest;
 pub mod model;
 pub mod outcome;
+pub mod partial;
 pub mod pipeline;
 pub mod render;
 pub mod resolve;

@@ -15,6 +15,8 @@ use toml::de::DeTable;
 use crate::diagnostics::{Code, Diagnostic, Diagnostics, Reported};
 use crate::workspace::{MANIFEST, Workspace};
 
+pub use folders::{mistake as mistake_of_generated_folder, without_dots};
+
 /// The manifest without mistakes of its own.
 #[derive(Clone, Debug)]
 pub struct Manifest {

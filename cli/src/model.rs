@@ -11,6 +11,7 @@ pub mod dataflow;
 pub mod frame;
 pub mod names;
 pub mod node;
+pub mod outside;
 pub mod package;
 pub mod parameters;
 pub mod runtime;
@@ -20,7 +21,7 @@ pub mod structs;
 use camino::Utf8PathBuf;
 use serde::Serialize;
 
-use crate::resolve::robot::Robot;
+use crate::resolve::robot::{Partial, Robot};
 use crate::schedule::Schedule;
 
 pub use crate::resolve::robot::{CyclerKind, InstanceId, OnFailure, Scheduling};
@@ -28,6 +29,7 @@ pub use crate::resolve::robot::{CyclerKind, InstanceId, OnFailure, Scheduling};
 pub use binary::Binary;
 pub use cycler::CyclerModel;
 pub use dataflow::Dataflow;
+pub use outside::Outside;
 pub use package::Package;
 pub use parameters::Parameters;
 pub use runtime::Runtime;
@@ -39,17 +41,22 @@ pub const DO_NOT_EDIT: &str =
 /// The generated crate, file by file.
 #[derive(Clone, Debug, Serialize)]
 pub struct RuntimeModel {
-    pub robot: String,
+    /// What the crate is, as a sentence.
+    pub title: String,
     /// Folder of the generated crate, relative to the workspace root.
     pub folder: Utf8PathBuf,
+    /// Options of the `hulkgen generate` that writes it.
+    pub options: Vec<String>,
     /// `Cargo.toml`.
     pub package: Package,
     /// `DATAFLOW.md`.
     pub dataflow: Dataflow,
     /// `src/parameters.rs`.
     pub parameters: Parameters,
-    /// `src/databases/…`, `src/cyclers/…` and `src/runtime/…` of each cycler, in manifest order.
+    /// `src/databases/…`, `src/cyclers/…` and `src/runtime/…` of each cycler that runs, in manifest order.
     pub cyclers: Vec<CyclerModel>,
+    /// `src/databases/…` of each cycler that is left out and read, in manifest order.
+    pub outside: Vec<Outside>,
     /// `src/runtime.rs`.
     pub runtime: Runtime,
     /// `src/bin/…`, in manifest order.
@@ -60,20 +67,27 @@ pub struct RuntimeModel {
 pub fn describe(robot: &Robot, schedule: &Schedule) -> RuntimeModel {
     let parameters = parameters::describe(robot);
     let cyclers: Vec<CyclerModel> = robot
-        .cyclers
-        .iter()
-        .zip(&schedule.cyclers)
-        .map(|(cycler, schedule)| cycler::describe(robot, cycler, schedule, &parameters))
+        .running()
+        .map(|(position, _)| cycler::describe(robot, position, schedule, &parameters))
         .collect();
     RuntimeModel {
-        robot: robot.name.clone(),
+        title: sentences::crate_title(robot),
         folder: robot.generated.clone(),
+        options: (robot.partial.as_ref()).map_or_else(Vec::new, Partial::options),
         package: package::describe(robot),
         dataflow: dataflow::describe(robot, schedule),
         runtime: runtime::describe(robot, &cyclers),
         binaries: binary::describe(robot),
+        outside: outside::describe(robot),
         parameters,
         cyclers,
+    }
+}
+
+impl RuntimeModel {
+    /// The cycler of an instance that runs.
+    pub fn cycler_of(&self, id: InstanceId) -> &CyclerModel {
+        cycler::at(&self.cyclers, id.cycler)
     }
 }
 

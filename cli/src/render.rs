@@ -25,7 +25,7 @@ use std::collections::BTreeMap;
 use camino::Utf8PathBuf;
 use quote::quote;
 
-use crate::model::{CyclerModel, RuntimeModel};
+use crate::model::RuntimeModel;
 use spelling::ident;
 
 pub use templates::render_template;
@@ -35,6 +35,7 @@ pub type GeneratedFiles = BTreeMap<Utf8PathBuf, String>;
 
 /// Renders every file of the generated crate.
 pub fn render(model: &RuntimeModel) -> GeneratedFiles {
+    let running = || model.cyclers.iter().map(|cycler| cycler.module.as_str());
     let mut files = BTreeMap::from([
         (
             "Cargo.toml".to_owned(),
@@ -53,17 +54,17 @@ pub fn render(model: &RuntimeModel) -> GeneratedFiles {
             "src/databases.rs".to_owned(),
             render_modules(
                 "What the cyclers write and what their nodes see.",
-                &model.cyclers,
+                running().chain(model.outside.iter().map(|cycler| cycler.module.as_str())),
             ),
         ),
         (
             "src/cyclers.rs".to_owned(),
-            render_modules("The nodes of every cycler in order.", &model.cyclers),
+            render_modules("The nodes of every cycler in order.", running()),
         ),
         ("src/runtime.rs".to_owned(), runtime::render_runtime(model)),
         (
             "tests/drift.rs".to_owned(),
-            drift_test::render_drift_test(&model.folder),
+            drift_test::render_drift_test(&model.folder, &model.options),
         ),
     ]);
     for cycler in &model.cyclers {
@@ -81,6 +82,12 @@ pub fn render(model: &RuntimeModel) -> GeneratedFiles {
             body::render_body(cycler, &model.runtime),
         );
     }
+    for cycler in &model.outside {
+        files.insert(
+            format!("src/databases/{}.rs", cycler.module),
+            database::render_outside(cycler),
+        );
+    }
     for binary in &model.binaries {
         files.insert(
             format!("src/bin/{}.rs", binary.name),
@@ -95,10 +102,6 @@ pub fn render(model: &RuntimeModel) -> GeneratedFiles {
 
 /// `lib.rs`: modules in the order in which one reads them.
 fn render_library(model: &RuntimeModel) -> String {
-    let title = format!(
-        "The robot `{}`: its parameters, databases, cyclers and runtime.",
-        model.robot
-    );
     let modules = quote! {
         #[rustfmt::skip]
         pub mod parameters;
@@ -109,15 +112,12 @@ fn render_library(model: &RuntimeModel) -> String {
         #[rustfmt::skip]
         pub mod runtime;
     };
-    layout::rust_file(&title, &[], modules)
+    layout::rust_file(&model.title, &[], modules)
 }
 
 /// A file that only lists one module for each cycler, sorted.
-fn render_modules(title: &str, cyclers: &[CyclerModel]) -> String {
-    let mut modules: Vec<&str> = cyclers
-        .iter()
-        .map(|cycler| cycler.module.as_str())
-        .collect();
+fn render_modules<'a>(title: &str, modules: impl Iterator<Item = &'a str>) -> String {
+    let mut modules: Vec<&str> = modules.collect();
     modules.sort_unstable();
     let modules = modules.into_iter().map(ident);
     layout::rust_file(title, &[], quote!(#(pub mod #modules;)*))

@@ -12,6 +12,7 @@ pub mod parameter_files;
 mod parameters;
 mod paths;
 mod procedures;
+mod readers;
 pub(crate) mod record;
 pub mod robot;
 mod scene;
@@ -26,11 +27,11 @@ use crate::manifest::{self, Manifest};
 use crate::scan::Sources;
 use crate::workspace::Workspace;
 
-use robot::{
-    Content, CycleBinding, Cycler, CyclerKind, Instance, Node, OnFailure, Output, Robot,
-    Scheduling, Tree,
-};
+use robot::{Cycler, CyclerKind, Instance, Node, OnFailure, Output, Robot, Scheduling};
 use scene::Scene;
+
+pub(crate) use crates::dependencies;
+pub(crate) use readers::mark_readers;
 
 /// `pending_timeout` where the manifest says nothing.
 const PENDING_TIMEOUT: Duration = Duration::from_secs(1);
@@ -73,18 +74,13 @@ pub fn resolve(
         targets: hardware::targets(workspace, manifest, &sources.library, diagnostics),
         left_to_rustc: left_to_rustc + cyclers.iter().map(unchecked_edges).sum::<usize>(),
         cyclers,
+        partial: None,
         parameter_tree,
         crates: Vec::new(),
         inherited: workspace.members().inherited.clone(),
     };
     hardware::check_served(manifest, sources, diagnostics);
-    let texts = names_in_code(&robot);
-    robot.crates = crates::dependencies(
-        workspace,
-        manifest,
-        &scene,
-        texts.iter().map(String::as_str),
-    );
+    robot.crates = dependencies(workspace, &robot);
     sources.library.report_problems(diagnostics);
     diagnostics.stop_at_errors()?;
     warnings::warn(&robot, manifest, sources, diagnostics);
@@ -108,6 +104,7 @@ fn resolve_cycler(
     let (states, unchecked) = states::states(scene, cycler, diagnostics);
     let resolved = Cycler {
         name: cycler.declared.name().to_owned(),
+        left_out: false,
         kind: match declared.kind {
             schema::CyclerKind::Perception => CyclerKind::Perception,
             schema::CyclerKind::RealTime => CyclerKind::RealTime,
@@ -190,77 +187,10 @@ fn outputs(cycler: &scene::SceneCycler<'_>, nodes: &[Node]) -> Vec<Output> {
     outputs.collect()
 }
 
-/// Marks every output by who reads it.
-fn mark_readers(cyclers: &mut [Cycler]) {
-    for reader in 0..cyclers.len() {
-        let bindings: Vec<CycleBinding> = cyclers[reader]
-            .nodes
-            .iter()
-            .flat_map(|node| node.cycle.iter().map(|field| field.binding.clone()))
-            .collect();
-        for binding in bindings {
-            let Some(read) = binding.read() else {
-                continue;
-            };
-            let cycler = read
-                .instances
-                .first()
-                .map_or(reader, |instance| instance.cycler);
-            let name = &read.access.segments[0].name;
-            let output = cyclers[cycler]
-                .outputs
-                .iter_mut()
-                .find(|output| output.name == *name);
-            if let Some(output) = output {
-                output.shared |= !read.instances.is_empty();
-                output.historic |= matches!(binding, CycleBinding::Historic { .. });
-                output.previous |= matches!(binding, CycleBinding::Previous { .. });
-            }
-        }
-    }
-}
-
 fn unchecked_edges(cycler: &Cycler) -> usize {
     let fields = cycler.nodes.iter().flat_map(|node| &node.cycle);
     let reads = fields.filter_map(|field| field.binding.read());
     reads.filter(|read| !read.checked).count()
-}
-
-/// Every type and path that generated code writes.
-fn names_in_code(robot: &Robot) -> Vec<String> {
-    let mut texts = Vec::new();
-    for cycler in &robot.cyclers {
-        texts.extend(cycler.outputs.iter().map(|output| output.data.text.clone()));
-        collect_types(&cycler.additional_outputs, &mut texts);
-        collect_types(&cycler.states, &mut texts);
-        for node in &cycler.nodes {
-            let bounds = node
-                .new_bounds
-                .iter()
-                .chain(&node.cycle_bounds)
-                .chain(&node.restore_bounds);
-            texts.extend(bounds.map(|interface| interface.path.clone()));
-            for field in &node.cycle {
-                if let CycleBinding::Procedure {
-                    request, response, ..
-                } = &field.binding
-                {
-                    texts.extend([request.text.clone(), response.text.clone()]);
-                }
-            }
-        }
-    }
-    collect_types(&robot.parameter_tree, &mut texts);
-    texts
-}
-
-fn collect_types<U>(tree: &Tree<U>, texts: &mut Vec<String>) {
-    for branch in &tree.branches {
-        match &branch.content {
-            Content::Leaf { data, .. } => texts.push(data.text.clone()),
-            Content::Inner(tree) | Content::Instance { tree, .. } => collect_types(tree, texts),
-        }
-    }
 }
 
 #[cfg(test)]

@@ -35,7 +35,7 @@ use syn::{Attribute, Expr, ExprLit, Lit, Meta};
 
 use crate::diagnostics::{Code, Diagnostic, Diagnostics, Reported};
 use crate::manifest::Manifest;
-use crate::workspace::{MANIFEST, Workspace};
+use crate::workspace::{MANIFEST, Workspace, says_generated};
 
 pub use library::Library;
 pub use node::NodeSource;
@@ -105,18 +105,29 @@ pub(crate) fn doc(attribute: &Attribute) -> Option<String> {
     }
 }
 
-/// A Cargo.toml that cannot be read hides the nodes of its package; only the generated crate's does not matter.
+/// A Cargo.toml that cannot be read hides the nodes of its package; only a generated crate's does not matter.
 fn report_broken_packages(
     workspace: &Workspace,
     manifest: &Manifest,
     diagnostics: &mut Diagnostics,
 ) {
     for broken in &workspace.members().broken {
-        if !broken.file.starts_with(&manifest.robot.generated) {
+        if !is_generated(workspace, manifest, &broken.file) {
             let error = Diagnostic::new(Code::Syntax, broken.message.clone());
             diagnostics.add(error.at(&broken.file, broken.range.clone(), ""));
         }
     }
+}
+
+/// Whether this is the Cargo.toml of the robot's crate or of a partial robot's, which may be missing or say anything.
+fn is_generated(workspace: &Workspace, manifest: &Manifest, file: &Utf8Path) -> bool {
+    let generated = &manifest.robot.generated;
+    let is_named_so = || file.as_str().starts_with(&format!("{generated}-"));
+    file.starts_with(generated)
+        || match workspace.read(file) {
+            Ok(text) => says_generated(&text),
+            Err(error) => error.missing && is_named_so(),
+        }
 }
 
 #[cfg(test)]

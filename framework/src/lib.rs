@@ -12,6 +12,7 @@
 //! | [`guarded`], [`error`] | one node: failures and panics end here |
 //! | [`mod@context`], [`mod@procedure`] | what a node sees: the kinds of the context fields |
 //! | [`mod@buffer`] | the newest database of an instance, without blocking, lock or copy; the only unsafe code |
+//! | [`stub`] | what stands in for an instance that a partial robot does without |
 //! | [`temporal`], [`history`] | results of perception in order of time; own outputs by time |
 //! | [`subscriptions`], [`injection`] | clients: listen to an output, replace one |
 //! | [`time`], [`clock`], [`stop`], [`timing`], [`report`] | when, until when, how long, and how to tell |
@@ -43,6 +44,7 @@ pub mod report;
 pub mod robot;
 pub mod scheduling;
 pub mod stop;
+pub mod stub;
 pub mod subscriptions;
 pub mod temporal;
 pub mod testing;
@@ -78,6 +80,7 @@ pub use report::{InstanceReport, NodeReport, QueueReport, RobotReport};
 pub use robot::{Access, Robot, Start};
 pub use scheduling::{Granted, Policy, Scheduling};
 pub use stop::Stop;
+pub use stub::Stub;
 pub use subscriptions::Subscriptions;
 pub use temporal::{
     Consumer, Horizon, Interleaved, Interleaving, Item, Lane, PerceptionInput, Projection,

@@ -31,6 +31,8 @@ pub struct Robot<P> {
     pub instances: Vec<Box<dyn Instance>>,
     /// What clients may do with each instance, in the same order.
     pub access: Vec<Access>,
+    /// Instances that a partial robot does without: the hardware may have events for them, and nothing comes of those.
+    pub left_out: &'static [&'static str],
     /// The parameters: what is completed here, every instance sees from its next `begin` on.
     pub parameters: Writer<P>,
 }

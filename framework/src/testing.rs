@@ -34,7 +34,7 @@ use crate::context::{AdditionalOutput, AdditionalSlot};
 use crate::parameters;
 use crate::time::{CycleTime, Timestamp};
 
-pub use generated::assert_generated;
+pub use generated::{assert_generated, assert_generated_with};
 pub use parameter_file::ParameterFile;
 pub use skipped::skip;
 pub use temporal::*;

@@ -53,6 +53,7 @@ fn an_interrupted_run_reports_and_ends_with_130() {
             clock: start.clock,
             instances,
             access,
+            left_out: &[],
             parameters,
         })
     };

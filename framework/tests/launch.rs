@@ -103,6 +103,7 @@ fn run(directory: &TempDir, arguments: &[&str]) -> Ran {
             clock: start.clock,
             instances: vec![],
             access: vec![],
+            left_out: &[],
             parameters,
         })
     };

@@ -233,6 +233,7 @@ where
                 procedures: vec![("look_at", Box::new(control_look_at))],
             },
         ],
+        left_out: &[],
         parameters,
     })
 }

@@ -1,5 +1,7 @@
 //! `generate`: the generated crate on disk, or what would change.
 
+mod partial;
+
 use camino::Utf8Path;
 use camino::Utf8PathBuf;
 use serde_json::json;
@@ -18,8 +20,11 @@ use crate::workspace::{MANIFEST, Workspace};
 const SCHEMA: &str = ".hulk/hulk.schema.json";
 
 pub(super) fn run(session: &mut Session<'_>, generate: &Generate) -> Result<Outcome, Failure> {
-    let understood = session.understand()?;
+    let mut understood = session.understand()?;
     session.note_diagnostics();
+    if !generate.only.is_empty() {
+        understood.robot = partial::restrict(session, &understood.robot, generate)?;
+    }
     let files = render(&session.workspace, &understood);
     let drift = compare(session.workspace.root(), &understood, &files)?;
     // What is said to be written is there.
@@ -32,7 +37,9 @@ pub(super) fn run(session: &mut Session<'_>, generate: &Generate) -> Result<Outc
         session.terminal.data(&drift.diff())?;
     }
     if generate.check {
-        note_drift(session, &drift);
+        note_drift(session, &understood, &drift);
+    } else if understood.robot.partial.is_some() {
+        partial::note_membership(session, &understood.robot);
     }
     // Parameter files do not change the generated code, so their errors keep nothing from it.
     Ok(match () {
@@ -49,10 +56,10 @@ pub(super) fn write(session: &Session<'_>, understood: &Understood) -> Result<()
     apply(session, understood, &files, &drift)
 }
 
-/// The files of the generated crate, and the schema that the manifest names.
+/// The files of the generated crate, and, of a whole robot, the schema that the manifest names.
 pub(super) fn render(workspace: &Workspace, understood: &Understood) -> GeneratedFiles {
     let mut files = render::render(&model::describe(&understood.robot, &understood.schedule));
-    if names_schema(workspace) {
+    if understood.robot.partial.is_none() && names_schema(workspace) {
         files.insert(SCHEMA.into(), schema::json_schema());
     }
     files
@@ -94,15 +101,16 @@ fn apply(
     Ok(())
 }
 
-fn note_drift(session: &Session<'_>, drift: &Drift) {
+fn note_drift(session: &Session<'_>, understood: &Understood, drift: &Drift) {
     if drift.is_empty() {
         return;
     }
     let differing = drift.added.len() + drift.changed.len() + drift.orphaned.len();
     session.terminal.note(&format!(
-        "\n{} {} not what would be generated now; run `hulkgen generate`\n",
+        "\n{} {} not what would be generated now; run `{}`\n",
         plural(differing, "file"),
-        if differing == 1 { "is" } else { "are" }
+        if differing == 1 { "is" } else { "are" },
+        understood.robot.command()
     ));
 }
 

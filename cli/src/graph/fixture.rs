@@ -30,6 +30,7 @@ pub(crate) fn robot() -> Robot {
         parameters: "parameters".into(),
         identities: vec!["body".to_owned()],
         cyclers: vec![vision(), control()],
+        partial: None,
         targets: vec![target("simulated"), target("nao")],
         parameter_tree: parameter_tree(),
         inherited: Vec::new(),
@@ -112,6 +113,7 @@ fn vision() -> Cycler {
                     }],
                 },
             }],
+            open: false,
         },
         outputs: vec![
             output("balls", "Vec<types::Ball>", 1),
@@ -224,6 +226,7 @@ fn control() -> Cycler {
                     ],
                 },
             }],
+            open: false,
         },
         outputs: vec![
             output("ball", "Option<types::Ball>", 2),
@@ -253,6 +256,7 @@ fn parameter_tree() -> Tree<Reader> {
                 users: vec![reader],
             },
         }],
+        open: false,
     };
     let instance = |name: &str| Branch {
         name: name.to_owned(),
@@ -263,21 +267,25 @@ fn parameter_tree() -> Tree<Reader> {
     };
     Tree {
         branches: vec![instance("vision_bottom"), instance("vision_top")],
+        open: false,
     }
 }
 
 fn cycler(name: &str, kind: CyclerKind, instances: &[&str], nodes: Vec<Node>) -> Cycler {
     Cycler {
         name: name.to_owned(),
+        left_out: false,
         kind,
         instances: instances.iter().map(|name| instance(name)).collect(),
         nodes,
         outputs: Vec::new(),
         additional_outputs: Tree {
             branches: Vec::new(),
+            open: false,
         },
         states: Tree {
             branches: Vec::new(),
+            open: false,
         },
         on_failure: OnFailure::Stop,
         pending_timeout: Duration::from_secs(1),

@@ -7,7 +7,9 @@ use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::workspace::{MANIFEST, Workspace, says_generated};
 
 pub(super) fn check(workspace: &Workspace, manifest: &Manifest, diagnostics: &mut Diagnostics) {
-    if let Some(message) = mistake(workspace, manifest) {
+    let robot = &manifest.robot;
+    let library = format!("{}_runtime", robot.name.as_str().replace('-', "_"));
+    if let Some(message) = mistake(workspace, &robot.generated, &robot.parameters, &library) {
         let range = manifest.generated_range.clone();
         let error = Diagnostic::new(Code::InvalidValue, message)
             .at(Utf8Path::new(MANIFEST), range, "its orphans are removed")
@@ -16,15 +18,20 @@ pub(super) fn check(workspace: &Workspace, manifest: &Manifest, diagnostics: &mu
     }
 }
 
-fn mistake(workspace: &Workspace, manifest: &Manifest) -> Option<String> {
-    let generated = &manifest.robot.generated;
+/// Why this cannot be the folder of a generated crate whose library has this name.
+pub fn mistake(
+    workspace: &Workspace,
+    generated: &Utf8Path,
+    parameters: &Utf8Path,
+    library: &str,
+) -> Option<String> {
     let is_name = |part| matches!(part, Utf8Component::Normal(_));
     if generated.as_str().is_empty() || !generated.components().all(is_name) {
         return Some(format!(
             "`{generated}` cannot be the generated folder: it is no plain path below the workspace root"
         ));
     }
-    let parameters = without_dots(&manifest.robot.parameters);
+    let parameters = without_dots(parameters);
     if let Some(relation) = relation(generated, &parameters) {
         return Some(format!(
             "`{generated}` cannot be the generated folder: it {relation} the folder of the parameters `{parameters}`"
@@ -32,7 +39,7 @@ fn mistake(workspace: &Workspace, manifest: &Manifest) -> Option<String> {
     }
     workspace.members().folders.iter().find_map(|member| {
         let member = without_dots(member);
-        if *generated == member && is_generated(workspace, manifest, &member) {
+        if *generated == member && is_generated(workspace, &member, library) {
             return None;
         }
         let relation = relation(generated, &member)?;
@@ -54,7 +61,7 @@ fn relation(generated: &Utf8Path, other: &Utf8Path) -> Option<&'static str> {
 }
 
 /// Whether the package there may be the generated one: by its name or its header, also if it cannot be parsed.
-fn is_generated(workspace: &Workspace, manifest: &Manifest, folder: &Utf8Path) -> bool {
+fn is_generated(workspace: &Workspace, folder: &Utf8Path, library: &str) -> bool {
     let Ok(text) = workspace.read(&folder.join("Cargo.toml")) else {
         return true;
     };
@@ -64,11 +71,11 @@ fn is_generated(workspace: &Workspace, manifest: &Manifest, folder: &Utf8Path) -
     let name = table
         .get("package")
         .and_then(|package| package.get("name")?.as_str());
-    let runtime = format!("{}_runtime", manifest.robot.name.as_str().replace('-', "_"));
-    name == Some(&*runtime) || says_generated(&text)
+    name == Some(library) || says_generated(&text)
 }
 
-fn without_dots(path: &Utf8Path) -> Utf8PathBuf {
+/// A path without `.` in it, as other folders are written.
+pub fn without_dots(path: &Utf8Path) -> Utf8PathBuf {
     let parts = path.components();
     parts
         .filter(|part| !matches!(part, Utf8Component::CurDir))

@@ -12,7 +12,9 @@ use super::parameters::Parameters;
 use super::sentences;
 use super::structs::Struct;
 use crate::resolve::robot::{Cycler, InstanceId, Interface, Node, Robot};
-use crate::schedule::CyclerSchedule;
+use crate::schedule::{CyclerSchedule, Schedule};
+
+pub(super) use outputs::outputs;
 
 /// Fields that a body may have itself.
 const FIELDS_OF_BODIES: [&str; 14] = [
@@ -35,6 +37,8 @@ const FIELDS_OF_BODIES: [&str; 14] = [
 /// `databases/<cycler>.rs`, `cyclers/<cycler>.rs` and `runtime/<cycler>.rs`.
 #[derive(Clone, Debug, Serialize)]
 pub struct CyclerModel {
+    /// In the robot's cyclers.
+    pub position: usize,
     /// `Vision`.
     pub name: String,
     /// `vision`.
@@ -222,13 +226,21 @@ impl CyclerModel {
     }
 }
 
-/// Decides everything about one cycler.
+/// The cycler at this position of the robot's.
+pub fn at(cyclers: &[CyclerModel], position: usize) -> &CyclerModel {
+    let mut all = cyclers.iter();
+    all.find(|cycler| cycler.position == position)
+        .expect("a cycler that runs is described")
+}
+
+/// Decides everything about the cycler at this position.
 pub fn describe(
     robot: &Robot,
-    cycler: &Cycler,
-    schedule: &CyclerSchedule,
+    position: usize,
+    schedule: &Schedule,
     parameters: &Parameters,
 ) -> CyclerModel {
+    let (cycler, schedule) = (&robot.cyclers[position], &schedule.cyclers[position]);
     let instance_parameters = frame::instance_parameters(cycler, parameters);
     let creation = frame::creation_fields(cycler, &instance_parameters);
     let frame = frame::frame_fields(cycler, &instance_parameters);
@@ -249,6 +261,7 @@ pub fn describe(
     let created = surroundings.creation_is_generic;
     let touched = surroundings.frame_is_generic || created;
     CyclerModel {
+        position,
         name: cycler.name.clone(),
         module: snake_case(&cycler.name),
         body: body(cycler),

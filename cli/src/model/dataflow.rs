@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use serde::Serialize;
 
-use super::{package, sentences};
+use super::{outside, package, sentences};
 use crate::resolve::robot::{
     Content, Cycler, CyclerKind, InstanceId, OnFailure, Reader, Robot, Tree,
 };
@@ -20,9 +20,14 @@ use nodes::node_facts;
 /// Who reads and writes what, in words.
 #[derive(Clone, Debug, Serialize)]
 pub struct Dataflow {
-    pub robot: String,
+    /// Behind "Data flow of".
+    pub title: String,
     pub header: &'static str,
+    /// The command that writes it, if that is not the header's.
+    pub command: Option<String>,
     pub cyclers: Vec<CyclerText>,
+    /// Cyclers that are left out and read.
+    pub outside: Vec<OutsideText>,
     pub parameters: Vec<ParameterText>,
     pub targets: Vec<TargetText>,
 }
@@ -37,6 +42,15 @@ pub struct CyclerText {
     pub instances: Vec<InstanceText>,
     /// In the order they run.
     pub nodes: Vec<NodeText>,
+    pub outputs: Vec<OutputText>,
+}
+
+/// A section: one cycler that is left out, and what of it is read.
+#[derive(Clone, Debug, Serialize)]
+pub struct OutsideText {
+    pub name: String,
+    pub kind: &'static str,
+    pub instances: Vec<InstanceText>,
     pub outputs: Vec<OutputText>,
 }
 
@@ -86,14 +100,36 @@ pub struct TargetText {
 
 /// Decides what `DATAFLOW.md` says.
 pub fn describe(robot: &Robot, schedule: &Schedule) -> Dataflow {
-    let cyclers = robot.cyclers.iter().zip(&schedule.cyclers).enumerate();
     let mut parameters = Vec::new();
     list_parameters(&robot.parameter_tree, "", &mut parameters);
     Dataflow {
-        robot: robot.name.clone(),
+        title: match &robot.partial {
+            None => format!("the robot `{}`", robot.name),
+            Some(partial) => format!(
+                "the robot `{}` with {} alone",
+                robot.name,
+                sentences::and(&partial.only)
+            ),
+        },
         header: super::DO_NOT_EDIT,
-        cyclers: cyclers
-            .map(|(position, (cycler, schedule))| cycler_text(robot, position, cycler, schedule))
+        command: robot.partial.as_ref().map(|_| robot.command()),
+        cyclers: robot
+            .running()
+            .map(|(position, cycler)| {
+                cycler_text(robot, position, cycler, &schedule.cyclers[position])
+            })
+            .collect(),
+        outside: outside::cyclers(robot)
+            .map(|(position, cycler)| OutsideText {
+                name: cycler.name.clone(),
+                kind: sentences::kind(cycler.kind),
+                instances: outside::instances(robot)
+                    .into_iter()
+                    .filter(|id| id.cycler == position)
+                    .map(|id| instance_text(robot, id))
+                    .collect(),
+                outputs: shared_outputs(robot, position, cycler),
+            })
             .collect(),
         parameters,
         targets: robot
@@ -123,20 +159,15 @@ fn cycler_text(
         summary: cycler.nodes[*node].summary.clone(),
         facts: node_facts(robot, cycler, schedule, *node),
     });
-    let instances = cycler.instances.iter().enumerate().map(|(instance, _)| {
-        instance_text(
-            robot,
-            InstanceId {
-                cycler: position,
-                instance,
-            },
-        )
+    let instances = (0..cycler.instances.len()).map(|instance| InstanceId {
+        cycler: position,
+        instance,
     });
     CyclerText {
         name: cycler.name.clone(),
         kind: sentences::kind(cycler.kind),
         facts: cycler_facts(cycler),
-        instances: instances.collect(),
+        instances: instances.map(|id| instance_text(robot, id)).collect(),
         nodes: nodes.collect(),
         outputs: shared_outputs(robot, position, cycler),
     }

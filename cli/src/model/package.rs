@@ -2,13 +2,19 @@
 
 use serde::Serialize;
 
+use super::names::snake_case;
+use super::sentences;
 use crate::resolve::robot::{Dependency, Robot};
 
 /// The package that the generated crate is.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Package {
-    pub robot: String,
+    /// What the crate is, as a sentence.
+    pub title: String,
+    pub description: String,
     pub header: &'static str,
+    /// The command that writes it, if that is not the header's.
+    pub command: Option<String>,
     /// `nao_runtime`.
     pub name: String,
     /// Keys that the workspace gives to its packages.
@@ -47,8 +53,10 @@ pub fn describe(robot: &Robot) -> Package {
             .collect(),
     };
     Package {
-        robot: robot.name.clone(),
+        title: sentences::crate_title(robot),
+        description: sentences::crate_description(robot),
         header: super::DO_NOT_EDIT,
+        command: robot.partial.as_ref().map(|_| robot.command()),
         name: library(robot),
         inherited: INHERITED
             .iter()
@@ -68,7 +76,10 @@ pub fn describe(robot: &Robot) -> Package {
 
 /// The generated package and its library.
 pub fn library(robot: &Robot) -> String {
-    format!("{}_runtime", robot.name.replace('-', "_"))
+    let name = robot.name.replace('-', "_");
+    let only = robot.partial.iter().flat_map(|partial| &partial.only);
+    let only = only.map(|cycler| format!("_{}", snake_case(cycler)));
+    format!("{name}{}_runtime", only.collect::<String>())
 }
 
 /// The feature that brings the binary of a target.

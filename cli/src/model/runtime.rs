@@ -1,23 +1,26 @@
 //! `src/runtime.rs`: instances, what connects them, and how to create them.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::time::Duration;
 
 use serde::Serialize;
 
-use super::cycler::{CyclerModel, Source};
+use super::cycler::{self, CyclerModel};
 use super::frame::Hardware;
 use super::names::{Names, constant_case, joined, snake_case};
 use super::node::asked;
+use super::outside;
+use super::sentences;
 use crate::resolve::robot::{Cycler, CyclerKind, InstanceId, OnFailure, Robot, Scheduling};
 
 /// Names that `create` uses itself.
-const VARIABLES_OF_CREATE: [&str; 5] = [
+const VARIABLES_OF_CREATE: [&str; 6] = [
     "creation",
     "cycler_state",
     "hardware",
     "parameters",
     "start",
+    "stubs",
 ];
 
 /// What `create` puts behind the variable of an instance.
@@ -27,12 +30,47 @@ const SUFFIXES_OF_CREATE: [&str; 4] = ["injected", "injections", "subscriptions"
 #[derive(Clone, Debug, Serialize)]
 pub struct Runtime {
     pub robot: String,
+    /// One for each instance that runs or is read, in manifest order.
+    pub buffers: Vec<Buffer>,
     /// In manifest order.
     pub instances: Vec<InstanceModel>,
+    /// What stands in for instances that are left out and read, in manifest order.
+    pub stubs: Vec<StubModel>,
+    /// Names of all instances that are left out, in manifest order.
+    pub left_out: Vec<String>,
     /// What all nodes ask of the hardware, sorted.
     pub hardware: Vec<String>,
     /// Whether any node touches the hardware.
     pub uses_hardware: bool,
+}
+
+/// What others read of an instance.
+#[derive(Clone, Debug, Serialize)]
+pub struct Buffer {
+    pub id: InstanceId,
+    /// The variable of the instance, whose writing end has a suffix: `vision_top`.
+    pub variable: String,
+    /// Readers of its newest cycle, in manifest order.
+    pub readers: Vec<String>,
+    /// Consumers of its cycles, in manifest order.
+    pub consumers: Vec<String>,
+    /// Cycles that a consumer may lag.
+    pub queue: usize,
+    /// For how long consumers wait for an announced cycle.
+    pub pending_timeout: Duration,
+}
+
+/// What stands in for an instance that is left out.
+#[derive(Clone, Debug, Serialize)]
+pub struct StubModel {
+    /// `VisionTop`.
+    pub name: String,
+    /// As in its buffer, and its field in `Stubs`: `vision_top`.
+    pub variable: String,
+    /// Module of its database: `vision`.
+    pub module: String,
+    /// Who reads it, as a sentence.
+    pub about: String,
 }
 
 /// One instance between its buffers.
@@ -46,12 +84,6 @@ pub struct InstanceModel {
     /// The constant that describes it: `VISION_TOP`.
     pub constant: String,
     pub description: Description,
-    /// Readers of its newest cycle, in manifest order.
-    pub readers: Vec<String>,
-    /// Consumers of its cycles, in manifest order.
-    pub consumers: Vec<String>,
-    /// Cycles that a consumer may lag.
-    pub queue: usize,
     /// In the order of its cycler's procedures.
     pub procedures: Vec<ProcedureEnds>,
 }
@@ -79,14 +111,28 @@ pub struct Description {
     pub scheduling: Scheduling,
 }
 
+impl Runtime {
+    /// What others read of an instance that runs or is read.
+    pub fn buffer(&self, id: InstanceId) -> &Buffer {
+        let mut all = self.buffers.iter();
+        all.find(|buffer| buffer.id == id)
+            .expect("an instance that runs or is read has a buffer")
+    }
+}
+
 /// Decides how the instances are connected.
 pub fn describe(robot: &Robot, cyclers: &[CyclerModel]) -> Runtime {
     let variables = variables(robot);
-    let mut instances: Vec<InstanceModel> = variables
+    let buffers: Vec<Buffer> = variables
         .keys()
-        .map(|id| instance_model(robot, cyclers, &variables, *id))
+        .map(|id| buffer(robot, cyclers, &variables, *id))
         .collect();
-    name_procedures(&mut instances, cyclers);
+    let mut instances: Vec<InstanceModel> = buffers
+        .iter()
+        .filter(|buffer| !robot.cyclers[buffer.id.cycler].left_out)
+        .map(|buffer| instance_model(robot, buffer))
+        .collect();
+    name_procedures(&mut instances, &buffers, cyclers);
     let bounds: Vec<_> = robot
         .cyclers
         .iter()
@@ -102,57 +148,50 @@ pub fn describe(robot: &Robot, cyclers: &[CyclerModel]) -> Runtime {
     Runtime {
         robot: robot.name.clone(),
         instances,
+        stubs: stubs(robot, cyclers, &buffers),
+        left_out: left_out(robot),
+        buffers,
         hardware,
         uses_hardware: cyclers.iter().any(CyclerModel::is_generic),
     }
 }
 
-/// What each instance is called in `create`.
+/// What each instance that runs or is read is called in `create`.
 fn variables(robot: &Robot) -> BTreeMap<InstanceId, String> {
+    let running = robot.running().flat_map(|(cycler, declared)| {
+        let instances = 0..declared.instances.len();
+        instances.map(move |instance| InstanceId { cycler, instance })
+    });
+    let ids: BTreeSet<InstanceId> = running.chain(outside::instances(robot)).collect();
     let mut names = Names::with(VARIABLES_OF_CREATE.map(str::to_owned));
-    let mut variables = BTreeMap::new();
-    for (position, cycler) in robot.cyclers.iter().enumerate() {
-        for (instance, named) in cycler.instances.iter().enumerate() {
-            let id = InstanceId {
-                cycler: position,
-                instance,
-            };
-            variables.insert(id, names.give(&snake_case(&named.name)));
-        }
-    }
-    variables
+    let variables = ids.into_iter().map(|id| {
+        let name = &robot.cyclers[id.cycler].instances[id.instance].name;
+        (id, names.give(&snake_case(name)))
+    });
+    variables.collect()
 }
 
-fn instance_model(
+fn buffer(
     robot: &Robot,
     cyclers: &[CyclerModel],
     variables: &BTreeMap<InstanceId, String>,
     id: InstanceId,
-) -> InstanceModel {
+) -> Buffer {
     let cycler = &robot.cyclers[id.cycler];
-    let instance = &cycler.instances[id.instance];
     let variable = &variables[&id];
     // Variables of the instances whose cycler reads this one, in manifest order.
     let reading = |sources: &dyn Fn(&CyclerModel) -> bool| -> Vec<&String> {
+        let running = |id: &InstanceId| !robot.cyclers[id.cycler].left_out;
         let reading = variables
             .iter()
-            .filter(|(id, _)| sources(&cyclers[id.cycler]));
+            .filter(|(id, _)| running(id) && sources(cycler::at(cyclers, id.cycler)));
         reading.map(|(_, variable)| variable).collect()
     };
-    let is_this = |source: &Source| source.id == id;
-    let readers = reading(&|cycler| cycler.latest.iter().any(is_this));
-    let consumers = reading(&|cycler| {
-        cycler
-            .perception
-            .iter()
-            .any(|perception| perception.lanes.iter().any(is_this))
-    });
-    InstanceModel {
+    let readers = reading(&|cycler| reads_newest(cycler, id));
+    let consumers = reading(&|cycler| consumes(cycler, id));
+    Buffer {
         id,
-        name: instance.name.clone(),
         variable: variable.clone(),
-        constant: constant_case(&instance.name),
-        description: description(cycler, id.instance),
         readers: readers
             .into_iter()
             .map(|reader| end(variable, reader))
@@ -162,17 +201,73 @@ fn instance_model(
             .map(|consumer| queue(variable, consumer))
             .collect(),
         queue: cycler.queue,
+        pending_timeout: cycler.pending_timeout,
+    }
+}
+
+fn reads_newest(cycler: &CyclerModel, id: InstanceId) -> bool {
+    cycler.latest.iter().any(|source| source.id == id)
+}
+
+fn consumes(cycler: &CyclerModel, id: InstanceId) -> bool {
+    let lanes = cycler.perception.iter().flat_map(|one| &one.lanes);
+    lanes.into_iter().any(|source| source.id == id)
+}
+
+fn instance_model(robot: &Robot, buffer: &Buffer) -> InstanceModel {
+    let id = buffer.id;
+    let cycler = &robot.cyclers[id.cycler];
+    let name = &cycler.instances[id.instance].name;
+    InstanceModel {
+        id,
+        name: name.clone(),
+        variable: buffer.variable.clone(),
+        constant: constant_case(name),
+        description: description(cycler, id.instance),
         procedures: Vec::new(),
     }
 }
 
+fn stubs(robot: &Robot, cyclers: &[CyclerModel], buffers: &[Buffer]) -> Vec<StubModel> {
+    let outside = buffers
+        .iter()
+        .filter(|buffer| robot.cyclers[buffer.id.cycler].left_out);
+    let stubs = outside.map(|Buffer { id, variable, .. }| {
+        let cycler = &robot.cyclers[id.cycler];
+        let names = |reads: &dyn Fn(&CyclerModel) -> bool| -> Vec<String> {
+            let reading = cyclers.iter().filter(|cycler| reads(cycler));
+            reading.map(|cycler| cycler.name.clone()).collect()
+        };
+        let ways = [
+            ("latest", names(&|cycler| reads_newest(cycler, *id))),
+            ("in order of time", names(&|cycler| consumes(cycler, *id))),
+        ];
+        let ways = ways.into_iter().filter(|(_, names)| !names.is_empty());
+        let ways = ways.map(|(how, names)| format!("{how} by {}", sentences::and(&names)));
+        let ways: Vec<String> = ways.collect();
+        StubModel {
+            name: cycler.instances[id.instance].name.clone(),
+            variable: variable.clone(),
+            module: snake_case(&cycler.name),
+            about: format!("Read {}.", ways.join(", ")),
+        }
+    });
+    stubs.collect()
+}
+
+fn left_out(robot: &Robot) -> Vec<String> {
+    let cyclers = robot.cyclers.iter().filter(|cycler| cycler.left_out);
+    let instances = cyclers.flat_map(|cycler| &cycler.instances);
+    instances.map(|instance| instance.name.clone()).collect()
+}
+
 /// Gives every procedure variables of its own.
-fn name_procedures(instances: &mut [InstanceModel], cyclers: &[CyclerModel]) {
+fn name_procedures(instances: &mut [InstanceModel], buffers: &[Buffer], cyclers: &[CyclerModel]) {
     let fixed = VARIABLES_OF_CREATE.map(str::to_owned);
-    let given = instances.iter().flat_map(variables_of);
+    let given = buffers.iter().flat_map(variables_of);
     let mut names = Names::with(fixed.into_iter().chain(given));
     for instance in instances {
-        for procedure in &cyclers[instance.id.cycler].procedures {
+        for procedure in &cycler::at(cyclers, instance.id.cycler).procedures {
             let caller = names.give(&joined([instance.variable.as_str(), &procedure.name]));
             let answerer = names.give(&format!("{caller}_answerer"));
             instance.procedures.push(ProcedureEnds { caller, answerer });
@@ -181,11 +276,11 @@ fn name_procedures(instances: &mut [InstanceModel], cyclers: &[CyclerModel]) {
 }
 
 /// Variables of an instance, procedures aside.
-fn variables_of(instance: &InstanceModel) -> Vec<String> {
-    let variable = &instance.variable;
+fn variables_of(buffer: &Buffer) -> Vec<String> {
+    let variable = &buffer.variable;
     let mut variables = vec![variable.clone(), end("parameters", variable)];
     variables.extend(SUFFIXES_OF_CREATE.map(|suffix| format!("{variable}_{suffix}")));
-    variables.extend(instance.readers.iter().chain(&instance.consumers).cloned());
+    variables.extend(buffer.readers.iter().chain(&buffer.consumers).cloned());
     variables
 }
 

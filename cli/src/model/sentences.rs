@@ -12,18 +12,48 @@ pub(super) fn list<'a>(words: impl IntoIterator<Item = &'a str>) -> String {
     words.into_iter().collect::<Vec<_>>().join(", ")
 }
 
+/// What the generated crate is, for its first lines.
+pub(super) fn crate_title(robot: &Robot) -> String {
+    let name = &robot.name;
+    match &robot.partial {
+        None => format!("The robot `{name}`: its parameters, databases, cyclers and runtime."),
+        Some(partial) => format!(
+            "The robot `{name}` with {} alone: parameters, databases, cyclers and runtime.",
+            and(&partial.only)
+        ),
+    }
+}
+
+/// What the generated crate is, for its package.
+pub(super) fn crate_description(robot: &Robot) -> String {
+    let name = &robot.name;
+    match &robot.partial {
+        None => format!("Runtime of the robot `{name}`"),
+        Some(partial) => format!(
+            "Runtime of the robot `{name}` with {} alone",
+            and(&partial.only)
+        ),
+    }
+}
+
+/// Names in a sentence: `Vision`, `Network` and `Control`.
+pub(super) fn and(names: &[String]) -> String {
+    let names: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+    match names.as_slice() {
+        [] => "nothing".to_owned(),
+        [only] => only.clone(),
+        [all @ .., last] => format!("{} and {last}", all.join(", ")),
+    }
+}
+
 /// `Cycler `Vision` (perception), instances `VisionTop` and `VisionBottom`.`
 pub(super) fn cycler_title(cycler: &Cycler) -> String {
-    let names: Vec<String> = cycler
-        .instances
-        .iter()
-        .map(|instance| format!("`{}`", instance.name))
-        .collect();
+    let instances = cycler.instances.iter();
+    let names: Vec<String> = instances.map(|instance| instance.name.clone()).collect();
     let instances = match names.as_slice() {
-        [_] if cycler.instances[0].name == cycler.name => "one instance".to_owned(),
-        [only] => format!("instance {only}"),
-        [all @ .., last] => format!("instances {} and {last}", all.join(", ")),
-        [] => "no instance".to_owned(),
+        [name] if *name == cycler.name => "one instance".to_owned(),
+        [_] => format!("instance {}", and(&names)),
+        _ => format!("instances {}", and(&names)),
     };
     format!(
         "Cycler `{}` ({}), {instances}.",

@@ -15,6 +15,8 @@ const DERIVED: [&str; 3] = ["Deserialize", "Reflect", "Serialize"];
 pub struct Struct {
     pub name: String,
     pub fields: Vec<StructField>,
+    /// Values that are no fields may stand beside those that are.
+    pub open: bool,
 }
 
 /// A name at one level of a tree.
@@ -92,7 +94,11 @@ impl<'a, U> Structs<'a, U> {
                 content,
             });
         }
-        let mut structs = vec![Struct { name, fields }];
+        let mut structs = vec![Struct {
+            name,
+            fields,
+            open: tree.open,
+        }];
         structs.append(&mut below);
         structs
     }
@@ -113,14 +119,12 @@ impl<'a, U> Structs<'a, U> {
     }
 }
 
-/// Whether two levels have the same fields; docs, and names of structs below, aside.
+/// Whether two levels take the same values; docs, and names of structs below, aside.
 fn same_fields(left: &Struct, right: &Struct) -> bool {
     let shape = |one: &StructField| match &one.content {
         FieldType::Data(data) => (one.name.clone(), Some(data.clone())),
         FieldType::Struct(_) => (one.name.clone(), None),
     };
-    left.fields
-        .iter()
-        .map(shape)
-        .eq(right.fields.iter().map(shape))
+    let fields = left.fields.iter().map(shape);
+    left.open == right.open && fields.eq(right.fields.iter().map(shape))
 }

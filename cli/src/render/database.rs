@@ -6,10 +6,10 @@ use quote::quote;
 use super::layout::{self, doc};
 use super::spelling::{data_type, ident, path};
 use super::structs::quote_struct;
-use crate::model::CyclerModel;
 use crate::model::cycler::{OutputField, Source};
 use crate::model::frame::{FrameField, InstanceParameters};
 use crate::model::structs::FieldType;
+use crate::model::{CyclerModel, Outside};
 
 /// The database of one cycler, and everything its nodes may touch.
 pub(super) fn render_database(cycler: &CyclerModel) -> String {
@@ -37,6 +37,17 @@ pub(super) fn render_database(cycler: &CyclerModel) -> String {
     )
 }
 
+/// The database of a cycler that is left out: what others read of it.
+pub(super) fn render_outside(cycler: &Outside) -> String {
+    let title = format!(
+        "What others read of cycler `{}`, which is left out.",
+        cycler.name
+    );
+    let about = "Main outputs that come from outside; each names the node that writes it in the whole robot.";
+    let outputs = cycler.outputs.iter();
+    layout::rust_file(&title, &[], quote_part("SharedOutputs", about, outputs))
+}
+
 /// Modules of other cyclers' databases, which are imported whole.
 pub(super) fn database_modules(cycler: &CyclerModel) -> Vec<String> {
     let lanes = cycler
@@ -62,34 +73,41 @@ pub(super) fn quote_shared_of(source: &Source) -> TokenStream {
 }
 
 fn quote_outputs(cycler: &CyclerModel) -> TokenStream {
-    let derive = quote! {
-        #[derive(Clone, Debug, Default, ::serde::Deserialize, ::framework::Reflect, ::serde::Serialize)]
+    let outputs = |shared: bool| {
+        let outputs = cycler.outputs.iter();
+        outputs.filter(move |output| output.shared == shared)
     };
-    let quote_part = |shared: bool, name: &str, about: String| {
-        let fields: Vec<TokenStream> = cycler
-            .outputs
-            .iter()
-            .filter(|output| output.shared == shared)
-            .map(|output| quote_output(output, &|data| data))
-            .collect();
-        let (name, about) = (ident(name), doc(&about));
-        (!fields.is_empty()).then(|| quote!(#about #derive pub struct #name { #(#fields)* }))
-    };
-    let own = quote_part(
-        false,
-        "OwnOutputs",
-        format!(
-            "Main outputs that only nodes of `{}` read: they stay with the instance.",
-            cycler.name
-        ),
+    let about = format!(
+        "Main outputs that only nodes of `{}` read: they stay with the instance.",
+        cycler.name
     );
+    let own = quote_part("OwnOutputs", &about, outputs(false));
     let shared = quote_part(
-        true,
         "SharedOutputs",
-        "Main outputs that other instances read, too: written in the slot that those will read."
-            .to_owned(),
+        "Main outputs that other instances read, too: written in the slot that those will read.",
+        outputs(true),
     );
     quote!(#own #shared)
+}
+
+/// A struct of main outputs, if there are any.
+fn quote_part<'a>(
+    name: &str,
+    about: &str,
+    outputs: impl Iterator<Item = &'a OutputField>,
+) -> TokenStream {
+    let fields: Vec<TokenStream> = outputs
+        .map(|output| quote_output(output, &|data| data))
+        .collect();
+    if fields.is_empty() {
+        return quote!();
+    }
+    let (name, about) = (ident(name), doc(about));
+    quote! {
+        #about
+        #[derive(Clone, Debug, Default, ::serde::Deserialize, ::framework::Reflect, ::serde::Serialize)]
+        pub struct #name { #(#fields)* }
+    }
 }
 
 fn quote_output(output: &OutputField, wrap: &dyn Fn(TokenStream) -> TokenStream) -> TokenStream {

@@ -10,8 +10,8 @@ use crate::model::Parameters;
 pub(super) fn render_parameters(parameters: &Parameters) -> String {
     let derive = quote! {
         #[derive(Clone, Debug, ::serde::Deserialize, ::framework::Reflect, ::serde::Serialize)]
-        #[serde(deny_unknown_fields)]
     };
+    let closed = quote!(#[serde(deny_unknown_fields)]);
     let structs = parameters
         .structs
         .iter()
@@ -19,7 +19,8 @@ pub(super) fn render_parameters(parameters: &Parameters) -> String {
         .map(|(position, definition)| {
             let root =
                 (position == 0).then(|| doc("Everything that the parameter files say to nodes."));
-            quote_struct(definition, &quote!(#root #derive), &|data| data)
+            let closed = (!definition.open).then_some(&closed);
+            quote_struct(definition, &quote!(#root #derive #closed), &|data| data)
         });
     layout::rust_file(
         "The parameter tree; each field names the nodes that read it.",

@@ -1,15 +1,17 @@
 //! `src/runtime.rs`: instances, what connects them, and how to create them.
 
 mod instance;
+mod stubs;
 
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use super::layout::{self, comment, doc, empty_line};
 use super::spelling::{ident, path};
-use crate::model::runtime::{InstanceModel, end};
+use crate::model::runtime::{Buffer, InstanceModel, Runtime, end};
 use crate::model::{CyclerModel, RuntimeModel};
 use instance::quote_instance;
+use stubs::{quote_new_stubs, quote_stubs};
 
 /// One module for each cycler, and `create`.
 pub(super) fn render_runtime(model: &RuntimeModel) -> String {
@@ -20,9 +22,10 @@ pub(super) fn render_runtime(model: &RuntimeModel) -> String {
         .collect();
     modules.sort_unstable();
     let modules = modules.into_iter().map(ident);
-    let create = quote_create(model);
+    let (stubs, create) = (quote_stubs(&model.runtime), quote_create(model));
     let items = quote! {
         #(pub mod #modules;)*
+        #stubs
         #create
     };
     let imported = ["crate::cyclers".to_owned(), "crate::databases".to_owned()];
@@ -58,14 +61,25 @@ fn quote_create(model: &RuntimeModel) -> TokenStream {
     } else {
         "_hardware"
     });
-    let about = doc("All instances in manifest order, connected and ready for a driver.");
+    let left_out = &model.runtime.left_out;
     let paragraph = empty_line();
+    let robot = quote! {
+        ::framework::Robot {
+            name: #robot,
+            clock: start.clock,
+            instances: vec![#(Box::new(#instances)),*],
+            access: vec![#(#access),*],
+            left_out: &[#(#left_out),*],
+            parameters,
+        }
+    };
+    let (about, created, create) = quote_answer(&model.runtime, &robot);
     quote! {
         #about
         pub fn create<Hardware>(
             #hardware: &::std::sync::Arc<Hardware>,
             start: ::framework::Start<crate::parameters::Parameters>,
-        ) -> ::framework::Result<::framework::Robot<crate::parameters::Parameters>>
+        ) -> ::framework::Result<#created>
         where
             Hardware: #(#bounds +)* Send + Sync + 'static,
         {
@@ -73,25 +87,36 @@ fn quote_create(model: &RuntimeModel) -> TokenStream {
             #ends
             #(#cyclers)*
             #paragraph
-            Ok(::framework::Robot {
-                name: #robot,
-                clock: start.clock,
-                instances: vec![#(Box::new(#instances)),*],
-                access: vec![#(#access),*],
-                parameters,
-            })
+            #create
         }
     }
 }
 
-/// One buffer for each instance, and one for the parameters.
+/// What `create` makes, in words, as a type and as its last statements.
+fn quote_answer(runtime: &Runtime, robot: &TokenStream) -> (TokenStream, TokenStream, TokenStream) {
+    let created = quote!(::framework::Robot<crate::parameters::Parameters>);
+    let all = "All instances in manifest order, connected and ready for a driver";
+    if runtime.stubs.is_empty() {
+        return (doc(&format!("{all}.")), created, quote!(Ok(#robot)));
+    }
+    let about = doc(&format!("{all}, and the stubs of what is left out."));
+    let stubs = quote_new_stubs(runtime);
+    let paragraph = empty_line();
+    (
+        about,
+        quote!((#created, Stubs)),
+        quote!(#stubs #paragraph Ok((#robot, stubs))),
+    )
+}
+
+/// One buffer for each instance that runs or is read, and one for the parameters.
 fn quote_buffers(model: &RuntimeModel) -> TokenStream {
     let why = comment("Readers of the newest cycle on the left, queues of consumers on the right.");
-    let buffers = model.runtime.instances.iter().map(|instance| {
-        let writer = ident(&format!("{}_writer", instance.variable));
-        let readers = instance.readers.iter().map(|reader| ident(reader));
-        let consumers = instance.consumers.iter().map(|consumer| ident(consumer));
-        let windows = instance.consumers.iter().map(|_| Literal::usize_unsuffixed(instance.queue));
+    let buffers = model.runtime.buffers.iter().map(|buffer: &Buffer| {
+        let writer = ident(&format!("{}_writer", buffer.variable));
+        let readers = buffer.readers.iter().map(|reader| ident(reader));
+        let consumers = buffer.consumers.iter().map(|consumer| ident(consumer));
+        let windows = buffer.consumers.iter().map(|_| Literal::usize_unsuffixed(buffer.queue));
         quote! {
             let (#writer, [#(#readers),*], [#(#consumers),*]) = ::framework::buffer([#(#windows),*]);
         }
@@ -100,7 +125,7 @@ fn quote_buffers(model: &RuntimeModel) -> TokenStream {
         .runtime
         .instances
         .iter()
-        .filter(|instance| model.cyclers[instance.id.cycler].has_parameters());
+        .filter(|instance| model.cycler_of(instance.id).has_parameters());
     let readers = reading.map(|instance| ident(&end("parameters", &instance.variable)));
     quote! {
         #why
@@ -126,7 +151,7 @@ fn quote_all_ends(model: &RuntimeModel) -> TokenStream {
 
 /// What connects an instance with clients.
 fn quote_ends(model: &RuntimeModel, instance: &InstanceModel) -> TokenStream {
-    let cycler = &model.cyclers[instance.id.cycler];
+    let cycler = model.cycler_of(instance.id);
     let variable = &instance.variable;
     let injections = ident(&format!("{variable}_injections"));
     let injected = (!cycler.outputs.is_empty()).then(|| ident(&format!("{variable}_injected")));
@@ -157,7 +182,7 @@ fn quote_ends(model: &RuntimeModel, instance: &InstanceModel) -> TokenStream {
 
 /// What clients may do with an instance.
 fn quote_access(model: &RuntimeModel, instance: &InstanceModel) -> TokenStream {
-    let cycler = &model.cyclers[instance.id.cycler];
+    let cycler = model.cycler_of(instance.id);
     let InstanceModel { name, variable, .. } = instance;
     let subscriptions = if cycler.additional_outputs.is_empty() {
         quote!(::framework::Subscriptions::new(&[]))

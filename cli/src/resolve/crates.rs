@@ -4,48 +4,43 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use camino::Utf8Path;
 
-use super::robot::Dependency;
-use super::scene::Scene;
-use crate::manifest::Manifest;
+use super::robot::{Content, CycleBinding, Dependency, Robot, Tree};
 use crate::workspace::Workspace;
 
 /// Crates that every generated crate names.
 const ALWAYS: &[&str] = &["framework", "serde"];
 
 /// Every crate of the generated crate's `[dependencies]`, sorted by name.
-///
-/// `texts` are absolute paths and types as generated code writes them.
-pub(super) fn dependencies<'a>(
-    workspace: &Workspace,
-    manifest: &Manifest,
-    scene: &Scene<'_>,
-    texts: impl Iterator<Item = &'a str>,
-) -> Vec<Dependency> {
+pub(crate) fn dependencies(workspace: &Workspace, robot: &Robot) -> Vec<Dependency> {
     let mut by_name: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
-    for target in &manifest.targets {
-        if let Some(name) = target.declared.hardware.segments().next() {
-            let targets = by_name.entry(name.to_owned()).or_default();
-            targets.insert(target.declared.name.to_string());
-        }
+    for target in &robot.targets {
+        let targets = by_name.entry(root_of(&target.hardware)).or_default();
+        targets.insert(target.name.clone());
     }
-    let nodes = scene.sources.nodes.values();
-    let libraries: BTreeSet<&str> = nodes.map(|node| node.module.library()).collect();
-    let always = libraries
-        .iter()
-        .chain(ALWAYS)
-        .map(|name| (*name).to_owned());
-    for name in always.chain(texts.flat_map(crates_of)) {
+    let running = robot.running().flat_map(|(_, cycler)| &cycler.nodes);
+    let libraries = running.map(|node| root_of(&node.path));
+    let always = ALWAYS.iter().map(|name| (*name).to_owned());
+    let texts = names_in_code(robot);
+    let named = texts.iter().flat_map(|text| crates_of(text));
+    for name in libraries.chain(always).chain(named) {
         // Named by code of every target, also where it is the hardware of one.
         by_name.insert(name, BTreeSet::new());
     }
-    let users: Vec<&str> = libraries.into_iter().collect();
+    let nodes = robot.cyclers.iter().flat_map(|cycler| &cycler.nodes);
+    let users: BTreeSet<String> = nodes.map(|node| root_of(&node.path)).collect();
+    let users: Vec<&str> = users.iter().map(String::as_str).collect();
     by_name
         .into_iter()
         .map(|(name, targets)| {
             let targets = targets.into_iter().collect();
-            dependency(workspace, &manifest.robot.generated, &users, name, targets)
+            dependency(workspace, &robot.generated, &users, name, targets)
         })
         .collect()
+}
+
+/// The first name of an absolute path: its crate.
+fn root_of(path: &str) -> String {
+    path.split("::").next().unwrap_or(path).to_owned()
 }
 
 fn dependency(
@@ -82,4 +77,41 @@ fn crates_of(text: &str) -> impl Iterator<Item = String> {
     let roots = paths.filter_map(|path| path.split_once("::").map(|(root, _)| root));
     let roots = roots.filter(|root| !root.is_empty() && !matches!(*root, "std" | "core" | "alloc"));
     roots.map(str::to_owned).collect::<Vec<_>>().into_iter()
+}
+
+/// Every type and path that generated code writes.
+fn names_in_code(robot: &Robot) -> Vec<String> {
+    let mut texts = Vec::new();
+    for cycler in &robot.cyclers {
+        texts.extend(cycler.outputs.iter().map(|output| output.data.text.clone()));
+        collect_types(&cycler.additional_outputs, &mut texts);
+        collect_types(&cycler.states, &mut texts);
+        for node in &cycler.nodes {
+            let bounds = node
+                .new_bounds
+                .iter()
+                .chain(&node.cycle_bounds)
+                .chain(&node.restore_bounds);
+            texts.extend(bounds.map(|interface| interface.path.clone()));
+            for field in &node.cycle {
+                if let CycleBinding::Procedure {
+                    request, response, ..
+                } = &field.binding
+                {
+                    texts.extend([request.text.clone(), response.text.clone()]);
+                }
+            }
+        }
+    }
+    collect_types(&robot.parameter_tree, &mut texts);
+    texts
+}
+
+fn collect_types<U>(tree: &Tree<U>, texts: &mut Vec<String>) {
+    for branch in &tree.branches {
+        match &branch.content {
+            Content::Leaf { data, .. } => texts.push(data.text.clone()),
+            Content::Inner(tree) | Content::Instance { tree, .. } => collect_types(tree, texts),
+        }
+    }
 }

@@ -2,12 +2,15 @@
 //!
 //! Invariant: no file is needed any more to understand it, and nothing in it is undecided.
 
+mod read;
+
 use std::time::Duration;
 
 use camino::Utf8PathBuf;
 use serde::Serialize;
 
 pub use crate::scan::traits::Interface;
+pub use read::OutputRead;
 
 /// A robot: its cyclers, what they exchange, and the targets it runs on.
 #[derive(Clone, Debug, Serialize)]
@@ -18,8 +21,10 @@ pub struct Robot {
     /// Folder of the parameter files, relative to the workspace root.
     pub parameters: Utf8PathBuf,
     pub identities: Vec<String>,
-    /// In manifest order.
+    /// In manifest order, also those that a partial robot does without.
     pub cyclers: Vec<Cycler>,
+    /// What makes it a partial robot; `None`: it is whole.
+    pub partial: Option<Partial>,
     pub targets: Vec<Target>,
     /// Every declared parameter path, instances expanded, sorted by path.
     pub parameter_tree: Tree<Reader>,
@@ -29,6 +34,15 @@ pub struct Robot {
     pub inherited: Vec<String>,
     /// Edges whose types could not be resolved fully and are left to rustc.
     pub left_to_rustc: usize,
+}
+
+/// A robot of some cyclers, to be driven by a test, a simulator or a tool: it has no targets.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Partial {
+    /// Names of its cyclers, in manifest order.
+    pub only: Vec<String>,
+    /// Its folder, where that is not the one that follows from the names.
+    pub output: Option<Utf8PathBuf>,
 }
 
 /// A crate that the generated crate depends on.
@@ -71,6 +85,39 @@ pub enum OnFailure {
     Hold,
 }
 
+impl Robot {
+    /// Its cyclers that run, by their position.
+    pub fn running(&self) -> impl Iterator<Item = (usize, &Cycler)> {
+        let cyclers = self.cyclers.iter().enumerate();
+        cyclers.filter(|(_, cycler)| !cycler.left_out)
+    }
+
+    /// The command that writes its generated crate.
+    pub fn command(&self) -> String {
+        let options = self
+            .partial
+            .as_ref()
+            .map_or_else(Vec::new, Partial::options);
+        let words = ["hulkgen", "generate"].map(str::to_owned);
+        words
+            .into_iter()
+            .chain(options)
+            .collect::<Vec<_>>()
+            .join(" ")
+    }
+}
+
+impl Partial {
+    /// The options of `hulkgen generate` that write it.
+    pub fn options(&self) -> Vec<String> {
+        let mut options = vec!["--only".to_owned(), self.only.join(",")];
+        if let Some(output) = &self.output {
+            options.extend(["--output".to_owned(), output.to_string()]);
+        }
+        options
+    }
+}
+
 impl OnFailure {
     /// As the manifest writes it.
     pub fn name(self) -> &'static str {
@@ -88,6 +135,9 @@ impl OnFailure {
 pub struct Cycler {
     /// UpperCamelCase, as in the manifest.
     pub name: String,
+    /// A partial robot does without it: its nodes are known by name alone, they read nothing and ask for nothing. Its
+    /// outputs are those that others read, and come from outside.
+    pub left_out: bool,
     pub kind: CyclerKind,
     /// In manifest order; at least one.
     pub instances: Vec<Instance>,
@@ -339,6 +389,8 @@ pub struct Output {
 #[derive(Clone, Debug, Serialize)]
 pub struct Tree<U> {
     pub branches: Vec<Branch<U>>,
+    /// Values of nodes that a partial robot does without may stand beside the branches.
+    pub open: bool,
 }
 
 #[derive(Clone, Debug, Serialize)]
@@ -380,98 +432,4 @@ pub struct Writer {
 pub struct StateUse {
     pub node: String,
     pub shared: bool,
-}
-
-/// What a field of a cycle context reads from the main outputs of a cycler.
-#[derive(Clone, Copy, Debug, Serialize)]
-pub struct OutputRead<'a> {
-    /// Empty: the own cycler.
-    pub instances: &'a [InstanceId],
-    pub access: &'a Access,
-    /// Position of the writing node in the nodes of the cycler that is read.
-    pub producer: usize,
-    /// Whether the types were compared.
-    pub checked: bool,
-}
-
-impl CycleBinding {
-    /// What it reads, if it reads a main output.
-    pub fn read(&self) -> Option<OutputRead<'_>> {
-        match self {
-            Self::OwnOutput {
-                access,
-                producer,
-                checked,
-                ..
-            }
-            | Self::RequiredOwnOutput {
-                access,
-                producer,
-                checked,
-                ..
-            }
-            | Self::Previous {
-                access,
-                producer,
-                checked,
-                ..
-            }
-            | Self::Historic {
-                access,
-                producer,
-                checked,
-                ..
-            } => Some(OutputRead {
-                instances: &[],
-                access,
-                producer: *producer,
-                checked: *checked,
-            }),
-            Self::OutputOf {
-                instance,
-                access,
-                producer,
-                checked,
-                ..
-            }
-            | Self::RequiredOutputOf {
-                instance,
-                access,
-                producer,
-                checked,
-                ..
-            }
-            | Self::Latest {
-                instance,
-                access,
-                producer,
-                checked,
-                ..
-            } => Some(OutputRead {
-                instances: std::slice::from_ref(instance),
-                access,
-                producer: *producer,
-                checked: *checked,
-            }),
-            Self::Perception {
-                instances,
-                access,
-                producer,
-                checked,
-                ..
-            } => Some(OutputRead {
-                instances,
-                access,
-                producer: *producer,
-                checked: *checked,
-            }),
-            Self::Parameter { .. }
-            | Self::CyclerState { .. }
-            | Self::CycleTime
-            | Self::AdditionalOutput { .. }
-            | Self::Procedure { .. }
-            | Self::HardwareInterface
-            | Self::MainOutput { .. } => None,
-        }
-    }
 }

@@ -261,6 +261,7 @@ impl<U> Growing<U> {
         });
         Tree {
             branches: branches.collect(),
+            open: false,
         }
     }
 }

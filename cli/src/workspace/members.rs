@@ -146,6 +146,11 @@ impl Members {
             })
     }
 
+    /// A folder of the robot as the root's Cargo.toml names it.
+    pub fn below_own(&self, folder: &Utf8Path) -> Utf8PathBuf {
+        self.own.join(folder)
+    }
+
     fn parse(&mut self, workspace: &Workspace, file: &Utf8Path) -> Option<toml::Table> {
         let broken = |range, message: String| BrokenPackage {
             file: file.to_owned(),

@@ -5,7 +5,8 @@
 //!   t + d: finish                          others see the cycle from here on; d from the manifest
 //! ```
 //! At equal times: every `finish`, then restarts, then every `wait`, each in manifest order. An event of an instance that
-//! has not finished stays due. Same events, same bits.
+//! has not finished stays due. An event of an instance that a partial robot does without is only told: who feeds its stub
+//! does it then. Same events, same bits.
 
 use super::chaos::Chaos;
 use super::observer::Observed;
@@ -62,6 +63,8 @@ pub enum Step {
     Finished(Finished),
     /// Its nodes were created anew.
     Restarted(Restarted),
+    /// Its data was ready, but it is left out of this robot: what stands in for it may be fed now.
+    LeftOut,
 }
 
 /// Where a [`Lockstep`] was left, for the next one with the same robot and hardware.
@@ -93,7 +96,14 @@ enum State {
 #[derive(Clone, Copy, Debug)]
 struct Arrival {
     at: Timestamp,
-    index: usize,
+    whose: Whose,
+}
+
+/// To whom an event belongs, by position.
+#[derive(Clone, Copy, Debug)]
+enum Whose {
+    Instance(usize),
+    LeftOut(usize),
 }
 
 #[derive(Clone, Copy)]
@@ -102,6 +112,8 @@ enum Deed {
     Restart,
     BeginDue,
     Arrive,
+    /// An event of the instance with this position among those that are left out.
+    PassBy,
 }
 
 impl Deed {
@@ -110,7 +122,7 @@ impl Deed {
         match self {
             Self::Finish => 0,
             Self::Restart => 1,
-            Self::BeginDue | Self::Arrive => 2,
+            Self::BeginDue | Self::Arrive | Self::PassBy => 2,
         }
     }
 }
@@ -210,15 +222,18 @@ impl<'robot, P> Lockstep<'robot, P> {
         }
     }
 
-    /// Does everything up to `end`, included; `observe` sees each instance after each cycle that it finished.
+    /// Does everything up to `end`, included; `observe` sees each instance after each cycle that it finished. Then it is
+    /// `end`, unless the world has ended before or the robot has stopped.
     pub fn run_until(
         &mut self,
         end: Timestamp,
         mut observe: impl FnMut(&dyn Instance),
     ) -> Result<()> {
-        while let Some((at, deed, index)) = self.next()?
-            && at <= end
-        {
+        while let Some((at, deed, index)) = self.next()? {
+            if at > end {
+                self.robot.clock.advance_to(end);
+                break;
+            }
             let stepped = self.carry_out(at, deed, index)?;
             if let Step::Finished(Finished::Completed | Finished::Recovered) = stepped.step {
                 observe(self.robot.instances[index].as_ref());
@@ -260,9 +275,10 @@ impl<'robot, P> Lockstep<'robot, P> {
             };
             Some((at, deed, index))
         });
-        let arrival = self
-            .ahead
-            .map(|Arrival { at, index }| (at, Deed::Arrive, index));
+        let arrival = self.ahead.map(|Arrival { at, whose }| match whose {
+            Whose::Instance(index) => (at, Deed::Arrive, index),
+            Whose::LeftOut(index) => (at, Deed::PassBy, index),
+        });
         // Of equals the first is taken: new data replaces what is due before that begins.
         let deeds = arrival.into_iter().chain(tracks);
         Ok(deeds.min_by_key(|(at, deed, index)| (*at, deed.rank(), *index)))
@@ -289,12 +305,12 @@ impl<'robot, P> Lockstep<'robot, P> {
     }
 
     fn arrival(&self, Event { at, instance }: Event) -> Result<Arrival> {
-        let mut names = self
-            .robot
-            .instances
-            .iter()
-            .map(|instance| instance.description().name);
-        let index = names.position(|name| name == instance).ok_or_else(|| {
+        let mut instances = self.robot.instances.iter();
+        let mut left_out = self.robot.left_out.iter();
+        let whose = (instances.position(|known| known.description().name == instance))
+            .map(Whose::Instance)
+            .or_else(|| Some(Whose::LeftOut(left_out.position(|name| *name == instance)?)));
+        let whose = whose.ok_or_else(|| {
             Error::new(format!(
                 "the hardware has an event for `{instance}`, which is no instance"
             ))
@@ -305,7 +321,7 @@ impl<'robot, P> Lockstep<'robot, P> {
                 format!("the hardware has an event for `{instance}` at {at}, but it is {now}");
             return Err(Error::new(message));
         }
-        Ok(Arrival { at, index })
+        Ok(Arrival { at, whose })
     }
 
     fn carry_out(&mut self, at: Timestamp, deed: Deed, index: usize) -> Result<Stepped> {
@@ -318,6 +334,11 @@ impl<'robot, P> Lockstep<'robot, P> {
             Deed::Arrive => {
                 self.ahead = None;
                 self.arrive(at, index)
+            }
+            Deed::PassBy => {
+                self.ahead = None;
+                let (instance, step) = (self.robot.left_out[index], Step::LeftOut);
+                return Ok(Stepped { at, instance, step });
             }
         };
         let instance = self.robot.instances[index].description().name;

@@ -408,6 +408,7 @@ pub(crate) fn robot(hardware: &Arc<ScriptedHardware>, setting: &Setting) -> Robo
         clock: hardware.clock.clone(),
         instances,
         access,
+        left_out: &[],
         parameters,
     }
 }

@@ -177,6 +177,39 @@ fn others_see_a_cycle_only_from_its_finish_on_and_transient_before_persistent() 
 }
 
 #[test]
+fn an_event_of_an_instance_that_is_left_out_is_told_and_nothing_comes_of_it() {
+    let events = [(0, "Legs"), (3, "Ear"), (3, "Legs"), (12, "Legs")];
+    let hardware = ScriptedHardware::lockstep(events);
+    let mut robot = robot(&hardware, &Setting::default());
+    robot.left_out = &["Nose", "Ear"];
+    let mut lockstep = Lockstep::new(&mut robot, hardware.as_ref());
+    let mut told = Vec::new();
+    while let Some(stepped) = lockstep.step().expect("nothing stops the robot") {
+        if stepped.step == Step::LeftOut {
+            assert_eq!(lockstep.robot().clock.now(), stepped.at);
+            told.push((stepped.at, stepped.instance));
+        }
+    }
+    assert_eq!(told, [(millis(3), "Ear")]);
+    drop(lockstep);
+    assert_eq!(robot.instances[1].counters().read().cycles, 3);
+}
+
+#[test]
+fn it_is_the_end_of_a_run_then_unless_the_world_has_ended() {
+    let hardware = ScriptedHardware::lockstep([(0, "Legs"), (12, "Legs"), (24, "Legs")]);
+    let mut robot = robot(&hardware, &Setting::default());
+    let clock = robot.clock.clone();
+    let mut lockstep = Lockstep::new(&mut robot, hardware.as_ref());
+    for (end, now) in [(20, 20), (23, 23), (30, 24)] {
+        lockstep
+            .run_until(millis(end), |_| ())
+            .expect("nothing stops the robot");
+        assert_eq!(clock.now(), millis(now), "run until {end} ms");
+    }
+}
+
+#[test]
 fn run_until_includes_its_end_and_observes_finished_cycles() {
     let hardware = ScriptedHardware::lockstep((0..10).map(|number| (number * 10, "Legs")));
     let mut robot = robot(&hardware, &Setting::default());

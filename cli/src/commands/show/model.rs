@@ -17,8 +17,9 @@ pub fn text(model: &RuntimeModel) -> String {
     text.push_str("\nruntime\n");
     for instance in &model.runtime.instances {
         text.push_str(&format!("  instance {}\n", instance.name));
-        write_list(&mut text, "    read by", &instance.readers);
-        write_list(&mut text, "    consumed by", &instance.consumers);
+        let buffer = model.runtime.buffer(instance.id);
+        write_list(&mut text, "    read by", &buffer.readers);
+        write_list(&mut text, "    consumed by", &buffer.consumers);
     }
     write_list(&mut text, "  hardware", &model.runtime.hardware);
     for binary in &model.binaries {

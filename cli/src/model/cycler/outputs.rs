@@ -9,7 +9,7 @@ use crate::resolve::robot::{
 };
 
 /// Main outputs, sorted by name.
-pub(super) fn outputs(cycler: &Cycler) -> Vec<OutputField> {
+pub(in crate::model) fn outputs(cycler: &Cycler) -> Vec<OutputField> {
     let outputs = cycler.outputs.iter().map(|output| {
         let producer = &cycler.nodes[output.producer];
         OutputField {

@@ -4,7 +4,6 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::database;
-use crate::model::cycler::Source;
 use crate::model::frame::FrameField;
 use crate::model::names::snake_case;
 use crate::model::runtime::{InstanceModel, end, queue};
@@ -15,7 +14,7 @@ use crate::render::spelling::{ident, path, place};
 
 /// An instance around its body.
 pub(super) fn quote_instance(model: &RuntimeModel, instance: &InstanceModel) -> TokenStream {
-    let cycler = &model.cyclers[instance.id.cycler];
+    let cycler = model.cycler_of(instance.id);
     let (module, name) = (ident(&cycler.module), ident(&cycler.body));
     let (constant, variable) = (ident(&instance.constant), ident(&instance.variable));
     let writer = ident(&format!("{}_writer", instance.variable));
@@ -71,7 +70,7 @@ fn quote_body_fields(
     let creation = (!cycler.creation.is_empty()).then(|| quote!(&mut creation));
     let fields = quote_fields(model, cycler, instance);
     let readers = cycler.latest.iter().map(|source| {
-        let producer = &read(model, source).variable;
+        let producer = &model.runtime.buffer(source.id).variable;
         let (field, reader) = (ident(&source.reader), ident(&end(producer, variable)));
         quote!(#field: #reader,)
     });
@@ -193,12 +192,12 @@ fn quote_perception(
         .iter()
         .map(|interleaving| ident(&interleaving.field));
     let lanes = perception.lanes.iter().map(|lane| {
-        let producer = read(model, lane);
+        let producer = model.runtime.buffer(lane.id);
         let (name, queue) = (
             ident(&lane.field),
             ident(&queue(&producer.variable, &instance.variable)),
         );
-        let pending_timeout = quote_duration(producer.description.pending_timeout);
+        let pending_timeout = quote_duration(producer.pending_timeout);
         quote!(#name: ::framework::Consumer::new(#queue, #pending_timeout),)
     });
     quote! {
@@ -218,14 +217,6 @@ fn quote_procedures(cycler: &CyclerModel, instance: &InstanceModel) -> TokenStre
         quote!(#name: #answerer,)
     });
     quote!(#procedures { #(#answerers)* })
-}
-
-/// The instance that a source reads.
-fn read<'a>(model: &'a RuntimeModel, source: &Source) -> &'a InstanceModel {
-    let mut instances = model.runtime.instances.iter();
-    instances
-        .find(|instance| instance.id == source.id)
-        .expect("a source is an instance")
 }
 
 /// Where the parameters of one instance are.

@@ -44,6 +44,7 @@ pub(crate) fn robot(cyclers: Vec<CyclerBuilder>) -> Robot {
         identities: vec!["body".to_owned(), "head".to_owned()],
         parameter_tree: parameter_tree(&resolved),
         cyclers: resolved,
+        partial: None,
         targets: vec![
             target("simulated", "simulated_nao::Hardware"),
             target("nao", "nao::Hardware"),
@@ -72,9 +73,11 @@ fn resolve_cycler(builder: &CyclerBuilder) -> Cycler {
     let nodes: Vec<Node> = builder.nodes.iter().map(|node| node.node.clone()).collect();
     let mut additional = Tree {
         branches: Vec::new(),
+        open: false,
     };
     let mut states = Tree {
         branches: Vec::new(),
+        open: false,
     };
     for node in &nodes {
         for field in &node.cycle {
@@ -126,6 +129,7 @@ fn resolve_cycler(builder: &CyclerBuilder) -> Cycler {
     };
     Cycler {
         name: builder.name.clone(),
+        left_out: false,
         kind: builder.kind,
         instances: builder.instances.iter().map(instance).collect(),
         outputs: outputs(&nodes),
@@ -297,6 +301,7 @@ fn mark_outputs(cyclers: &mut [Cycler]) {
 fn parameter_tree(cyclers: &[Cycler]) -> Tree<Reader> {
     let mut tree = Tree {
         branches: Vec::new(),
+        open: false,
     };
     for (position, cycler) in cyclers.iter().enumerate() {
         for node in &cycler.nodes {
@@ -359,10 +364,12 @@ fn insert<U: PartialEq>(
                 cycler: *cycler,
                 tree: Tree {
                     branches: Vec::new(),
+                    open: false,
                 },
             },
             _ => Content::Inner(Tree {
                 branches: Vec::new(),
+                open: false,
             }),
         };
         tree.branches.push(Branch {

@@ -317,6 +317,7 @@ where
                 procedures: Vec::new(),
             },
         ],
+        left_out: &[],
         parameters,
     })
 }

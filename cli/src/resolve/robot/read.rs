@@ -1,0 +1,99 @@
+//! What a field of a cycle context reads of others, whatever its kind.
+
+use serde::Serialize;
+
+use super::{Access, CycleBinding, InstanceId};
+
+/// What a field of a cycle context reads from the main outputs of a cycler.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct OutputRead<'a> {
+    /// Empty: the own cycler.
+    pub instances: &'a [InstanceId],
+    pub access: &'a Access,
+    /// Position of the writing node in the nodes of the cycler that is read.
+    pub producer: usize,
+    /// Whether the types were compared.
+    pub checked: bool,
+}
+
+impl CycleBinding {
+    /// What it reads, if it reads a main output.
+    pub fn read(&self) -> Option<OutputRead<'_>> {
+        match self {
+            Self::OwnOutput {
+                access,
+                producer,
+                checked,
+                ..
+            }
+            | Self::RequiredOwnOutput {
+                access,
+                producer,
+                checked,
+                ..
+            }
+            | Self::Previous {
+                access,
+                producer,
+                checked,
+                ..
+            }
+            | Self::Historic {
+                access,
+                producer,
+                checked,
+                ..
+            } => Some(OutputRead {
+                instances: &[],
+                access,
+                producer: *producer,
+                checked: *checked,
+            }),
+            Self::OutputOf {
+                instance,
+                access,
+                producer,
+                checked,
+                ..
+            }
+            | Self::RequiredOutputOf {
+                instance,
+                access,
+                producer,
+                checked,
+                ..
+            }
+            | Self::Latest {
+                instance,
+                access,
+                producer,
+                checked,
+                ..
+            } => Some(OutputRead {
+                instances: std::slice::from_ref(instance),
+                access,
+                producer: *producer,
+                checked: *checked,
+            }),
+            Self::Perception {
+                instances,
+                access,
+                producer,
+                checked,
+                ..
+            } => Some(OutputRead {
+                instances,
+                access,
+                producer: *producer,
+                checked: *checked,
+            }),
+            Self::Parameter { .. }
+            | Self::CyclerState { .. }
+            | Self::CycleTime
+            | Self::AdditionalOutput { .. }
+            | Self::Procedure { .. }
+            | Self::HardwareInterface
+            | Self::MainOutput { .. } => None,
+        }
+    }
+}
