@@ -114,6 +114,9 @@ pub struct Generate {
     /// Do it again whenever a file of the workspace changes, until Ctrl-C
     #[arg(long)]
     pub watch: bool,
+    /// Look at everything again, also where nothing has changed since an earlier run; keep nothing for later ones
+    #[arg(long)]
+    pub no_cache: bool,
     /// Form of the answer: with `json` the names of the files that differ
     #[arg(long, value_enum, default_value = "text")]
     pub format: TextOrJson,
@@ -141,6 +144,9 @@ pub struct Check {
     /// Do it again whenever a file of the workspace changes, until Ctrl-C
     #[arg(long)]
     pub watch: bool,
+    /// Look at everything again, also where nothing has changed since an earlier run; keep nothing for later ones
+    #[arg(long)]
+    pub no_cache: bool,
     /// Form of the answer
     #[arg(long, value_enum, default_value = "text")]
     pub format: CheckFormat,

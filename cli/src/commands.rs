@@ -69,6 +69,9 @@ fn with_session(
         return Ok(outcome);
     }
     let mut session = Session::open(&arguments.global, terminal)?;
+    if is_answered_from_cache(command) {
+        session.use_cache();
+    }
     let answer = match command {
         Command::Generate(generate) if generate.watch => {
             watch::run(&mut session, |session| generate::run(session, generate))
@@ -98,6 +101,16 @@ fn with_session(
         session.note_diagnostics();
     }
     answer
+}
+
+/// Whether an answer of an earlier run will do, if nothing that it was made of has changed.
+fn is_answered_from_cache(command: &Command) -> bool {
+    match command {
+        Command::Generate(generate) => !generate.watch && !generate.no_cache,
+        // What rustc says depends on more than the robot's files.
+        Command::Check(check) => !check.watch && !check.cargo && !check.no_cache,
+        _ => false,
+    }
 }
 
 /// "1 node", "2 nodes".

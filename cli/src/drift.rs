@@ -7,6 +7,7 @@
 //! and goes, except for what cargo puts there (`target/`, `Cargo.lock`). A folder with files of which none says that
 //! hulkgen wrote it is somebody else's, and nothing in it is touched.
 
+mod content;
 mod disk;
 mod transaction;
 
@@ -19,6 +20,7 @@ use similar::TextDiff;
 use crate::render::GeneratedFiles;
 use crate::workspace::{Changes, says_generated};
 
+pub use content::Content;
 pub use disk::write_file;
 pub use transaction::{write_all, write_all_asking};
 

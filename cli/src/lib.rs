@@ -13,6 +13,7 @@
 //! | ⑤ | describe | `RuntimeModel`: what each file will say; no decisions left | `model.rs` |
 //! | ⑥ | render | `GeneratedFiles`: path → text | `render.rs` |
 //! | – | door out | `Drift`: what differs on disk; written or only shown | `drift.rs` |
+//! | – | third door | [`cache::Cache`]: answers of earlier runs, outside of the robot's folder | `cache.rs` |
 //!
 //! What rustc finds in the generated crate is brought home by [`late`].
 //!
@@ -20,12 +21,14 @@
 //! cannot fail. `commands` are what people call; only they print. [`scaffold`] answers with changes to the files that
 //! people write; what the robot would be after them is seen through all stages before the door out writes them.
 //!
-//! Invariants: only `workspace` reads files of the robot and only `drift` writes them. The same input gives the same
+//! Invariants: only `workspace` reads files of the robot and only `drift` writes them; no stage knows the cache. The same input gives the same
 //! bytes: nothing depends on hash maps, clocks, the environment or the order in which files are found.
 
 pub mod arguments;
+pub mod cache;
 pub mod commands;
 pub mod diagnostics;
+pub mod digest;
 pub mod drift;
 pub mod graph;
 pub mod late;

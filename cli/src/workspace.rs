@@ -5,6 +5,7 @@
 //!
 //! Invariant: the generated crate is never looked at to understand the robot, so it may be missing or hold anything.
 
+mod asked;
 mod changes;
 mod disk;
 mod glob;
@@ -25,6 +26,7 @@ use disk::Disk;
 use memory::Memory;
 use parsed::Parsed;
 
+pub use asked::Answers;
 pub use changes::Changes;
 pub use members::{Member, Members};
 pub(crate) use members::{normalized, relative};
@@ -215,6 +217,24 @@ impl Workspace {
     /// Every file that was read so far, sorted: what the answer depends on.
     pub fn read_files(&self) -> Vec<Utf8PathBuf> {
         self.texts.borrow().keys().cloned().collect()
+    }
+
+    /// Every question to the disk so far with its answer: what hulkgen's own answer depends on, and nothing else.
+    ///
+    /// `None` where the files do not lie on the disk as they are, or changed between two questions.
+    pub fn answers(&self) -> Option<Answers> {
+        match &self.files {
+            Files::Disk(disk) if self.changes.is_empty() => disk.answers(),
+            Files::Disk(_) | Files::Memory(_) => None,
+        }
+    }
+
+    /// Whether the disk gives these answers now.
+    pub fn still_answers(&self, answers: &Answers) -> bool {
+        match &self.files {
+            Files::Disk(disk) if self.changes.is_empty() => disk.still_answers(answers),
+            Files::Disk(_) | Files::Memory(_) => false,
+        }
     }
 
     /// Whether two paths lead to one file, also through links.

@@ -2,6 +2,8 @@
 
 mod parameters;
 
+use serde::{Deserialize, Serialize};
+
 use super::cargo::Request;
 use super::session::Session;
 use super::{Failure, generate, plural};
@@ -11,7 +13,46 @@ use crate::graph::{self, Graph};
 use crate::outcome::Outcome;
 use crate::pipeline::Understood;
 
+/// What is printed, and how it ends.
+#[derive(Serialize, Deserialize)]
+struct Answer {
+    text: String,
+    is_bad: bool,
+}
+
 pub(super) fn run(session: &mut Session<'_>, check: &Check) -> Result<Outcome, Failure> {
+    let question = question(session, check);
+    let kept: Option<Answer> = session.cache.recall(&session.workspace, &question);
+    let answer = match kept {
+        Some(kept) => kept,
+        None => {
+            let answer = answer(session, check)?;
+            session.cache.keep(&session.workspace, &question, &answer);
+            answer
+        }
+    };
+    session.terminal.data(&answer.text)?;
+    Ok(if answer.is_bad {
+        Outcome::Bad
+    } else {
+        Outcome::Good
+    })
+}
+
+/// All that the answer depends on besides the robot.
+fn question(session: &Session<'_>, check: &Check) -> String {
+    let Check {
+        cargo,
+        deny_warnings,
+        watch: _,
+        no_cache: _,
+        format,
+    } = check;
+    let color = session.terminal.colors_data();
+    format!("check: cargo {cargo}, deny warnings {deny_warnings}, {format:?}, color {color}")
+}
+
+fn answer(session: &mut Session<'_>, check: &Check) -> Result<Answer, Failure> {
     let understood = session.understand();
     let mut compiles = true;
     if check.cargo
@@ -46,8 +87,7 @@ pub(super) fn run(session: &mut Session<'_>, check: &Check) -> Result<Outcome, F
             text
         }
     };
-    session.terminal.data(&text)?;
-    Ok(if is_bad { Outcome::Bad } else { Outcome::Good })
+    Ok(Answer { text, is_bad })
 }
 
 /// Adds what rustc finds; whether cargo could compile everything it was asked for.

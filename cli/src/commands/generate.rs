@@ -4,12 +4,13 @@ mod partial;
 
 use camino::Utf8Path;
 use camino::Utf8PathBuf;
+use serde::{Deserialize, Serialize};
 use serde_json::json;
 
 use super::session::Session;
 use super::{Failure, plural};
 use crate::arguments::{Generate, TextOrJson};
-use crate::drift::{Drift, DriftError};
+use crate::drift::{Content, Drift, DriftError};
 use crate::model;
 use crate::outcome::{Outcome, Refusal};
 use crate::pipeline::Understood;
@@ -19,34 +20,109 @@ use crate::workspace::{MANIFEST, Workspace};
 /// Where a manifest that begins with `#:schema` and this path finds its schema.
 const SCHEMA: &str = ".hulk/hulk.schema.json";
 
+/// What writes the robot's own crate.
+const WHOLE: &str = "hulkgen generate";
+
+/// A generated crate that needs nothing to be done, and what there is to say.
+#[derive(Serialize, Deserialize)]
+struct Current {
+    /// Diagnostics for people.
+    notes: String,
+    /// There are errors in parameter files.
+    has_errors: bool,
+    folder: Utf8PathBuf,
+    content: Content,
+}
+
 pub(super) fn run(session: &mut Session<'_>, generate: &Generate) -> Result<Outcome, Failure> {
-    let mut understood = session.understand()?;
-    session.note_diagnostics();
-    if !generate.only.is_empty() {
-        understood.robot = partial::restrict(session, &understood.robot, generate)?;
+    if generate.only.is_empty() {
+        whole(session, generate)
+    } else {
+        part(session, generate)
     }
+}
+
+fn whole(session: &mut Session<'_>, generate: &Generate) -> Result<Outcome, Failure> {
+    let question = format!("generate: color {}", session.terminal.colors_notes());
+    let kept: Option<Current> = session.cache.recall(&session.workspace, &question);
+    if let Some(current) = kept
+        && current
+            .content
+            .is_there(session.workspace.root(), &current.folder)
+    {
+        session.terminal.note(&current.notes);
+        if !generate.check {
+            note_current(session, &current.folder);
+        }
+        answer(session, generate, &Drift::default(), WHOLE)?;
+        return Ok(outcome(generate, &Drift::default(), current.has_errors));
+    }
+    let understood = session.understand()?;
+    let notes = session.rendered_diagnostics();
+    session.terminal.note(&notes);
     let files = render(&session.workspace, &understood);
     let drift = compare(session.workspace.root(), &understood, &files)?;
     // What is said to be written is there.
     if !generate.check {
         apply(session, &understood, &files, &drift)?;
     }
+    let has_errors = session.diagnostics.has_errors();
+    if !generate.check || drift.is_empty() {
+        let current = Current {
+            notes,
+            has_errors,
+            folder: understood.robot.generated,
+            content: Content::of(&files),
+        };
+        session.cache.keep(&session.workspace, &question, &current);
+    }
+    answer(session, generate, &drift, WHOLE)?;
+    Ok(outcome(generate, &drift, has_errors))
+}
+
+/// The robot of some cyclers. It is asked for too seldom to be kept.
+fn part(session: &mut Session<'_>, generate: &Generate) -> Result<Outcome, Failure> {
+    let mut understood = session.understand()?;
+    session.note_diagnostics();
+    understood.robot = partial::restrict(session, &understood.robot, generate)?;
+    let files = render(&session.workspace, &understood);
+    let drift = compare(session.workspace.root(), &understood, &files)?;
+    if !generate.check {
+        apply(session, &understood, &files, &drift)?;
+    }
+    answer(session, generate, &drift, &understood.robot.command())?;
+    if !generate.check {
+        partial::note_membership(session, &understood.robot);
+    }
+    let has_errors = session.diagnostics.has_errors();
+    Ok(outcome(generate, &drift, has_errors))
+}
+
+/// What differs, for whoever asked; `command` mends it.
+fn answer(
+    session: &Session<'_>,
+    generate: &Generate,
+    drift: &Drift,
+    command: &str,
+) -> Result<(), Failure> {
     if generate.format == TextOrJson::Json {
-        session.terminal.data(&to_json(&drift))?;
+        session.terminal.data(&to_json(drift))?;
     } else if generate.check {
         session.terminal.data(&drift.diff())?;
     }
     if generate.check {
-        note_drift(session, &understood, &drift);
-    } else if understood.robot.partial.is_some() {
-        partial::note_membership(session, &understood.robot);
+        note_drift(session, drift, command);
     }
+    Ok(())
+}
+
+fn outcome(generate: &Generate, drift: &Drift, has_errors: bool) -> Outcome {
     // Parameter files do not change the generated code, so their errors keep nothing from it.
-    Ok(match () {
-        () if session.diagnostics.has_errors() => Outcome::Bad,
+    match () {
+        () if has_errors => Outcome::Bad,
         () if generate.check && !drift.is_empty() => Outcome::Drift,
         () => Outcome::Good,
-    })
+    }
 }
 
 /// Writes the generated crate and says on stderr what changed.
@@ -92,25 +168,27 @@ fn apply(
 ) -> Result<(), Failure> {
     let root = session.workspace.root();
     drift.write(root, files).map_err(|error| refusal(&error))?;
-    let note = if drift.is_empty() {
-        format!("`{}` is current\n", understood.robot.generated)
+    if drift.is_empty() {
+        note_current(session, &understood.robot.generated);
     } else {
-        drift.summary()
-    };
-    session.terminal.note(&note);
+        session.terminal.note(&drift.summary());
+    }
     Ok(())
 }
 
-fn note_drift(session: &Session<'_>, understood: &Understood, drift: &Drift) {
+fn note_current(session: &Session<'_>, folder: &Utf8Path) {
+    session.terminal.note(&format!("`{folder}` is current\n"));
+}
+
+fn note_drift(session: &Session<'_>, drift: &Drift, command: &str) {
     if drift.is_empty() {
         return;
     }
     let differing = drift.added.len() + drift.changed.len() + drift.orphaned.len();
     session.terminal.note(&format!(
-        "\n{} {} not what would be generated now; run `{}`\n",
+        "\n{} {} not what would be generated now; run `{command}`\n",
         plural(differing, "file"),
         if differing == 1 { "is" } else { "are" },
-        understood.robot.command()
     ));
 }
 

@@ -4,6 +4,7 @@ use camino::{Utf8Path, Utf8PathBuf};
 
 use super::terminal::Terminal;
 use crate::arguments::Global;
+use crate::cache::Cache;
 use crate::diagnostics::{self, Diagnostics, Reported};
 use crate::outcome::Refusal;
 use crate::pipeline::{self, Understood};
@@ -13,6 +14,8 @@ pub(super) struct Session<'a> {
     pub(super) workspace: Workspace,
     pub(super) diagnostics: Diagnostics,
     pub(super) terminal: &'a Terminal,
+    /// Answers of earlier runs; none unless the command asks for them.
+    pub(super) cache: Cache,
 }
 
 impl<'a> Session<'a> {
@@ -37,7 +40,13 @@ impl<'a> Session<'a> {
             workspace,
             diagnostics: Diagnostics::new(),
             terminal,
+            cache: Cache::none(),
         })
+    }
+
+    /// From now on answers are kept, and taken from earlier runs.
+    pub(super) fn use_cache(&mut self) {
+        self.cache = Cache::of_user(self.workspace.root());
     }
 
     /// Stages ① to ④.
@@ -47,12 +56,13 @@ impl<'a> Session<'a> {
 
     /// Prints every diagnostic as text to stderr.
     pub(super) fn note_diagnostics(&self) {
+        self.terminal.note(&self.rendered_diagnostics());
+    }
+
+    /// Every diagnostic as text for stderr.
+    pub(super) fn rendered_diagnostics(&self) -> String {
         let color = self.terminal.colors_notes();
-        self.terminal.note(&diagnostics::render(
-            &self.diagnostics,
-            &self.workspace,
-            color,
-        ));
+        diagnostics::render(&self.diagnostics, &self.workspace, color)
     }
 }
 

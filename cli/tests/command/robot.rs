@@ -7,6 +7,8 @@ use tempfile::TempDir;
 
 pub(crate) struct Robot {
     folder: TempDir,
+    /// For answers of earlier runs: every test is one of them, too.
+    cache: TempDir,
 }
 
 const FILES: &[(&str, &str)] = &[
@@ -121,6 +123,7 @@ impl Robot {
     pub(crate) fn tiny() -> Self {
         let robot = Self {
             folder: tempfile::tempdir().expect("a folder can be made"),
+            cache: tempfile::tempdir().expect("a folder can be made"),
         };
         for (path, text) in FILES {
             robot.write(path, text);
@@ -130,6 +133,11 @@ impl Robot {
 
     pub(crate) fn folder(&self) -> &Path {
         self.folder.path()
+    }
+
+    /// The user's cache folder.
+    pub(crate) fn cache(&self) -> &Path {
+        self.cache.path()
     }
 
     pub(crate) fn path(&self, path: &str) -> PathBuf {
@@ -157,7 +165,9 @@ impl Robot {
     /// `hulkgen` in the robot's folder.
     pub(crate) fn command(&self, arguments: &str) -> Command {
         let mut command = hulkgen(arguments);
-        command.current_dir(self.folder());
+        command
+            .current_dir(self.folder())
+            .env("XDG_CACHE_HOME", self.cache());
         command
     }
 
