@@ -3,7 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::net::{IpAddr, SocketAddrV4};
-use std::num::{NonZero, NonZeroI16, NonZeroU8};
+use std::num::{{NonZero, NonZeroI16, NonZeroU8}};
 use std::ops::Range;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -68,8 +68,8 @@ fn is_taken<T: DeserializeOwned>(value: &str) -> bool {
 fn errors(data: &str, files: &[(&str, &str)]) -> (Vec<String>, bool) {
     let node = format!(
         "use framework::*;\nuse serde::{{Deserialize, Serialize}};\n\
-         use std::collections::{BTreeMap, BTreeSet, HashMap}; use std::net::{IpAddr, SocketAddrV4};\n\
-         use std::num::{NonZero, NonZeroI16, NonZeroU8}; use std::ops::Range; use std::path::PathBuf; use std::time::Duration;\n\
+         use std::collections::{{BTreeMap, BTreeSet, HashMap}}; use std::net::{{IpAddr, SocketAddrV4}};\n\
+         use std::num::{{NonZero, NonZeroI16, NonZeroU8}}; use std::ops::Range; use std::path::PathBuf; use std::time::Duration;\n\
          use crate::types::*;\n\
          #[derive(Deserialize, Serialize)]\npub struct Node;\n\
          #[context]\npub struct CreationContext {{}}\n\
