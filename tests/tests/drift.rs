@@ -104,6 +104,16 @@ fn the_zoo_is_current() {
 }
 
 #[test]
+fn the_partial_zoos_are_current() {
+    for only in ["Control", "Vision,Reflexes,Lights"] {
+        assert_success(&hulkgen(
+            &root().join("tests/robots/zoo"),
+            &["generate", "--check", "--only", only],
+        ));
+    }
+}
+
+#[test]
 fn the_picture_of_the_nao_is_current() {
     let graph = hulkgen(&root(), &["graph", "--format", "svg"]);
     assert_success(&graph);

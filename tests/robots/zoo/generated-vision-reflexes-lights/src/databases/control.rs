@@ -1,0 +1,19 @@
+//! What others read of cycler `Control`, which is left out.
+//!
+//! Written by `hulkgen generate` from hulk.toml and the nodes it names. Do not edit.
+
+use framework::Reflect;
+use serde::Deserialize;
+use serde::Serialize;
+use zoo_nodes::types::Pose;
+use zoo_nodes::types::Spot;
+
+/// Main outputs that come from outside; each names the node that writes it in the whole
+/// robot.
+#[derive(Clone, Debug, Default, Deserialize, Reflect, Serialize)]
+pub struct SharedOutputs {
+    /// zoo_nodes::control::pose_filter
+    pub pose: Pose,
+    /// zoo_nodes::control::spot_filter
+    pub target: Option<Spot>,
+}
