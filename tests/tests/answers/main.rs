@@ -5,6 +5,7 @@ mod doctor;
 mod editor;
 mod explain;
 mod pages;
+mod partial;
 mod robot;
 mod schema;
 mod show;
