@@ -4,6 +4,7 @@ use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::rc::Rc;
+use std::sync::Arc;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use syn::{Expr, ExprLit, Item, ItemMod, Lit, Meta};
@@ -226,6 +227,13 @@ impl<'workspace> Library<'workspace> {
         }
         let folder = folder_of(file, path_attribute(item).is_some());
         self.parse(path, file.clone(), folder)
+    }
+
+    /// What the file of a declared module says, without parsing it.
+    pub(super) fn text(&self, parent: &Module, item: &ItemMod) -> Option<Arc<str>> {
+        let mut files = places(&parent.file, &parent.folder, item).into_iter();
+        let file = files.find(|file| self.workspace.is_file(file))?;
+        self.workspace.read(&file).ok()
     }
 
     /// Whether a module or one around it is read from this file.

@@ -10,7 +10,7 @@ use std::rc::Rc;
 use camino::Utf8PathBuf;
 use syn::punctuated::Punctuated;
 use syn::visit::{self, Visit};
-use syn::{Attribute, GenericParam, Item, ItemImpl, Meta, Token, Type};
+use syn::{Attribute, GenericParam, Item, ItemImpl, ItemMod, Meta, Token, Type};
 
 use super::fields::is_harmless;
 use super::library::Library;
@@ -51,6 +51,9 @@ impl Hardware {
 
     /// Whether rustc will certainly not find the trait implemented.
     pub fn lacks(&mut self, library: &Library<'_>, asked: &ItemId) -> bool {
+        if library.quietly(|| library.implements(&self.item, asked)) {
+            return false;
+        }
         let crates = [self.item.module.library(), asked.module.library()];
         crates.into_iter().all(|name| {
             let found = self
@@ -99,6 +102,63 @@ impl Library<'_> {
         }
     }
 
+    /// Whether the crate of a hardware type plainly has an `impl` of a trait for it.
+    ///
+    /// The usual case, for which few files are needed: those with the trait's name, and those around them.
+    fn implements(&self, hardware: &ItemId, asked: &ItemId) -> bool {
+        let mut waiting: Vec<Rc<Module>> =
+            self.root(hardware.module.library()).into_iter().collect();
+        while let Some(module) = waiting.pop() {
+            for item in &module.syntax.items {
+                match item {
+                    _ if only_for_tests(attributes(item)) => {}
+                    Item::Impl(item) if self.is_of(&module, item, hardware, asked) => return true,
+                    Item::Mod(item) if self.may_name(&module, item, &asked.name) => {
+                        waiting.extend(self.declared(&module, &item.ident.to_string()));
+                    }
+                    _ => {}
+                }
+            }
+        }
+        false
+    }
+
+    fn is_of(
+        &self,
+        module: &Rc<Module>,
+        item: &ItemImpl,
+        hardware: &ItemId,
+        asked: &ItemId,
+    ) -> bool {
+        let Some((None, written, _)) = &item.trait_ else {
+            return false;
+        };
+        let is_asked = || {
+            let definition = self.trait_of_workspace(module, written);
+            definition.is_some_and(|definition| definition.path() == asked.path())
+        };
+        !is_parameter(item, &item.self_ty)
+            && self.is_type(module, &item.self_ty, hardware) == Some(true)
+            && is_asked()
+    }
+
+    /// Whether a module or one inside of it may have an `impl` of a trait under its own name.
+    fn may_name(&self, parent: &Module, item: &ItemMod, name: &str) -> bool {
+        let names = |text: &str| text.contains(name) || has_module(text);
+        item.content.is_some() || self.text(parent, item).is_none_or(|text| names(&text))
+    }
+
+    fn is_type(&self, module: &Rc<Module>, data: &Type, hardware: &ItemId) -> Option<bool> {
+        match self.resolve(module, data).shape {
+            Shape::Named {
+                definition: Definition::Workspace(item),
+                ..
+            } => Some(item.path() == hardware.path()),
+            Shape::Unknown => None,
+            _ => Some(false),
+        }
+    }
+
     fn implemented(&self, library: &str, hardware: &ItemId) -> Option<Implemented> {
         let mut found = Some(Implemented::default());
         let mut waiting = vec![self.root(library)?];
@@ -132,19 +192,6 @@ struct Reading<'a> {
     hardware: &'a ItemId,
     module: &'a Rc<Module>,
     found: &'a mut Option<Implemented>,
-}
-
-impl Reading<'_> {
-    fn is_hardware(&self, data: &Type) -> Option<bool> {
-        match self.library.resolve(self.module, data).shape {
-            Shape::Named {
-                definition: Definition::Workspace(item),
-                ..
-            } => Some(item.path() == self.hardware.path()),
-            Shape::Unknown => None,
-            _ => Some(false),
-        }
-    }
 }
 
 impl<'ast> Visit<'ast> for Reading<'_> {
@@ -183,7 +230,8 @@ impl<'ast> Visit<'ast> for Reading<'_> {
         let serves = if is_parameter(item, &item.self_ty) {
             None
         } else {
-            self.is_hardware(&item.self_ty)
+            self.library
+                .is_type(self.module, &item.self_ty, self.hardware)
         };
         let Some(found) = self.found.as_mut().filter(|_| serves != Some(false)) else {
             return;
@@ -203,6 +251,12 @@ impl<'ast> Visit<'ast> for Reading<'_> {
             }
         }
     }
+}
+
+/// Whether a text may declare a module, perhaps with more than one space.
+fn has_module(text: &str) -> bool {
+    let mut words = text.split(|letter: char| !letter.is_alphanumeric() && letter != '_');
+    words.any(|word| word == "mod")
 }
 
 /// `impl<T> Trait for T`.
