@@ -142,9 +142,10 @@ impl Library<'_> {
             && is_asked()
     }
 
-    /// Whether a module or one inside of it may have an `impl` of a trait under its own name.
+    /// Whether a module or one inside of it may have an `impl` of a trait under its own name; nobody is lost by a wrong no,
+    /// for then everything is read.
     fn may_name(&self, parent: &Module, item: &ItemMod, name: &str) -> bool {
-        let names = |text: &str| text.contains(name) || has_module(text);
+        let names = |text: &str| text.contains(name) || declares_module(text);
         item.content.is_some() || self.text(parent, item).is_none_or(|text| names(&text))
     }
 
@@ -253,10 +254,13 @@ impl<'ast> Visit<'ast> for Reading<'_> {
     }
 }
 
-/// Whether a text may declare a module, perhaps with more than one space.
-fn has_module(text: &str) -> bool {
-    let mut words = text.split(|letter: char| !letter.is_alphanumeric() && letter != '_');
-    words.any(|word| word == "mod")
+/// Whether a text has a `mod …;`, as far as that can be seen without parsing it.
+fn declares_module(text: &str) -> bool {
+    text.match_indices("mod ").any(|(start, word)| {
+        let rest = &text[start + word.len()..];
+        let end = rest.find([';', '{']);
+        end.is_some_and(|end| rest[end..].starts_with(';'))
+    })
 }
 
 /// `impl<T> Trait for T`.

@@ -359,9 +359,12 @@ fn whatever_changes_the_answer_is_that_of_a_run_without_earlier_ones() {
     assert!(answers.len() > 8, "only {} answers differ", answers.len());
 }
 
+/// What may happen to the file of an answer, by name.
+type Spoil = (&'static str, fn(&Path));
+
 #[test]
 fn a_spoilt_answer_is_none() {
-    let spoil: &[(&str, fn(&Path))] = &[
+    let spoil: &[Spoil] = &[
         ("cut off", |path| {
             let text = fs::read(path).expect("it is there");
             fs::write(path, &text[..text.len() / 2]).expect("writable");

@@ -157,9 +157,9 @@ impl<'a> Reader<'a> {
     fn character_or_lifetime(&mut self) -> Option<()> {
         let length = match self.peek(1)? {
             b'\\' => return self.character(),
-            ..0x80 => 1,
-            ..0xe0 => 2,
-            ..0xf0 => 3,
+            0..0x80 => 1,
+            0x80..0xe0 => 2,
+            0xe0..0xf0 => 3,
             _ => 4,
         };
         if self.peek(1 + length) == Some(b'\'') {
