@@ -3,7 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::net::{IpAddr, SocketAddrV4};
-use std::num::{{NonZero, NonZeroI16, NonZeroU8}};
+use std::num::{NonZero, NonZeroI16, NonZeroU8};
 use std::ops::Range;
 use std::path::PathBuf;
 use std::time::Duration;

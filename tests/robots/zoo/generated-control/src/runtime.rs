@@ -62,9 +62,7 @@ where
 
     // What clients write, listen to and call.
     let (control_injections, [control_injected], []) = buffer([]);
-    let control_subscriptions = Subscriptions::new(
-        &["debug.certainty", "debug.watcher.seen"],
-    );
+    let control_subscriptions = Subscriptions::new(control::ADDITIONAL_OUTPUTS);
     let (control_stop, control_stop_answerer) = procedure();
     let (control_walk, control_walk_answerer) = procedure();
 

@@ -53,25 +53,29 @@ where
     // Readers of the newest cycle on the left, queues of consumers on the right.
     let (
         vision_top_writer,
-        [vision_top_for_vision_top,
-        vision_top_for_vision_bottom,
+        [
+            vision_top_for_vision_top,
+            vision_top_for_vision_bottom,
         ],
         [],
     ) = buffer([]);
     let (
         vision_bottom_writer,
-        [vision_bottom_for_vision_top,
-        vision_bottom_for_vision_bottom,
+        [
+            vision_bottom_for_vision_top,
+            vision_bottom_for_vision_bottom,
         ],
-        [vision_bottom_queue_for_reflexes,
+        [
+            vision_bottom_queue_for_reflexes,
         ],
     ) = buffer([8]);
     let (
         control_writer,
-        [control_for_vision_top,
-        control_for_vision_bottom,
-        control_for_reflexes,
-        control_for_lights,
+        [
+            control_for_vision_top,
+            control_for_vision_bottom,
+            control_for_reflexes,
+            control_for_lights,
         ],
         [],
     ) = buffer([]);
@@ -79,9 +83,10 @@ where
     let (lights_writer, [], []) = buffer([]);
     let (
         parameters,
-        [parameters_for_vision_top,
-        parameters_for_vision_bottom,
-        parameters_for_reflexes,
+        [
+            parameters_for_vision_top,
+            parameters_for_vision_bottom,
+            parameters_for_reflexes,
         ],
         [],
     ) = buffer_of(|| start.parameters.clone(), []);

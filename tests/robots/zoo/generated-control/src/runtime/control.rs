@@ -59,6 +59,9 @@ pub const CONTROL: InstanceDescription = InstanceDescription {
     },
 };
 
+/// What clients can listen to, in the order of `Subscribed`.
+pub const ADDITIONAL_OUTPUTS: &[&str] = &["debug.certainty", "debug.watcher.seen"];
+
 /// One instance: its nodes, and its ends of all buffers.
 pub struct Control<Hardware> {
     pub nodes: Nodes,
@@ -144,9 +147,10 @@ impl<Hardware: BodyInterface + LegInterface + Send + Sync> Body for Control<Hard
         self.perception
             .vision
             .merge([&self.perception.vision_top, &self.perception.vision_bottom]);
+        let mut wanted = self.subscriptions.wanted();
         self.subscribed = Subscribed {
-            debug_certainty: self.subscriptions.contains(0),
-            debug_watcher_seen: self.subscriptions.contains(1),
+            debug_certainty: wanted.next_one(),
+            debug_watcher_seen: wanted.next_one(),
         };
         self.procedures.stop.take();
         self.procedures.walk.take();

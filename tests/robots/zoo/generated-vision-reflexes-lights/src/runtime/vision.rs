@@ -51,11 +51,7 @@ pub const VISION_TOP: InstanceDescription = InstanceDescription {
     watchdog: Duration::from_millis(300),
     history: Duration::from_secs(1),
     lockstep_duration: Some(Duration::from_millis(20)),
-    scheduling: Scheduling {
-        policy: None,
-        priority: None,
-        cores: &[],
-    },
+    scheduling: Scheduling::BY_THE_SYSTEM,
 };
 
 /// What the manifest says about `VisionBottom`.
@@ -165,9 +161,10 @@ impl<Hardware: EyeInterface + Send + Sync> Body for Vision<Hardware> {
         self.vision_top.take();
         self.vision_bottom.take();
         self.control.take();
+        let mut wanted = self.subscriptions.wanted();
         self.subscribed = Subscribed {
-            candidates: self.subscriptions.contains(0),
-            cycler_instance_width: self.subscriptions.contains(1),
+            candidates: wanted.next_one(),
+            cycler_instance_width: wanted.next_one(),
         };
         let (_, mut frame) = self.frame(slots, cycle);
         Nodes::inject(&mut frame);
