@@ -315,3 +315,33 @@ fn values_of_maps_may_be_completed_by_other_layers() {
     );
     assert_eq!(told, [""; 0]);
 }
+
+#[test]
+fn two_names_of_one_field_clash_only_where_one_robot_reads_both() {
+    let default = ("parameters/default.toml", "a.low = 1\na.a = 2\n");
+    let by_alias = "a.b = 3\n";
+    let clash = "duplicate-parameter: `a.a` is given by two names";
+    let (told, _) = errors("Limits", &[default, ("parameters/head.P1.toml", by_alias)]);
+    assert_eq!(told, [clash]);
+    let (told, _) = errors(
+        "Limits",
+        &[("parameters/default.toml", "a = { low = 1, a = 2, b = 3 }\n")],
+    );
+    assert_eq!(told, [clash]);
+    let without = ("parameters/default.toml", "a.low = 1\n");
+    let (one, other) = ("parameters/head.P1.toml", "parameters/head.P2.toml");
+    let (told, _) = errors("Limits", &[without, (one, "a.a = 2\n"), (other, by_alias)]);
+    assert_eq!(told, [""; 0], "no robot has two heads");
+    let located = "parameters/field/head.P1.toml";
+    let (told, _) = errors(
+        "Limits",
+        &[without, (one, "a.a = 2\n"), (located, by_alias)],
+    );
+    assert_eq!(told, [clash]);
+    let (here, there) = (
+        "parameters/lab/head.P1.toml",
+        "parameters/field/head.P1.toml",
+    );
+    let (told, _) = errors("Limits", &[without, (here, "a.a = 2\n"), (there, by_alias)]);
+    assert_eq!(told, [""; 0], "no robot is at two places");
+}

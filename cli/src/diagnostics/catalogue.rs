@@ -81,6 +81,8 @@ catalogue! {
         "Two things have one name.";
     DuplicateOutput, "duplicate-output", Error,
         "Two nodes of one cycler write one output.";
+    DuplicateParameter, "duplicate-parameter", Error,
+        "Parameter files give one value by two names.";
     DuplicateProcedure, "duplicate-procedure", Error,
         "Two nodes of one cycler answer one procedure.";
     HardwareReadOutsideSetup, "hardware-read-outside-setup", Warning,

@@ -10,6 +10,7 @@ mod given;
 mod keys;
 mod layer;
 mod opaque;
+mod other_names;
 mod values;
 mod variants;
 mod winners;
@@ -61,8 +62,10 @@ pub fn check(
             diagnostics.add(Diagnostic::new(Code::Syntax, error.message()).at(file, place, ""));
         }
         if errors.is_empty() {
+            let path = file.strip_prefix(&robot.parameters).ok();
             layers.push(Layer {
                 file,
+                robots: path.and_then(Robots::of).unwrap_or_default(),
                 table: table.into_inner(),
             });
         }
@@ -84,6 +87,7 @@ pub fn check(
         );
     }
     checker.check_missing(&layers, diagnostics);
+    other_names::check(&layers, robot, sources, diagnostics);
     sources.library.report_problems(diagnostics);
     let locations = checker.locations();
     let folders = texts.iter().filter_map(|(file, _)| {

@@ -139,7 +139,7 @@ fn layers(workspace: &Workspace, manifest: &Manifest) -> Vec<(Utf8PathBuf, Robot
 
 impl Robots {
     /// `default.toml`, `head.P1.toml`, `field/default.toml`, `field/head.P1.toml`.
-    fn of(file: &Utf8Path) -> Option<Self> {
+    pub(super) fn of(file: &Utf8Path) -> Option<Self> {
         let location = file.parent().map(Utf8Path::as_str);
         let stem = file.file_name()?.strip_suffix(".toml")?;
         let identity = stem.split_once('.').map(|(name, id)| Identity {
@@ -150,6 +150,15 @@ impl Robots {
             location: location.filter(|it| !it.is_empty()).map(str::to_owned),
             identity,
         })
+    }
+
+    /// Whether some robot is of both kinds.
+    pub(super) fn overlap(&self, other: &Self) -> bool {
+        let may_be_both = |(one, other): (&String, &String)| one == other;
+        let locations = self.location.as_ref().zip(other.location.as_ref());
+        let identities = self.identity.as_ref().zip(other.identity.as_ref());
+        locations.is_none_or(may_be_both)
+            && identities.is_none_or(|(one, other)| one.name != other.name || one.id == other.id)
     }
 }
 

@@ -7,6 +7,7 @@ use camino::{Utf8Path, Utf8PathBuf};
 use toml::de::DeTable;
 
 use super::choice::Choice;
+use super::given::Robots;
 use crate::diagnostics::{Code, Diagnostic, Diagnostics, nearest};
 use crate::manifest::Manifest;
 use crate::workspace::{MANIFEST, Workspace};
@@ -14,6 +15,7 @@ use crate::workspace::{MANIFEST, Workspace};
 /// A parsed file.
 pub(super) struct Layer<'a> {
     pub(super) file: &'a Utf8Path,
+    pub(super) robots: Robots,
     pub(super) table: DeTable<'a>,
 }
 
