@@ -194,7 +194,7 @@ const VALUES: &[&str] = &[
     "{ Middle = 1 }",
 ];
 
-/// The first is right, the second wrong; anything else is a hole or a false alarm.
+/// Whatever the two do not agree about is a hole or a false alarm.
 fn compare<T: DeserializeOwned>(data: &str, wrong: &mut Vec<String>) {
     let (mut taken, mut refused) = (0, 0);
     for value in VALUES {
@@ -205,7 +205,11 @@ fn compare<T: DeserializeOwned>(data: &str, wrong: &mut Vec<String>) {
             true => taken += 1,
             false => refused += 1,
         }
-        if is_taken::<T>(value) != told.is_empty() {
+        // Serde reads structs from arrays, too, by the order of the fields; files name them.
+        let by_position = |one: &String| one.ends_with("is an array, not a table");
+        let is_refused = !told.is_empty();
+        let is_by_position = is_refused && told.iter().all(by_position);
+        if is_taken::<T>(value) == is_refused && !is_by_position {
             wrong.push(format!("{data} = {value}: {told:?}"));
         }
     }

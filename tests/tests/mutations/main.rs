@@ -167,6 +167,14 @@ fn judge(
     (verdict, said)
 }
 
+/// The robot with every file parsed: what a mutation does not touch is not parsed again.
+fn parsed(texts: &BTreeMap<String, String>) -> Workspace {
+    let workspace = Workspace::in_memory(texts.clone());
+    let understood = pipeline::understand(&workspace, &mut Diagnostics::new());
+    assert!(understood.is_ok(), "the robot itself is right");
+    workspace
+}
+
 /// Every mutant with its verdict; those that are wrong with what was said.
 fn judge_all(
     texts: &BTreeMap<String, String>,
@@ -176,16 +184,17 @@ fn judge_all(
     let next = AtomicUsize::new(0);
     let work = || {
         let mut judged = Vec::new();
-        let workspace = Workspace::in_memory(texts.clone());
-        // What a mutation does not touch is parsed here, once.
-        let understood = pipeline::understand(&workspace, &mut Diagnostics::new());
-        assert!(understood.is_ok(), "the robot itself is right");
+        let mut workspace = parsed(texts);
         loop {
             // Only the count is shared; each thread keeps its own results.
             let index = next.fetch_add(1, Ordering::Relaxed);
             let Some(mutant) = mutants.get(index) else {
                 return judged;
             };
+            // What was parsed stays in memory until all of it is parsed anew.
+            if judged.len() % 500 == 499 {
+                workspace = parsed(texts);
+            }
             let mutated = robot.with(&mutant.file, &mutant.apply(&texts[&mutant.file]));
             let breaches = oracle::breaches(&mutated);
             let (verdict, said) = judge(&workspace, texts, mutant, &breaches);
