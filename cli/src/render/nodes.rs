@@ -13,8 +13,12 @@ use crate::model::node::NodeModel;
 use crate::model::{CyclerModel, OnFailure};
 
 /// The nodes of one cycler, in which order they run, and one function for each.
+///
+/// The order shows in the calls alone; the rest is sorted by name, so that another order moves nothing but calls.
 pub(super) fn render_nodes(cycler: &CyclerModel) -> String {
-    let fields = cycler.nodes.iter().map(|node| {
+    let mut by_name: Vec<&NodeModel> = cycler.nodes.iter().collect();
+    by_name.sort_by(|one, other| one.name.cmp(&other.name));
+    let fields = by_name.iter().map(|node| {
         let name = ident(&node.name);
         let state = path(&format!("{}::{}", node.path, node.type_name));
         quote!(pub #name: ::framework::Guarded<#state>,)
@@ -36,8 +40,8 @@ pub(super) fn render_nodes(cycler: &CyclerModel) -> String {
         ),
         quote_restore(cycler),
     ];
-    let steps = cycler.nodes.iter().map(|node| quote_step(cycler, node));
-    let creates = cycler.nodes.iter().map(|node| quote_create(cycler, node));
+    let steps = by_name.iter().map(|node| quote_step(cycler, node));
+    let creates = by_name.iter().map(|node| quote_create(cycler, node));
     let about = doc("The nodes of one instance; they keep their state between cycles.");
     let items = quote! {
         use ::framework::InNode;

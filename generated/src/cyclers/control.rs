@@ -57,47 +57,47 @@ use crate::databases::control::Frame;
 
 /// The nodes of one instance; they keep their state between cycles.
 pub struct Nodes {
-    pub sensor_data_receiver: Guarded<sensor_data_receiver::SensorDataReceiver>,
-    pub button_filter: Guarded<button_filter::ButtonFilter>,
-    pub sonar_filter: Guarded<sonar_filter::SonarFilter>,
-    pub orientation_filter: Guarded<orientation_filter::OrientationFilter>,
-    pub foot_pressure_filter: Guarded<foot_pressure_filter::FootPressureFilter>,
-    pub ground_contact_filter: Guarded<ground_contact_filter::GroundContactFilter>,
-    pub support_foot_filter: Guarded<support_foot_filter::SupportFootFilter>,
-    pub forward_kinematics: Guarded<forward_kinematics::ForwardKinematics>,
-    pub center_of_mass: Guarded<center_of_mass::CenterOfMass>,
-    pub fall_state_filter: Guarded<fall_state_filter::FallStateFilter>,
-    pub odometry: Guarded<odometry::OdometryProvider>,
-    pub camera_matrices: Guarded<camera_matrices::CameraMatricesProvider>,
-    pub game_controller_filter: Guarded<game_controller_filter::GameControllerFilter>,
-    pub team_message_filter: Guarded<team_message_filter::TeamMessageFilter>,
-    pub whistle_filter: Guarded<whistle_filter::WhistleFilter>,
-    pub game_state_filter: Guarded<game_state_filter::GameStateFilter>,
     pub ball_filter: Guarded<ball_filter::BallFilter>,
-    pub obstacle_filter: Guarded<obstacle_filter::ObstacleFilter>,
-    pub world_state_composer: Guarded<world_state_composer::WorldStateComposer>,
     pub behavior: Guarded<behavior::Behavior>,
-    pub recording_switch: Guarded<recording_switch::RecordingSwitch>,
-    pub motion_selector: Guarded<motion_selector::MotionSelector>,
-    pub motion_dispatcher: Guarded<motion_dispatcher::MotionDispatcher>,
-    pub stand: Guarded<stand::Stand>,
-    pub penalized_pose: Guarded<penalized_pose::PenalizedPose>,
-    pub sit_down: Guarded<sit_down::SitDown>,
-    pub look_around: Guarded<look_around::LookAround>,
-    pub look_at: Guarded<look_at::LookAt>,
-    pub head_motion: Guarded<head_motion::HeadMotion>,
-    pub motor_commands_collector: Guarded<
-        motor_commands_collector::MotorCommandsCollector,
-    >,
-    pub led_status: Guarded<led_status::LedStatus>,
-    pub tone_selector: Guarded<tone_selector::ToneSelector>,
-    pub tone_player: Guarded<tone_player::TonePlayer>,
-    pub self_report: Guarded<self_report::SelfReport>,
+    pub button_filter: Guarded<button_filter::ButtonFilter>,
+    pub camera_matrices: Guarded<camera_matrices::CameraMatricesProvider>,
+    pub center_of_mass: Guarded<center_of_mass::CenterOfMass>,
+    pub command_sender: Guarded<command_sender::CommandSender>,
+    pub fall_state_filter: Guarded<fall_state_filter::FallStateFilter>,
+    pub foot_pressure_filter: Guarded<foot_pressure_filter::FootPressureFilter>,
+    pub forward_kinematics: Guarded<forward_kinematics::ForwardKinematics>,
+    pub game_controller_filter: Guarded<game_controller_filter::GameControllerFilter>,
     pub game_controller_responder: Guarded<
         game_controller_responder::GameControllerResponder,
     >,
+    pub game_state_filter: Guarded<game_state_filter::GameStateFilter>,
+    pub ground_contact_filter: Guarded<ground_contact_filter::GroundContactFilter>,
+    pub head_motion: Guarded<head_motion::HeadMotion>,
+    pub led_status: Guarded<led_status::LedStatus>,
+    pub look_around: Guarded<look_around::LookAround>,
+    pub look_at: Guarded<look_at::LookAt>,
+    pub motion_dispatcher: Guarded<motion_dispatcher::MotionDispatcher>,
+    pub motion_selector: Guarded<motion_selector::MotionSelector>,
+    pub motor_commands_collector: Guarded<
+        motor_commands_collector::MotorCommandsCollector,
+    >,
+    pub obstacle_filter: Guarded<obstacle_filter::ObstacleFilter>,
+    pub odometry: Guarded<odometry::OdometryProvider>,
+    pub orientation_filter: Guarded<orientation_filter::OrientationFilter>,
+    pub penalized_pose: Guarded<penalized_pose::PenalizedPose>,
+    pub recording_switch: Guarded<recording_switch::RecordingSwitch>,
+    pub self_report: Guarded<self_report::SelfReport>,
+    pub sensor_data_receiver: Guarded<sensor_data_receiver::SensorDataReceiver>,
+    pub sit_down: Guarded<sit_down::SitDown>,
+    pub sonar_filter: Guarded<sonar_filter::SonarFilter>,
+    pub stand: Guarded<stand::Stand>,
+    pub support_foot_filter: Guarded<support_foot_filter::SupportFootFilter>,
+    pub team_message_filter: Guarded<team_message_filter::TeamMessageFilter>,
     pub team_message_sender: Guarded<team_message_sender::TeamMessageSender>,
-    pub command_sender: Guarded<command_sender::CommandSender>,
+    pub tone_player: Guarded<tone_player::TonePlayer>,
+    pub tone_selector: Guarded<tone_selector::ToneSelector>,
+    pub whistle_filter: Guarded<whistle_filter::WhistleFilter>,
+    pub world_state_composer: Guarded<world_state_composer::WorldStateComposer>,
 }
 
 impl Nodes {
@@ -351,377 +351,6 @@ impl Nodes {
         Ok(())
     }
 
-    /// hardware -> sensor_data
-    fn sensor_data_receiver(
-        &mut self,
-        frame: &mut Frame<'_, impl SensorInterface>,
-    ) -> Result<()> {
-        let context = sensor_data_receiver::CycleContext {
-            hardware_interface: frame.hardware_interface,
-        };
-        let outputs = self
-            .sensor_data_receiver
-            .call(frame.cycle, |node| node.cycle(context))?;
-        frame.own.sensor_data = outputs.sensor_data.value;
-        *frame.capture_time = Some(outputs.captured_at.0);
-        Ok(())
-    }
-
-    /// sensor_data.touch -> buttons
-    fn button_filter<Hardware>(
-        &mut self,
-        frame: &mut Frame<'_, Hardware>,
-    ) -> Result<()> {
-        let context = button_filter::CycleContext {
-            touch: &frame.own.sensor_data.touch,
-            cycle_time: frame.cycle.time,
-            bounce_time: &frame.parameters.button_filter.bounce_time,
-            head_hold_time: &frame.parameters.button_filter.head_hold_time,
-        };
-        let outputs = self.button_filter.call(frame.cycle, |node| node.cycle(context))?;
-        frame.own.buttons = outputs.buttons.value;
-        if let Some(injections) = frame.injections {
-            injections.buttons.replace(&mut frame.own.buttons);
-        }
-        Ok(())
-    }
-
-    /// sensor_data.sonar -> sonar_distances
-    fn sonar_filter<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
-        let context = sonar_filter::CycleContext {
-            sonar: &frame.own.sensor_data.sonar,
-            cycle_time: frame.cycle.time,
-            least_distance: &frame.parameters.sonar_filter.least_distance,
-            largest_distance: &frame.parameters.sonar_filter.largest_distance,
-            echo_delay: &frame.parameters.sonar_filter.echo_delay,
-            smoothing_time: &frame.parameters.sonar_filter.smoothing_time,
-        };
-        let outputs = self.sonar_filter.call(frame.cycle, |node| node.cycle(context))?;
-        frame.own.sonar_distances = outputs.sonar_distances.value;
-        if let Some(injections) = frame.injections {
-            injections.sonar_distances.replace(&mut frame.own.sonar_distances);
-        }
-        Ok(())
-    }
-
-    /// sensor_data.inertial -> orientation; when subscribed: orientation_filter.innovation
-    fn orientation_filter<Hardware>(
-        &mut self,
-        frame: &mut Frame<'_, Hardware>,
-    ) -> Result<()> {
-        let context = orientation_filter::CycleContext {
-            inertial: &frame.own.sensor_data.inertial,
-            cycle_time: frame.cycle.time,
-            gravity_time: &frame.parameters.orientation_filter.gravity_time,
-            trusted_deviation: &frame.parameters.orientation_filter.trusted_deviation,
-            refused_deviation: &frame.parameters.orientation_filter.refused_deviation,
-            bias_time: &frame.parameters.orientation_filter.bias_time,
-            still_rotation: &frame.parameters.orientation_filter.still_rotation,
-            innovation: AdditionalOutput::new(
-                frame.subscribed.orientation_filter_innovation,
-                frame.cycle.number,
-                &mut frame.additional_outputs.orientation_filter.innovation,
-            ),
-        };
-        let outputs = self
-            .orientation_filter
-            .call(frame.cycle, |node| node.cycle(context))?;
-        frame.own.orientation = outputs.orientation.value;
-        if let Some(injections) = frame.injections {
-            injections.orientation.replace(&mut frame.own.orientation);
-        }
-        Ok(())
-    }
-
-    /// sensor_data.force_sensitive_resistors -> sole_pressures
-    fn foot_pressure_filter<Hardware>(
-        &mut self,
-        frame: &mut Frame<'_, Hardware>,
-    ) -> Result<()> {
-        let context = foot_pressure_filter::CycleContext {
-            resistors: &frame.own.sensor_data.force_sensitive_resistors,
-            cycle_time: frame.cycle.time,
-            smoothing_time: &frame.parameters.foot_pressure_filter.smoothing_time,
-        };
-        let outputs = self
-            .foot_pressure_filter
-            .call(frame.cycle, |node| node.cycle(context))?;
-        frame.own.sole_pressures = outputs.sole_pressures.value;
-        if let Some(injections) = frame.injections {
-            injections.sole_pressures.replace(&mut frame.own.sole_pressures);
-        }
-        Ok(())
-    }
-
-    /// sole_pressures -> has_ground_contact
-    fn ground_contact_filter<Hardware>(
-        &mut self,
-        frame: &mut Frame<'_, Hardware>,
-    ) -> Result<()> {
-        let context = ground_contact_filter::CycleContext {
-            sole_pressures: &frame.own.sole_pressures,
-            cycle_time: frame.cycle.time,
-            pressure: &frame.parameters.ground_contact_filter.pressure,
-            hysteresis: &frame.parameters.ground_contact_filter.hysteresis,
-            delay: &frame.parameters.ground_contact_filter.delay,
-        };
-        let outputs = self
-            .ground_contact_filter
-            .call(frame.cycle, |node| node.cycle(context))?;
-        frame.own.has_ground_contact = outputs.has_ground_contact.value;
-        if let Some(injections) = frame.injections {
-            injections.has_ground_contact.replace(&mut frame.own.has_ground_contact);
-        }
-        Ok(())
-    }
-
-    /// sole_pressures, has_ground_contact -> support_side
-    fn support_foot_filter<Hardware>(
-        &mut self,
-        frame: &mut Frame<'_, Hardware>,
-    ) -> Result<()> {
-        let context = support_foot_filter::CycleContext {
-            sole_pressures: &frame.own.sole_pressures,
-            has_ground_contact: &frame.own.has_ground_contact,
-            hysteresis: &frame.parameters.support_foot_filter.hysteresis,
-        };
-        let outputs = self
-            .support_foot_filter
-            .call(frame.cycle, |node| node.cycle(context))?;
-        frame.own.support_side = outputs.support_side.value;
-        if let Some(injections) = frame.injections {
-            injections.support_side.replace(&mut frame.own.support_side);
-        }
-        Ok(())
-    }
-
-    /// sensor_data.positions -> robot_kinematics
-    fn forward_kinematics<Hardware>(
-        &mut self,
-        frame: &mut Frame<'_, Hardware>,
-    ) -> Result<()> {
-        let context = forward_kinematics::CycleContext {
-            positions: &frame.own.sensor_data.positions,
-        };
-        let outputs = self
-            .forward_kinematics
-            .call(frame.cycle, |node| node.cycle(context))?;
-        frame.shared.robot_kinematics = outputs.robot_kinematics.value;
-        if let Some(injections) = frame.injections {
-            injections.robot_kinematics.replace(&mut frame.shared.robot_kinematics);
-        }
-        Ok(())
-    }
-
-    /// sensor_data.positions -> center_of_mass
-    fn center_of_mass<Hardware>(
-        &mut self,
-        frame: &mut Frame<'_, Hardware>,
-    ) -> Result<()> {
-        let context = center_of_mass::CycleContext {
-            positions: &frame.own.sensor_data.positions,
-        };
-        let outputs = self.center_of_mass.call(frame.cycle, |node| node.cycle(context))?;
-        frame.own.center_of_mass = outputs.center_of_mass.value;
-        if let Some(injections) = frame.injections {
-            injections.center_of_mass.replace(&mut frame.own.center_of_mass);
-        }
-        Ok(())
-    }
-
-    /// sensor_data.inertial, orientation, sensor_data.positions, robot_kinematics,
-    /// center_of_mass, has_ground_contact -> fall_state; when subscribed:
-    /// fall_state_filter.center_of_mass_overhang
-    fn fall_state_filter<Hardware>(
-        &mut self,
-        frame: &mut Frame<'_, Hardware>,
-    ) -> Result<()> {
-        let context = fall_state_filter::CycleContext {
-            inertial: &frame.own.sensor_data.inertial,
-            orientation: &frame.own.orientation,
-            positions: &frame.own.sensor_data.positions,
-            robot_kinematics: &frame.shared.robot_kinematics,
-            center_of_mass: &frame.own.center_of_mass,
-            has_ground_contact: &frame.own.has_ground_contact,
-            cycle_time: frame.cycle.time,
-            tilt: &frame.parameters.fall_state_filter.tilt,
-            overhang: &frame.parameters.fall_state_filter.overhang,
-            tilting_rotation: &frame.parameters.fall_state_filter.tilting_rotation,
-            acceleration_time: &frame.parameters.fall_state_filter.acceleration_time,
-            resting_deviation: &frame.parameters.fall_state_filter.resting_deviation,
-            sitting: &frame.parameters.fall_state_filter.sitting,
-            longest_fall: &frame.parameters.fall_state_filter.longest_fall,
-            center_of_mass_overhang: AdditionalOutput::new(
-                frame.subscribed.fall_state_filter_center_of_mass_overhang,
-                frame.cycle.number,
-                &mut frame.additional_outputs.fall_state_filter.center_of_mass_overhang,
-            ),
-        };
-        let outputs = self
-            .fall_state_filter
-            .call(frame.cycle, |node| node.cycle(context))?;
-        frame.own.fall_state = outputs.fall_state.value;
-        if let Some(injections) = frame.injections {
-            injections.fall_state.replace(&mut frame.own.fall_state);
-        }
-        Ok(())
-    }
-
-    /// robot_kinematics, support_side, orientation, sensor_data.inertial, fall_state ->
-    /// odometry
-    fn odometry<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
-        let context = odometry::CycleContext {
-            robot_kinematics: &frame.shared.robot_kinematics,
-            support_side: frame.own.support_side.as_ref(),
-            orientation: &frame.own.orientation,
-            inertial: &frame.own.sensor_data.inertial,
-            fall_state: &frame.own.fall_state,
-            cycle_time: frame.cycle.time,
-            forward_scale: &frame.parameters.odometry.forward_scale,
-            left_scale: &frame.parameters.odometry.left_scale,
-            still_distance: &frame.parameters.odometry.still_distance,
-            still_angle: &frame.parameters.odometry.still_angle,
-            still_rotation: &frame.parameters.odometry.still_rotation,
-            still_time: &frame.parameters.odometry.still_time,
-        };
-        let outputs = self.odometry.call(frame.cycle, |node| node.cycle(context))?;
-        frame.own.odometry = outputs.odometry.value;
-        if let Some(injections) = frame.injections {
-            injections.odometry.replace(&mut frame.own.odometry);
-        }
-        Ok(())
-    }
-
-    /// support_side (required), robot_kinematics, orientation -> camera_matrices
-    fn camera_matrices<Hardware>(
-        &mut self,
-        frame: &mut Frame<'_, Hardware>,
-    ) -> Result<()> {
-        if let Some(support_side) = frame.own.support_side.as_ref() {
-            let context = camera_matrices::CycleContext {
-                support_side,
-                robot_kinematics: &frame.shared.robot_kinematics,
-                orientation: &frame.own.orientation,
-                top: &frame.parameters.cameras.top,
-                bottom: &frame.parameters.cameras.bottom,
-            };
-            let outputs = self
-                .camera_matrices
-                .call(frame.cycle, |node| node.cycle(context))?;
-            frame.shared.camera_matrices = outputs.camera_matrices.value;
-        } else {
-            // A required input is absent: the main outputs take their defaults.
-            self.camera_matrices.skip();
-            frame.shared.camera_matrices = Default::default();
-        }
-        if let Some(injections) = frame.injections {
-            injections.camera_matrices.replace(&mut frame.shared.camera_matrices);
-        }
-        Ok(())
-    }
-
-    /// perception SplNetwork.game_controller_packet -> game_controller_state
-    fn game_controller_filter<Hardware>(
-        &mut self,
-        frame: &mut Frame<'_, Hardware>,
-    ) -> Result<()> {
-        let packets = frame
-            .perception
-            .spl_network
-            .project(|outputs| &outputs.game_controller_packet);
-        let context = game_controller_filter::CycleContext {
-            packets: PerceptionInput::new(&packets),
-            cycle_time: frame.cycle.time,
-            player: &frame.parameters.player,
-            forget_after: &frame.parameters.game_controller_filter.forget_after,
-        };
-        let outputs = self
-            .game_controller_filter
-            .call(frame.cycle, |node| node.cycle(context))?;
-        frame.own.game_controller_state = outputs.game_controller_state.value;
-        if let Some(injections) = frame.injections {
-            injections
-                .game_controller_state
-                .replace(&mut frame.own.game_controller_state);
-        }
-        Ok(())
-    }
-
-    /// perception SplNetwork.team_message -> teammates
-    fn team_message_filter<Hardware>(
-        &mut self,
-        frame: &mut Frame<'_, Hardware>,
-    ) -> Result<()> {
-        Clear::clear(&mut frame.own.teammates);
-        let messages = frame
-            .perception
-            .spl_network
-            .project(|outputs| &outputs.team_message);
-        let context = team_message_filter::CycleContext {
-            messages: PerceptionInput::new(&messages),
-            cycle_time: frame.cycle.time,
-            forget_after: &frame.parameters.team_message_filter.forget_after,
-            teammates: &mut frame.own.teammates,
-        };
-        self.team_message_filter.call(frame.cycle, |node| node.cycle(context))?;
-        if let Some(injections) = frame.injections {
-            injections.teammates.replace(&mut frame.own.teammates);
-        }
-        Ok(())
-    }
-
-    /// perception Audio.whistle_evidence -> whistle; when subscribed: whistle_filter.votes
-    fn whistle_filter<Hardware>(
-        &mut self,
-        frame: &mut Frame<'_, Hardware>,
-    ) -> Result<()> {
-        let whistle_evidence = frame
-            .perception
-            .audio
-            .project(|outputs| &outputs.whistle_evidence);
-        let context = whistle_filter::CycleContext {
-            whistle_evidence: PerceptionInput::new(&whistle_evidence),
-            cycle_time: frame.cycle.time,
-            least_microphones: &frame.parameters.whistle_filter.least_microphones,
-            least_blocks: &frame.parameters.whistle_filter.least_blocks,
-            window: &frame.parameters.whistle_filter.window,
-            votes: AdditionalOutput::new(
-                frame.subscribed.whistle_filter_votes,
-                frame.cycle.number,
-                &mut frame.additional_outputs.whistle_filter.votes,
-            ),
-        };
-        let outputs = self.whistle_filter.call(frame.cycle, |node| node.cycle(context))?;
-        frame.own.whistle = outputs.whistle.value;
-        if let Some(injections) = frame.injections {
-            injections.whistle.replace(&mut frame.own.whistle);
-        }
-        Ok(())
-    }
-
-    /// game_controller_state, buttons, whistle -> primary_state
-    fn game_state_filter<Hardware>(
-        &mut self,
-        frame: &mut Frame<'_, Hardware>,
-    ) -> Result<()> {
-        let context = game_state_filter::CycleContext {
-            game_controller_state: &frame.own.game_controller_state,
-            buttons: &frame.own.buttons,
-            whistle: &frame.own.whistle,
-            cycle_time: frame.cycle.time,
-            playing_delay: &frame.parameters.game_state_filter.playing_delay,
-            playing_margin: &frame.parameters.game_state_filter.playing_margin,
-        };
-        let outputs = self
-            .game_state_filter
-            .call(frame.cycle, |node| node.cycle(context))?;
-        frame.own.primary_state = outputs.primary_state.value;
-        if let Some(injections) = frame.injections {
-            injections.primary_state.replace(&mut frame.own.primary_state);
-        }
-        Ok(())
-    }
-
     /// perception Vision.balls, historic odometry -> ball; when subscribed:
     /// ball_filter.hypotheses, ball_filter.persistent_ball, ball_filter.delivered
     fn ball_filter<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
@@ -766,65 +395,6 @@ impl Nodes {
         Ok(())
     }
 
-    /// perception Vision.obstacles, historic odometry, sonar_distances, buttons.bumpers ->
-    /// obstacles
-    fn obstacle_filter<Hardware>(
-        &mut self,
-        frame: &mut Frame<'_, Hardware>,
-    ) -> Result<()> {
-        Clear::clear(&mut frame.own.obstacles);
-        let candidates = Interleaved {
-            order: &frame.perception.vision,
-            instances: [
-                &frame.perception.vision_top.project(|outputs| &outputs.obstacles),
-                &frame.perception.vision_bottom.project(|outputs| &outputs.obstacles),
-            ],
-        };
-        let odometry = frame.historic.odometry.project(|odometry| odometry);
-        let context = obstacle_filter::CycleContext {
-            candidates: PerceptionInput::new(&candidates),
-            odometry: HistoricInput::new(
-                &odometry,
-                frame.cycle.time.start,
-                &frame.own.odometry,
-            ),
-            sonar_distances: &frame.own.sonar_distances,
-            bumpers: &frame.own.buttons.bumpers,
-            cycle_time: frame.cycle.time,
-            parameters: &frame.parameters.obstacle_filter,
-            obstacles: &mut frame.own.obstacles,
-        };
-        self.obstacle_filter.call(frame.cycle, |node| node.cycle(context))?;
-        if let Some(injections) = frame.injections {
-            injections.obstacles.replace(&mut frame.own.obstacles);
-        }
-        Ok(())
-    }
-
-    /// primary_state, game_controller_state, fall_state, has_ground_contact, ball, obstacles,
-    /// teammates -> world_state
-    fn world_state_composer<Hardware>(
-        &mut self,
-        frame: &mut Frame<'_, Hardware>,
-    ) -> Result<()> {
-        Clear::clear(&mut frame.own.world_state);
-        let context = world_state_composer::CycleContext {
-            primary_state: &frame.own.primary_state,
-            game_controller_state: &frame.own.game_controller_state,
-            fall_state: &frame.own.fall_state,
-            has_ground_contact: &frame.own.has_ground_contact,
-            ball: &frame.own.ball,
-            obstacles: &frame.own.obstacles,
-            teammates: &frame.own.teammates,
-            world_state: &mut frame.own.world_state,
-        };
-        self.world_state_composer.call(frame.cycle, |node| node.cycle(context))?;
-        if let Some(injections) = frame.injections {
-            injections.world_state.replace(&mut frame.own.world_state);
-        }
-        Ok(())
-    }
-
     /// world_state -> motion_command
     fn behavior<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
         let context = behavior::CycleContext {
@@ -838,126 +408,306 @@ impl Nodes {
         Ok(())
     }
 
-    /// primary_state, fall_state -> is_recording_wanted
-    fn recording_switch<Hardware>(
+    /// sensor_data.touch -> buttons
+    fn button_filter<Hardware>(
         &mut self,
         frame: &mut Frame<'_, Hardware>,
     ) -> Result<()> {
-        let context = recording_switch::CycleContext {
-            primary_state: &frame.own.primary_state,
-            fall_state: &frame.own.fall_state,
+        let context = button_filter::CycleContext {
+            touch: &frame.own.sensor_data.touch,
             cycle_time: frame.cycle.time,
-            states: &frame.parameters.recording_switch.states,
-            after_fall: &frame.parameters.recording_switch.after_fall,
+            bounce_time: &frame.parameters.button_filter.bounce_time,
+            head_hold_time: &frame.parameters.button_filter.head_hold_time,
         };
-        let outputs = self
-            .recording_switch
-            .call(frame.cycle, |node| node.cycle(context))?;
-        frame.own.is_recording_wanted = outputs.is_recording_wanted.value;
+        let outputs = self.button_filter.call(frame.cycle, |node| node.cycle(context))?;
+        frame.own.buttons = outputs.buttons.value;
         if let Some(injections) = frame.injections {
-            injections.is_recording_wanted.replace(&mut frame.own.is_recording_wanted);
+            injections.buttons.replace(&mut frame.own.buttons);
         }
         Ok(())
     }
 
-    /// motion_command, state safe_exits -> motion_selection
-    fn motion_selector<Hardware>(
+    /// support_side (required), robot_kinematics, orientation -> camera_matrices
+    fn camera_matrices<Hardware>(
         &mut self,
         frame: &mut Frame<'_, Hardware>,
     ) -> Result<()> {
-        let context = motion_selector::CycleContext {
+        if let Some(support_side) = frame.own.support_side.as_ref() {
+            let context = camera_matrices::CycleContext {
+                support_side,
+                robot_kinematics: &frame.shared.robot_kinematics,
+                orientation: &frame.own.orientation,
+                top: &frame.parameters.cameras.top,
+                bottom: &frame.parameters.cameras.bottom,
+            };
+            let outputs = self
+                .camera_matrices
+                .call(frame.cycle, |node| node.cycle(context))?;
+            frame.shared.camera_matrices = outputs.camera_matrices.value;
+        } else {
+            // A required input is absent: the main outputs take their defaults.
+            self.camera_matrices.skip();
+            frame.shared.camera_matrices = Default::default();
+        }
+        if let Some(injections) = frame.injections {
+            injections.camera_matrices.replace(&mut frame.shared.camera_matrices);
+        }
+        Ok(())
+    }
+
+    /// sensor_data.positions -> center_of_mass
+    fn center_of_mass<Hardware>(
+        &mut self,
+        frame: &mut Frame<'_, Hardware>,
+    ) -> Result<()> {
+        let context = center_of_mass::CycleContext {
+            positions: &frame.own.sensor_data.positions,
+        };
+        let outputs = self.center_of_mass.call(frame.cycle, |node| node.cycle(context))?;
+        frame.own.center_of_mass = outputs.center_of_mass.value;
+        if let Some(injections) = frame.injections {
+            injections.center_of_mass.replace(&mut frame.own.center_of_mass);
+        }
+        Ok(())
+    }
+
+    /// motor_commands (required), leds -> hardware
+    fn command_sender(
+        &mut self,
+        frame: &mut Frame<'_, impl ActuatorInterface>,
+    ) -> Result<()> {
+        if let Some(motor_commands) = frame.own.motor_commands.as_ref() {
+            let context = command_sender::CycleContext {
+                hardware_interface: frame.hardware_interface,
+                motor_commands,
+                leds: frame.own.leds.as_ref(),
+            };
+            self.command_sender.call(frame.cycle, |node| node.cycle(context))?;
+        } else {
+            // A required input is absent.
+            self.command_sender.skip();
+        }
+        Ok(())
+    }
+
+    /// sensor_data.inertial, orientation, sensor_data.positions, robot_kinematics,
+    /// center_of_mass, has_ground_contact -> fall_state; when subscribed:
+    /// fall_state_filter.center_of_mass_overhang
+    fn fall_state_filter<Hardware>(
+        &mut self,
+        frame: &mut Frame<'_, Hardware>,
+    ) -> Result<()> {
+        let context = fall_state_filter::CycleContext {
+            inertial: &frame.own.sensor_data.inertial,
+            orientation: &frame.own.orientation,
+            positions: &frame.own.sensor_data.positions,
+            robot_kinematics: &frame.shared.robot_kinematics,
+            center_of_mass: &frame.own.center_of_mass,
+            has_ground_contact: &frame.own.has_ground_contact,
+            cycle_time: frame.cycle.time,
+            tilt: &frame.parameters.fall_state_filter.tilt,
+            overhang: &frame.parameters.fall_state_filter.overhang,
+            tilting_rotation: &frame.parameters.fall_state_filter.tilting_rotation,
+            acceleration_time: &frame.parameters.fall_state_filter.acceleration_time,
+            resting_deviation: &frame.parameters.fall_state_filter.resting_deviation,
+            sitting: &frame.parameters.fall_state_filter.sitting,
+            longest_fall: &frame.parameters.fall_state_filter.longest_fall,
+            center_of_mass_overhang: AdditionalOutput::new(
+                frame.subscribed.fall_state_filter_center_of_mass_overhang,
+                frame.cycle.number,
+                &mut frame.additional_outputs.fall_state_filter.center_of_mass_overhang,
+            ),
+        };
+        let outputs = self
+            .fall_state_filter
+            .call(frame.cycle, |node| node.cycle(context))?;
+        frame.own.fall_state = outputs.fall_state.value;
+        if let Some(injections) = frame.injections {
+            injections.fall_state.replace(&mut frame.own.fall_state);
+        }
+        Ok(())
+    }
+
+    /// sensor_data.force_sensitive_resistors -> sole_pressures
+    fn foot_pressure_filter<Hardware>(
+        &mut self,
+        frame: &mut Frame<'_, Hardware>,
+    ) -> Result<()> {
+        let context = foot_pressure_filter::CycleContext {
+            resistors: &frame.own.sensor_data.force_sensitive_resistors,
+            cycle_time: frame.cycle.time,
+            smoothing_time: &frame.parameters.foot_pressure_filter.smoothing_time,
+        };
+        let outputs = self
+            .foot_pressure_filter
+            .call(frame.cycle, |node| node.cycle(context))?;
+        frame.own.sole_pressures = outputs.sole_pressures.value;
+        if let Some(injections) = frame.injections {
+            injections.sole_pressures.replace(&mut frame.own.sole_pressures);
+        }
+        Ok(())
+    }
+
+    /// sensor_data.positions -> robot_kinematics
+    fn forward_kinematics<Hardware>(
+        &mut self,
+        frame: &mut Frame<'_, Hardware>,
+    ) -> Result<()> {
+        let context = forward_kinematics::CycleContext {
+            positions: &frame.own.sensor_data.positions,
+        };
+        let outputs = self
+            .forward_kinematics
+            .call(frame.cycle, |node| node.cycle(context))?;
+        frame.shared.robot_kinematics = outputs.robot_kinematics.value;
+        if let Some(injections) = frame.injections {
+            injections.robot_kinematics.replace(&mut frame.shared.robot_kinematics);
+        }
+        Ok(())
+    }
+
+    /// perception SplNetwork.game_controller_packet -> game_controller_state
+    fn game_controller_filter<Hardware>(
+        &mut self,
+        frame: &mut Frame<'_, Hardware>,
+    ) -> Result<()> {
+        let packets = frame
+            .perception
+            .spl_network
+            .project(|outputs| &outputs.game_controller_packet);
+        let context = game_controller_filter::CycleContext {
+            packets: PerceptionInput::new(&packets),
+            cycle_time: frame.cycle.time,
+            player: &frame.parameters.player,
+            forget_after: &frame.parameters.game_controller_filter.forget_after,
+        };
+        let outputs = self
+            .game_controller_filter
+            .call(frame.cycle, |node| node.cycle(context))?;
+        frame.own.game_controller_state = outputs.game_controller_state.value;
+        if let Some(injections) = frame.injections {
+            injections
+                .game_controller_state
+                .replace(&mut frame.own.game_controller_state);
+        }
+        Ok(())
+    }
+
+    /// game_controller_state (required), self_report (required) -> hardware
+    fn game_controller_responder(
+        &mut self,
+        frame: &mut Frame<'_, impl MessageInterface>,
+    ) -> Result<()> {
+        self.game_controller_responder
+            .renew_if_broken(Self::create_game_controller_responder)?;
+        if let Some(game_controller_state) = frame.own.game_controller_state.as_ref()
+            && let Some(report) = frame.own.self_report.as_ref()
+        {
+            let context = game_controller_responder::CycleContext {
+                hardware_interface: frame.hardware_interface,
+                game_controller_state,
+                report,
+                cycle_time: frame.cycle.time,
+                player: &frame.parameters.player,
+                interval: &frame.parameters.game_controller_responder.interval,
+            };
+            self.game_controller_responder
+                .call_or_skip(frame.cycle, |node| node.cycle(context))?;
+        } else {
+            // A required input is absent.
+            self.game_controller_responder.skip();
+        }
+        Ok(())
+    }
+
+    /// game_controller_state, buttons, whistle -> primary_state
+    fn game_state_filter<Hardware>(
+        &mut self,
+        frame: &mut Frame<'_, Hardware>,
+    ) -> Result<()> {
+        let context = game_state_filter::CycleContext {
+            game_controller_state: &frame.own.game_controller_state,
+            buttons: &frame.own.buttons,
+            whistle: &frame.own.whistle,
+            cycle_time: frame.cycle.time,
+            playing_delay: &frame.parameters.game_state_filter.playing_delay,
+            playing_margin: &frame.parameters.game_state_filter.playing_margin,
+        };
+        let outputs = self
+            .game_state_filter
+            .call(frame.cycle, |node| node.cycle(context))?;
+        frame.own.primary_state = outputs.primary_state.value;
+        if let Some(injections) = frame.injections {
+            injections.primary_state.replace(&mut frame.own.primary_state);
+        }
+        Ok(())
+    }
+
+    /// sole_pressures -> has_ground_contact
+    fn ground_contact_filter<Hardware>(
+        &mut self,
+        frame: &mut Frame<'_, Hardware>,
+    ) -> Result<()> {
+        let context = ground_contact_filter::CycleContext {
+            sole_pressures: &frame.own.sole_pressures,
+            cycle_time: frame.cycle.time,
+            pressure: &frame.parameters.ground_contact_filter.pressure,
+            hysteresis: &frame.parameters.ground_contact_filter.hysteresis,
+            delay: &frame.parameters.ground_contact_filter.delay,
+        };
+        let outputs = self
+            .ground_contact_filter
+            .call(frame.cycle, |node| node.cycle(context))?;
+        frame.own.has_ground_contact = outputs.has_ground_contact.value;
+        if let Some(injections) = frame.injections {
+            injections.has_ground_contact.replace(&mut frame.own.has_ground_contact);
+        }
+        Ok(())
+    }
+
+    /// motion_command, motion_selection, look_around, look_at, sensor_data.positions, previous
+    /// motor_commands, procedure look_at -> head_command
+    fn head_motion<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
+        let context = head_motion::CycleContext {
             motion_command: &frame.own.motion_command,
-            safe_exits: &mut frame.cycler_state.safe_exits,
-        };
-        let outputs = self
-            .motion_selector
-            .call(frame.cycle, |node| node.cycle(context))?;
-        frame.own.motion_selection = outputs.motion_selection.value;
-        if let Some(injections) = frame.injections {
-            injections.motion_selection.replace(&mut frame.own.motion_selection);
-        }
-        Ok(())
-    }
-
-    /// motion_selection, sensor_data.positions, previous motor_commands, state
-    /// safe_exits.dispatch -> dispatch_commands
-    fn motion_dispatcher<Hardware>(
-        &mut self,
-        frame: &mut Frame<'_, Hardware>,
-    ) -> Result<()> {
-        let context = motion_dispatcher::CycleContext {
             motion_selection: &frame.own.motion_selection,
+            around: frame.own.look_around.as_ref(),
+            at_point: frame.own.look_at.as_ref(),
             positions: &frame.own.sensor_data.positions,
             previous: frame.previous.own.motor_commands.as_ref(),
             cycle_time: frame.cycle.time,
-            safe_exit: &mut frame.cycler_state.safe_exits.dispatch,
-            stand: &frame.parameters.stand.positions,
-            penalized_pose: &frame.parameters.penalized_pose.positions,
-            crouch: &frame.parameters.sit_down.crouch,
-            stiffness: &frame.parameters.motion_dispatcher.stiffness,
-            velocity_share: &frame.parameters.motion_dispatcher.velocity_share,
-            minimum_duration: &frame.parameters.motion_dispatcher.minimum_duration,
+            velocity: &frame.parameters.head_motion.velocity,
+            stiffness: &frame.parameters.head_motion.stiffness,
+            look_at: frame.procedures.look_at.call(),
         };
-        let outputs = self
-            .motion_dispatcher
-            .call(frame.cycle, |node| node.cycle(context))?;
-        frame.own.dispatch_commands = outputs.dispatch_commands.value;
+        let outputs = self.head_motion.call(frame.cycle, |node| node.cycle(context))?;
+        frame.own.head_command = outputs.head_command.value;
         if let Some(injections) = frame.injections {
-            injections.dispatch_commands.replace(&mut frame.own.dispatch_commands);
+            injections.head_command.replace(&mut frame.own.head_command);
         }
         Ok(())
     }
 
-    /// motion_selection -> stand_commands
-    fn stand<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
-        let context = stand::CycleContext {
-            motion_selection: &frame.own.motion_selection,
-            positions: &frame.parameters.stand.positions,
-            stiffness: &frame.parameters.stand.stiffness,
-        };
-        let outputs = self.stand.call(frame.cycle, |node| node.cycle(context))?;
-        frame.own.stand_commands = outputs.stand_commands.value;
-        if let Some(injections) = frame.injections {
-            injections.stand_commands.replace(&mut frame.own.stand_commands);
-        }
-        Ok(())
-    }
-
-    /// motion_selection -> penalized_commands
-    fn penalized_pose<Hardware>(
-        &mut self,
-        frame: &mut Frame<'_, Hardware>,
-    ) -> Result<()> {
-        let context = penalized_pose::CycleContext {
-            motion_selection: &frame.own.motion_selection,
-            positions: &frame.parameters.penalized_pose.positions,
-            stiffness: &frame.parameters.penalized_pose.stiffness,
-        };
-        let outputs = self.penalized_pose.call(frame.cycle, |node| node.cycle(context))?;
-        frame.own.penalized_commands = outputs.penalized_commands.value;
-        if let Some(injections) = frame.injections {
-            injections.penalized_commands.replace(&mut frame.own.penalized_commands);
-        }
-        Ok(())
-    }
-
-    /// motion_selection, state safe_exits.sit_down -> sit_down_commands
-    fn sit_down<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
-        let context = sit_down::CycleContext {
-            motion_selection: &frame.own.motion_selection,
+    /// world_state, game_controller_state -> leds
+    fn led_status<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
+        let context = led_status::CycleContext {
+            world_state: &frame.own.world_state,
+            game_controller_state: frame.own.game_controller_state.as_ref(),
             cycle_time: frame.cycle.time,
-            safe_exit: &mut frame.cycler_state.safe_exits.sit_down,
-            crouch: &frame.parameters.sit_down.crouch,
-            sitting: &frame.parameters.sit_down.sitting,
-            stiffness: &frame.parameters.sit_down.stiffness,
-            velocity_share: &frame.parameters.sit_down.velocity_share,
-            minimum_duration: &frame.parameters.sit_down.minimum_duration,
-            release_duration: &frame.parameters.sit_down.release_duration,
+            chest: &frame.parameters.led_status.chest,
+            blink_period: &frame.parameters.led_status.blink_period,
+            ball_known: &frame.parameters.led_status.ball_known,
+            ball_unknown: &frame.parameters.led_status.ball_unknown,
+            on_ground: &frame.parameters.led_status.on_ground,
+            in_the_air: &frame.parameters.led_status.in_the_air,
+            team_color: &frame.parameters.led_status.team_color,
+            own_kick_off: &frame.parameters.led_status.own_kick_off,
+            ear_brightness: &frame.parameters.led_status.ear_brightness,
         };
-        let outputs = self.sit_down.call(frame.cycle, |node| node.cycle(context))?;
-        frame.own.sit_down_commands = outputs.sit_down_commands.value;
+        let outputs = self.led_status.call(frame.cycle, |node| node.cycle(context))?;
+        frame.own.leds = outputs.leds.value;
         if let Some(injections) = frame.injections {
-            injections.sit_down_commands.replace(&mut frame.own.sit_down_commands);
+            injections.leds.replace(&mut frame.own.leds);
         }
         Ok(())
     }
@@ -994,25 +744,50 @@ impl Nodes {
         Ok(())
     }
 
-    /// motion_command, motion_selection, look_around, look_at, sensor_data.positions, previous
-    /// motor_commands, procedure look_at -> head_command
-    fn head_motion<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
-        let context = head_motion::CycleContext {
-            motion_command: &frame.own.motion_command,
+    /// motion_selection, sensor_data.positions, previous motor_commands, state
+    /// safe_exits.dispatch -> dispatch_commands
+    fn motion_dispatcher<Hardware>(
+        &mut self,
+        frame: &mut Frame<'_, Hardware>,
+    ) -> Result<()> {
+        let context = motion_dispatcher::CycleContext {
             motion_selection: &frame.own.motion_selection,
-            around: frame.own.look_around.as_ref(),
-            at_point: frame.own.look_at.as_ref(),
             positions: &frame.own.sensor_data.positions,
             previous: frame.previous.own.motor_commands.as_ref(),
             cycle_time: frame.cycle.time,
-            velocity: &frame.parameters.head_motion.velocity,
-            stiffness: &frame.parameters.head_motion.stiffness,
-            look_at: frame.procedures.look_at.call(),
+            safe_exit: &mut frame.cycler_state.safe_exits.dispatch,
+            stand: &frame.parameters.stand.positions,
+            penalized_pose: &frame.parameters.penalized_pose.positions,
+            crouch: &frame.parameters.sit_down.crouch,
+            stiffness: &frame.parameters.motion_dispatcher.stiffness,
+            velocity_share: &frame.parameters.motion_dispatcher.velocity_share,
+            minimum_duration: &frame.parameters.motion_dispatcher.minimum_duration,
         };
-        let outputs = self.head_motion.call(frame.cycle, |node| node.cycle(context))?;
-        frame.own.head_command = outputs.head_command.value;
+        let outputs = self
+            .motion_dispatcher
+            .call(frame.cycle, |node| node.cycle(context))?;
+        frame.own.dispatch_commands = outputs.dispatch_commands.value;
         if let Some(injections) = frame.injections {
-            injections.head_command.replace(&mut frame.own.head_command);
+            injections.dispatch_commands.replace(&mut frame.own.dispatch_commands);
+        }
+        Ok(())
+    }
+
+    /// motion_command, state safe_exits -> motion_selection
+    fn motion_selector<Hardware>(
+        &mut self,
+        frame: &mut Frame<'_, Hardware>,
+    ) -> Result<()> {
+        let context = motion_selector::CycleContext {
+            motion_command: &frame.own.motion_command,
+            safe_exits: &mut frame.cycler_state.safe_exits,
+        };
+        let outputs = self
+            .motion_selector
+            .call(frame.cycle, |node| node.cycle(context))?;
+        frame.own.motion_selection = outputs.motion_selection.value;
+        if let Some(injections) = frame.injections {
+            injections.motion_selection.replace(&mut frame.own.motion_selection);
         }
         Ok(())
     }
@@ -1046,66 +821,131 @@ impl Nodes {
         Ok(())
     }
 
-    /// world_state, game_controller_state -> leds
-    fn led_status<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
-        let context = led_status::CycleContext {
-            world_state: &frame.own.world_state,
-            game_controller_state: frame.own.game_controller_state.as_ref(),
-            cycle_time: frame.cycle.time,
-            chest: &frame.parameters.led_status.chest,
-            blink_period: &frame.parameters.led_status.blink_period,
-            ball_known: &frame.parameters.led_status.ball_known,
-            ball_unknown: &frame.parameters.led_status.ball_unknown,
-            on_ground: &frame.parameters.led_status.on_ground,
-            in_the_air: &frame.parameters.led_status.in_the_air,
-            team_color: &frame.parameters.led_status.team_color,
-            own_kick_off: &frame.parameters.led_status.own_kick_off,
-            ear_brightness: &frame.parameters.led_status.ear_brightness,
-        };
-        let outputs = self.led_status.call(frame.cycle, |node| node.cycle(context))?;
-        frame.own.leds = outputs.leds.value;
-        if let Some(injections) = frame.injections {
-            injections.leds.replace(&mut frame.own.leds);
-        }
-        Ok(())
-    }
-
-    /// whistle, primary_state -> tone
-    fn tone_selector<Hardware>(
+    /// perception Vision.obstacles, historic odometry, sonar_distances, buttons.bumpers ->
+    /// obstacles
+    fn obstacle_filter<Hardware>(
         &mut self,
         frame: &mut Frame<'_, Hardware>,
     ) -> Result<()> {
-        let context = tone_selector::CycleContext {
-            whistle: &frame.own.whistle,
-            primary_state: &frame.own.primary_state,
-            whistle_tone: &frame.parameters.tone_selector.whistle_tone,
-            state_tone: &frame.parameters.tone_selector.state_tone,
-            lowest_whistle: &frame.parameters.whistle_detection.lowest_frequency,
-            highest_whistle: &frame.parameters.whistle_detection.highest_frequency,
+        Clear::clear(&mut frame.own.obstacles);
+        let candidates = Interleaved {
+            order: &frame.perception.vision,
+            instances: [
+                &frame.perception.vision_top.project(|outputs| &outputs.obstacles),
+                &frame.perception.vision_bottom.project(|outputs| &outputs.obstacles),
+            ],
         };
-        let outputs = self.tone_selector.call(frame.cycle, |node| node.cycle(context))?;
-        frame.own.tone = outputs.tone.value;
+        let odometry = frame.historic.odometry.project(|odometry| odometry);
+        let context = obstacle_filter::CycleContext {
+            candidates: PerceptionInput::new(&candidates),
+            odometry: HistoricInput::new(
+                &odometry,
+                frame.cycle.time.start,
+                &frame.own.odometry,
+            ),
+            sonar_distances: &frame.own.sonar_distances,
+            bumpers: &frame.own.buttons.bumpers,
+            cycle_time: frame.cycle.time,
+            parameters: &frame.parameters.obstacle_filter,
+            obstacles: &mut frame.own.obstacles,
+        };
+        self.obstacle_filter.call(frame.cycle, |node| node.cycle(context))?;
         if let Some(injections) = frame.injections {
-            injections.tone.replace(&mut frame.own.tone);
+            injections.obstacles.replace(&mut frame.own.obstacles);
         }
         Ok(())
     }
 
-    /// tone (required) -> hardware
-    fn tone_player(
+    /// robot_kinematics, support_side, orientation, sensor_data.inertial, fall_state ->
+    /// odometry
+    fn odometry<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
+        let context = odometry::CycleContext {
+            robot_kinematics: &frame.shared.robot_kinematics,
+            support_side: frame.own.support_side.as_ref(),
+            orientation: &frame.own.orientation,
+            inertial: &frame.own.sensor_data.inertial,
+            fall_state: &frame.own.fall_state,
+            cycle_time: frame.cycle.time,
+            forward_scale: &frame.parameters.odometry.forward_scale,
+            left_scale: &frame.parameters.odometry.left_scale,
+            still_distance: &frame.parameters.odometry.still_distance,
+            still_angle: &frame.parameters.odometry.still_angle,
+            still_rotation: &frame.parameters.odometry.still_rotation,
+            still_time: &frame.parameters.odometry.still_time,
+        };
+        let outputs = self.odometry.call(frame.cycle, |node| node.cycle(context))?;
+        frame.own.odometry = outputs.odometry.value;
+        if let Some(injections) = frame.injections {
+            injections.odometry.replace(&mut frame.own.odometry);
+        }
+        Ok(())
+    }
+
+    /// sensor_data.inertial -> orientation; when subscribed: orientation_filter.innovation
+    fn orientation_filter<Hardware>(
         &mut self,
-        frame: &mut Frame<'_, impl SpeakerInterface>,
+        frame: &mut Frame<'_, Hardware>,
     ) -> Result<()> {
-        self.tone_player.renew_if_broken(Self::create_tone_player)?;
-        if let Some(tone) = frame.own.tone.as_ref() {
-            let context = tone_player::CycleContext {
-                hardware_interface: frame.hardware_interface,
-                tone,
-            };
-            self.tone_player.call_or_skip(frame.cycle, |node| node.cycle(context))?;
-        } else {
-            // A required input is absent.
-            self.tone_player.skip();
+        let context = orientation_filter::CycleContext {
+            inertial: &frame.own.sensor_data.inertial,
+            cycle_time: frame.cycle.time,
+            gravity_time: &frame.parameters.orientation_filter.gravity_time,
+            trusted_deviation: &frame.parameters.orientation_filter.trusted_deviation,
+            refused_deviation: &frame.parameters.orientation_filter.refused_deviation,
+            bias_time: &frame.parameters.orientation_filter.bias_time,
+            still_rotation: &frame.parameters.orientation_filter.still_rotation,
+            innovation: AdditionalOutput::new(
+                frame.subscribed.orientation_filter_innovation,
+                frame.cycle.number,
+                &mut frame.additional_outputs.orientation_filter.innovation,
+            ),
+        };
+        let outputs = self
+            .orientation_filter
+            .call(frame.cycle, |node| node.cycle(context))?;
+        frame.own.orientation = outputs.orientation.value;
+        if let Some(injections) = frame.injections {
+            injections.orientation.replace(&mut frame.own.orientation);
+        }
+        Ok(())
+    }
+
+    /// motion_selection -> penalized_commands
+    fn penalized_pose<Hardware>(
+        &mut self,
+        frame: &mut Frame<'_, Hardware>,
+    ) -> Result<()> {
+        let context = penalized_pose::CycleContext {
+            motion_selection: &frame.own.motion_selection,
+            positions: &frame.parameters.penalized_pose.positions,
+            stiffness: &frame.parameters.penalized_pose.stiffness,
+        };
+        let outputs = self.penalized_pose.call(frame.cycle, |node| node.cycle(context))?;
+        frame.own.penalized_commands = outputs.penalized_commands.value;
+        if let Some(injections) = frame.injections {
+            injections.penalized_commands.replace(&mut frame.own.penalized_commands);
+        }
+        Ok(())
+    }
+
+    /// primary_state, fall_state -> is_recording_wanted
+    fn recording_switch<Hardware>(
+        &mut self,
+        frame: &mut Frame<'_, Hardware>,
+    ) -> Result<()> {
+        let context = recording_switch::CycleContext {
+            primary_state: &frame.own.primary_state,
+            fall_state: &frame.own.fall_state,
+            cycle_time: frame.cycle.time,
+            states: &frame.parameters.recording_switch.states,
+            after_fall: &frame.parameters.recording_switch.after_fall,
+        };
+        let outputs = self
+            .recording_switch
+            .call(frame.cycle, |node| node.cycle(context))?;
+        frame.own.is_recording_wanted = outputs.is_recording_wanted.value;
+        if let Some(injections) = frame.injections {
+            injections.is_recording_wanted.replace(&mut frame.own.is_recording_wanted);
         }
         Ok(())
     }
@@ -1129,29 +969,115 @@ impl Nodes {
         Ok(())
     }
 
-    /// game_controller_state (required), self_report (required) -> hardware
-    fn game_controller_responder(
+    /// hardware -> sensor_data
+    fn sensor_data_receiver(
         &mut self,
-        frame: &mut Frame<'_, impl MessageInterface>,
+        frame: &mut Frame<'_, impl SensorInterface>,
     ) -> Result<()> {
-        self.game_controller_responder
-            .renew_if_broken(Self::create_game_controller_responder)?;
-        if let Some(game_controller_state) = frame.own.game_controller_state.as_ref()
-            && let Some(report) = frame.own.self_report.as_ref()
-        {
-            let context = game_controller_responder::CycleContext {
-                hardware_interface: frame.hardware_interface,
-                game_controller_state,
-                report,
-                cycle_time: frame.cycle.time,
-                player: &frame.parameters.player,
-                interval: &frame.parameters.game_controller_responder.interval,
-            };
-            self.game_controller_responder
-                .call_or_skip(frame.cycle, |node| node.cycle(context))?;
-        } else {
-            // A required input is absent.
-            self.game_controller_responder.skip();
+        let context = sensor_data_receiver::CycleContext {
+            hardware_interface: frame.hardware_interface,
+        };
+        let outputs = self
+            .sensor_data_receiver
+            .call(frame.cycle, |node| node.cycle(context))?;
+        frame.own.sensor_data = outputs.sensor_data.value;
+        *frame.capture_time = Some(outputs.captured_at.0);
+        Ok(())
+    }
+
+    /// motion_selection, state safe_exits.sit_down -> sit_down_commands
+    fn sit_down<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
+        let context = sit_down::CycleContext {
+            motion_selection: &frame.own.motion_selection,
+            cycle_time: frame.cycle.time,
+            safe_exit: &mut frame.cycler_state.safe_exits.sit_down,
+            crouch: &frame.parameters.sit_down.crouch,
+            sitting: &frame.parameters.sit_down.sitting,
+            stiffness: &frame.parameters.sit_down.stiffness,
+            velocity_share: &frame.parameters.sit_down.velocity_share,
+            minimum_duration: &frame.parameters.sit_down.minimum_duration,
+            release_duration: &frame.parameters.sit_down.release_duration,
+        };
+        let outputs = self.sit_down.call(frame.cycle, |node| node.cycle(context))?;
+        frame.own.sit_down_commands = outputs.sit_down_commands.value;
+        if let Some(injections) = frame.injections {
+            injections.sit_down_commands.replace(&mut frame.own.sit_down_commands);
+        }
+        Ok(())
+    }
+
+    /// sensor_data.sonar -> sonar_distances
+    fn sonar_filter<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
+        let context = sonar_filter::CycleContext {
+            sonar: &frame.own.sensor_data.sonar,
+            cycle_time: frame.cycle.time,
+            least_distance: &frame.parameters.sonar_filter.least_distance,
+            largest_distance: &frame.parameters.sonar_filter.largest_distance,
+            echo_delay: &frame.parameters.sonar_filter.echo_delay,
+            smoothing_time: &frame.parameters.sonar_filter.smoothing_time,
+        };
+        let outputs = self.sonar_filter.call(frame.cycle, |node| node.cycle(context))?;
+        frame.own.sonar_distances = outputs.sonar_distances.value;
+        if let Some(injections) = frame.injections {
+            injections.sonar_distances.replace(&mut frame.own.sonar_distances);
+        }
+        Ok(())
+    }
+
+    /// motion_selection -> stand_commands
+    fn stand<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
+        let context = stand::CycleContext {
+            motion_selection: &frame.own.motion_selection,
+            positions: &frame.parameters.stand.positions,
+            stiffness: &frame.parameters.stand.stiffness,
+        };
+        let outputs = self.stand.call(frame.cycle, |node| node.cycle(context))?;
+        frame.own.stand_commands = outputs.stand_commands.value;
+        if let Some(injections) = frame.injections {
+            injections.stand_commands.replace(&mut frame.own.stand_commands);
+        }
+        Ok(())
+    }
+
+    /// sole_pressures, has_ground_contact -> support_side
+    fn support_foot_filter<Hardware>(
+        &mut self,
+        frame: &mut Frame<'_, Hardware>,
+    ) -> Result<()> {
+        let context = support_foot_filter::CycleContext {
+            sole_pressures: &frame.own.sole_pressures,
+            has_ground_contact: &frame.own.has_ground_contact,
+            hysteresis: &frame.parameters.support_foot_filter.hysteresis,
+        };
+        let outputs = self
+            .support_foot_filter
+            .call(frame.cycle, |node| node.cycle(context))?;
+        frame.own.support_side = outputs.support_side.value;
+        if let Some(injections) = frame.injections {
+            injections.support_side.replace(&mut frame.own.support_side);
+        }
+        Ok(())
+    }
+
+    /// perception SplNetwork.team_message -> teammates
+    fn team_message_filter<Hardware>(
+        &mut self,
+        frame: &mut Frame<'_, Hardware>,
+    ) -> Result<()> {
+        Clear::clear(&mut frame.own.teammates);
+        let messages = frame
+            .perception
+            .spl_network
+            .project(|outputs| &outputs.team_message);
+        let context = team_message_filter::CycleContext {
+            messages: PerceptionInput::new(&messages),
+            cycle_time: frame.cycle.time,
+            forget_after: &frame.parameters.team_message_filter.forget_after,
+            teammates: &mut frame.own.teammates,
+        };
+        self.team_message_filter.call(frame.cycle, |node| node.cycle(context))?;
+        if let Some(injections) = frame.injections {
+            injections.teammates.replace(&mut frame.own.teammates);
         }
         Ok(())
     }
@@ -1182,31 +1108,107 @@ impl Nodes {
         Ok(())
     }
 
-    /// motor_commands (required), leds -> hardware
-    fn command_sender(
+    /// tone (required) -> hardware
+    fn tone_player(
         &mut self,
-        frame: &mut Frame<'_, impl ActuatorInterface>,
+        frame: &mut Frame<'_, impl SpeakerInterface>,
     ) -> Result<()> {
-        if let Some(motor_commands) = frame.own.motor_commands.as_ref() {
-            let context = command_sender::CycleContext {
+        self.tone_player.renew_if_broken(Self::create_tone_player)?;
+        if let Some(tone) = frame.own.tone.as_ref() {
+            let context = tone_player::CycleContext {
                 hardware_interface: frame.hardware_interface,
-                motor_commands,
-                leds: frame.own.leds.as_ref(),
+                tone,
             };
-            self.command_sender.call(frame.cycle, |node| node.cycle(context))?;
+            self.tone_player.call_or_skip(frame.cycle, |node| node.cycle(context))?;
         } else {
             // A required input is absent.
-            self.command_sender.skip();
+            self.tone_player.skip();
         }
         Ok(())
     }
 
-    fn create_sensor_data_receiver() -> Result<
-        sensor_data_receiver::SensorDataReceiver,
-    > {
-        let context = sensor_data_receiver::CreationContext {};
-        sensor_data_receiver::SensorDataReceiver::new(context)
-            .in_node("control::sensor_data_receiver")
+    /// whistle, primary_state -> tone
+    fn tone_selector<Hardware>(
+        &mut self,
+        frame: &mut Frame<'_, Hardware>,
+    ) -> Result<()> {
+        let context = tone_selector::CycleContext {
+            whistle: &frame.own.whistle,
+            primary_state: &frame.own.primary_state,
+            whistle_tone: &frame.parameters.tone_selector.whistle_tone,
+            state_tone: &frame.parameters.tone_selector.state_tone,
+            lowest_whistle: &frame.parameters.whistle_detection.lowest_frequency,
+            highest_whistle: &frame.parameters.whistle_detection.highest_frequency,
+        };
+        let outputs = self.tone_selector.call(frame.cycle, |node| node.cycle(context))?;
+        frame.own.tone = outputs.tone.value;
+        if let Some(injections) = frame.injections {
+            injections.tone.replace(&mut frame.own.tone);
+        }
+        Ok(())
+    }
+
+    /// perception Audio.whistle_evidence -> whistle; when subscribed: whistle_filter.votes
+    fn whistle_filter<Hardware>(
+        &mut self,
+        frame: &mut Frame<'_, Hardware>,
+    ) -> Result<()> {
+        let whistle_evidence = frame
+            .perception
+            .audio
+            .project(|outputs| &outputs.whistle_evidence);
+        let context = whistle_filter::CycleContext {
+            whistle_evidence: PerceptionInput::new(&whistle_evidence),
+            cycle_time: frame.cycle.time,
+            least_microphones: &frame.parameters.whistle_filter.least_microphones,
+            least_blocks: &frame.parameters.whistle_filter.least_blocks,
+            window: &frame.parameters.whistle_filter.window,
+            votes: AdditionalOutput::new(
+                frame.subscribed.whistle_filter_votes,
+                frame.cycle.number,
+                &mut frame.additional_outputs.whistle_filter.votes,
+            ),
+        };
+        let outputs = self.whistle_filter.call(frame.cycle, |node| node.cycle(context))?;
+        frame.own.whistle = outputs.whistle.value;
+        if let Some(injections) = frame.injections {
+            injections.whistle.replace(&mut frame.own.whistle);
+        }
+        Ok(())
+    }
+
+    /// primary_state, game_controller_state, fall_state, has_ground_contact, ball, obstacles,
+    /// teammates -> world_state
+    fn world_state_composer<Hardware>(
+        &mut self,
+        frame: &mut Frame<'_, Hardware>,
+    ) -> Result<()> {
+        Clear::clear(&mut frame.own.world_state);
+        let context = world_state_composer::CycleContext {
+            primary_state: &frame.own.primary_state,
+            game_controller_state: &frame.own.game_controller_state,
+            fall_state: &frame.own.fall_state,
+            has_ground_contact: &frame.own.has_ground_contact,
+            ball: &frame.own.ball,
+            obstacles: &frame.own.obstacles,
+            teammates: &frame.own.teammates,
+            world_state: &mut frame.own.world_state,
+        };
+        self.world_state_composer.call(frame.cycle, |node| node.cycle(context))?;
+        if let Some(injections) = frame.injections {
+            injections.world_state.replace(&mut frame.own.world_state);
+        }
+        Ok(())
+    }
+
+    fn create_ball_filter() -> Result<ball_filter::BallFilter> {
+        let context = ball_filter::CreationContext {};
+        ball_filter::BallFilter::new(context).in_node("control::ball_filter")
+    }
+
+    fn create_behavior() -> Result<behavior::Behavior> {
+        let context = behavior::CreationContext {};
+        behavior::Behavior::new(context).in_node("control::behavior")
     }
 
     fn create_button_filter() -> Result<button_filter::ButtonFilter> {
@@ -1214,15 +1216,26 @@ impl Nodes {
         button_filter::ButtonFilter::new(context).in_node("control::button_filter")
     }
 
-    fn create_sonar_filter() -> Result<sonar_filter::SonarFilter> {
-        let context = sonar_filter::CreationContext {};
-        sonar_filter::SonarFilter::new(context).in_node("control::sonar_filter")
+    fn create_camera_matrices() -> Result<camera_matrices::CameraMatricesProvider> {
+        let context = camera_matrices::CreationContext {};
+        camera_matrices::CameraMatricesProvider::new(context)
+            .in_node("control::camera_matrices")
     }
 
-    fn create_orientation_filter() -> Result<orientation_filter::OrientationFilter> {
-        let context = orientation_filter::CreationContext {};
-        orientation_filter::OrientationFilter::new(context)
-            .in_node("control::orientation_filter")
+    fn create_center_of_mass() -> Result<center_of_mass::CenterOfMass> {
+        let context = center_of_mass::CreationContext {};
+        center_of_mass::CenterOfMass::new(context).in_node("control::center_of_mass")
+    }
+
+    fn create_command_sender() -> Result<command_sender::CommandSender> {
+        let context = command_sender::CreationContext {};
+        command_sender::CommandSender::new(context).in_node("control::command_sender")
+    }
+
+    fn create_fall_state_filter() -> Result<fall_state_filter::FallStateFilter> {
+        let context = fall_state_filter::CreationContext {};
+        fall_state_filter::FallStateFilter::new(context)
+            .in_node("control::fall_state_filter")
     }
 
     fn create_foot_pressure_filter() -> Result<
@@ -1233,46 +1246,10 @@ impl Nodes {
             .in_node("control::foot_pressure_filter")
     }
 
-    fn create_ground_contact_filter() -> Result<
-        ground_contact_filter::GroundContactFilter,
-    > {
-        let context = ground_contact_filter::CreationContext {};
-        ground_contact_filter::GroundContactFilter::new(context)
-            .in_node("control::ground_contact_filter")
-    }
-
-    fn create_support_foot_filter() -> Result<support_foot_filter::SupportFootFilter> {
-        let context = support_foot_filter::CreationContext {};
-        support_foot_filter::SupportFootFilter::new(context)
-            .in_node("control::support_foot_filter")
-    }
-
     fn create_forward_kinematics() -> Result<forward_kinematics::ForwardKinematics> {
         let context = forward_kinematics::CreationContext {};
         forward_kinematics::ForwardKinematics::new(context)
             .in_node("control::forward_kinematics")
-    }
-
-    fn create_center_of_mass() -> Result<center_of_mass::CenterOfMass> {
-        let context = center_of_mass::CreationContext {};
-        center_of_mass::CenterOfMass::new(context).in_node("control::center_of_mass")
-    }
-
-    fn create_fall_state_filter() -> Result<fall_state_filter::FallStateFilter> {
-        let context = fall_state_filter::CreationContext {};
-        fall_state_filter::FallStateFilter::new(context)
-            .in_node("control::fall_state_filter")
-    }
-
-    fn create_odometry() -> Result<odometry::OdometryProvider> {
-        let context = odometry::CreationContext {};
-        odometry::OdometryProvider::new(context).in_node("control::odometry")
-    }
-
-    fn create_camera_matrices() -> Result<camera_matrices::CameraMatricesProvider> {
-        let context = camera_matrices::CreationContext {};
-        camera_matrices::CameraMatricesProvider::new(context)
-            .in_node("control::camera_matrices")
     }
 
     fn create_game_controller_filter() -> Result<
@@ -1283,15 +1260,12 @@ impl Nodes {
             .in_node("control::game_controller_filter")
     }
 
-    fn create_team_message_filter() -> Result<team_message_filter::TeamMessageFilter> {
-        let context = team_message_filter::CreationContext {};
-        team_message_filter::TeamMessageFilter::new(context)
-            .in_node("control::team_message_filter")
-    }
-
-    fn create_whistle_filter() -> Result<whistle_filter::WhistleFilter> {
-        let context = whistle_filter::CreationContext {};
-        whistle_filter::WhistleFilter::new(context).in_node("control::whistle_filter")
+    fn create_game_controller_responder() -> Result<
+        game_controller_responder::GameControllerResponder,
+    > {
+        let context = game_controller_responder::CreationContext {};
+        game_controller_responder::GameControllerResponder::new(context)
+            .in_node("control::game_controller_responder")
     }
 
     fn create_game_state_filter() -> Result<game_state_filter::GameStateFilter> {
@@ -1300,59 +1274,22 @@ impl Nodes {
             .in_node("control::game_state_filter")
     }
 
-    fn create_ball_filter() -> Result<ball_filter::BallFilter> {
-        let context = ball_filter::CreationContext {};
-        ball_filter::BallFilter::new(context).in_node("control::ball_filter")
-    }
-
-    fn create_obstacle_filter() -> Result<obstacle_filter::ObstacleFilter> {
-        let context = obstacle_filter::CreationContext {};
-        obstacle_filter::ObstacleFilter::new(context).in_node("control::obstacle_filter")
-    }
-
-    fn create_world_state_composer() -> Result<
-        world_state_composer::WorldStateComposer,
+    fn create_ground_contact_filter() -> Result<
+        ground_contact_filter::GroundContactFilter,
     > {
-        let context = world_state_composer::CreationContext {};
-        world_state_composer::WorldStateComposer::new(context)
-            .in_node("control::world_state_composer")
+        let context = ground_contact_filter::CreationContext {};
+        ground_contact_filter::GroundContactFilter::new(context)
+            .in_node("control::ground_contact_filter")
     }
 
-    fn create_behavior() -> Result<behavior::Behavior> {
-        let context = behavior::CreationContext {};
-        behavior::Behavior::new(context).in_node("control::behavior")
+    fn create_head_motion() -> Result<head_motion::HeadMotion> {
+        let context = head_motion::CreationContext {};
+        head_motion::HeadMotion::new(context).in_node("control::head_motion")
     }
 
-    fn create_recording_switch() -> Result<recording_switch::RecordingSwitch> {
-        let context = recording_switch::CreationContext {};
-        recording_switch::RecordingSwitch::new(context)
-            .in_node("control::recording_switch")
-    }
-
-    fn create_motion_selector() -> Result<motion_selector::MotionSelector> {
-        let context = motion_selector::CreationContext {};
-        motion_selector::MotionSelector::new(context).in_node("control::motion_selector")
-    }
-
-    fn create_motion_dispatcher() -> Result<motion_dispatcher::MotionDispatcher> {
-        let context = motion_dispatcher::CreationContext {};
-        motion_dispatcher::MotionDispatcher::new(context)
-            .in_node("control::motion_dispatcher")
-    }
-
-    fn create_stand() -> Result<stand::Stand> {
-        let context = stand::CreationContext {};
-        stand::Stand::new(context).in_node("control::stand")
-    }
-
-    fn create_penalized_pose() -> Result<penalized_pose::PenalizedPose> {
-        let context = penalized_pose::CreationContext {};
-        penalized_pose::PenalizedPose::new(context).in_node("control::penalized_pose")
-    }
-
-    fn create_sit_down() -> Result<sit_down::SitDown> {
-        let context = sit_down::CreationContext {};
-        sit_down::SitDown::new(context).in_node("control::sit_down")
+    fn create_led_status() -> Result<led_status::LedStatus> {
+        let context = led_status::CreationContext {};
+        led_status::LedStatus::new(context).in_node("control::led_status")
     }
 
     fn create_look_around() -> Result<look_around::LookAround> {
@@ -1365,9 +1302,15 @@ impl Nodes {
         look_at::LookAt::new(context).in_node("control::look_at")
     }
 
-    fn create_head_motion() -> Result<head_motion::HeadMotion> {
-        let context = head_motion::CreationContext {};
-        head_motion::HeadMotion::new(context).in_node("control::head_motion")
+    fn create_motion_dispatcher() -> Result<motion_dispatcher::MotionDispatcher> {
+        let context = motion_dispatcher::CreationContext {};
+        motion_dispatcher::MotionDispatcher::new(context)
+            .in_node("control::motion_dispatcher")
+    }
+
+    fn create_motion_selector() -> Result<motion_selector::MotionSelector> {
+        let context = motion_selector::CreationContext {};
+        motion_selector::MotionSelector::new(context).in_node("control::motion_selector")
     }
 
     fn create_motor_commands_collector() -> Result<
@@ -1378,19 +1321,31 @@ impl Nodes {
             .in_node("control::motor_commands_collector")
     }
 
-    fn create_led_status() -> Result<led_status::LedStatus> {
-        let context = led_status::CreationContext {};
-        led_status::LedStatus::new(context).in_node("control::led_status")
+    fn create_obstacle_filter() -> Result<obstacle_filter::ObstacleFilter> {
+        let context = obstacle_filter::CreationContext {};
+        obstacle_filter::ObstacleFilter::new(context).in_node("control::obstacle_filter")
     }
 
-    fn create_tone_selector() -> Result<tone_selector::ToneSelector> {
-        let context = tone_selector::CreationContext {};
-        tone_selector::ToneSelector::new(context).in_node("control::tone_selector")
+    fn create_odometry() -> Result<odometry::OdometryProvider> {
+        let context = odometry::CreationContext {};
+        odometry::OdometryProvider::new(context).in_node("control::odometry")
     }
 
-    fn create_tone_player() -> Result<tone_player::TonePlayer> {
-        let context = tone_player::CreationContext {};
-        tone_player::TonePlayer::new(context).in_node("control::tone_player")
+    fn create_orientation_filter() -> Result<orientation_filter::OrientationFilter> {
+        let context = orientation_filter::CreationContext {};
+        orientation_filter::OrientationFilter::new(context)
+            .in_node("control::orientation_filter")
+    }
+
+    fn create_penalized_pose() -> Result<penalized_pose::PenalizedPose> {
+        let context = penalized_pose::CreationContext {};
+        penalized_pose::PenalizedPose::new(context).in_node("control::penalized_pose")
+    }
+
+    fn create_recording_switch() -> Result<recording_switch::RecordingSwitch> {
+        let context = recording_switch::CreationContext {};
+        recording_switch::RecordingSwitch::new(context)
+            .in_node("control::recording_switch")
     }
 
     fn create_self_report() -> Result<self_report::SelfReport> {
@@ -1398,12 +1353,39 @@ impl Nodes {
         self_report::SelfReport::new(context).in_node("control::self_report")
     }
 
-    fn create_game_controller_responder() -> Result<
-        game_controller_responder::GameControllerResponder,
+    fn create_sensor_data_receiver() -> Result<
+        sensor_data_receiver::SensorDataReceiver,
     > {
-        let context = game_controller_responder::CreationContext {};
-        game_controller_responder::GameControllerResponder::new(context)
-            .in_node("control::game_controller_responder")
+        let context = sensor_data_receiver::CreationContext {};
+        sensor_data_receiver::SensorDataReceiver::new(context)
+            .in_node("control::sensor_data_receiver")
+    }
+
+    fn create_sit_down() -> Result<sit_down::SitDown> {
+        let context = sit_down::CreationContext {};
+        sit_down::SitDown::new(context).in_node("control::sit_down")
+    }
+
+    fn create_sonar_filter() -> Result<sonar_filter::SonarFilter> {
+        let context = sonar_filter::CreationContext {};
+        sonar_filter::SonarFilter::new(context).in_node("control::sonar_filter")
+    }
+
+    fn create_stand() -> Result<stand::Stand> {
+        let context = stand::CreationContext {};
+        stand::Stand::new(context).in_node("control::stand")
+    }
+
+    fn create_support_foot_filter() -> Result<support_foot_filter::SupportFootFilter> {
+        let context = support_foot_filter::CreationContext {};
+        support_foot_filter::SupportFootFilter::new(context)
+            .in_node("control::support_foot_filter")
+    }
+
+    fn create_team_message_filter() -> Result<team_message_filter::TeamMessageFilter> {
+        let context = team_message_filter::CreationContext {};
+        team_message_filter::TeamMessageFilter::new(context)
+            .in_node("control::team_message_filter")
     }
 
     fn create_team_message_sender() -> Result<team_message_sender::TeamMessageSender> {
@@ -1412,8 +1394,26 @@ impl Nodes {
             .in_node("control::team_message_sender")
     }
 
-    fn create_command_sender() -> Result<command_sender::CommandSender> {
-        let context = command_sender::CreationContext {};
-        command_sender::CommandSender::new(context).in_node("control::command_sender")
+    fn create_tone_player() -> Result<tone_player::TonePlayer> {
+        let context = tone_player::CreationContext {};
+        tone_player::TonePlayer::new(context).in_node("control::tone_player")
+    }
+
+    fn create_tone_selector() -> Result<tone_selector::ToneSelector> {
+        let context = tone_selector::CreationContext {};
+        tone_selector::ToneSelector::new(context).in_node("control::tone_selector")
+    }
+
+    fn create_whistle_filter() -> Result<whistle_filter::WhistleFilter> {
+        let context = whistle_filter::CreationContext {};
+        whistle_filter::WhistleFilter::new(context).in_node("control::whistle_filter")
+    }
+
+    fn create_world_state_composer() -> Result<
+        world_state_composer::WorldStateComposer,
+    > {
+        let context = world_state_composer::CreationContext {};
+        world_state_composer::WorldStateComposer::new(context)
+            .in_node("control::world_state_composer")
     }
 }

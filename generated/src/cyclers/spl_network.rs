@@ -17,8 +17,8 @@ use crate::databases::spl_network::Frame;
 
 /// The nodes of one instance; they keep their state between cycles.
 pub struct Nodes {
-    pub message_receiver: Guarded<message_receiver::MessageReceiver>,
     pub game_controller_parser: Guarded<game_controller_parser::GameControllerParser>,
+    pub message_receiver: Guarded<message_receiver::MessageReceiver>,
     pub team_message_parser: Guarded<team_message_parser::TeamMessageParser>,
 }
 
@@ -63,23 +63,6 @@ impl Nodes {
         Ok(())
     }
 
-    /// hardware -> datagram
-    fn message_receiver(
-        &mut self,
-        frame: &mut Frame<'_, impl NetworkInterface>,
-    ) -> Result<()> {
-        Clear::clear(&mut frame.own.datagram);
-        let context = message_receiver::CycleContext {
-            hardware_interface: frame.hardware_interface,
-            datagram: &mut frame.own.datagram,
-        };
-        let outputs = self
-            .message_receiver
-            .call(frame.cycle, |node| node.cycle(context))?;
-        *frame.capture_time = Some(outputs.captured_at.0);
-        Ok(())
-    }
-
     /// datagram -> game_controller_packet, game_controller_counts; when subscribed:
     /// game_controller_parser.refusal
     fn game_controller_parser<Hardware>(
@@ -110,6 +93,23 @@ impl Nodes {
         Ok(())
     }
 
+    /// hardware -> datagram
+    fn message_receiver(
+        &mut self,
+        frame: &mut Frame<'_, impl NetworkInterface>,
+    ) -> Result<()> {
+        Clear::clear(&mut frame.own.datagram);
+        let context = message_receiver::CycleContext {
+            hardware_interface: frame.hardware_interface,
+            datagram: &mut frame.own.datagram,
+        };
+        let outputs = self
+            .message_receiver
+            .call(frame.cycle, |node| node.cycle(context))?;
+        *frame.capture_time = Some(outputs.captured_at.0);
+        Ok(())
+    }
+
     /// datagram -> team_message, team_message_counts; when subscribed:
     /// team_message_parser.refusal
     fn team_message_parser<Hardware>(
@@ -137,18 +137,18 @@ impl Nodes {
         Ok(())
     }
 
-    fn create_message_receiver() -> Result<message_receiver::MessageReceiver> {
-        let context = message_receiver::CreationContext {};
-        message_receiver::MessageReceiver::new(context)
-            .in_node("spl_network::message_receiver")
-    }
-
     fn create_game_controller_parser() -> Result<
         game_controller_parser::GameControllerParser,
     > {
         let context = game_controller_parser::CreationContext {};
         game_controller_parser::GameControllerParser::new(context)
             .in_node("spl_network::game_controller_parser")
+    }
+
+    fn create_message_receiver() -> Result<message_receiver::MessageReceiver> {
+        let context = message_receiver::CreationContext {};
+        message_receiver::MessageReceiver::new(context)
+            .in_node("spl_network::message_receiver")
     }
 
     fn create_team_message_parser() -> Result<team_message_parser::TeamMessageParser> {

@@ -23,15 +23,15 @@ use crate::databases::vision::Frame;
 
 /// The nodes of one instance; they keep their state between cycles.
 pub struct Nodes {
-    pub image_receiver: Guarded<image_receiver::ImageReceiver>,
-    pub camera_matrix_extractor: Guarded<camera_matrix_extractor::CameraMatrixExtractor>,
-    pub limb_projector: Guarded<limb_projector::LimbProjector>,
-    pub image_segmenter: Guarded<image_segmenter::ImageSegmenter>,
-    pub field_border: Guarded<field_border::FieldBorderDetection>,
-    pub line_detection: Guarded<line_detection::LineDetection>,
-    pub penalty_mark_detection: Guarded<penalty_mark_detection::PenaltyMarkDetection>,
     pub ball_detection: Guarded<ball_detection::BallDetection>,
+    pub camera_matrix_extractor: Guarded<camera_matrix_extractor::CameraMatrixExtractor>,
+    pub field_border: Guarded<field_border::FieldBorderDetection>,
+    pub image_receiver: Guarded<image_receiver::ImageReceiver>,
+    pub image_segmenter: Guarded<image_segmenter::ImageSegmenter>,
+    pub limb_projector: Guarded<limb_projector::LimbProjector>,
+    pub line_detection: Guarded<line_detection::LineDetection>,
     pub obstacle_detection: Guarded<obstacle_detection::ObstacleDetection>,
+    pub penalty_mark_detection: Guarded<penalty_mark_detection::PenaltyMarkDetection>,
 }
 
 impl Nodes {
@@ -111,19 +111,40 @@ impl Nodes {
         Ok(())
     }
 
-    /// hardware -> image
-    fn image_receiver(
+    /// image, image_segments, field_border, lines, penalty_mark, camera_matrix (required) ->
+    /// balls; when subscribed: ball_candidates
+    fn ball_detection<Hardware>(
         &mut self,
-        frame: &mut Frame<'_, impl CameraInterface>,
+        frame: &mut Frame<'_, Hardware>,
     ) -> Result<()> {
-        Clear::clear(&mut frame.own.image);
-        let context = image_receiver::CycleContext {
-            camera_position: &frame.instance_parameters.camera_position,
-            hardware_interface: frame.hardware_interface,
-            image: &mut frame.own.image,
-        };
-        let outputs = self.image_receiver.call(frame.cycle, |node| node.cycle(context))?;
-        *frame.capture_time = Some(outputs.captured_at.0);
+        Clear::clear(&mut frame.shared.balls);
+        if let Some(camera_matrix) = frame.own.camera_matrix.as_ref() {
+            let context = ball_detection::CycleContext {
+                image: &frame.own.image,
+                image_segments: &frame.own.image_segments,
+                field_border: &frame.own.field_border,
+                lines: &frame.own.lines,
+                penalty_mark: frame.own.penalty_mark.as_ref(),
+                camera_matrix,
+                field_color: &frame.parameters.field_color,
+                parameters: &frame.parameters.ball_detection,
+                ball_radius: &frame.parameters.field_dimensions.ball_radius,
+                line_width: &frame.parameters.field_dimensions.line_width,
+                ball_candidates: AdditionalOutput::new(
+                    frame.subscribed.ball_candidates,
+                    frame.cycle.number,
+                    &mut frame.additional_outputs.ball_candidates,
+                ),
+                balls: &mut frame.shared.balls,
+            };
+            self.ball_detection.call(frame.cycle, |node| node.cycle(context))?;
+        } else {
+            // A required input is absent: the main outputs take their defaults.
+            self.ball_detection.skip();
+        }
+        if let Some(injections) = frame.injections {
+            injections.balls.replace(&mut frame.shared.balls);
+        }
         Ok(())
     }
 
@@ -150,28 +171,40 @@ impl Nodes {
         Ok(())
     }
 
-    /// image, latest Control.robot_kinematics -> limb_mask
-    fn limb_projector<Hardware>(
-        &mut self,
-        frame: &mut Frame<'_, Hardware>,
-    ) -> Result<()> {
-        Clear::clear(&mut frame.own.limb_mask);
-        let context = limb_projector::CycleContext {
-            image: &frame.own.image,
-            robot_kinematics: frame
-                .latest
-                .control
-                .latest(frame.cycle.time.start, |outputs| &outputs.robot_kinematics),
-            camera_position: &frame.instance_parameters.camera_position,
-            top: &frame.parameters.cameras.top,
-            bottom: &frame.parameters.cameras.bottom,
-            parameters: &frame.parameters.limb_projector,
-            limb_mask: &mut frame.own.limb_mask,
+    /// image_segments, camera_matrix -> field_border; when subscribed: field_border_points
+    fn field_border<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
+        Clear::clear(&mut frame.own.field_border);
+        let context = field_border::CycleContext {
+            image_segments: &frame.own.image_segments,
+            camera_matrix: frame.own.camera_matrix.as_ref(),
+            parameters: &frame.instance_parameters.field_border,
+            field_border_points: AdditionalOutput::new(
+                frame.subscribed.field_border_points,
+                frame.cycle.number,
+                &mut frame.additional_outputs.field_border_points,
+            ),
+            field_border: &mut frame.own.field_border,
         };
-        self.limb_projector.call(frame.cycle, |node| node.cycle(context))?;
+        self.field_border.call(frame.cycle, |node| node.cycle(context))?;
         if let Some(injections) = frame.injections {
-            injections.limb_mask.replace(&mut frame.own.limb_mask);
+            injections.field_border.replace(&mut frame.own.field_border);
         }
+        Ok(())
+    }
+
+    /// hardware -> image
+    fn image_receiver(
+        &mut self,
+        frame: &mut Frame<'_, impl CameraInterface>,
+    ) -> Result<()> {
+        Clear::clear(&mut frame.own.image);
+        let context = image_receiver::CycleContext {
+            camera_position: &frame.instance_parameters.camera_position,
+            hardware_interface: frame.hardware_interface,
+            image: &mut frame.own.image,
+        };
+        let outputs = self.image_receiver.call(frame.cycle, |node| node.cycle(context))?;
+        *frame.capture_time = Some(outputs.captured_at.0);
         Ok(())
     }
 
@@ -196,23 +229,27 @@ impl Nodes {
         Ok(())
     }
 
-    /// image_segments, camera_matrix -> field_border; when subscribed: field_border_points
-    fn field_border<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
-        Clear::clear(&mut frame.own.field_border);
-        let context = field_border::CycleContext {
-            image_segments: &frame.own.image_segments,
-            camera_matrix: frame.own.camera_matrix.as_ref(),
-            parameters: &frame.instance_parameters.field_border,
-            field_border_points: AdditionalOutput::new(
-                frame.subscribed.field_border_points,
-                frame.cycle.number,
-                &mut frame.additional_outputs.field_border_points,
-            ),
-            field_border: &mut frame.own.field_border,
+    /// image, latest Control.robot_kinematics -> limb_mask
+    fn limb_projector<Hardware>(
+        &mut self,
+        frame: &mut Frame<'_, Hardware>,
+    ) -> Result<()> {
+        Clear::clear(&mut frame.own.limb_mask);
+        let context = limb_projector::CycleContext {
+            image: &frame.own.image,
+            robot_kinematics: frame
+                .latest
+                .control
+                .latest(frame.cycle.time.start, |outputs| &outputs.robot_kinematics),
+            camera_position: &frame.instance_parameters.camera_position,
+            top: &frame.parameters.cameras.top,
+            bottom: &frame.parameters.cameras.bottom,
+            parameters: &frame.parameters.limb_projector,
+            limb_mask: &mut frame.own.limb_mask,
         };
-        self.field_border.call(frame.cycle, |node| node.cycle(context))?;
+        self.limb_projector.call(frame.cycle, |node| node.cycle(context))?;
         if let Some(injections) = frame.injections {
-            injections.field_border.replace(&mut frame.own.field_border);
+            injections.limb_mask.replace(&mut frame.own.limb_mask);
         }
         Ok(())
     }
@@ -257,6 +294,39 @@ impl Nodes {
         Ok(())
     }
 
+    /// image_segments, field_border, lines, camera_matrix (required) -> obstacles; when
+    /// subscribed: obstacle_feet
+    fn obstacle_detection<Hardware>(
+        &mut self,
+        frame: &mut Frame<'_, Hardware>,
+    ) -> Result<()> {
+        Clear::clear(&mut frame.shared.obstacles);
+        if let Some(camera_matrix) = frame.own.camera_matrix.as_ref() {
+            let context = obstacle_detection::CycleContext {
+                image_segments: &frame.own.image_segments,
+                field_border: &frame.own.field_border,
+                lines: &frame.own.lines,
+                camera_matrix,
+                line_width: &frame.parameters.field_dimensions.line_width,
+                parameters: &frame.parameters.obstacle_detection,
+                obstacle_feet: AdditionalOutput::new(
+                    frame.subscribed.obstacle_feet,
+                    frame.cycle.number,
+                    &mut frame.additional_outputs.obstacle_feet,
+                ),
+                obstacles: &mut frame.shared.obstacles,
+            };
+            self.obstacle_detection.call(frame.cycle, |node| node.cycle(context))?;
+        } else {
+            // A required input is absent: the main outputs take their defaults.
+            self.obstacle_detection.skip();
+        }
+        if let Some(injections) = frame.injections {
+            injections.obstacles.replace(&mut frame.shared.obstacles);
+        }
+        Ok(())
+    }
+
     /// image, image_segments, field_border, lines, camera_matrix (required) -> penalty_mark;
     /// when subscribed: penalty_mark_candidates
     fn penalty_mark_detection<Hardware>(
@@ -295,79 +365,9 @@ impl Nodes {
         Ok(())
     }
 
-    /// image, image_segments, field_border, lines, penalty_mark, camera_matrix (required) ->
-    /// balls; when subscribed: ball_candidates
-    fn ball_detection<Hardware>(
-        &mut self,
-        frame: &mut Frame<'_, Hardware>,
-    ) -> Result<()> {
-        Clear::clear(&mut frame.shared.balls);
-        if let Some(camera_matrix) = frame.own.camera_matrix.as_ref() {
-            let context = ball_detection::CycleContext {
-                image: &frame.own.image,
-                image_segments: &frame.own.image_segments,
-                field_border: &frame.own.field_border,
-                lines: &frame.own.lines,
-                penalty_mark: frame.own.penalty_mark.as_ref(),
-                camera_matrix,
-                field_color: &frame.parameters.field_color,
-                parameters: &frame.parameters.ball_detection,
-                ball_radius: &frame.parameters.field_dimensions.ball_radius,
-                line_width: &frame.parameters.field_dimensions.line_width,
-                ball_candidates: AdditionalOutput::new(
-                    frame.subscribed.ball_candidates,
-                    frame.cycle.number,
-                    &mut frame.additional_outputs.ball_candidates,
-                ),
-                balls: &mut frame.shared.balls,
-            };
-            self.ball_detection.call(frame.cycle, |node| node.cycle(context))?;
-        } else {
-            // A required input is absent: the main outputs take their defaults.
-            self.ball_detection.skip();
-        }
-        if let Some(injections) = frame.injections {
-            injections.balls.replace(&mut frame.shared.balls);
-        }
-        Ok(())
-    }
-
-    /// image_segments, field_border, lines, camera_matrix (required) -> obstacles; when
-    /// subscribed: obstacle_feet
-    fn obstacle_detection<Hardware>(
-        &mut self,
-        frame: &mut Frame<'_, Hardware>,
-    ) -> Result<()> {
-        Clear::clear(&mut frame.shared.obstacles);
-        if let Some(camera_matrix) = frame.own.camera_matrix.as_ref() {
-            let context = obstacle_detection::CycleContext {
-                image_segments: &frame.own.image_segments,
-                field_border: &frame.own.field_border,
-                lines: &frame.own.lines,
-                camera_matrix,
-                line_width: &frame.parameters.field_dimensions.line_width,
-                parameters: &frame.parameters.obstacle_detection,
-                obstacle_feet: AdditionalOutput::new(
-                    frame.subscribed.obstacle_feet,
-                    frame.cycle.number,
-                    &mut frame.additional_outputs.obstacle_feet,
-                ),
-                obstacles: &mut frame.shared.obstacles,
-            };
-            self.obstacle_detection.call(frame.cycle, |node| node.cycle(context))?;
-        } else {
-            // A required input is absent: the main outputs take their defaults.
-            self.obstacle_detection.skip();
-        }
-        if let Some(injections) = frame.injections {
-            injections.obstacles.replace(&mut frame.shared.obstacles);
-        }
-        Ok(())
-    }
-
-    fn create_image_receiver() -> Result<image_receiver::ImageReceiver> {
-        let context = image_receiver::CreationContext {};
-        image_receiver::ImageReceiver::new(context).in_node("vision::image_receiver")
+    fn create_ball_detection() -> Result<ball_detection::BallDetection> {
+        let context = ball_detection::CreationContext {};
+        ball_detection::BallDetection::new(context).in_node("vision::ball_detection")
     }
 
     fn create_camera_matrix_extractor() -> Result<
@@ -378,9 +378,14 @@ impl Nodes {
             .in_node("vision::camera_matrix_extractor")
     }
 
-    fn create_limb_projector() -> Result<limb_projector::LimbProjector> {
-        let context = limb_projector::CreationContext {};
-        limb_projector::LimbProjector::new(context).in_node("vision::limb_projector")
+    fn create_field_border() -> Result<field_border::FieldBorderDetection> {
+        let context = field_border::CreationContext {};
+        field_border::FieldBorderDetection::new(context).in_node("vision::field_border")
+    }
+
+    fn create_image_receiver() -> Result<image_receiver::ImageReceiver> {
+        let context = image_receiver::CreationContext {};
+        image_receiver::ImageReceiver::new(context).in_node("vision::image_receiver")
     }
 
     fn create_image_segmenter() -> Result<image_segmenter::ImageSegmenter> {
@@ -388,14 +393,20 @@ impl Nodes {
         image_segmenter::ImageSegmenter::new(context).in_node("vision::image_segmenter")
     }
 
-    fn create_field_border() -> Result<field_border::FieldBorderDetection> {
-        let context = field_border::CreationContext {};
-        field_border::FieldBorderDetection::new(context).in_node("vision::field_border")
+    fn create_limb_projector() -> Result<limb_projector::LimbProjector> {
+        let context = limb_projector::CreationContext {};
+        limb_projector::LimbProjector::new(context).in_node("vision::limb_projector")
     }
 
     fn create_line_detection() -> Result<line_detection::LineDetection> {
         let context = line_detection::CreationContext {};
         line_detection::LineDetection::new(context).in_node("vision::line_detection")
+    }
+
+    fn create_obstacle_detection() -> Result<obstacle_detection::ObstacleDetection> {
+        let context = obstacle_detection::CreationContext {};
+        obstacle_detection::ObstacleDetection::new(context)
+            .in_node("vision::obstacle_detection")
     }
 
     fn create_penalty_mark_detection() -> Result<
@@ -404,16 +415,5 @@ impl Nodes {
         let context = penalty_mark_detection::CreationContext {};
         penalty_mark_detection::PenaltyMarkDetection::new(context)
             .in_node("vision::penalty_mark_detection")
-    }
-
-    fn create_ball_detection() -> Result<ball_detection::BallDetection> {
-        let context = ball_detection::CreationContext {};
-        ball_detection::BallDetection::new(context).in_node("vision::ball_detection")
-    }
-
-    fn create_obstacle_detection() -> Result<obstacle_detection::ObstacleDetection> {
-        let context = obstacle_detection::CreationContext {};
-        obstacle_detection::ObstacleDetection::new(context)
-            .in_node("vision::obstacle_detection")
     }
 }

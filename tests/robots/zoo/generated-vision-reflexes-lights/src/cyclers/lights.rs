@@ -17,9 +17,9 @@ use crate::databases::lights::Frame;
 
 /// The nodes of one instance; they keep their state between cycles.
 pub struct Nodes {
-    pub setup_node: Guarded<setup::Setup>,
-    pub lamp: Guarded<lamp::Lamp>,
     pub cycle_node: Guarded<cycle::Cycle>,
+    pub lamp: Guarded<lamp::Lamp>,
+    pub setup_node: Guarded<setup::Setup>,
 }
 
 impl Nodes {
@@ -62,16 +62,10 @@ impl Nodes {
         Ok(())
     }
 
-    /// hardware, state beat -> nothing
-    fn setup_node(
-        &mut self,
-        frame: &mut Frame<'_, impl MetronomeInterface>,
-    ) -> Result<()> {
-        let context = setup::CycleContext {
-            hardware_interface: frame.hardware_interface,
-            beat: &mut frame.cycler_state.beat,
-        };
-        self.setup_node.call(frame.cycle, |node| node.cycle(context))?;
+    /// -> nothing
+    fn cycle_node<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
+        let context = cycle::CycleContext {};
+        self.cycle_node.call(frame.cycle, |node| node.cycle(context))?;
         Ok(())
     }
 
@@ -89,16 +83,22 @@ impl Nodes {
         Ok(())
     }
 
-    /// -> nothing
-    fn cycle_node<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
-        let context = cycle::CycleContext {};
-        self.cycle_node.call(frame.cycle, |node| node.cycle(context))?;
+    /// hardware, state beat -> nothing
+    fn setup_node(
+        &mut self,
+        frame: &mut Frame<'_, impl MetronomeInterface>,
+    ) -> Result<()> {
+        let context = setup::CycleContext {
+            hardware_interface: frame.hardware_interface,
+            beat: &mut frame.cycler_state.beat,
+        };
+        self.setup_node.call(frame.cycle, |node| node.cycle(context))?;
         Ok(())
     }
 
-    fn create_setup_node() -> Result<setup::Setup> {
-        let context = setup::CreationContext {};
-        setup::Setup::new(context).in_node("zoo_nodes::lights::setup")
+    fn create_cycle_node() -> Result<cycle::Cycle> {
+        let context = cycle::CreationContext {};
+        cycle::Cycle::new(context).in_node("zoo_nodes::lights::cycle")
     }
 
     fn create_lamp() -> Result<lamp::Lamp> {
@@ -106,8 +106,8 @@ impl Nodes {
         lamp::Lamp::new(context).in_node("zoo_nodes::lights::lamp")
     }
 
-    fn create_cycle_node() -> Result<cycle::Cycle> {
-        let context = cycle::CreationContext {};
-        cycle::Cycle::new(context).in_node("zoo_nodes::lights::cycle")
+    fn create_setup_node() -> Result<setup::Setup> {
+        let context = setup::CreationContext {};
+        setup::Setup::new(context).in_node("zoo_nodes::lights::setup")
     }
 }

@@ -19,8 +19,8 @@ use crate::databases::reflexes::Frame;
 /// The nodes of one instance; they keep their state between cycles.
 pub struct Nodes {
     pub bumper: Guarded<bumper::Bumper>,
-    pub flinch: Guarded<flinch::Flinch>,
     pub create_node2: Guarded<create::Create>,
+    pub flinch: Guarded<flinch::Flinch>,
     pub node: Guarded<node::Node>,
 }
 
@@ -81,22 +81,6 @@ impl Nodes {
         Ok(())
     }
 
-    /// pressed, perception VisionBottom.spots, latest Control.pose -> hardware
-    fn flinch(&mut self, frame: &mut Frame<'_, impl LampInterface>) -> Result<()> {
-        let bottom = frame.perception.vision_bottom.project(|outputs| &outputs.spots);
-        let context = flinch::CycleContext {
-            pressed: &frame.own.pressed,
-            bottom: PerceptionInput::new(&bottom),
-            pose: frame
-                .latest
-                .control
-                .latest(frame.cycle.time.start, |outputs| &outputs.pose),
-            hardware_interface: frame.hardware_interface,
-        };
-        self.flinch.call(frame.cycle, |node| node.cycle(context))?;
-        Ok(())
-    }
-
     /// -> sum
     fn create_node2<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
         let context = create::CycleContext {
@@ -111,6 +95,22 @@ impl Nodes {
         if let Some(injections) = frame.injections {
             injections.sum.replace(&mut frame.own.sum);
         }
+        Ok(())
+    }
+
+    /// pressed, perception VisionBottom.spots, latest Control.pose -> hardware
+    fn flinch(&mut self, frame: &mut Frame<'_, impl LampInterface>) -> Result<()> {
+        let bottom = frame.perception.vision_bottom.project(|outputs| &outputs.spots);
+        let context = flinch::CycleContext {
+            pressed: &frame.own.pressed,
+            bottom: PerceptionInput::new(&bottom),
+            pose: frame
+                .latest
+                .control
+                .latest(frame.cycle.time.start, |outputs| &outputs.pose),
+            hardware_interface: frame.hardware_interface,
+        };
+        self.flinch.call(frame.cycle, |node| node.cycle(context))?;
         Ok(())
     }
 
@@ -129,14 +129,14 @@ impl Nodes {
         bumper::Bumper::new(context).in_node("zoo_nodes::reflexes::bumper")
     }
 
-    fn create_flinch() -> Result<flinch::Flinch> {
-        let context = flinch::CreationContext {};
-        flinch::Flinch::new(context).in_node("zoo_nodes::reflexes::flinch")
-    }
-
     fn create_create_node2() -> Result<create::Create> {
         let context = create::CreationContext {};
         create::Create::new(context).in_node("zoo_nodes::reflexes::create")
+    }
+
+    fn create_flinch() -> Result<flinch::Flinch> {
+        let context = flinch::CreationContext {};
+        flinch::Flinch::new(context).in_node("zoo_nodes::reflexes::flinch")
     }
 
     fn create_node() -> Result<node::Node> {

@@ -21,12 +21,12 @@ use crate::databases::vision::Frame;
 
 /// The nodes of one instance; they keep their state between cycles.
 pub struct Nodes {
-    pub eye: Guarded<eye::Eye>,
+    pub counter: Guarded<counter::Counter>,
     pub exposure: Guarded<exposure::Exposure>,
-    pub spot_finder: Guarded<spot_finder::SpotFinder>,
+    pub eye: Guarded<eye::Eye>,
     pub horizon_finder: Guarded<horizon_finder::HorizonFinder>,
     pub other_eye: Guarded<other_eye::OtherEye>,
-    pub counter: Guarded<counter::Counter>,
+    pub spot_finder: Guarded<spot_finder::SpotFinder>,
 }
 
 impl Nodes {
@@ -89,20 +89,16 @@ impl Nodes {
         Ok(())
     }
 
-    /// hardware -> image; when subscribed: $cycler_instance.width
-    fn eye(&mut self, frame: &mut Frame<'_, impl EyeInterface>) -> Result<()> {
-        Clear::clear(&mut frame.own.image);
-        let context = eye::CycleContext {
-            hardware: frame.hardware_interface,
-            image: &mut frame.own.image,
-            width: AdditionalOutput::new(
-                frame.subscribed.cycler_instance_width,
-                frame.cycle.number,
-                &mut frame.additional_outputs.cycler_instance.width,
-            ),
+    /// state count -> cycles
+    fn counter<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
+        let context = counter::CycleContext {
+            count: &mut frame.cycler_state.count,
         };
-        let outputs = self.eye.call(frame.cycle, |node| node.cycle(context))?;
-        *frame.capture_time = Some(outputs.taken_at.0);
+        let outputs = self.counter.call(frame.cycle, |node| node.cycle(context))?;
+        frame.own.cycles = outputs.cycles.value;
+        if let Some(injections) = frame.injections {
+            injections.cycles.replace(&mut frame.own.cycles);
+        }
         Ok(())
     }
 
@@ -118,43 +114,20 @@ impl Nodes {
         Ok(())
     }
 
-    /// image, horizon (required), state exposure -> spots, best; when subscribed: candidates
-    fn spot_finder<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
-        self.spot_finder
-            .renew_if_broken(|| Self::create_spot_finder(&mut frame.creation()))?;
-        if let Some(horizon) = frame.own.horizon.as_ref() {
-            let context = spot_finder::CycleContext {
-                image: &frame.own.image,
-                horizon,
-                threshold: &frame.parameters.spot_finder.threshold,
-                gain: &frame.instance_parameters.gain,
-                exposure: &frame.cycler_state.exposure,
-                candidates: AdditionalOutput::new(
-                    frame.subscribed.candidates,
-                    frame.cycle.number,
-                    &mut frame.additional_outputs.candidates,
-                ),
-            };
-            let outputs = self
-                .spot_finder
-                .call_or_skip(frame.cycle, |node| node.cycle(context))?;
-            if let Some(outputs) = outputs {
-                frame.shared.spots = outputs.spots.value;
-                frame.shared.best = outputs.best.value;
-            } else {
-                frame.shared.spots = Default::default();
-                frame.shared.best = Default::default();
-            }
-        } else {
-            // A required input is absent: the main outputs take their defaults.
-            self.spot_finder.skip();
-            frame.shared.spots = Default::default();
-            frame.shared.best = Default::default();
-        }
-        if let Some(injections) = frame.injections {
-            injections.spots.replace(&mut frame.shared.spots);
-            injections.best.replace(&mut frame.shared.best);
-        }
+    /// hardware -> image; when subscribed: $cycler_instance.width
+    fn eye(&mut self, frame: &mut Frame<'_, impl EyeInterface>) -> Result<()> {
+        Clear::clear(&mut frame.own.image);
+        let context = eye::CycleContext {
+            hardware: frame.hardware_interface,
+            image: &mut frame.own.image,
+            width: AdditionalOutput::new(
+                frame.subscribed.cycler_instance_width,
+                frame.cycle.number,
+                &mut frame.additional_outputs.cycler_instance.width,
+            ),
+        };
+        let outputs = self.eye.call(frame.cycle, |node| node.cycle(context))?;
+        *frame.capture_time = Some(outputs.taken_at.0);
         Ok(())
     }
 
@@ -217,24 +190,51 @@ impl Nodes {
         Ok(())
     }
 
-    /// state count -> cycles
-    fn counter<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
-        let context = counter::CycleContext {
-            count: &mut frame.cycler_state.count,
-        };
-        let outputs = self.counter.call(frame.cycle, |node| node.cycle(context))?;
-        frame.own.cycles = outputs.cycles.value;
+    /// image, horizon (required), state exposure -> spots, best; when subscribed: candidates
+    fn spot_finder<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
+        self.spot_finder
+            .renew_if_broken(|| Self::create_spot_finder(&mut frame.creation()))?;
+        if let Some(horizon) = frame.own.horizon.as_ref() {
+            let context = spot_finder::CycleContext {
+                image: &frame.own.image,
+                horizon,
+                threshold: &frame.parameters.spot_finder.threshold,
+                gain: &frame.instance_parameters.gain,
+                exposure: &frame.cycler_state.exposure,
+                candidates: AdditionalOutput::new(
+                    frame.subscribed.candidates,
+                    frame.cycle.number,
+                    &mut frame.additional_outputs.candidates,
+                ),
+            };
+            let outputs = self
+                .spot_finder
+                .call_or_skip(frame.cycle, |node| node.cycle(context))?;
+            if let Some(outputs) = outputs {
+                frame.shared.spots = outputs.spots.value;
+                frame.shared.best = outputs.best.value;
+            } else {
+                frame.shared.spots = Default::default();
+                frame.shared.best = Default::default();
+            }
+        } else {
+            // A required input is absent: the main outputs take their defaults.
+            self.spot_finder.skip();
+            frame.shared.spots = Default::default();
+            frame.shared.best = Default::default();
+        }
         if let Some(injections) = frame.injections {
-            injections.cycles.replace(&mut frame.own.cycles);
+            injections.spots.replace(&mut frame.shared.spots);
+            injections.best.replace(&mut frame.shared.best);
         }
         Ok(())
     }
 
-    fn create_eye(creation: &mut Creation<'_>) -> Result<eye::Eye> {
-        let context = eye::CreationContext {
-            camera: &creation.instance_parameters.camera,
+    fn create_counter(creation: &mut Creation<'_>) -> Result<counter::Counter> {
+        let context = counter::CreationContext {
+            count: &mut creation.cycler_state.count,
         };
-        eye::Eye::new(context).in_node("zoo_nodes::vision::eye")
+        counter::Counter::new(context).in_node("zoo_nodes::shared::counter")
     }
 
     fn create_exposure() -> Result<exposure::Exposure> {
@@ -242,14 +242,11 @@ impl Nodes {
         exposure::Exposure::new(context).in_node("zoo_nodes::vision::exposure")
     }
 
-    fn create_spot_finder(
-        creation: &mut Creation<'_>,
-    ) -> Result<spot_finder::SpotFinder> {
-        let context = spot_finder::CreationContext {
-            brightest: &creation.parameters.spot_finder.brightest,
-            gain: &creation.instance_parameters.gain,
+    fn create_eye(creation: &mut Creation<'_>) -> Result<eye::Eye> {
+        let context = eye::CreationContext {
+            camera: &creation.instance_parameters.camera,
         };
-        spot_finder::SpotFinder::new(context).in_node("zoo_nodes::vision::spot_finder")
+        eye::Eye::new(context).in_node("zoo_nodes::vision::eye")
     }
 
     fn create_horizon_finder() -> Result<horizon_finder::HorizonFinder> {
@@ -263,10 +260,13 @@ impl Nodes {
         other_eye::OtherEye::new(context).in_node("zoo_nodes::vision::other_eye")
     }
 
-    fn create_counter(creation: &mut Creation<'_>) -> Result<counter::Counter> {
-        let context = counter::CreationContext {
-            count: &mut creation.cycler_state.count,
+    fn create_spot_finder(
+        creation: &mut Creation<'_>,
+    ) -> Result<spot_finder::SpotFinder> {
+        let context = spot_finder::CreationContext {
+            brightest: &creation.parameters.spot_finder.brightest,
+            gain: &creation.instance_parameters.gain,
         };
-        counter::Counter::new(context).in_node("zoo_nodes::shared::counter")
+        spot_finder::SpotFinder::new(context).in_node("zoo_nodes::vision::spot_finder")
     }
 }

@@ -28,12 +28,12 @@ use crate::databases::control::Frame;
 /// The nodes of one instance; they keep their state between cycles.
 pub struct Nodes {
     pub body: Guarded<body::Body>,
-    pub watcher: Guarded<watcher::Watcher>,
-    pub pose_filter: Guarded<pose_filter::PoseFilter>,
-    pub spot_filter: Guarded<spot_filter::SpotFilter>,
+    pub counter: Guarded<counter::Counter>,
     pub gait: Guarded<gait::Gait>,
     pub legs: Guarded<legs::Legs>,
-    pub counter: Guarded<counter::Counter>,
+    pub pose_filter: Guarded<pose_filter::PoseFilter>,
+    pub spot_filter: Guarded<spot_filter::SpotFilter>,
+    pub watcher: Guarded<watcher::Watcher>,
 }
 
 impl Nodes {
@@ -128,56 +128,68 @@ impl Nodes {
         Ok(())
     }
 
-    /// report, report.certainty, report.best, report.best.brightness, report.nested (required),
-    /// report.nested.plain, report.nested.deep, report.nested.plain (required), state
-    /// filter.gain, state filter.drift -> seen; when subscribed: debug.watcher.seen,
-    /// debug.certainty
-    fn watcher<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
-        if let Some(nested) = frame.own.report.nested.as_ref()
-            && let Some(outputs_input) = frame
-                .own
-                .report
-                .nested
-                .as_ref()
-                .map(|nested| &nested.plain)
-        {
-            let context = watcher::CycleContext {
-                report: &frame.own.report,
-                certainty: &frame.own.report.certainty,
-                best: frame.own.report.best.as_ref(),
-                whole_best: &frame.own.report.best,
-                brightness: frame.own.report.best.as_ref().map(|best| &best.brightness),
-                nested,
-                plain: frame.own.report.nested.as_ref().map(|nested| &nested.plain),
-                deep: frame
-                    .own
-                    .report
-                    .nested
-                    .as_ref()
-                    .and_then(|nested| nested.deep.as_ref()),
-                outputs: outputs_input,
-                gain: &frame.cycler_state.filter.gain,
-                drift: &frame.cycler_state.filter.drift,
-                seen: AdditionalOutput::new(
-                    frame.subscribed.debug_watcher_seen,
-                    frame.cycle.number,
-                    &mut frame.additional_outputs.debug.watcher.seen,
-                ),
-                certainties: AdditionalOutput::new(
-                    frame.subscribed.debug_certainty,
-                    frame.cycle.number,
-                    &mut frame.additional_outputs.debug.certainty,
-                ),
-            };
-            let outputs = self.watcher.call(frame.cycle, |node| node.cycle(context))?;
-            frame.own.seen = outputs.seen.value;
-        } else {
-            // A required input is absent: the main outputs take their defaults.
-            self.watcher.skip();
-            frame.own.seen = Default::default();
+    /// state count -> cycles
+    fn counter<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
+        let context = counter::CycleContext {
+            count: &mut frame.cycler_state.count,
+        };
+        let outputs = self.counter.call(frame.cycle, |node| node.cycle(context))?;
+        frame.own.cycles = outputs.cycles.value;
+        if let Some(injections) = frame.injections {
+            injections.cycles.replace(&mut frame.own.cycles);
+        }
+        Ok(())
+    }
+
+    /// target, state gait.phase, procedure walk, procedure stop -> plan, speed
+    fn gait<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
+        Clear::clear(&mut frame.own.plan);
+        self.gait.renew_if_broken(|| Self::create_gait(&mut frame.creation()))?;
+        let context = gait::CycleContext {
+            target: frame.shared.target.as_ref(),
+            default_speed: &frame.parameters.walking_speed,
+            phase: &mut frame.cycler_state.gait.phase,
+            walk: frame.procedures.walk.call(),
+            stop: frame.procedures.stop.call(),
+            plan: &mut frame.own.plan,
+        };
+        let outputs = self.gait.call_or_hold(frame.cycle, |node| node.cycle(context))?;
+        match outputs {
+            Held::Written(outputs) => {
+                frame.own.speed = outputs.speed.value;
+            }
+            Held::Hold => {
+                frame.own.plan.clone_from(&frame.previous.own.plan);
+                frame.own.speed.clone_from(&frame.previous.own.speed);
+            }
+            Held::Skip => {
+                Clear::clear(&mut frame.own.plan);
+                frame.own.speed = Default::default();
+            }
         }
         if let Some(injections) = frame.injections {
-            injections.seen.replace(&mut frame.own.seen);
+            injections.plan.replace(&mut frame.own.plan);
+            injections.speed.replace(&mut frame.own.speed);
+        }
+        Ok(())
+    }
+
+    /// plan, target (required) -> hardware
+    fn legs(
+        &mut self,
+        frame: &mut Frame<'_, impl BodyInterface + LegInterface>,
+    ) -> Result<()> {
+        self.legs.renew_if_broken(|| Self::create_legs(&mut frame.creation()))?;
+        if let Some(target) = frame.shared.target.as_ref() {
+            let context = legs::CycleContext {
+                plan: &frame.own.plan,
+                target,
+                hardware_interface: frame.hardware_interface,
+            };
+            self.legs.call_or_skip(frame.cycle, |node| node.cycle(context))?;
+        } else {
+            // A required input is absent.
+            self.legs.skip();
         }
         Ok(())
     }
@@ -267,68 +279,56 @@ impl Nodes {
         Ok(())
     }
 
-    /// target, state gait.phase, procedure walk, procedure stop -> plan, speed
-    fn gait<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
-        Clear::clear(&mut frame.own.plan);
-        self.gait.renew_if_broken(|| Self::create_gait(&mut frame.creation()))?;
-        let context = gait::CycleContext {
-            target: frame.shared.target.as_ref(),
-            default_speed: &frame.parameters.walking_speed,
-            phase: &mut frame.cycler_state.gait.phase,
-            walk: frame.procedures.walk.call(),
-            stop: frame.procedures.stop.call(),
-            plan: &mut frame.own.plan,
-        };
-        let outputs = self.gait.call_or_hold(frame.cycle, |node| node.cycle(context))?;
-        match outputs {
-            Held::Written(outputs) => {
-                frame.own.speed = outputs.speed.value;
-            }
-            Held::Hold => {
-                frame.own.plan.clone_from(&frame.previous.own.plan);
-                frame.own.speed.clone_from(&frame.previous.own.speed);
-            }
-            Held::Skip => {
-                Clear::clear(&mut frame.own.plan);
-                frame.own.speed = Default::default();
-            }
-        }
-        if let Some(injections) = frame.injections {
-            injections.plan.replace(&mut frame.own.plan);
-            injections.speed.replace(&mut frame.own.speed);
-        }
-        Ok(())
-    }
-
-    /// plan, target (required) -> hardware
-    fn legs(
-        &mut self,
-        frame: &mut Frame<'_, impl BodyInterface + LegInterface>,
-    ) -> Result<()> {
-        self.legs.renew_if_broken(|| Self::create_legs(&mut frame.creation()))?;
-        if let Some(target) = frame.shared.target.as_ref() {
-            let context = legs::CycleContext {
-                plan: &frame.own.plan,
-                target,
-                hardware_interface: frame.hardware_interface,
+    /// report, report.certainty, report.best, report.best.brightness, report.nested (required),
+    /// report.nested.plain, report.nested.deep, report.nested.plain (required), state
+    /// filter.gain, state filter.drift -> seen; when subscribed: debug.watcher.seen,
+    /// debug.certainty
+    fn watcher<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
+        if let Some(nested) = frame.own.report.nested.as_ref()
+            && let Some(outputs_input) = frame
+                .own
+                .report
+                .nested
+                .as_ref()
+                .map(|nested| &nested.plain)
+        {
+            let context = watcher::CycleContext {
+                report: &frame.own.report,
+                certainty: &frame.own.report.certainty,
+                best: frame.own.report.best.as_ref(),
+                whole_best: &frame.own.report.best,
+                brightness: frame.own.report.best.as_ref().map(|best| &best.brightness),
+                nested,
+                plain: frame.own.report.nested.as_ref().map(|nested| &nested.plain),
+                deep: frame
+                    .own
+                    .report
+                    .nested
+                    .as_ref()
+                    .and_then(|nested| nested.deep.as_ref()),
+                outputs: outputs_input,
+                gain: &frame.cycler_state.filter.gain,
+                drift: &frame.cycler_state.filter.drift,
+                seen: AdditionalOutput::new(
+                    frame.subscribed.debug_watcher_seen,
+                    frame.cycle.number,
+                    &mut frame.additional_outputs.debug.watcher.seen,
+                ),
+                certainties: AdditionalOutput::new(
+                    frame.subscribed.debug_certainty,
+                    frame.cycle.number,
+                    &mut frame.additional_outputs.debug.certainty,
+                ),
             };
-            self.legs.call_or_skip(frame.cycle, |node| node.cycle(context))?;
+            let outputs = self.watcher.call(frame.cycle, |node| node.cycle(context))?;
+            frame.own.seen = outputs.seen.value;
         } else {
-            // A required input is absent.
-            self.legs.skip();
+            // A required input is absent: the main outputs take their defaults.
+            self.watcher.skip();
+            frame.own.seen = Default::default();
         }
-        Ok(())
-    }
-
-    /// state count -> cycles
-    fn counter<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
-        let context = counter::CycleContext {
-            count: &mut frame.cycler_state.count,
-        };
-        let outputs = self.counter.call(frame.cycle, |node| node.cycle(context))?;
-        frame.own.cycles = outputs.cycles.value;
         if let Some(injections) = frame.injections {
-            injections.cycles.replace(&mut frame.own.cycles);
+            injections.seen.replace(&mut frame.own.seen);
         }
         Ok(())
     }
@@ -338,19 +338,13 @@ impl Nodes {
         body::Body::new(context).in_node("zoo_nodes::control::body")
     }
 
-    fn create_watcher() -> Result<watcher::Watcher> {
-        let context = watcher::CreationContext {};
-        watcher::Watcher::new(context).in_node("zoo_nodes::control::watcher")
-    }
-
-    fn create_pose_filter() -> Result<pose_filter::PoseFilter> {
-        let context = pose_filter::CreationContext {};
-        pose_filter::PoseFilter::new(context).in_node("zoo_nodes::control::pose_filter")
-    }
-
-    fn create_spot_filter() -> Result<spot_filter::SpotFilter> {
-        let context = spot_filter::CreationContext {};
-        spot_filter::SpotFilter::new(context).in_node("zoo_nodes::control::spot_filter")
+    fn create_counter<Hardware>(
+        creation: &mut Creation<'_, Hardware>,
+    ) -> Result<counter::Counter> {
+        let context = counter::CreationContext {
+            count: &mut creation.cycler_state.count,
+        };
+        counter::Counter::new(context).in_node("zoo_nodes::shared::counter")
     }
 
     fn create_gait<Hardware>(
@@ -372,12 +366,18 @@ impl Nodes {
         legs::Legs::new(context).in_node("zoo_nodes::control::legs")
     }
 
-    fn create_counter<Hardware>(
-        creation: &mut Creation<'_, Hardware>,
-    ) -> Result<counter::Counter> {
-        let context = counter::CreationContext {
-            count: &mut creation.cycler_state.count,
-        };
-        counter::Counter::new(context).in_node("zoo_nodes::shared::counter")
+    fn create_pose_filter() -> Result<pose_filter::PoseFilter> {
+        let context = pose_filter::CreationContext {};
+        pose_filter::PoseFilter::new(context).in_node("zoo_nodes::control::pose_filter")
+    }
+
+    fn create_spot_filter() -> Result<spot_filter::SpotFilter> {
+        let context = spot_filter::CreationContext {};
+        spot_filter::SpotFilter::new(context).in_node("zoo_nodes::control::spot_filter")
+    }
+
+    fn create_watcher() -> Result<watcher::Watcher> {
+        let context = watcher::CreationContext {};
+        watcher::Watcher::new(context).in_node("zoo_nodes::control::watcher")
     }
 }
