@@ -125,6 +125,7 @@ const STAGES: &[&str] = &[
     "scan",
     "resolve",
     "schedule",
+    "partial",
     "model",
     "render",
     "drift",

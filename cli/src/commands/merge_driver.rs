@@ -46,7 +46,8 @@ pub(super) fn run(terminal: &Terminal, merge: &MergeDriver) -> Result<Outcome, F
     }
     terminal.note(
         "generated files are not merged but written anew: merge the nodes and hulk.toml, then\n  \
-         hulkgen generate && git add generated\n",
+         hulkgen generate && git add generated\n\
+         the Cargo.toml of a partial robot's crate says which command writes that\n",
     );
     Ok(Outcome::Bad)
 }

@@ -227,7 +227,7 @@ fn until_a_stub_is_fed_nobody_has_written_it() {
     let create = zoo_vision_reflexes_lights_runtime::runtime::create;
     let (hardware, (mut robot, mut stubs)) = created(create);
     let mut lockstep = Lockstep::new(&mut robot, &*hardware);
-    let mut horizons = |lockstep: &mut Lockstep<'_, _>, end| {
+    let horizons = |lockstep: &mut Lockstep<'_, _>, end| {
         let mut horizons = Vec::new();
         let note = |instance: &dyn Instance| {
             if instance.description().name == "VisionTop" {
@@ -264,7 +264,7 @@ fn who_reads_stubs_in_order_of_time_waits_for_what_they_announce() {
     let (hardware, (mut robot, mut stubs)) = created(zoo_control_runtime::runtime::create);
     let mut lockstep = Lockstep::new(&mut robot, &*hardware);
     // Whistles that are certain to be heard in their turn, and the loudness of those that are not.
-    let mut heard = |lockstep: &mut Lockstep<'_, _>, end| {
+    let heard = |lockstep: &mut Lockstep<'_, _>, end| {
         let mut heard = Vec::new();
         let note = |instance: &dyn Instance| {
             let report = &outputs(instance)["report"];
