@@ -307,7 +307,10 @@ impl Checker<'_> {
                 let (_, range) = fields.find(|(access, _)| {
                     access.segments.len() <= path.len()
                         && access.segments.iter().zip(path).all(|(segment, name)| {
-                            segment.name == *name || segment.instance && instances.contains(name)
+                            match segment.instance {
+                                true => instances.contains(name),
+                                false => segment.name == *name,
+                            }
                         })
                 })?;
                 Some((node.file.clone(), range.clone()))

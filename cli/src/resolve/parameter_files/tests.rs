@@ -80,6 +80,21 @@ fn a_value_that_no_file_gives_is_named_with_its_reader() {
 }
 
 #[test]
+fn a_forgotten_mark_of_the_instance_is_shown_where_it_was_forgotten() {
+    let fields =
+        "a: Parameter<f32, \"$cycler_instance.a\">,\nb: Parameter<f32, \"cycler_instance.a\">,";
+    robot(fields, "")
+        .file("parameters/default.toml", "control.a = 1\n")
+        .expect(
+            "missing-parameter",
+            &[
+                "no file gives the parameter `cycler_instance.a`",
+                "a.rs:16:4",
+            ],
+        );
+}
+
+#[test]
 fn a_value_of_another_location_does_not_count() {
     let second = "[[target]]\nname = \"sim\"\nhardware = \"hardware::Hardware\"\n";
     robot("a: Parameter<f32, \"a\">,", &format!("{NAO}{second}"))
