@@ -1,0 +1,1 @@
+unsafe externunsafe extern">, "C"C">, 

@@ -1,0 +1,1 @@
+ mod b"g�ait﻿mod b b"g

@@ -1,0 +1,1 @@
+ -> Result< b"gb"gaitVec -> b"gbb"gb"gaitVec

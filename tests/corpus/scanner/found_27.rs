@@ -1,0 +1,1 @@
+use framework::{Renodes::legstamp};// trait Result, Timestamp}traituse framework:? Result::{ Timestamp}traiTimesMainOutputs};name

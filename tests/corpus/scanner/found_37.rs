@@ -1,0 +1,1 @@
+ trait	& [u8	& use crate::1 << 70]

@@ -1,0 +1,1 @@
+ mait. gait. b"ge
