@@ -1,6 +1,11 @@
 //! What `check` says of values in parameter files, against what the robot's program says of them: for every type that
 //! hulkgen can see, and every value of a long list.
 
+#![expect(
+    clippy::disallowed_types,
+    reason = "the type of a parameter may be a hash map"
+)]
+
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::net::{IpAddr, SocketAddrV4};
 use std::num::{NonZero, NonZeroI16, NonZeroU8};

@@ -15,10 +15,13 @@ thread_local! {
     static CLEARED: Cell<u64> = const { Cell::new(0) };
 }
 
-/// Files by their path, with the text that they had.
+/// A file, with the text that it had.
+type File = (Arc<str>, Rc<syn::File>);
+
+/// Files by their path.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Parsed {
-    files: RefCell<BTreeMap<Utf8PathBuf, (Arc<str>, Rc<syn::File>)>>,
+    files: RefCell<BTreeMap<Utf8PathBuf, File>>,
     /// When they were parsed.
     cleared: Cell<u64>,
 }
