@@ -29,7 +29,7 @@ mod unlisted;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use camino::Utf8Path;
+use camino::{Utf8Component, Utf8Path};
 use proc_macro2::Span;
 use syn::{Attribute, Expr, ExprLit, Lit, Meta};
 
@@ -119,15 +119,25 @@ fn report_broken_packages(
     }
 }
 
-/// Whether this is the Cargo.toml of the robot's crate or of a partial robot's, which may be missing or say anything.
+/// Whether this is the Cargo.toml of the robot's crate, of a partial robot's or of a neighbour's in the same workspace,
+/// which may be missing or say anything.
 fn is_generated(workspace: &Workspace, manifest: &Manifest, file: &Utf8Path) -> bool {
     let generated = &manifest.robot.generated;
     let is_named_so = || file.as_str().starts_with(&format!("{generated}-"));
     file.starts_with(generated)
         || match workspace.read(file) {
             Ok(text) => says_generated(&text),
-            Err(error) => error.missing && is_named_so(),
+            Err(error) => error.missing && (is_named_so() || is_of_a_neighbour(workspace, file)),
         }
+}
+
+/// Whether a robot other than this one may write the file.
+pub(crate) fn is_of_a_neighbour(workspace: &Workspace, file: &Utf8Path) -> bool {
+    let mut above = file.ancestors().skip(2);
+    above.any(|folder| {
+        folder.components().next() == Some(Utf8Component::ParentDir)
+            && workspace.is_file(&folder.join("hulk.toml"))
+    })
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use camino::{Utf8Path, Utf8PathBuf};
 use super::Workspace;
 
 /// The folders that a pattern names, relative to `root`, to which `way` leads; a pattern without `*` and `?` names one,
-/// whether it exists or not.
+/// whether it exists or not, another only packages, as cargo has it.
 pub(super) fn expand(workspace: &Workspace, way: &Utf8Path, pattern: &str) -> Vec<Utf8PathBuf> {
     let mut folders = vec![Utf8PathBuf::new()];
     for part in pattern.split('/').filter(|part| !matches!(*part, "" | ".")) {
@@ -13,6 +13,9 @@ pub(super) fn expand(workspace: &Workspace, way: &Utf8Path, pattern: &str) -> Ve
             .into_iter()
             .flat_map(|folder| step(workspace, way, &folder, part))
             .collect();
+    }
+    if pattern.contains(['*', '?']) {
+        folders.retain(|folder| workspace.is_file(&way.join(folder).join("Cargo.toml")));
     }
     folders
 }

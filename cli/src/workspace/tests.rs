@@ -1,5 +1,7 @@
 //! Workspaces on disk and in memory.
 
+use std::rc::Rc;
+
 use camino::Utf8Path;
 
 use super::{Changes, Workspace, glob};
@@ -149,4 +151,66 @@ fn changes_are_seen_before_they_are_written() {
     assert_eq!(after.files_below(Utf8Path::new("new")), ["new/one"]);
     assert_eq!(read(&workspace, "changed").as_deref(), Some("before"));
     assert!(!root.join("new").exists());
+}
+
+#[test]
+fn a_file_is_parsed_again_where_its_text_or_the_source_map_is_another() {
+    let file = Utf8Path::new("a.rs");
+    let workspace = Workspace::in_memory([("a.rs", "struct A;")]);
+    workspace.begin_parsing();
+    let text = workspace.read(file).expect("it is there");
+    let syntax = Rc::new(syn::parse_file(&text).expect("it is Rust"));
+    workspace.keep_parsed(file, &text, &syntax);
+    let after = workspace.after(&Changes::from([("b.rs".into(), Some(String::new()))]));
+    after.begin_parsing();
+    let kept = after.parsed(file, &text).expect("it was not changed");
+    assert!(Rc::ptr_eq(&kept, &syntax));
+    assert!(after.parsed(file, "struct B;").is_none());
+    let other = Workspace::in_memory([("a.rs", "struct A;")]);
+    other.begin_parsing();
+    assert!(
+        after.parsed(file, &text).is_none(),
+        "its spans lead nowhere"
+    );
+    after.begin_parsing();
+    assert!(after.parsed(file, &text).is_none());
+}
+
+#[test]
+fn a_pattern_names_packages_and_what_a_neighbour_will_write_may_be_missing() {
+    let folder = tempfile::tempdir().unwrap();
+    let root = Utf8Path::from_path(folder.path()).unwrap();
+    let write = |file: &str, text: &str| {
+        let file = root.join(file);
+        std::fs::create_dir_all(file.parent().unwrap()).unwrap();
+        std::fs::write(file, text).unwrap();
+    };
+    write(
+        "Cargo.toml",
+        "[workspace]\nmembers = [\"robots/*/nodes\", \"robots/one/generated\", \"robots/lost\"]",
+    );
+    for robot in ["one", "two"] {
+        write(&format!("robots/{robot}/hulk.toml"), "");
+    }
+    write("robots/one/nodes/Cargo.toml", "[package]\nname = \"one\"");
+    write("robots/one/nodes/src/lib.rs", "");
+    let workspace = Workspace::at_root(&root.join("robots/two"));
+    let members = workspace.members();
+    let libraries: Vec<_> = members
+        .libraries()
+        .map(|one| one.library.as_str())
+        .collect();
+    assert_eq!(libraries, ["one"]);
+    let missing = members.broken.iter().map(|broken| {
+        let is_excused = crate::scan::is_of_a_neighbour(&workspace, &broken.file);
+        (broken.file.as_str(), is_excused)
+    });
+    let missing: Vec<_> = missing.collect();
+    assert_eq!(
+        missing,
+        [
+            ("../one/generated/Cargo.toml", true),
+            ("../lost/Cargo.toml", false)
+        ]
+    );
 }
