@@ -1,19 +1,23 @@
 //! The slots that one cycler instance writes in place and others read in place.
 //!
-//! A slot is one database. One atomic word per slot says which cycle it holds, how many consumers
-//! have it queued and how many parties hold it. Whoever wants a slot changes that word; nothing
-//! else decides about access, and nobody ever waits for anybody.
+//! A slot is one database. One atomic word per slot says which cycle it holds, which consumers have
+//! it queued and how many readers hold it. One number per consumer says up to which cycle it has
+//! released what it took. Together they decide about access, and nobody ever waits for anybody.
 //!
 //! ```text
-//!              claim (held == 0, not the newest)            publish
-//!   published ----------------------------------> writing ----------> published, queued for all
-//!   published -- a reader holds the newest (held + 1) ----> held -- lets go (held - 1)
-//!   queued    -- a consumer takes it (queued - 1, held + 1) -> held -- lets go (held - 1)
+//!              claim (held == 0, released, not the newest)   publish
+//!   published -----------------------------------> writing ----------> published, queued for all
+//!   published -- a reader holds the newest (held + 1) -> held  -- lets go (held - 1)
+//!   queued    -- a consumer takes it (its bit is cleared) -> taken -- released passes its number
 //! ```
+//!
+//! A consumer takes in order and releases in order, so one number is enough, and letting go costs
+//! it a store where a reader needs a read-modify-write.
 //!
 //! # Invariants
 //!
-//! 1. A slot that somebody holds is never claimed, so what is held does not change.
+//! 1. A slot that somebody holds is never claimed, so what is held does not change. A consumer holds
+//!    what is not queued for it and what it has not released.
 //! 2. The newest slot is never claimed, so there always is one to read.
 //! 3. A hold names the sequence number it wants: nobody gets a slot that was written again.
 //! 4. A reader holds one slot, a consumer at most its window.
@@ -40,13 +44,17 @@
 //!
 //! # Orderings
 //!
-//! The word alone protects the value, as a lock would:
+//! The word and the consumers' numbers protect the value, as a lock would:
 //!
 //! - *publish* stores the word with `Release`, *hold* and *take* change it with `Acquire`: who
 //!   holds a slot sees everything that was written into it. Changes by other parties in between
 //!   are read-modify-writes, which continue the release sequence.
-//! - *let go* changes the word with `Release`, *claim* with `Acquire`: what holders read happens
-//!   before the writer writes there again, through the same kind of release sequence.
+//! - *let go* changes the word with `Release`, *claim* with `Acquire`: what readers read happens
+//!   before the writer writes there again, through the same kind of release sequence. A consumer
+//!   stores its number with `Release`, and *claim* loads it with `Acquire`.
+//! - *claim* changes the word only as long as it is what was looked at: a consumer that takes and a
+//!   reader that holds in between change it. Where there are no readers and nobody has the slot
+//!   queued, the writer alone changes the word, and a store is enough.
 //!
 //! The other atomics only say where to look, and what they promise must be there:
 //!

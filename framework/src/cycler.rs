@@ -99,32 +99,66 @@ pub struct Slots<'a, S> {
 /// The outputs that stay with the instance: of this cycle, and of the last finished one.
 #[derive(Clone, Debug, Default)]
 pub struct Swap<T> {
-    current: T,
-    previous: T,
+    values: [T; 2],
+    /// Which of the two this cycle writes; they change places without being moved.
+    second_is_current: bool,
 }
 
 impl<T> Swap<T> {
     /// What this cycle writes; before it does, what the last but one left.
     #[inline]
     pub fn current(&self) -> &T {
-        &self.current
+        let [first, second] = &self.values;
+        if self.second_is_current {
+            second
+        } else {
+            first
+        }
     }
 
     /// What the last finished cycle wrote.
     #[inline]
     pub fn previous(&self) -> &T {
-        &self.previous
+        let [first, second] = &self.values;
+        if self.second_is_current {
+            first
+        } else {
+            second
+        }
     }
 
     /// Both at once, to read one while writing the other.
     #[inline]
     pub fn both(&mut self) -> (&mut T, &T) {
-        (&mut self.current, &self.previous)
+        let [first, second] = &mut self.values;
+        if self.second_is_current {
+            (second, first)
+        } else {
+            (first, second)
+        }
     }
 
     /// Ends a cycle: what it wrote is now what the last finished one wrote.
     #[inline]
     pub fn swap(&mut self) {
-        std::mem::swap(&mut self.current, &mut self.previous);
+        self.second_is_current = !self.second_is_current;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Swap;
+
+    #[test]
+    fn what_a_cycle_wrote_is_previous_in_the_next() {
+        let mut outputs = Swap::<u32>::default();
+        for cycle in 1..5 {
+            let (current, previous) = outputs.both();
+            assert_eq!(*previous, cycle - 1);
+            *current = cycle;
+            assert_eq!(*outputs.current(), cycle);
+            outputs.swap();
+            assert_eq!(*outputs.previous(), cycle);
+        }
     }
 }

@@ -1,9 +1,10 @@
-//! A node with what keeps its failures to itself: errors and panics are caught, counted and named here.
+//! A node with what keeps its failures to itself: errors and panics are counted and named here.
 
 mod panics;
 
+use std::hint::cold_path;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -12,7 +13,7 @@ use crate::cycler::Cycle;
 use crate::error::{Error, Result};
 use crate::report::{NodeReport, tell};
 use crate::time::Timestamp;
-use crate::timing::{Histogram, Tally};
+use crate::timing::{self, Histogram, Tally};
 
 /// How long `hold` repeats the last good outputs.
 pub const LONGEST_HOLD: Duration = Duration::from_millis(100);
@@ -51,21 +52,28 @@ pub trait State {
 }
 
 /// A node of one instance.
+///
+/// What every cycle touches lies beside the node's state; the ledger is opened when something happens.
 #[derive(Debug)]
 pub struct Guarded<N> {
-    name: &'static str,
-    on_failure: OnFailure,
     node: N,
     /// It panicked: its state cannot be trusted until it is created anew.
     broken: bool,
+    calls: u64,
+    ledger: Box<Ledger>,
+}
+
+/// Who the node is, and what happened to it.
+#[derive(Debug)]
+struct Ledger {
+    name: &'static str,
+    on_failure: OnFailure,
     /// Why it could not be created anew.
     not_renewed: Option<String>,
-    /// Timestamp of the last cycle in which it did not fail.
+    /// Timestamp of the last cycle in which it did not fail; kept for `hold` alone.
     good_at: Option<Timestamp>,
-    calls: u64,
     skipped: u64,
     failures: u64,
-    histogram: Histogram,
 }
 
 impl<N> Guarded<N> {
@@ -73,62 +81,84 @@ impl<N> Guarded<N> {
     pub fn new(name: &'static str, on_failure: OnFailure, node: N) -> Self {
         panics::install_hook();
         Self {
-            name,
-            on_failure,
             node,
             broken: false,
-            not_renewed: None,
-            good_at: None,
             calls: 0,
-            skipped: 0,
-            failures: 0,
-            histogram: Histogram::default(),
+            ledger: Box::new(Ledger {
+                name,
+                on_failure,
+                not_renewed: None,
+                good_at: None,
+                skipped: 0,
+                failures: 0,
+            }),
         }
     }
 
-    /// Calls the node. Its error or panic becomes an error with its name and policy.
-    #[inline]
+    /// Calls the node. Its error becomes one with its name and policy; its panic becomes that where the instance catches it,
+    /// so that a node which does not panic pays nothing for it.
+    // Always, as are the functions of the nodes: only where the compiler sees that an error is unlikely does it take the nodes
+    // that follow for likely, and go on inlining.
+    #[inline(always)]
     pub fn call<O, E: Into<Error>>(
         &mut self,
-        cycle: Cycle,
+        cycle: &Cycle,
         call: impl FnOnce(&mut N) -> Result<O, E>,
     ) -> Result<O> {
         self.calls += 1;
         if self.broken {
-            return Err(self.refused(cycle));
+            cold_path();
+            let error = self.ledger.refused();
+            return Err(self.ledger.failed(error, cycle.in_setup));
         }
-        let stopwatch = cycle.timed.then(Stopwatch::start);
-        let inside = panics::enter(self.name);
-        let node = &mut self.node;
+        if cycle.timed {
+            timing::start_lap(self.ledger.name);
+        }
+        let unwinding = Unwinding {
+            broken: &mut self.broken,
+            ledger: &mut self.ledger,
+        };
+        let returned = call(&mut self.node);
+        // Only its unwinding says anything.
+        std::mem::forget(unwinding);
+        match returned {
+            Ok(outputs) => Ok(outputs),
+            Err(error) => {
+                cold_path();
+                Err(self.ledger.failed(error.into(), cycle.in_setup))
+            }
+        }
+    }
+
+    /// As [`Guarded::call`], but a panic is an error here already.
+    #[inline]
+    fn call_and_catch<O, E: Into<Error>>(
+        &mut self,
+        cycle: &Cycle,
+        call: impl FnOnce(&mut N) -> Result<O, E>,
+    ) -> Result<O> {
+        let inside = panics::enter(self.ledger.name);
         // Through a place of its own: what a closure returns would be copied piece by piece.
         let mut returned = None;
-        let caught = catch_unwind(AssertUnwindSafe(|| returned = Some(call(node))));
+        let caught = catch_unwind(AssertUnwindSafe(|| returned = Some(self.call(cycle, call))));
         drop(inside);
-        if let Some(stopwatch) = stopwatch {
-            let took = stopwatch.elapsed();
-            self.histogram.record(took);
-            Tally::add_node(self.name, took);
-        }
-        match returned {
-            Some(Ok(outputs)) => {
-                self.good_at = Some(cycle.time.start);
-                Ok(outputs)
-            }
-            Some(Err(error)) => Err(self.failed(error.into(), cycle)),
-            None => Err(self.panicked(caught, cycle)),
-        }
+        returned.unwrap_or_else(|| {
+            let error = panics::of_caught(caught);
+            self.ledger.tell(&error);
+            Err(error)
+        })
     }
 
     /// As [`Guarded::call`], but `None` if the node failed: its outputs are their defaults in this cycle.
     #[inline]
     pub fn call_or_skip<O, E: Into<Error>>(
         &mut self,
-        cycle: Cycle,
+        cycle: &Cycle,
         call: impl FnOnce(&mut N) -> Result<O, E>,
     ) -> Result<Option<O>> {
-        match self.call(cycle, call) {
+        match self.call_and_catch(cycle, call) {
             Ok(outputs) => Ok(Some(outputs)),
-            Err(error) if ends_cycle(&error, cycle) => Err(error),
+            Err(error) if ends_cycle(&error, cycle.in_setup) => Err(error),
             Err(_) => Ok(None),
         }
     }
@@ -137,13 +167,16 @@ impl<N> Guarded<N> {
     #[inline]
     pub fn call_or_hold<O, E: Into<Error>>(
         &mut self,
-        cycle: Cycle,
+        cycle: &Cycle,
         call: impl FnOnce(&mut N) -> Result<O, E>,
     ) -> Result<Held<O>> {
-        match self.call(cycle, call) {
-            Ok(outputs) => Ok(Held::Written(outputs)),
-            Err(error) if ends_cycle(&error, cycle) => Err(error),
-            Err(_) => Ok(match self.good_at {
+        match self.call_and_catch(cycle, call) {
+            Ok(outputs) => {
+                self.ledger.good_at = Some(cycle.time.start);
+                Ok(Held::Written(outputs))
+            }
+            Err(error) if ends_cycle(&error, cycle.in_setup) => Err(error),
+            Err(_) => Ok(match self.ledger.good_at {
                 Some(good_at) if cycle.time.start - good_at <= LONGEST_HOLD => Held::Hold,
                 _ => Held::Skip,
             }),
@@ -153,7 +186,7 @@ impl<N> Guarded<N> {
     /// Counts that the node is not called because a required input is absent.
     #[inline]
     pub fn skip(&mut self) {
-        self.skipped += 1;
+        self.ledger.skipped += 1;
         Tally::change(|tally| tally.skipped += 1);
     }
 
@@ -173,7 +206,7 @@ impl<N> Guarded<N> {
     pub fn renew(&mut self, node: N) {
         self.node = node;
         self.broken = false;
-        self.not_renewed = None;
+        self.ledger.not_renewed = None;
     }
 
     /// The node, for its `restore` in a replay.
@@ -181,66 +214,95 @@ impl<N> Guarded<N> {
         &mut self.node
     }
 
-    /// What the node did so far.
+    /// What the node did so far; how long it took, the instance knows.
     pub fn report(&self) -> NodeReport {
         NodeReport {
-            node: self.name,
+            node: self.ledger.name,
             calls: self.calls,
-            skipped: self.skipped,
-            failures: self.failures,
-            histogram: self.histogram.clone(),
+            skipped: self.ledger.skipped,
+            failures: self.ledger.failures,
+            histogram: Histogram::default(),
         }
     }
 
     #[cold]
     fn create_anew(&mut self, create: impl FnOnce() -> Result<N>) -> Result<()> {
-        match contain(self.name, create) {
+        let Ledger {
+            name, on_failure, ..
+        } = *self.ledger;
+        match contain(name, create) {
             Ok(node) => {
                 self.renew(node);
                 Ok(())
             }
             Err(error) => {
-                match self.on_failure {
+                match on_failure {
                     OnFailure::Skip | OnFailure::Hold if !error.is_stopped() => {
                         // The next failure names the node itself.
-                        self.not_renewed = Some(Error::from(error.into_boxed()).to_string());
+                        let reason = Error::from(error.into_boxed()).to_string();
+                        self.ledger.not_renewed = Some(reason);
                         Ok(())
                     }
-                    on_failure => Err(error.of_node(self.name, Some(on_failure))),
+                    on_failure => Err(error.of_node(name, Some(on_failure))),
                 }
             }
         }
     }
+}
 
+impl Ledger {
     #[cold]
-    fn panicked(&mut self, caught: std::thread::Result<()>, cycle: Cycle) -> Error {
-        self.broken = true;
-        self.failed(panics::of_caught(caught), cycle)
-    }
-
-    /// The failure of a call that cannot be made.
-    #[cold]
-    fn refused(&mut self, cycle: Cycle) -> Error {
-        let message = match &self.not_renewed {
-            Some(reason) => format!("it panicked and could not be created anew: {reason}"),
-            None => "it panicked and was not created anew".to_owned(),
-        };
-        self.failed(Error::new(message), cycle)
-    }
-
-    #[cold]
-    fn failed(&mut self, error: Error, cycle: Cycle) -> Error {
+    #[inline(never)]
+    fn failed(&mut self, error: Error, in_setup: bool) -> Error {
         let error = error.of_node(self.name, Some(self.on_failure));
-        if !ends_cycle(&error, cycle) {
-            self.failures += 1;
-            Tally::change(|tally| tally.failures += 1);
-            // Every failure is counted; a node that fails in every cycle must not flood the terminal.
-            if self.failures.is_power_of_two() {
-                let failures = self.failures;
-                tell(format_args!("{error} (failure {failures} of this node)"));
-            }
+        if !ends_cycle(&error, in_setup) {
+            self.count_failure();
+            self.tell(&error);
         }
         error
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn unwind(&mut self) {
+        self.count_failure();
+        panics::unwind_from(self.name, self.on_failure);
+    }
+
+    /// Why a call cannot be made.
+    fn refused(&self) -> Error {
+        Error::new(match &self.not_renewed {
+            Some(reason) => format!("it panicked and could not be created anew: {reason}"),
+            None => "it panicked and was not created anew".to_owned(),
+        })
+    }
+
+    fn count_failure(&mut self) {
+        self.failures += 1;
+        Tally::change(|tally| tally.failures += 1);
+    }
+
+    /// Every failure is counted; a node that fails in every cycle must not flood the terminal.
+    fn tell(&self, error: &Error) {
+        if self.failures.is_power_of_two() {
+            let failures = self.failures;
+            tell(format_args!("{error} (failure {failures} of this node)"));
+        }
+    }
+}
+
+/// While a node is called: its panic unwinds through here, whoever catches it.
+struct Unwinding<'call> {
+    broken: &'call mut bool,
+    ledger: &'call mut Ledger,
+}
+
+impl Drop for Unwinding<'_> {
+    // Inlined, so that the references need not lie in memory while the node runs.
+    #[inline(always)]
+    fn drop(&mut self) {
+        *self.broken = true;
+        self.ledger.unwind();
     }
 }
 
@@ -266,39 +328,21 @@ impl<T: Serialize + DeserializeOwned> State for T {
     }
 }
 
-/// Runs framework or generated code; a panic in it becomes an error.
+/// Runs framework or generated code; a panic in it becomes an error, that of the node it comes from.
 #[inline]
 pub(crate) fn contain<T>(what: &'static str, run: impl FnOnce() -> Result<T>) -> Result<T> {
     let inside = panics::enter(what);
-    let mut returned = None;
-    let caught = catch_unwind(AssertUnwindSafe(|| returned = Some(run())));
+    let caught = catch_unwind(AssertUnwindSafe(run));
     drop(inside);
-    returned.unwrap_or_else(|| Err(panics::of_caught(caught)))
+    match caught {
+        Ok(returned) => returned,
+        Err(payload) => Err(panics::of_caught(Err(payload))),
+    }
 }
 
 /// Whether the error is no failure of the node but says that this cycle is not to be.
 ///
 /// Only setup nodes can find that nothing came: once a cycle has begun, it is about something.
-fn ends_cycle(error: &Error, cycle: Cycle) -> bool {
-    error.is_stopped() || (cycle.in_setup && error.is_no_event())
-}
-
-/// Measures a node without what it is blocked inside the hardware interface.
-struct Stopwatch {
-    started: Instant,
-    blocked_before: Duration,
-}
-
-impl Stopwatch {
-    fn start() -> Self {
-        Self {
-            started: Instant::now(),
-            blocked_before: Tally::peek().blocked,
-        }
-    }
-
-    fn elapsed(&self) -> Duration {
-        let blocked = Tally::peek().blocked - self.blocked_before;
-        self.started.elapsed().saturating_sub(blocked)
-    }
+fn ends_cycle(error: &Error, in_setup: bool) -> bool {
+    error.is_stopped() || (in_setup && error.is_no_event())
 }

@@ -27,7 +27,7 @@ use crate::parameters::{Layers, Parameters};
 use crate::report::{RobotReport, tell};
 use crate::robot::{Robot, Start};
 use crate::stop::Stop;
-use crate::timing;
+use crate::timing::{self, Timing};
 use options::{Command, Format, Options};
 use signals::Signals;
 use status::Supervisor;
@@ -125,7 +125,10 @@ where
     H: Hardware,
     P: DeserializeOwned,
 {
-    timing::time_every_cycle(options.format == Format::Json);
+    timing::set(match options.format {
+        Format::Json => Timing::Complete,
+        Format::Text => Timing::Sampled,
+    });
     let clock = Clock::wall();
     // The identities that choose layers come from the hardware, whose own table therefore comes first.
     let mut layers = layers(target, options);

@@ -4,21 +4,48 @@
 //! nodes need not know which instance they work for.
 
 mod histogram;
+mod ticks;
 
-use std::cell::Cell;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::cell::{Cell, RefCell};
+use std::sync::atomic::{AtomicU8, Ordering};
 use std::time::{Duration, Instant};
 
 pub use histogram::Histogram;
+pub(crate) use ticks::Ticks;
 
 /// Every how many cycles is timed while nobody listens.
-pub const SAMPLED_EVERY: u64 = 16;
+const SAMPLED_EVERY: u64 = 16;
 
-/// Whether somebody listens: then every cycle is timed.
-static COMPLETE: AtomicBool = AtomicBool::new(false);
+/// Which cycles are timed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[repr(u8)]
+pub enum Timing {
+    /// None; a deadline is watched all the same.
+    Off,
+    /// Every 16th: what it costs is hardly felt.
+    #[default]
+    Sampled,
+    /// Every one, for whoever listens.
+    Complete,
+}
+
+/// A [`Timing`].
+static TIMING: AtomicU8 = AtomicU8::new(Timing::Sampled as u8);
 
 thread_local! {
     static TALLY: Cell<Tally> = const { Cell::new(Tally::NOTHING) };
+    /// Whether there is anything in the tally: mostly there is nothing to take.
+    static TALLIED: Cell<bool> = const { Cell::new(false) };
+    static LAPS: RefCell<Vec<Lap>> = const { RefCell::new(Vec::new()) };
+}
+
+/// Where a node begins, in a cycle that is timed; it ends where the next one begins.
+#[derive(Clone, Copy, Debug)]
+struct Lap {
+    node: &'static str,
+    begins: Ticks,
+    /// How long the thread had been blocked by then.
+    blocked: Duration,
 }
 
 /// What one thread spent where since the tally was last taken.
@@ -26,10 +53,6 @@ thread_local! {
 pub struct Tally {
     /// Blocked inside the hardware interface.
     pub blocked: Duration,
-    /// In timed nodes, without what they were blocked.
-    pub in_nodes: Duration,
-    /// The node that took longest, if nodes were timed.
-    pub slowest: Option<(&'static str, Duration)>,
     /// Calls of nodes that failed.
     pub failures: u64,
     /// Nodes that were skipped because a required input was absent.
@@ -49,22 +72,56 @@ pub fn blocking<T>(wait: impl FnOnce() -> T) -> T {
     result
 }
 
-/// Times every cycle from now on (`true`), or a sample again. Holds for all robots of the process.
-pub fn time_every_cycle(complete: bool) {
-    COMPLETE.store(complete, Ordering::Relaxed);
+/// Times these cycles from now on, of all robots of the process.
+pub fn set(timing: Timing) {
+    TIMING.store(timing as u8, Ordering::Relaxed);
 }
 
 /// Whether the cycle with this number is timed.
 #[inline]
 pub(crate) fn is_timed(cycle: u64) -> bool {
-    cycle.is_multiple_of(SAMPLED_EVERY) || COMPLETE.load(Ordering::Relaxed)
+    const OFF: u8 = Timing::Off as u8;
+    const SAMPLED: u8 = Timing::Sampled as u8;
+    match TIMING.load(Ordering::Relaxed) {
+        OFF => false,
+        SAMPLED => cycle.is_multiple_of(SAMPLED_EVERY),
+        _ => true,
+    }
+}
+
+/// A node begins, and the one before ends: one look at the counter.
+#[cold]
+#[inline(never)]
+pub(crate) fn start_lap(node: &'static str) {
+    let lap = Lap {
+        node,
+        begins: Ticks::now(),
+        blocked: Tally::peek().blocked,
+    };
+    LAPS.with_borrow_mut(|laps| laps.push(lap));
+}
+
+/// Ends the last lap, and tells how long each node took, without what the thread was blocked; the last one first.
+pub(crate) fn end_laps(mut tell: impl FnMut(&'static str, Duration)) {
+    let (mut ends, mut blocked) = (Ticks::now(), Tally::peek().blocked);
+    LAPS.with_borrow_mut(|laps| {
+        for lap in laps.iter().rev() {
+            let blocked_in_lap = blocked.saturating_sub(lap.blocked);
+            tell(lap.node, (ends - lap.begins).saturating_sub(blocked_in_lap));
+            (ends, blocked) = (lap.begins, lap.blocked);
+        }
+        laps.clear();
+    });
+}
+
+/// Forgets what a cycle left that was given up.
+pub(crate) fn forget_laps() {
+    LAPS.with_borrow_mut(Vec::clear);
 }
 
 impl Tally {
     const NOTHING: Self = Self {
         blocked: Duration::ZERO,
-        in_nodes: Duration::ZERO,
-        slowest: None,
         failures: 0,
         skipped: 0,
     };
@@ -72,7 +129,11 @@ impl Tally {
     /// Everything since the tally was last taken on this thread.
     #[inline]
     pub(crate) fn take() -> Self {
-        TALLY.replace(Self::NOTHING)
+        if TALLIED.replace(false) {
+            TALLY.replace(Self::NOTHING)
+        } else {
+            Self::NOTHING
+        }
     }
 
     /// What there is so far on this thread.
@@ -86,16 +147,6 @@ impl Tally {
         let mut tally = TALLY.get();
         change(&mut tally);
         TALLY.set(tally);
-    }
-
-    /// Adds one timed call of a node.
-    #[inline]
-    pub(crate) fn add_node(node: &'static str, took: Duration) {
-        Self::change(|tally| {
-            tally.in_nodes += took;
-            if tally.slowest.is_none_or(|(_, longest)| took > longest) {
-                tally.slowest = Some((node, took));
-            }
-        });
+        TALLIED.set(true);
     }
 }

@@ -16,7 +16,15 @@ pub const PRELUDE: [&str; 26] = [
 ];
 
 /// Names that every file of nodes defines itself.
-const FUNCTIONS_OF_NODES: [&str; 6] = ["create", "cycle", "inject", "new", "restore", "setup"];
+const FUNCTIONS_OF_NODES: [&str; 7] = [
+    "create",
+    "cycle",
+    "cycle_closely",
+    "inject",
+    "new",
+    "restore",
+    "setup",
+];
 
 /// `VisionTop` becomes `VISION_TOP`.
 pub fn constant_case(name: &str) -> String {

@@ -185,6 +185,7 @@ fn quote_frame_function(cycler: &CyclerModel) -> TokenStream {
     let about = doc("The nodes, and everything they may touch in this cycle.");
     quote! {
         #about
+        #[inline(always)]
         fn frame<'a>(&'a mut self, #slots cycle: ::framework::Cycle) -> (&'a mut #nodes, #frame #arguments) {
             #parameters
             #split

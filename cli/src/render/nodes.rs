@@ -38,6 +38,7 @@ pub(super) fn render_nodes(cycler: &CyclerModel) -> String {
             "cycle",
             "Nodes: each call reads only what a call above it, or another cycler, wrote.",
         ),
+        quote_closely(cycler),
         quote_restore(cycler),
     ];
     let steps = by_name.iter().map(|node| quote_step(cycler, node));
@@ -86,9 +87,27 @@ fn quote_calls(cycler: &CyclerModel, calls: &Calls, name: &str, about: &str) -> 
     let nodes = calls.nodes.iter().map(|node| ident(node));
     quote! {
         #about
+        #[inline(always)]
         pub fn #name #parameters(&mut self, frame: &mut #frame) -> ::framework::Result<()> {
             #(self.#nodes(frame)?;)*
             Ok(())
+        }
+    }
+}
+
+/// The same calls for a cycle that is timed or injected: compiled apart, so that all others need not ask at every node.
+fn quote_closely(cycler: &CyclerModel) -> TokenStream {
+    if cycler.cycle.nodes.is_empty() {
+        return quote!();
+    }
+    let about = doc("As `cycle`, when it is timed or clients replace outputs.");
+    let (parameters, frame) = quote_frame(cycler, &cycler.cycle.hardware);
+    quote! {
+        #about
+        #[cold]
+        #[inline(never)]
+        pub fn cycle_closely #parameters(&mut self, frame: &mut #frame) -> ::framework::Result<()> {
+            self.cycle(frame)
         }
     }
 }

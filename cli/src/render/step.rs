@@ -11,6 +11,8 @@ use crate::model::frame::Hardware;
 use crate::model::node::{Failure, NodeModel, Required, RequiredSource, StepOutput};
 
 /// The function that a cycle calls for a node.
+///
+/// Inlined, so that what one node wrote and the next one reads can stay in registers.
 pub(super) fn quote_step(cycler: &CyclerModel, node: &NodeModel) -> TokenStream {
     let step = &node.step;
     let (about, name) = (doc(&step.flow), ident(&node.name));
@@ -51,6 +53,7 @@ pub(super) fn quote_step(cycler: &CyclerModel, node: &NodeModel) -> TokenStream 
     let injections = step.injects.then(|| quote_injections(&step.outputs));
     quote! {
         #about
+        #[inline(always)]
         fn #name #parameters(&mut self, frame: &mut #frame) -> ::framework::Result<()> {
             #(#clear)*
             #renew
@@ -158,7 +161,7 @@ fn quote_call(node: &NodeModel) -> TokenStream {
     let context = quote_context(node, "CycleContext", "frame", &step.context);
     let call = |method: &str| {
         let method = ident(method);
-        quote!(self.#name.#method(frame.cycle, |node| node.cycle(context))?)
+        quote!(self.#name.#method(&frame.cycle, |node| node.cycle(context))?)
     };
     let assign: Vec<TokenStream> = quote_assignments(node);
     let call = match step.failure {

@@ -2,9 +2,9 @@
 
 use super::queue::Queue;
 use super::reader::Reader;
-use super::slots::Slots;
+use super::slots::{Parties, Slots};
 use super::sync::Arc;
-use super::word::PARTIES;
+use super::word::{CONSUMERS, READERS};
 use super::writer::Writer;
 
 /// Creates the slots of one instance for `R` readers of the newest cycle and one queue per window.
@@ -32,17 +32,19 @@ pub(super) fn starting_at<T, const R: usize, const C: usize>(
     windows: [usize; C],
 ) -> (Writer<T>, [Reader<T>; R], [Queue<T>; C]) {
     const {
-        assert!(
-            R + C <= PARTIES,
-            "the word of a slot counts no more readers and consumers"
-        )
+        assert!(R <= READERS, "the word of a slot counts no more readers");
+        assert!(C <= CONSUMERS, "the word of a slot names no more consumers")
     };
     let windows = windows.map(|window| window.max(1));
     let count = 2 + R + windows.iter().sum::<usize>();
-    let (slots, pen) = Slots::new(initial, count, first, C as u16);
+    let (slots, pen) = Slots::new(initial, count, first, Parties::of::<R, C>());
     let slots = Arc::new(slots);
     let readers = std::array::from_fn(|_| Reader::new(slots.clone()));
-    let queues = windows.map(|window| Queue::new(slots.clone(), first.wrapping_add(1), window));
+    let mut consumer = 0..;
+    let queues = windows.map(|window| {
+        let consumer = consumer.next().unwrap_or_default();
+        Queue::new(slots.clone(), consumer, first.wrapping_add(1), window)
+    });
     (Writer::new(slots, pen), readers, queues)
 }
 

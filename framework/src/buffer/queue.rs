@@ -2,24 +2,27 @@
 
 use std::collections::VecDeque;
 
-use super::slots::{Entry, Held, Slots};
+use super::slots::{Entry, Slots, Taken};
 use super::sync::Arc;
 use crate::time::Timestamp;
 
 /// Takes every complete cycle once, in order, and keeps up to its window of them.
 pub struct Queue<T> {
     slots: Arc<Slots<T>>,
+    /// Which of the consumers of the slots it is.
+    consumer: usize,
     /// Sequence number of the cycle to take next.
     next: u32,
     window: usize,
-    held: VecDeque<Held>,
+    held: VecDeque<Taken>,
     dropped: u64,
 }
 
 impl<T> Queue<T> {
-    pub(super) fn new(slots: Arc<Slots<T>>, next: u32, window: usize) -> Self {
+    pub(super) fn new(slots: Arc<Slots<T>>, consumer: usize, next: u32, window: usize) -> Self {
         Self {
             slots,
+            consumer,
             next,
             window,
             held: VecDeque::with_capacity(window),
@@ -42,10 +45,10 @@ impl<T> Queue<T> {
         self.skip_unlisted(completed);
         while waiting(self.next, completed) > 0 {
             if self.is_full() {
-                if self.slots.can_take(self.next) {
+                if self.slots.can_take(self.consumer, self.next) {
                     return None;
                 }
-            } else if let Some(held) = self.slots.take(self.next) {
+            } else if let Some(held) = self.slots.take(self.consumer, self.next) {
                 self.next = self.next.wrapping_add(1);
                 self.held.push_back(held);
                 return self.get(self.held.len() - 1);
@@ -59,16 +62,18 @@ impl<T> Queue<T> {
     /// A cycle that was taken and not released, oldest first.
     #[inline]
     pub fn get(&self, index: usize) -> Option<&Entry<T>> {
-        Some(self.slots.read(self.held.get(index)?))
+        Some(self.slots.read_taken(self.held.get(index)?))
     }
 
     /// Lets go of the `count` oldest.
     #[inline]
     pub fn release(&mut self, count: usize) {
-        for _ in 0..count {
-            if let Some(held) = self.held.pop_front() {
-                self.slots.release(held);
-            }
+        let mut last = None;
+        for _ in 0..count.min(self.held.len()) {
+            last = self.held.pop_front();
+        }
+        if let Some(last) = last {
+            self.slots.release_up_to(self.consumer, last);
         }
     }
 

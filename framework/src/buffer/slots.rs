@@ -1,8 +1,8 @@
-//! The slots and who may touch them; all `unsafe` of the framework is in this file.
+//! The slots and who may touch them; all `unsafe` about memory of the framework is in this file.
 //!
-//! Access is by token: [`Pen`] exists once, [`Held`] once for each count of `held`. Tokens are
-//! made only here, cannot be copied, and stay in the party that has them, beside the one `Arc` of
-//! the slots that made them.
+//! Access is by token: [`Pen`] exists once, [`Held`] once for each count of `held`, [`Taken`] once
+//! for each cycle that a consumer took and did not release. Tokens are made only here, cannot be
+//! copied, and stay in the party that has them, beside the one `Arc` of the slots that made them.
 #![expect(
     unsafe_code,
     reason = "several threads share one slot under the rule of its word"
@@ -27,6 +27,8 @@ pub struct Entry<T> {
 pub(super) struct Slots<T> {
     places: Box<[Place<Entry<T>>]>,
     words: Box<[AtomicU64]>,
+    /// For each consumer: it has released every cycle with a sequence number before this.
+    released: Box<[AtomicU32]>,
     /// Slot of the complete cycle with a sequence number, by the low bits of that number.
     by_sequence: Box<[AtomicU32]>,
     newest: AtomicU64,
@@ -57,19 +59,40 @@ impl Newest {
     }
 }
 
+/// How many may look at the slots.
+#[derive(Clone, Copy)]
+pub(super) struct Parties {
+    readers: bool,
+    consumers: u16,
+}
+
+impl Parties {
+    pub(super) fn of<const R: usize, const C: usize>() -> Self {
+        Self {
+            readers: R > 0,
+            consumers: C as u16,
+        }
+    }
+}
+
 /// The right to write: one slot is being written, one is the newest.
 pub(super) struct Pen {
     writing: usize,
     newest: usize,
     /// Of the newest.
     sequence: u32,
-    /// For how many consumers a cycle is queued when it is published.
-    consumers: u16,
+    parties: Parties,
 }
 
 /// One count of `held` in the word of a slot.
 pub(super) struct Held {
     slot: usize,
+}
+
+/// A cycle that a consumer took.
+pub(super) struct Taken {
+    slot: usize,
+    sequence: u32,
 }
 
 impl Held {
@@ -88,7 +111,7 @@ impl<T> Slots<T> {
         mut initial: impl FnMut() -> T,
         slots: usize,
         first: u32,
-        consumers: u16,
+        parties: Parties,
     ) -> (Self, Pen) {
         let entry = |_| {
             Place::new(Entry {
@@ -106,6 +129,9 @@ impl<T> Slots<T> {
             words: (0..slots)
                 .map(|slot| AtomicU64::new(word(slot).0))
                 .collect(),
+            released: (0..parties.consumers)
+                .map(|_| AtomicU32::new(first.wrapping_add(1)))
+                .collect(),
             by_sequence: (0..slots.next_power_of_two())
                 .map(|_| AtomicU32::new(0))
                 .collect(),
@@ -120,7 +146,7 @@ impl<T> Slots<T> {
                 writing: 1,
                 newest: 0,
                 sequence: first,
-                consumers,
+                parties,
             },
         )
     }
@@ -131,8 +157,8 @@ impl<T> Slots<T> {
         let writing = self.places[pen.writing].exclusive();
         let newest = self.places[pen.newest].shared();
         // SAFETY: the word of `writing` is WRITING since its claim, which happened after the last
-        // holder let go, and nobody holds a slot with that word: the pen, borrowed mutably, is the
-        // only way to it. `newest` is another slot, published, and only the pen could claim it.
+        // reader let go and the last consumer released, and nobody holds or takes a slot with that
+        // word: the pen, borrowed mutably, is the only way to it. `newest` is another slot, published, and only the pen could claim it.
         unsafe { (&mut *writing, &*newest) }
     }
 
@@ -153,6 +179,17 @@ impl<T> Slots<T> {
         // taken back by giving up the token, borrowed here. A slot with a count is not claimed, so
         // nobody writes there. The change of the word that made the token was an `Acquire` of the
         // publication.
+        unsafe { &*place }
+    }
+
+    /// What a consumer took.
+    #[inline]
+    pub(super) fn read_taken<'a>(&'a self, taken: &'a Taken) -> &'a Entry<T> {
+        let place = self.places[taken.slot].shared();
+        // SAFETY: this token, borrowed here, is given up when its consumer's `released` passes its
+        // sequence number. Until then a slot with that number which is not queued for the consumer
+        // is not claimed, so nobody writes there. The change of the word that made the token was an
+        // `Acquire` of the publication.
         unsafe { &*place }
     }
 
@@ -198,13 +235,13 @@ impl<T> Slots<T> {
     pub(super) fn publish(&self, pen: &mut Pen) {
         pen.sequence = pen.sequence.wrapping_add(1);
         pen.newest = pen.writing;
-        let word = Word::published(pen.sequence, pen.consumers);
+        let word = Word::published(pen.sequence, pen.parties.consumers);
         // Release: who holds the slot sees what was written there.
         self.words[pen.newest].store(word.0, Ordering::Release);
         let newest = Newest::new(pen.sequence, pen.newest);
         // Release: who sees it can hold the slot.
         self.newest.store(newest.0, Ordering::Release);
-        if pen.consumers != 0 {
+        if pen.parties.consumers != 0 {
             let listed = &self.by_sequence[self.listed(pen.sequence)];
             // Relaxed: read only by who has seen `completed`.
             listed.store(pen.newest as u32, Ordering::Relaxed);
@@ -239,15 +276,17 @@ impl<T> Slots<T> {
     }
 
     /// Takes the cycle with this number out of the queue of one consumer; `None`: it is overwritten.
+    ///
+    /// Each number once, and greater ones later.
     #[inline]
-    pub(super) fn take(&self, sequence: u32) -> Option<Held> {
+    pub(super) fn take(&self, consumer: usize, sequence: u32) -> Option<Taken> {
         // Relaxed: listed before `completed` was stored. If it lists a later cycle by now, the word
         // says so.
         let slot = self.by_sequence[self.listed(sequence)].load(Ordering::Relaxed) as usize;
         let mut word = Word(self.words[slot].load(Ordering::Relaxed));
-        while word.is(sequence) {
-            match self.exchange_word(slot, word, word.take()) {
-                Ok(()) => return Some(Held { slot }),
+        while word.is(sequence) && word.is_queued_for(consumer) {
+            match self.exchange_word(slot, word, word.take(consumer)) {
+                Ok(()) => return Some(Taken { slot, sequence }),
                 Err(changed) => word = changed,
             }
         }
@@ -255,9 +294,17 @@ impl<T> Slots<T> {
     }
 
     /// Whether [`take`](Self::take) would find this cycle now.
-    pub(super) fn can_take(&self, sequence: u32) -> bool {
+    pub(super) fn can_take(&self, consumer: usize, sequence: u32) -> bool {
         let slot = self.by_sequence[self.listed(sequence)].load(Ordering::Relaxed) as usize;
-        Word(self.words[slot].load(Ordering::Relaxed)).is(sequence)
+        let word = Word(self.words[slot].load(Ordering::Relaxed));
+        word.is(sequence) && word.is_queued_for(consumer)
+    }
+
+    /// Gives up everything that the consumer took, up to this token; the others of them are gone.
+    #[inline]
+    pub(super) fn release_up_to(&self, consumer: usize, last: Taken) {
+        // Release: what was read happens before the writer claims the slots.
+        self.released[consumer].store(last.sequence.wrapping_add(1), Ordering::Release);
     }
 
     /// Gives a token back.
@@ -287,12 +334,33 @@ impl<T> Slots<T> {
             }
             // Relaxed: a guess that the exchange checks.
             let word = Word(self.words[slot].load(Ordering::Relaxed));
-            let is_free = !word.is_held() && !word.is_queued();
-            if is_free && self.exchange_word(slot, word, Word::WRITING).is_ok() {
+            if word.is_held() || word.is_queued() || self.is_taken(word) {
+                continue;
+            }
+            if !pen.parties.readers {
+                // Relaxed: no consumer has it queued, so the writer alone changes the word.
+                self.words[slot].store(Word::WRITING.0, Ordering::Relaxed);
+                return slot;
+            }
+            if self.exchange_word(slot, word, Word::WRITING).is_ok() {
                 return slot;
             }
         }
         self.claim_oldest(pen)
+    }
+
+    /// Whether a consumer took the cycle of this word and did not release it. Holds for as long as
+    /// the word stays what it is.
+    #[inline]
+    fn is_taken(&self, word: Word) -> bool {
+        self.released
+            .iter()
+            .enumerate()
+            .any(|(consumer, released)| {
+                // Acquire: what the consumer read happens before the claim.
+                let released = released.load(Ordering::Acquire);
+                !word.is_queued_for(consumer) && !is_before(word.sequence(), released)
+            })
     }
 
     #[cold]
@@ -301,7 +369,7 @@ impl<T> Slots<T> {
             let oldest = (0..self.words.len())
                 .filter(|slot| *slot != pen.newest)
                 .map(|slot| (slot, Word(self.words[slot].load(Ordering::Relaxed))))
-                .filter(|(_, word)| !word.is_held())
+                .filter(|(_, word)| !word.is_held() && !self.is_taken(*word))
                 .max_by_key(|(_, word)| {
                     (
                         !word.is_queued(),
@@ -328,4 +396,10 @@ impl<T> Slots<T> {
             .map(drop)
             .map_err(Word)
     }
+}
+
+/// In the order of sequence numbers, which start over after the last.
+#[inline]
+fn is_before(sequence: u32, other: u32) -> bool {
+    (sequence.wrapping_sub(other) as i32) < 0
 }

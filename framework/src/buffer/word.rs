@@ -1,32 +1,36 @@
-//! The word of a slot: `sequence: 32 | queued: 16 | held: 16`.
+//! The word of a slot: `sequence: 32 | queued: 20 | held: 12`.
 
-const BITS: u32 = 16;
-const ONE_QUEUED: u64 = 1 << BITS;
-const HELD: u64 = ONE_QUEUED - 1;
-const QUEUED: u64 = HELD << BITS;
+const QUEUED_BITS: u32 = 20;
+const HELD_BITS: u32 = 12;
+const HELD: u64 = (1 << HELD_BITS) - 1;
+const QUEUED: u64 = ((1 << QUEUED_BITS) - 1) << HELD_BITS;
 
-/// How many readers and consumers a word can count, with one value of `held` kept for the writer.
-pub(super) const PARTIES: usize = HELD as usize - 1;
+/// How many readers a word can count, with one value of `held` kept for the writer.
+pub(super) const READERS: usize = HELD as usize - 1;
 
-/// Which cycle a slot holds, how many consumers still have to take it, how many parties hold it.
+/// How many consumers a word can name: each is one bit of `queued`.
+pub(super) const CONSUMERS: usize = QUEUED_BITS as usize;
+
+/// Which cycle a slot holds, which consumers still have to take it, how many readers hold it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Word(pub(super) u64);
 
 impl Word {
-    /// The writer has the slot: more than all parties together could hold.
+    /// The writer has the slot: more than all readers together could hold.
     pub(super) const WRITING: Self = Self(HELD);
 
     /// What holding adds to a word and letting go takes from it.
     pub(super) const ONE_HELD: u64 = 1;
 
-    /// A complete cycle that so many consumers have queued and nobody holds.
-    pub(super) const fn published(sequence: u32, queued: u16) -> Self {
-        Self((sequence as u64) << (2 * BITS) | (queued as u64) << BITS)
+    /// A complete cycle that is queued for the first so many consumers and that nobody holds.
+    pub(super) const fn published(sequence: u32, consumers: u16) -> Self {
+        let queued = (1 << consumers) - 1;
+        Self((sequence as u64) << (QUEUED_BITS + HELD_BITS) | queued << HELD_BITS)
     }
 
     #[inline]
     pub(super) const fn sequence(self) -> u32 {
-        (self.0 >> (2 * BITS)) as u32
+        (self.0 >> (QUEUED_BITS + HELD_BITS)) as u32
     }
 
     /// Whether it is the complete cycle with this number.
@@ -35,6 +39,7 @@ impl Word {
         self.sequence() == sequence && self.0 & HELD != HELD
     }
 
+    /// Whether readers hold it, or the writer has it.
     #[inline]
     pub(super) const fn is_held(self) -> bool {
         self.0 & HELD != 0
@@ -45,22 +50,28 @@ impl Word {
         self.0 & QUEUED != 0
     }
 
-    /// One more party holds it.
+    /// Whether this consumer still has to take it.
+    #[inline]
+    pub(super) const fn is_queued_for(self, consumer: usize) -> bool {
+        self.0 >> HELD_BITS >> consumer & 1 != 0
+    }
+
+    /// One more reader holds it.
     #[inline]
     pub(super) const fn hold(self) -> Self {
         Self(self.0 + Self::ONE_HELD)
     }
 
-    /// One consumer less has it queued, and holds it.
+    /// This consumer, for which it is queued, takes it.
     #[inline]
-    pub(super) const fn take(self) -> Self {
-        Self(self.0 - ONE_QUEUED + Self::ONE_HELD)
+    pub(super) const fn take(self, consumer: usize) -> Self {
+        Self(self.0 - (1 << HELD_BITS << consumer))
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::Word;
+    use super::{CONSUMERS, Word};
 
     #[test]
     fn a_slot_being_written_is_no_complete_cycle() {
@@ -69,14 +80,23 @@ mod tests {
     }
 
     #[test]
-    fn taking_moves_one_count_and_leaves_the_others() {
+    fn taking_is_for_one_consumer_and_leaves_the_others() {
         let word = Word::published(u32::MAX, 3).hold();
         assert!(word.is(u32::MAX) && word.is_held() && word.is_queued());
-        assert_eq!(
-            word.take().0 - 2 * Word::ONE_HELD,
-            Word::published(u32::MAX, 2).0
-        );
-        let taken = word.take().take().take();
+        let taken = word.take(1);
+        let queued = [0, 1, 2, 3].map(|consumer| taken.is_queued_for(consumer));
+        assert_eq!(queued, [true, false, true, false]);
+        let taken = taken.take(0).take(2);
         assert!(taken.is(u32::MAX) && taken.is_held() && !taken.is_queued());
+    }
+
+    #[test]
+    fn a_word_has_room_for_all_consumers() {
+        let mut word = Word::published(7, CONSUMERS as u16);
+        for consumer in 0..CONSUMERS {
+            assert!(word.is_queued_for(consumer));
+            word = word.take(consumer);
+        }
+        assert_eq!(word, Word::published(7, 0));
     }
 }

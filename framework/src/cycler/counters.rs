@@ -57,11 +57,11 @@ counters! {
 pub struct Counter(AtomicU64);
 
 impl Counter {
-    /// Counts `more`.
+    /// Counts `more`. Only one thread at a time counts, the instance's, so that no read-modify-write is needed.
     #[inline]
     pub fn add(&self, more: u64) {
         if more > 0 {
-            self.0.fetch_add(more, Ordering::Relaxed);
+            self.0.store(self.get() + more, Ordering::Relaxed);
         }
     }
 

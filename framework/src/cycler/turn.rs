@@ -64,8 +64,11 @@ impl<B: Body> Cycler<B> {
         writer: Writer<B::Shared>,
         clock: Clock,
     ) -> Self {
+        let mut nodes = Vec::new();
+        body.nodes(&mut |node| nodes.push(node.node));
+        let stopwatch = Stopwatch::new(&clock, description.deadline, nodes.into_iter());
         Self {
-            stopwatch: Stopwatch::new(&clock, description.deadline),
+            stopwatch,
             description,
             body,
             writer,
@@ -174,7 +177,9 @@ impl<B: Body> Instance for Cycler<B> {
         let (current, previous) = writer.slots();
         // What this thread did in between is nobody's.
         Tally::take();
-        stopwatch.start_waiting(cycle.timed);
+        if cycle.timed {
+            stopwatch.start_waiting();
+        }
         let result = contain(self.description.name, || {
             body.wait(Slots { current, previous }, cycle)
         });
@@ -201,8 +206,8 @@ impl<B: Body> Instance for Cycler<B> {
     #[inline]
     fn begin(&mut self) {
         self.abandon();
-        let (now, moment) = self.clock.read();
-        self.stopwatch.begin(self.timed, moment);
+        let now = self.clock.now();
+        self.stopwatch.begin(self.timed);
         let start = self.timestamp(now);
         let since_last = match self.phase {
             Phase::Fresh { .. } => Duration::ZERO,
@@ -251,7 +256,7 @@ impl<B: Body> Instance for Cycler<B> {
             self.failure = ran.err();
         }
         let tally = Tally::take();
-        self.stopwatch.end_running(tally);
+        self.stopwatch.end_running(self.cycle.timed, &tally);
         self.count(&tally);
     }
 
@@ -325,13 +330,17 @@ impl<B: Body> Instance for Cycler<B> {
     fn report(&self) -> InstanceReport {
         let mut queues = Vec::new();
         self.body.queues(&mut |queue| queues.push(queue));
+        let mut nodes = self.nodes_so_far();
+        for node in &mut nodes {
+            node.histogram = self.stopwatch.of_node(node.node);
+        }
         InstanceReport {
             description: self.description,
             counts: self.counters.read(),
             granted: self.counters.granted().cloned(),
             slowest: self.stopwatch.slowest().to_vec(),
             durations: self.stopwatch.durations().clone(),
-            nodes: self.nodes_so_far(),
+            nodes,
             queues,
         }
     }

@@ -1,7 +1,7 @@
-//! Panics of nodes: one line that names the node, and an error that says the same.
+//! Panics of nodes: one line that names the instance, or the node where it is caught there, and an error that names the node.
 //!
-//! The standard hook prints three lines and a hint about backtraces for every panic, and it cannot know the node. Outside
-//! of nodes whatever hook was installed before is called.
+//! The standard hook prints three lines and a hint about backtraces for every panic, and it cannot know the instance. Outside
+//! of instances whatever hook was installed before is called.
 
 use std::any::Any;
 use std::cell::{Cell, RefCell};
@@ -9,11 +9,13 @@ use std::panic::{PanicHookInfo, set_hook, take_hook};
 use std::sync::Once;
 
 use crate::error::Error;
+use crate::guarded::OnFailure;
 use crate::report::tell;
 
 thread_local! {
     static INSIDE: Cell<Option<&'static str>> = const { Cell::new(None) };
     static LAST: RefCell<Option<String>> = const { RefCell::new(None) };
+    static OF_NODE: Cell<Option<(&'static str, OnFailure)>> = const { Cell::new(None) };
 }
 
 /// While it lives, panics of this thread are those of the node (or instance) with this name.
@@ -51,15 +53,26 @@ pub(super) fn install_hook() {
     });
 }
 
-/// The panic that was just caught on this thread, as an error.
+/// The panic that unwinds on this thread comes from this node, unless it came from one inside of it.
+pub(super) fn unwind_from(node: &'static str, on_failure: OnFailure) {
+    let inner = OF_NODE.take();
+    OF_NODE.set(inner.or(Some((node, on_failure))));
+}
+
+/// The panic that was just caught on this thread, as an error of the node that it comes from.
 #[cold]
+#[inline(never)]
 pub(super) fn of_caught(caught: std::thread::Result<()>) -> Error {
-    match caught {
+    let error = match caught {
         Err(payload) => {
             let described = LAST.take();
             Error::new(described.unwrap_or_else(|| format!("panicked: {}", text(payload.as_ref()))))
         }
         Ok(()) => Error::new("ended without a result"),
+    };
+    match OF_NODE.take() {
+        Some((node, on_failure)) => error.of_node(node, Some(on_failure)),
+        None => error,
     }
 }
 

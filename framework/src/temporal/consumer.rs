@@ -104,7 +104,10 @@ impl<T> Consumer<T> {
 
     fn let_go_of_persistent(&mut self) {
         self.queue.release(self.persistent);
-        self.places.drain(..self.persistent);
+        // Draining a range costs more than all of this, few as they are.
+        for _ in 0..self.persistent {
+            self.places.pop_front();
+        }
         self.persistent = 0;
     }
 
@@ -162,10 +165,15 @@ impl<T> Consumer<T> {
 impl<T> Lane for Consumer<T> {
     #[inline]
     fn poll(&mut self, t0: Timestamp, horizon: Timestamp) -> Bounds {
-        self.let_go_of_persistent();
         // The announcement first: what is not announced any more can be taken, so that no cycle
         // falls in between.
         let announced = self.queue.announced();
+        if announced.is_none() && self.places.is_empty() && self.queue.waiting() == 0 {
+            // Mostly there is no news.
+            self.given_up = None;
+            return Bounds::NONE;
+        }
+        self.let_go_of_persistent();
         let newest = self.take_new(horizon);
         self.visible = self.places.partition_point(|place| place.order <= t0);
         Bounds {
@@ -176,6 +184,9 @@ impl<T> Lane for Consumer<T> {
 
     #[inline]
     fn settle(&mut self, boundary: Timestamp) -> Option<Timestamp> {
+        if self.visible == 0 {
+            return None;
+        }
         let mut last = None;
         for place in self.places.iter().take(self.visible) {
             if place.order >= boundary {

@@ -34,6 +34,14 @@ pub struct Bounds {
     pub pressure: Timestamp,
 }
 
+impl Bounds {
+    /// Nothing is to come and there is no hurry.
+    pub(super) const NONE: Self = Self {
+        pending: Timestamp::NEVER,
+        pressure: Timestamp::ZERO,
+    };
+}
+
 /// How far one real-time instance has delivered.
 #[derive(Clone, Debug, Default)]
 pub struct Horizon {

@@ -27,6 +27,10 @@ impl Interleaving {
     /// manifest order of the instances. Allocates only the first time.
     pub fn merge<const N: usize>(&mut self, lanes: [&dyn Lane; N]) {
         self.positions.clear();
+        self.persistent = 0;
+        if lanes.iter().all(|lane| lane.visible() == 0) {
+            return;
+        }
         self.positions
             .reserve(lanes.iter().map(|lane| lane.window()).sum());
         self.persistent = lanes.iter().map(|lane| lane.persistent()).sum();

@@ -9,7 +9,7 @@ use crate::body::{Plan, Setting, robot};
 use crate::scripted::{Act, Script, ScriptedHardware};
 
 fn report() -> RobotReport {
-    timing::time_every_cycle(true);
+    timing::set(timing::Timing::Complete);
     let eye = Plan {
         work: Script::new([Act::Work, Act::Fail, Act::Take(3), Act::Panic]),
         ..Plan::default()
@@ -98,7 +98,7 @@ fn while_somebody_listens_every_cycle_is_timed() {
 
 #[test]
 fn a_cycle_is_what_its_nodes_and_the_framework_take() {
-    timing::time_every_cycle(true);
+    timing::set(timing::Timing::Complete);
     // Just above the lower end of a bucket of the histogram, so that rounding makes nothing shorter.
     let slow = Duration::from_millis(5);
     let eye = Plan {

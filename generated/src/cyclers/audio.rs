@@ -37,6 +37,7 @@ impl Nodes {
     }
 
     /// Setup nodes: wait for the data this cycle is about.
+    #[inline(always)]
     pub fn setup(
         &mut self,
         frame: &mut Frame<'_, impl MicrophoneInterface>,
@@ -53,9 +54,20 @@ impl Nodes {
     }
 
     /// Nodes: each call reads only what a call above it, or another cycler, wrote.
+    #[inline(always)]
     pub fn cycle<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
         self.whistle_detection(frame)?;
         Ok(())
+    }
+
+    /// As `cycle`, when it is timed or clients replace outputs.
+    #[cold]
+    #[inline(never)]
+    pub fn cycle_closely<Hardware>(
+        &mut self,
+        frame: &mut Frame<'_, Hardware>,
+    ) -> Result<()> {
+        self.cycle(frame)
     }
 
     /// What the states of nodes do not hold is rebuilt, after they were loaded.
@@ -69,6 +81,7 @@ impl Nodes {
     }
 
     /// hardware -> audio_block
+    #[inline(always)]
     fn microphone_recorder(
         &mut self,
         frame: &mut Frame<'_, impl MicrophoneInterface>,
@@ -80,12 +93,13 @@ impl Nodes {
         };
         let outputs = self
             .microphone_recorder
-            .call(frame.cycle, |node| node.cycle(context))?;
+            .call(&frame.cycle, |node| node.cycle(context))?;
         *frame.capture_time = Some(outputs.captured_at.0);
         Ok(())
     }
 
     /// audio_block -> whistle_evidence; when subscribed: whistle_detection.peaks
+    #[inline(always)]
     fn whistle_detection<Hardware>(
         &mut self,
         frame: &mut Frame<'_, Hardware>,
@@ -101,7 +115,7 @@ impl Nodes {
         };
         let outputs = self
             .whistle_detection
-            .call(frame.cycle, |node| node.cycle(context))?;
+            .call(&frame.cycle, |node| node.cycle(context))?;
         frame.shared.whistle_evidence = outputs.whistle_evidence.value;
         if let Some(injections) = frame.injections {
             injections.whistle_evidence.replace(&mut frame.shared.whistle_evidence);

@@ -292,6 +292,7 @@ impl Nodes {
     }
 
     /// Setup nodes: wait for the data this cycle is about.
+    #[inline(always)]
     pub fn setup(&mut self, frame: &mut Frame<'_, impl SensorInterface>) -> Result<()> {
         self.sensor_data_receiver(frame)?;
         Ok(())
@@ -305,6 +306,7 @@ impl Nodes {
     }
 
     /// Nodes: each call reads only what a call above it, or another cycler, wrote.
+    #[inline(always)]
     pub fn cycle(
         &mut self,
         frame: &mut Frame<
@@ -351,8 +353,22 @@ impl Nodes {
         Ok(())
     }
 
+    /// As `cycle`, when it is timed or clients replace outputs.
+    #[cold]
+    #[inline(never)]
+    pub fn cycle_closely(
+        &mut self,
+        frame: &mut Frame<
+            '_,
+            impl ActuatorInterface + MessageInterface + SpeakerInterface,
+        >,
+    ) -> Result<()> {
+        self.cycle(frame)
+    }
+
     /// perception Vision.balls, historic odometry -> ball; when subscribed:
     /// ball_filter.hypotheses, ball_filter.persistent_ball, ball_filter.delivered
+    #[inline(always)]
     fn ball_filter<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
         let balls = Interleaved {
             order: &frame.perception.vision,
@@ -387,7 +403,7 @@ impl Nodes {
                 &mut frame.additional_outputs.ball_filter.delivered,
             ),
         };
-        let outputs = self.ball_filter.call(frame.cycle, |node| node.cycle(context))?;
+        let outputs = self.ball_filter.call(&frame.cycle, |node| node.cycle(context))?;
         frame.own.ball = outputs.ball.value;
         if let Some(injections) = frame.injections {
             injections.ball.replace(&mut frame.own.ball);
@@ -396,11 +412,12 @@ impl Nodes {
     }
 
     /// world_state -> motion_command
+    #[inline(always)]
     fn behavior<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
         let context = behavior::CycleContext {
             world_state: &frame.own.world_state,
         };
-        let outputs = self.behavior.call(frame.cycle, |node| node.cycle(context))?;
+        let outputs = self.behavior.call(&frame.cycle, |node| node.cycle(context))?;
         frame.own.motion_command = outputs.motion_command.value;
         if let Some(injections) = frame.injections {
             injections.motion_command.replace(&mut frame.own.motion_command);
@@ -409,6 +426,7 @@ impl Nodes {
     }
 
     /// sensor_data.touch -> buttons
+    #[inline(always)]
     fn button_filter<Hardware>(
         &mut self,
         frame: &mut Frame<'_, Hardware>,
@@ -419,7 +437,7 @@ impl Nodes {
             bounce_time: &frame.parameters.button_filter.bounce_time,
             head_hold_time: &frame.parameters.button_filter.head_hold_time,
         };
-        let outputs = self.button_filter.call(frame.cycle, |node| node.cycle(context))?;
+        let outputs = self.button_filter.call(&frame.cycle, |node| node.cycle(context))?;
         frame.own.buttons = outputs.buttons.value;
         if let Some(injections) = frame.injections {
             injections.buttons.replace(&mut frame.own.buttons);
@@ -428,6 +446,7 @@ impl Nodes {
     }
 
     /// support_side (required), robot_kinematics, orientation -> camera_matrices
+    #[inline(always)]
     fn camera_matrices<Hardware>(
         &mut self,
         frame: &mut Frame<'_, Hardware>,
@@ -442,7 +461,7 @@ impl Nodes {
             };
             let outputs = self
                 .camera_matrices
-                .call(frame.cycle, |node| node.cycle(context))?;
+                .call(&frame.cycle, |node| node.cycle(context))?;
             frame.shared.camera_matrices = outputs.camera_matrices.value;
         } else {
             // A required input is absent: the main outputs take their defaults.
@@ -456,6 +475,7 @@ impl Nodes {
     }
 
     /// sensor_data.positions -> center_of_mass
+    #[inline(always)]
     fn center_of_mass<Hardware>(
         &mut self,
         frame: &mut Frame<'_, Hardware>,
@@ -463,7 +483,9 @@ impl Nodes {
         let context = center_of_mass::CycleContext {
             positions: &frame.own.sensor_data.positions,
         };
-        let outputs = self.center_of_mass.call(frame.cycle, |node| node.cycle(context))?;
+        let outputs = self
+            .center_of_mass
+            .call(&frame.cycle, |node| node.cycle(context))?;
         frame.own.center_of_mass = outputs.center_of_mass.value;
         if let Some(injections) = frame.injections {
             injections.center_of_mass.replace(&mut frame.own.center_of_mass);
@@ -472,6 +494,7 @@ impl Nodes {
     }
 
     /// motor_commands (required), leds -> hardware
+    #[inline(always)]
     fn command_sender(
         &mut self,
         frame: &mut Frame<'_, impl ActuatorInterface>,
@@ -482,7 +505,7 @@ impl Nodes {
                 motor_commands,
                 leds: frame.own.leds.as_ref(),
             };
-            self.command_sender.call(frame.cycle, |node| node.cycle(context))?;
+            self.command_sender.call(&frame.cycle, |node| node.cycle(context))?;
         } else {
             // A required input is absent.
             self.command_sender.skip();
@@ -493,6 +516,7 @@ impl Nodes {
     /// sensor_data.inertial, orientation, sensor_data.positions, robot_kinematics,
     /// center_of_mass, has_ground_contact -> fall_state; when subscribed:
     /// fall_state_filter.center_of_mass_overhang
+    #[inline(always)]
     fn fall_state_filter<Hardware>(
         &mut self,
         frame: &mut Frame<'_, Hardware>,
@@ -520,7 +544,7 @@ impl Nodes {
         };
         let outputs = self
             .fall_state_filter
-            .call(frame.cycle, |node| node.cycle(context))?;
+            .call(&frame.cycle, |node| node.cycle(context))?;
         frame.own.fall_state = outputs.fall_state.value;
         if let Some(injections) = frame.injections {
             injections.fall_state.replace(&mut frame.own.fall_state);
@@ -529,6 +553,7 @@ impl Nodes {
     }
 
     /// sensor_data.force_sensitive_resistors -> sole_pressures
+    #[inline(always)]
     fn foot_pressure_filter<Hardware>(
         &mut self,
         frame: &mut Frame<'_, Hardware>,
@@ -540,7 +565,7 @@ impl Nodes {
         };
         let outputs = self
             .foot_pressure_filter
-            .call(frame.cycle, |node| node.cycle(context))?;
+            .call(&frame.cycle, |node| node.cycle(context))?;
         frame.own.sole_pressures = outputs.sole_pressures.value;
         if let Some(injections) = frame.injections {
             injections.sole_pressures.replace(&mut frame.own.sole_pressures);
@@ -549,6 +574,7 @@ impl Nodes {
     }
 
     /// sensor_data.positions -> robot_kinematics
+    #[inline(always)]
     fn forward_kinematics<Hardware>(
         &mut self,
         frame: &mut Frame<'_, Hardware>,
@@ -558,7 +584,7 @@ impl Nodes {
         };
         let outputs = self
             .forward_kinematics
-            .call(frame.cycle, |node| node.cycle(context))?;
+            .call(&frame.cycle, |node| node.cycle(context))?;
         frame.shared.robot_kinematics = outputs.robot_kinematics.value;
         if let Some(injections) = frame.injections {
             injections.robot_kinematics.replace(&mut frame.shared.robot_kinematics);
@@ -567,6 +593,7 @@ impl Nodes {
     }
 
     /// perception SplNetwork.game_controller_packet -> game_controller_state
+    #[inline(always)]
     fn game_controller_filter<Hardware>(
         &mut self,
         frame: &mut Frame<'_, Hardware>,
@@ -583,7 +610,7 @@ impl Nodes {
         };
         let outputs = self
             .game_controller_filter
-            .call(frame.cycle, |node| node.cycle(context))?;
+            .call(&frame.cycle, |node| node.cycle(context))?;
         frame.own.game_controller_state = outputs.game_controller_state.value;
         if let Some(injections) = frame.injections {
             injections
@@ -594,6 +621,7 @@ impl Nodes {
     }
 
     /// game_controller_state (required), self_report (required) -> hardware
+    #[inline(always)]
     fn game_controller_responder(
         &mut self,
         frame: &mut Frame<'_, impl MessageInterface>,
@@ -612,7 +640,7 @@ impl Nodes {
                 interval: &frame.parameters.game_controller_responder.interval,
             };
             self.game_controller_responder
-                .call_or_skip(frame.cycle, |node| node.cycle(context))?;
+                .call_or_skip(&frame.cycle, |node| node.cycle(context))?;
         } else {
             // A required input is absent.
             self.game_controller_responder.skip();
@@ -621,6 +649,7 @@ impl Nodes {
     }
 
     /// game_controller_state, buttons, whistle -> primary_state
+    #[inline(always)]
     fn game_state_filter<Hardware>(
         &mut self,
         frame: &mut Frame<'_, Hardware>,
@@ -635,7 +664,7 @@ impl Nodes {
         };
         let outputs = self
             .game_state_filter
-            .call(frame.cycle, |node| node.cycle(context))?;
+            .call(&frame.cycle, |node| node.cycle(context))?;
         frame.own.primary_state = outputs.primary_state.value;
         if let Some(injections) = frame.injections {
             injections.primary_state.replace(&mut frame.own.primary_state);
@@ -644,6 +673,7 @@ impl Nodes {
     }
 
     /// sole_pressures -> has_ground_contact
+    #[inline(always)]
     fn ground_contact_filter<Hardware>(
         &mut self,
         frame: &mut Frame<'_, Hardware>,
@@ -657,7 +687,7 @@ impl Nodes {
         };
         let outputs = self
             .ground_contact_filter
-            .call(frame.cycle, |node| node.cycle(context))?;
+            .call(&frame.cycle, |node| node.cycle(context))?;
         frame.own.has_ground_contact = outputs.has_ground_contact.value;
         if let Some(injections) = frame.injections {
             injections.has_ground_contact.replace(&mut frame.own.has_ground_contact);
@@ -667,6 +697,7 @@ impl Nodes {
 
     /// motion_command, motion_selection, look_around, look_at, sensor_data.positions, previous
     /// motor_commands, procedure look_at -> head_command
+    #[inline(always)]
     fn head_motion<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
         let context = head_motion::CycleContext {
             motion_command: &frame.own.motion_command,
@@ -680,7 +711,7 @@ impl Nodes {
             stiffness: &frame.parameters.head_motion.stiffness,
             look_at: frame.procedures.look_at.call(),
         };
-        let outputs = self.head_motion.call(frame.cycle, |node| node.cycle(context))?;
+        let outputs = self.head_motion.call(&frame.cycle, |node| node.cycle(context))?;
         frame.own.head_command = outputs.head_command.value;
         if let Some(injections) = frame.injections {
             injections.head_command.replace(&mut frame.own.head_command);
@@ -689,6 +720,7 @@ impl Nodes {
     }
 
     /// world_state, game_controller_state -> leds
+    #[inline(always)]
     fn led_status<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
         let context = led_status::CycleContext {
             world_state: &frame.own.world_state,
@@ -704,7 +736,7 @@ impl Nodes {
             own_kick_off: &frame.parameters.led_status.own_kick_off,
             ear_brightness: &frame.parameters.led_status.ear_brightness,
         };
-        let outputs = self.led_status.call(frame.cycle, |node| node.cycle(context))?;
+        let outputs = self.led_status.call(&frame.cycle, |node| node.cycle(context))?;
         frame.own.leds = outputs.leds.value;
         if let Some(injections) = frame.injections {
             injections.leds.replace(&mut frame.own.leds);
@@ -713,13 +745,14 @@ impl Nodes {
     }
 
     /// motion_command, previous head_command -> look_around
+    #[inline(always)]
     fn look_around<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
         let context = look_around::CycleContext {
             motion_command: &frame.own.motion_command,
             previous: frame.previous.own.head_command.as_ref(),
             way_points: &frame.parameters.look_around.way_points,
         };
-        let outputs = self.look_around.call(frame.cycle, |node| node.cycle(context))?;
+        let outputs = self.look_around.call(&frame.cycle, |node| node.cycle(context))?;
         frame.own.look_around = outputs.look_around.value;
         if let Some(injections) = frame.injections {
             injections.look_around.replace(&mut frame.own.look_around);
@@ -728,6 +761,7 @@ impl Nodes {
     }
 
     /// motion_command, camera_matrices, robot_kinematics.head_to_torso -> look_at
+    #[inline(always)]
     fn look_at<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
         let context = look_at::CycleContext {
             motion_command: &frame.own.motion_command,
@@ -736,7 +770,7 @@ impl Nodes {
             bottom_camera_range: &frame.parameters.look_at.bottom_camera_range,
             hysteresis: &frame.parameters.look_at.hysteresis,
         };
-        let outputs = self.look_at.call(frame.cycle, |node| node.cycle(context))?;
+        let outputs = self.look_at.call(&frame.cycle, |node| node.cycle(context))?;
         frame.own.look_at = outputs.look_at.value;
         if let Some(injections) = frame.injections {
             injections.look_at.replace(&mut frame.own.look_at);
@@ -746,6 +780,7 @@ impl Nodes {
 
     /// motion_selection, sensor_data.positions, previous motor_commands, state
     /// safe_exits.dispatch -> dispatch_commands
+    #[inline(always)]
     fn motion_dispatcher<Hardware>(
         &mut self,
         frame: &mut Frame<'_, Hardware>,
@@ -765,7 +800,7 @@ impl Nodes {
         };
         let outputs = self
             .motion_dispatcher
-            .call(frame.cycle, |node| node.cycle(context))?;
+            .call(&frame.cycle, |node| node.cycle(context))?;
         frame.own.dispatch_commands = outputs.dispatch_commands.value;
         if let Some(injections) = frame.injections {
             injections.dispatch_commands.replace(&mut frame.own.dispatch_commands);
@@ -774,6 +809,7 @@ impl Nodes {
     }
 
     /// motion_command, state safe_exits -> motion_selection
+    #[inline(always)]
     fn motion_selector<Hardware>(
         &mut self,
         frame: &mut Frame<'_, Hardware>,
@@ -784,7 +820,7 @@ impl Nodes {
         };
         let outputs = self
             .motion_selector
-            .call(frame.cycle, |node| node.cycle(context))?;
+            .call(&frame.cycle, |node| node.cycle(context))?;
         frame.own.motion_selection = outputs.motion_selection.value;
         if let Some(injections) = frame.injections {
             injections.motion_selection.replace(&mut frame.own.motion_selection);
@@ -795,6 +831,7 @@ impl Nodes {
     /// motion_selection, dispatch_commands, stand_commands, penalized_commands,
     /// sit_down_commands, head_command, previous motor_commands, sensor_data.positions ->
     /// motor_commands
+    #[inline(always)]
     fn motor_commands_collector<Hardware>(
         &mut self,
         frame: &mut Frame<'_, Hardware>,
@@ -813,7 +850,7 @@ impl Nodes {
         };
         let outputs = self
             .motor_commands_collector
-            .call(frame.cycle, |node| node.cycle(context))?;
+            .call(&frame.cycle, |node| node.cycle(context))?;
         frame.own.motor_commands = outputs.motor_commands.value;
         if let Some(injections) = frame.injections {
             injections.motor_commands.replace(&mut frame.own.motor_commands);
@@ -823,6 +860,7 @@ impl Nodes {
 
     /// perception Vision.obstacles, historic odometry, sonar_distances, buttons.bumpers ->
     /// obstacles
+    #[inline(always)]
     fn obstacle_filter<Hardware>(
         &mut self,
         frame: &mut Frame<'_, Hardware>,
@@ -849,7 +887,7 @@ impl Nodes {
             parameters: &frame.parameters.obstacle_filter,
             obstacles: &mut frame.own.obstacles,
         };
-        self.obstacle_filter.call(frame.cycle, |node| node.cycle(context))?;
+        self.obstacle_filter.call(&frame.cycle, |node| node.cycle(context))?;
         if let Some(injections) = frame.injections {
             injections.obstacles.replace(&mut frame.own.obstacles);
         }
@@ -858,6 +896,7 @@ impl Nodes {
 
     /// robot_kinematics, support_side, orientation, sensor_data.inertial, fall_state ->
     /// odometry
+    #[inline(always)]
     fn odometry<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
         let context = odometry::CycleContext {
             robot_kinematics: &frame.shared.robot_kinematics,
@@ -873,7 +912,7 @@ impl Nodes {
             still_rotation: &frame.parameters.odometry.still_rotation,
             still_time: &frame.parameters.odometry.still_time,
         };
-        let outputs = self.odometry.call(frame.cycle, |node| node.cycle(context))?;
+        let outputs = self.odometry.call(&frame.cycle, |node| node.cycle(context))?;
         frame.own.odometry = outputs.odometry.value;
         if let Some(injections) = frame.injections {
             injections.odometry.replace(&mut frame.own.odometry);
@@ -882,6 +921,7 @@ impl Nodes {
     }
 
     /// sensor_data.inertial -> orientation; when subscribed: orientation_filter.innovation
+    #[inline(always)]
     fn orientation_filter<Hardware>(
         &mut self,
         frame: &mut Frame<'_, Hardware>,
@@ -902,7 +942,7 @@ impl Nodes {
         };
         let outputs = self
             .orientation_filter
-            .call(frame.cycle, |node| node.cycle(context))?;
+            .call(&frame.cycle, |node| node.cycle(context))?;
         frame.own.orientation = outputs.orientation.value;
         if let Some(injections) = frame.injections {
             injections.orientation.replace(&mut frame.own.orientation);
@@ -911,6 +951,7 @@ impl Nodes {
     }
 
     /// motion_selection -> penalized_commands
+    #[inline(always)]
     fn penalized_pose<Hardware>(
         &mut self,
         frame: &mut Frame<'_, Hardware>,
@@ -920,7 +961,9 @@ impl Nodes {
             positions: &frame.parameters.penalized_pose.positions,
             stiffness: &frame.parameters.penalized_pose.stiffness,
         };
-        let outputs = self.penalized_pose.call(frame.cycle, |node| node.cycle(context))?;
+        let outputs = self
+            .penalized_pose
+            .call(&frame.cycle, |node| node.cycle(context))?;
         frame.own.penalized_commands = outputs.penalized_commands.value;
         if let Some(injections) = frame.injections {
             injections.penalized_commands.replace(&mut frame.own.penalized_commands);
@@ -929,6 +972,7 @@ impl Nodes {
     }
 
     /// primary_state, fall_state -> is_recording_wanted
+    #[inline(always)]
     fn recording_switch<Hardware>(
         &mut self,
         frame: &mut Frame<'_, Hardware>,
@@ -942,7 +986,7 @@ impl Nodes {
         };
         let outputs = self
             .recording_switch
-            .call(frame.cycle, |node| node.cycle(context))?;
+            .call(&frame.cycle, |node| node.cycle(context))?;
         frame.own.is_recording_wanted = outputs.is_recording_wanted.value;
         if let Some(injections) = frame.injections {
             injections.is_recording_wanted.replace(&mut frame.own.is_recording_wanted);
@@ -951,6 +995,7 @@ impl Nodes {
     }
 
     /// primary_state, fall_state, ball -> self_report, team_report
+    #[inline(always)]
     fn self_report<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
         let context = self_report::CycleContext {
             primary_state: &frame.own.primary_state,
@@ -959,7 +1004,7 @@ impl Nodes {
             cycle_time: frame.cycle.time,
             player: &frame.parameters.player,
         };
-        let outputs = self.self_report.call(frame.cycle, |node| node.cycle(context))?;
+        let outputs = self.self_report.call(&frame.cycle, |node| node.cycle(context))?;
         frame.own.self_report = outputs.self_report.value;
         frame.own.team_report = outputs.team_report.value;
         if let Some(injections) = frame.injections {
@@ -970,6 +1015,7 @@ impl Nodes {
     }
 
     /// hardware -> sensor_data
+    #[inline(always)]
     fn sensor_data_receiver(
         &mut self,
         frame: &mut Frame<'_, impl SensorInterface>,
@@ -979,13 +1025,14 @@ impl Nodes {
         };
         let outputs = self
             .sensor_data_receiver
-            .call(frame.cycle, |node| node.cycle(context))?;
+            .call(&frame.cycle, |node| node.cycle(context))?;
         frame.own.sensor_data = outputs.sensor_data.value;
         *frame.capture_time = Some(outputs.captured_at.0);
         Ok(())
     }
 
     /// motion_selection, state safe_exits.sit_down -> sit_down_commands
+    #[inline(always)]
     fn sit_down<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
         let context = sit_down::CycleContext {
             motion_selection: &frame.own.motion_selection,
@@ -998,7 +1045,7 @@ impl Nodes {
             minimum_duration: &frame.parameters.sit_down.minimum_duration,
             release_duration: &frame.parameters.sit_down.release_duration,
         };
-        let outputs = self.sit_down.call(frame.cycle, |node| node.cycle(context))?;
+        let outputs = self.sit_down.call(&frame.cycle, |node| node.cycle(context))?;
         frame.own.sit_down_commands = outputs.sit_down_commands.value;
         if let Some(injections) = frame.injections {
             injections.sit_down_commands.replace(&mut frame.own.sit_down_commands);
@@ -1007,6 +1054,7 @@ impl Nodes {
     }
 
     /// sensor_data.sonar -> sonar_distances
+    #[inline(always)]
     fn sonar_filter<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
         let context = sonar_filter::CycleContext {
             sonar: &frame.own.sensor_data.sonar,
@@ -1016,7 +1064,7 @@ impl Nodes {
             echo_delay: &frame.parameters.sonar_filter.echo_delay,
             smoothing_time: &frame.parameters.sonar_filter.smoothing_time,
         };
-        let outputs = self.sonar_filter.call(frame.cycle, |node| node.cycle(context))?;
+        let outputs = self.sonar_filter.call(&frame.cycle, |node| node.cycle(context))?;
         frame.own.sonar_distances = outputs.sonar_distances.value;
         if let Some(injections) = frame.injections {
             injections.sonar_distances.replace(&mut frame.own.sonar_distances);
@@ -1025,13 +1073,14 @@ impl Nodes {
     }
 
     /// motion_selection -> stand_commands
+    #[inline(always)]
     fn stand<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
         let context = stand::CycleContext {
             motion_selection: &frame.own.motion_selection,
             positions: &frame.parameters.stand.positions,
             stiffness: &frame.parameters.stand.stiffness,
         };
-        let outputs = self.stand.call(frame.cycle, |node| node.cycle(context))?;
+        let outputs = self.stand.call(&frame.cycle, |node| node.cycle(context))?;
         frame.own.stand_commands = outputs.stand_commands.value;
         if let Some(injections) = frame.injections {
             injections.stand_commands.replace(&mut frame.own.stand_commands);
@@ -1040,6 +1089,7 @@ impl Nodes {
     }
 
     /// sole_pressures, has_ground_contact -> support_side
+    #[inline(always)]
     fn support_foot_filter<Hardware>(
         &mut self,
         frame: &mut Frame<'_, Hardware>,
@@ -1051,7 +1101,7 @@ impl Nodes {
         };
         let outputs = self
             .support_foot_filter
-            .call(frame.cycle, |node| node.cycle(context))?;
+            .call(&frame.cycle, |node| node.cycle(context))?;
         frame.own.support_side = outputs.support_side.value;
         if let Some(injections) = frame.injections {
             injections.support_side.replace(&mut frame.own.support_side);
@@ -1060,6 +1110,7 @@ impl Nodes {
     }
 
     /// perception SplNetwork.team_message -> teammates
+    #[inline(always)]
     fn team_message_filter<Hardware>(
         &mut self,
         frame: &mut Frame<'_, Hardware>,
@@ -1075,7 +1126,7 @@ impl Nodes {
             forget_after: &frame.parameters.team_message_filter.forget_after,
             teammates: &mut frame.own.teammates,
         };
-        self.team_message_filter.call(frame.cycle, |node| node.cycle(context))?;
+        self.team_message_filter.call(&frame.cycle, |node| node.cycle(context))?;
         if let Some(injections) = frame.injections {
             injections.teammates.replace(&mut frame.own.teammates);
         }
@@ -1083,6 +1134,7 @@ impl Nodes {
     }
 
     /// game_controller_state (required), team_report (required) -> hardware
+    #[inline(always)]
     fn team_message_sender(
         &mut self,
         frame: &mut Frame<'_, impl MessageInterface>,
@@ -1100,7 +1152,7 @@ impl Nodes {
                 reserve: &frame.parameters.team_message_sender.reserve,
             };
             self.team_message_sender
-                .call_or_skip(frame.cycle, |node| node.cycle(context))?;
+                .call_or_skip(&frame.cycle, |node| node.cycle(context))?;
         } else {
             // A required input is absent.
             self.team_message_sender.skip();
@@ -1109,6 +1161,7 @@ impl Nodes {
     }
 
     /// tone (required) -> hardware
+    #[inline(always)]
     fn tone_player(
         &mut self,
         frame: &mut Frame<'_, impl SpeakerInterface>,
@@ -1119,7 +1172,7 @@ impl Nodes {
                 hardware_interface: frame.hardware_interface,
                 tone,
             };
-            self.tone_player.call_or_skip(frame.cycle, |node| node.cycle(context))?;
+            self.tone_player.call_or_skip(&frame.cycle, |node| node.cycle(context))?;
         } else {
             // A required input is absent.
             self.tone_player.skip();
@@ -1128,6 +1181,7 @@ impl Nodes {
     }
 
     /// whistle, primary_state -> tone
+    #[inline(always)]
     fn tone_selector<Hardware>(
         &mut self,
         frame: &mut Frame<'_, Hardware>,
@@ -1140,7 +1194,7 @@ impl Nodes {
             lowest_whistle: &frame.parameters.whistle_detection.lowest_frequency,
             highest_whistle: &frame.parameters.whistle_detection.highest_frequency,
         };
-        let outputs = self.tone_selector.call(frame.cycle, |node| node.cycle(context))?;
+        let outputs = self.tone_selector.call(&frame.cycle, |node| node.cycle(context))?;
         frame.own.tone = outputs.tone.value;
         if let Some(injections) = frame.injections {
             injections.tone.replace(&mut frame.own.tone);
@@ -1149,6 +1203,7 @@ impl Nodes {
     }
 
     /// perception Audio.whistle_evidence -> whistle; when subscribed: whistle_filter.votes
+    #[inline(always)]
     fn whistle_filter<Hardware>(
         &mut self,
         frame: &mut Frame<'_, Hardware>,
@@ -1169,7 +1224,9 @@ impl Nodes {
                 &mut frame.additional_outputs.whistle_filter.votes,
             ),
         };
-        let outputs = self.whistle_filter.call(frame.cycle, |node| node.cycle(context))?;
+        let outputs = self
+            .whistle_filter
+            .call(&frame.cycle, |node| node.cycle(context))?;
         frame.own.whistle = outputs.whistle.value;
         if let Some(injections) = frame.injections {
             injections.whistle.replace(&mut frame.own.whistle);
@@ -1179,6 +1236,7 @@ impl Nodes {
 
     /// primary_state, game_controller_state, fall_state, has_ground_contact, ball, obstacles,
     /// teammates -> world_state
+    #[inline(always)]
     fn world_state_composer<Hardware>(
         &mut self,
         frame: &mut Frame<'_, Hardware>,
@@ -1194,7 +1252,7 @@ impl Nodes {
             teammates: &frame.own.teammates,
             world_state: &mut frame.own.world_state,
         };
-        self.world_state_composer.call(frame.cycle, |node| node.cycle(context))?;
+        self.world_state_composer.call(&frame.cycle, |node| node.cycle(context))?;
         if let Some(injections) = frame.injections {
             injections.world_state.replace(&mut frame.own.world_state);
         }

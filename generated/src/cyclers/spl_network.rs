@@ -44,6 +44,7 @@ impl Nodes {
     }
 
     /// Setup nodes: wait for the data this cycle is about.
+    #[inline(always)]
     pub fn setup(&mut self, frame: &mut Frame<'_, impl NetworkInterface>) -> Result<()> {
         self.message_receiver(frame)?;
         Ok(())
@@ -57,14 +58,26 @@ impl Nodes {
     }
 
     /// Nodes: each call reads only what a call above it, or another cycler, wrote.
+    #[inline(always)]
     pub fn cycle<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
         self.game_controller_parser(frame)?;
         self.team_message_parser(frame)?;
         Ok(())
     }
 
+    /// As `cycle`, when it is timed or clients replace outputs.
+    #[cold]
+    #[inline(never)]
+    pub fn cycle_closely<Hardware>(
+        &mut self,
+        frame: &mut Frame<'_, Hardware>,
+    ) -> Result<()> {
+        self.cycle(frame)
+    }
+
     /// datagram -> game_controller_packet, game_controller_counts; when subscribed:
     /// game_controller_parser.refusal
+    #[inline(always)]
     fn game_controller_parser<Hardware>(
         &mut self,
         frame: &mut Frame<'_, Hardware>,
@@ -79,7 +92,7 @@ impl Nodes {
         };
         let outputs = self
             .game_controller_parser
-            .call(frame.cycle, |node| node.cycle(context))?;
+            .call(&frame.cycle, |node| node.cycle(context))?;
         frame.shared.game_controller_packet = outputs.game_controller_packet.value;
         frame.own.game_controller_counts = outputs.game_controller_counts.value;
         if let Some(injections) = frame.injections {
@@ -94,6 +107,7 @@ impl Nodes {
     }
 
     /// hardware -> datagram
+    #[inline(always)]
     fn message_receiver(
         &mut self,
         frame: &mut Frame<'_, impl NetworkInterface>,
@@ -105,13 +119,14 @@ impl Nodes {
         };
         let outputs = self
             .message_receiver
-            .call(frame.cycle, |node| node.cycle(context))?;
+            .call(&frame.cycle, |node| node.cycle(context))?;
         *frame.capture_time = Some(outputs.captured_at.0);
         Ok(())
     }
 
     /// datagram -> team_message, team_message_counts; when subscribed:
     /// team_message_parser.refusal
+    #[inline(always)]
     fn team_message_parser<Hardware>(
         &mut self,
         frame: &mut Frame<'_, Hardware>,
@@ -127,7 +142,7 @@ impl Nodes {
         };
         let outputs = self
             .team_message_parser
-            .call(frame.cycle, |node| node.cycle(context))?;
+            .call(&frame.cycle, |node| node.cycle(context))?;
         frame.shared.team_message = outputs.team_message.value;
         frame.own.team_message_counts = outputs.team_message_counts.value;
         if let Some(injections) = frame.injections {

@@ -86,6 +86,7 @@ impl Nodes {
     }
 
     /// Setup nodes: wait for the data this cycle is about.
+    #[inline(always)]
     pub fn setup(&mut self, frame: &mut Frame<'_, impl CameraInterface>) -> Result<()> {
         self.image_receiver(frame)?;
         Ok(())
@@ -99,6 +100,7 @@ impl Nodes {
     }
 
     /// Nodes: each call reads only what a call above it, or another cycler, wrote.
+    #[inline(always)]
     pub fn cycle<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
         self.camera_matrix_extractor(frame)?;
         self.limb_projector(frame)?;
@@ -111,8 +113,19 @@ impl Nodes {
         Ok(())
     }
 
+    /// As `cycle`, when it is timed or clients replace outputs.
+    #[cold]
+    #[inline(never)]
+    pub fn cycle_closely<Hardware>(
+        &mut self,
+        frame: &mut Frame<'_, Hardware>,
+    ) -> Result<()> {
+        self.cycle(frame)
+    }
+
     /// image, image_segments, field_border, lines, penalty_mark, camera_matrix (required) ->
     /// balls; when subscribed: ball_candidates
+    #[inline(always)]
     fn ball_detection<Hardware>(
         &mut self,
         frame: &mut Frame<'_, Hardware>,
@@ -137,7 +150,7 @@ impl Nodes {
                 ),
                 balls: &mut frame.shared.balls,
             };
-            self.ball_detection.call(frame.cycle, |node| node.cycle(context))?;
+            self.ball_detection.call(&frame.cycle, |node| node.cycle(context))?;
         } else {
             // A required input is absent: the main outputs take their defaults.
             self.ball_detection.skip();
@@ -149,6 +162,7 @@ impl Nodes {
     }
 
     /// latest Control.camera_matrices -> camera_matrix
+    #[inline(always)]
     fn camera_matrix_extractor<Hardware>(
         &mut self,
         frame: &mut Frame<'_, Hardware>,
@@ -163,7 +177,7 @@ impl Nodes {
         };
         let outputs = self
             .camera_matrix_extractor
-            .call(frame.cycle, |node| node.cycle(context))?;
+            .call(&frame.cycle, |node| node.cycle(context))?;
         frame.own.camera_matrix = outputs.camera_matrix.value;
         if let Some(injections) = frame.injections {
             injections.camera_matrix.replace(&mut frame.own.camera_matrix);
@@ -172,6 +186,7 @@ impl Nodes {
     }
 
     /// image_segments, camera_matrix -> field_border; when subscribed: field_border_points
+    #[inline(always)]
     fn field_border<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
         Clear::clear(&mut frame.own.field_border);
         let context = field_border::CycleContext {
@@ -185,7 +200,7 @@ impl Nodes {
             ),
             field_border: &mut frame.own.field_border,
         };
-        self.field_border.call(frame.cycle, |node| node.cycle(context))?;
+        self.field_border.call(&frame.cycle, |node| node.cycle(context))?;
         if let Some(injections) = frame.injections {
             injections.field_border.replace(&mut frame.own.field_border);
         }
@@ -193,6 +208,7 @@ impl Nodes {
     }
 
     /// hardware -> image
+    #[inline(always)]
     fn image_receiver(
         &mut self,
         frame: &mut Frame<'_, impl CameraInterface>,
@@ -203,12 +219,15 @@ impl Nodes {
             hardware_interface: frame.hardware_interface,
             image: &mut frame.own.image,
         };
-        let outputs = self.image_receiver.call(frame.cycle, |node| node.cycle(context))?;
+        let outputs = self
+            .image_receiver
+            .call(&frame.cycle, |node| node.cycle(context))?;
         *frame.capture_time = Some(outputs.captured_at.0);
         Ok(())
     }
 
     /// image, camera_matrix, limb_mask -> image_segments
+    #[inline(always)]
     fn image_segmenter<Hardware>(
         &mut self,
         frame: &mut Frame<'_, Hardware>,
@@ -222,7 +241,7 @@ impl Nodes {
             steps: &frame.instance_parameters.scan_steps,
             image_segments: &mut frame.own.image_segments,
         };
-        self.image_segmenter.call(frame.cycle, |node| node.cycle(context))?;
+        self.image_segmenter.call(&frame.cycle, |node| node.cycle(context))?;
         if let Some(injections) = frame.injections {
             injections.image_segments.replace(&mut frame.own.image_segments);
         }
@@ -230,6 +249,7 @@ impl Nodes {
     }
 
     /// image, latest Control.robot_kinematics -> limb_mask
+    #[inline(always)]
     fn limb_projector<Hardware>(
         &mut self,
         frame: &mut Frame<'_, Hardware>,
@@ -247,7 +267,7 @@ impl Nodes {
             parameters: &frame.parameters.limb_projector,
             limb_mask: &mut frame.own.limb_mask,
         };
-        self.limb_projector.call(frame.cycle, |node| node.cycle(context))?;
+        self.limb_projector.call(&frame.cycle, |node| node.cycle(context))?;
         if let Some(injections) = frame.injections {
             injections.limb_mask.replace(&mut frame.own.limb_mask);
         }
@@ -256,6 +276,7 @@ impl Nodes {
 
     /// image, image_segments, limb_mask, field_border, camera_matrix (required) -> lines; when
     /// subscribed: line_points, image_lines
+    #[inline(always)]
     fn line_detection<Hardware>(
         &mut self,
         frame: &mut Frame<'_, Hardware>,
@@ -283,7 +304,7 @@ impl Nodes {
                 ),
                 lines: &mut frame.own.lines,
             };
-            self.line_detection.call(frame.cycle, |node| node.cycle(context))?;
+            self.line_detection.call(&frame.cycle, |node| node.cycle(context))?;
         } else {
             // A required input is absent: the main outputs take their defaults.
             self.line_detection.skip();
@@ -296,6 +317,7 @@ impl Nodes {
 
     /// image_segments, field_border, lines, camera_matrix (required) -> obstacles; when
     /// subscribed: obstacle_feet
+    #[inline(always)]
     fn obstacle_detection<Hardware>(
         &mut self,
         frame: &mut Frame<'_, Hardware>,
@@ -316,7 +338,7 @@ impl Nodes {
                 ),
                 obstacles: &mut frame.shared.obstacles,
             };
-            self.obstacle_detection.call(frame.cycle, |node| node.cycle(context))?;
+            self.obstacle_detection.call(&frame.cycle, |node| node.cycle(context))?;
         } else {
             // A required input is absent: the main outputs take their defaults.
             self.obstacle_detection.skip();
@@ -329,6 +351,7 @@ impl Nodes {
 
     /// image, image_segments, field_border, lines, camera_matrix (required) -> penalty_mark;
     /// when subscribed: penalty_mark_candidates
+    #[inline(always)]
     fn penalty_mark_detection<Hardware>(
         &mut self,
         frame: &mut Frame<'_, Hardware>,
@@ -352,7 +375,7 @@ impl Nodes {
             };
             let outputs = self
                 .penalty_mark_detection
-                .call(frame.cycle, |node| node.cycle(context))?;
+                .call(&frame.cycle, |node| node.cycle(context))?;
             frame.own.penalty_mark = outputs.penalty_mark.value;
         } else {
             // A required input is absent: the main outputs take their defaults.

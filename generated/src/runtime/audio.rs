@@ -66,6 +66,7 @@ pub struct Audio<Hardware> {
 
 impl<Hardware> Audio<Hardware> {
     /// The nodes, and everything they may touch in this cycle.
+    #[inline(always)]
     fn frame<'a>(
         &'a mut self,
         slots: Slots<'a, SharedOutputs>,
@@ -111,15 +112,21 @@ impl<Hardware: MicrophoneInterface + Send + Sync> Body for Audio<Hardware> {
     fn begin(&mut self, slots: Slots<'_, SharedOutputs>, cycle: Cycle) {
         self.parameters.take();
         self.injections.take();
-        let mut wanted = self.subscriptions.wanted();
-        self.subscribed = Subscribed {
-            whistle_detection_peaks: wanted.next_one(),
-        };
+        if self.subscriptions.changed() {
+            let mut wanted = self.subscriptions.wanted();
+            self.subscribed = Subscribed {
+                whistle_detection_peaks: wanted.next_one(),
+            };
+        }
         let (_, mut frame) = self.frame(slots, cycle);
         Nodes::inject(&mut frame);
     }
 
     fn run(&mut self, slots: Slots<'_, SharedOutputs>, cycle: Cycle) -> Result<()> {
+        if cycle.timed || self.injections.view().get().is_some() {
+            let (nodes, mut frame) = self.frame(slots, cycle);
+            return nodes.cycle_closely(&mut frame);
+        }
         let (nodes, mut frame) = self.frame(slots, cycle);
         nodes.cycle(&mut frame)
     }

@@ -85,6 +85,7 @@ pub struct Control<Hardware> {
 
 impl<Hardware> Control<Hardware> {
     /// The nodes, and everything they may touch in this cycle.
+    #[inline(always)]
     fn frame<'a>(
         &'a mut self,
         slots: Slots<'a, SharedOutputs>,
@@ -154,21 +155,27 @@ impl<
         self.perception
             .vision
             .merge([&self.perception.vision_top, &self.perception.vision_bottom]);
-        let mut wanted = self.subscriptions.wanted();
-        self.subscribed = Subscribed {
-            ball_filter_delivered: wanted.next_one(),
-            ball_filter_hypotheses: wanted.next_one(),
-            ball_filter_persistent_ball: wanted.next_one(),
-            fall_state_filter_center_of_mass_overhang: wanted.next_one(),
-            orientation_filter_innovation: wanted.next_one(),
-            whistle_filter_votes: wanted.next_one(),
-        };
+        if self.subscriptions.changed() {
+            let mut wanted = self.subscriptions.wanted();
+            self.subscribed = Subscribed {
+                ball_filter_delivered: wanted.next_one(),
+                ball_filter_hypotheses: wanted.next_one(),
+                ball_filter_persistent_ball: wanted.next_one(),
+                fall_state_filter_center_of_mass_overhang: wanted.next_one(),
+                orientation_filter_innovation: wanted.next_one(),
+                whistle_filter_votes: wanted.next_one(),
+            };
+        }
         self.procedures.look_at.take();
         let (_, mut frame) = self.frame(slots, cycle);
         Nodes::inject(&mut frame);
     }
 
     fn run(&mut self, slots: Slots<'_, SharedOutputs>, cycle: Cycle) -> Result<()> {
+        if cycle.timed || self.injections.view().get().is_some() {
+            let (nodes, mut frame) = self.frame(slots, cycle);
+            return nodes.cycle_closely(&mut frame);
+        }
         let (nodes, mut frame) = self.frame(slots, cycle);
         nodes.cycle(&mut frame)
     }

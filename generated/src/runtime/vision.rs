@@ -92,6 +92,7 @@ pub struct Vision<Hardware> {
 
 impl<Hardware> Vision<Hardware> {
     /// The nodes, and everything they may touch in this cycle.
+    #[inline(always)]
     fn frame<'a>(
         &'a mut self,
         slots: Slots<'a, SharedOutputs>,
@@ -142,20 +143,26 @@ impl<Hardware: CameraInterface + Send + Sync> Body for Vision<Hardware> {
         self.parameters.take();
         self.injections.take();
         self.control.take();
-        let mut wanted = self.subscriptions.wanted();
-        self.subscribed = Subscribed {
-            ball_candidates: wanted.next_one(),
-            field_border_points: wanted.next_one(),
-            image_lines: wanted.next_one(),
-            line_points: wanted.next_one(),
-            obstacle_feet: wanted.next_one(),
-            penalty_mark_candidates: wanted.next_one(),
-        };
+        if self.subscriptions.changed() {
+            let mut wanted = self.subscriptions.wanted();
+            self.subscribed = Subscribed {
+                ball_candidates: wanted.next_one(),
+                field_border_points: wanted.next_one(),
+                image_lines: wanted.next_one(),
+                line_points: wanted.next_one(),
+                obstacle_feet: wanted.next_one(),
+                penalty_mark_candidates: wanted.next_one(),
+            };
+        }
         let (_, mut frame) = self.frame(slots, cycle);
         Nodes::inject(&mut frame);
     }
 
     fn run(&mut self, slots: Slots<'_, SharedOutputs>, cycle: Cycle) -> Result<()> {
+        if cycle.timed || self.injections.view().get().is_some() {
+            let (nodes, mut frame) = self.frame(slots, cycle);
+            return nodes.cycle_closely(&mut frame);
+        }
         let (nodes, mut frame) = self.frame(slots, cycle);
         nodes.cycle(&mut frame)
     }

@@ -179,8 +179,10 @@ fn quote_subscribed(cycler: &CyclerModel) -> TokenStream {
         quote!(#flag: wanted.next_one(),)
     });
     quote! {
-        let mut wanted = self.subscriptions.wanted();
-        self.subscribed = #subscribed { #(#flags)* };
+        if self.subscriptions.changed() {
+            let mut wanted = self.subscriptions.wanted();
+            self.subscribed = #subscribed { #(#flags)* };
+        }
     }
 }
 
@@ -191,7 +193,14 @@ fn quote_run(cycler: &CyclerModel) -> TokenStream {
     let cycle = argument("cycle", runs);
     let run = if runs {
         let frame = quote_frame_call(cycler);
+        let injected = cycler
+            .has(&FrameField::Injections)
+            .then(|| quote!(|| self.injections.view().get().is_some()));
         quote! {
+            if cycle.timed #injected {
+                let (nodes, mut frame) = #frame;
+                return nodes.cycle_closely(&mut frame);
+            }
             let (nodes, mut frame) = #frame;
             nodes.cycle(&mut frame)
         }

@@ -1,10 +1,10 @@
 //! Where the time of one instance's cycles goes.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use crate::clock::Clock;
 use crate::report::Durations;
-use crate::timing::Tally;
+use crate::timing::{self, Histogram, Tally, Ticks};
 
 /// Measures the cycles that are timed, and all if there is a deadline.
 #[derive(Debug)]
@@ -15,8 +15,14 @@ pub(super) struct Stopwatch {
     waiting: Lap,
     blocked: Duration,
     cycle: Lap,
-    /// Of the nodes of the cycle.
-    tally: Option<Tally>,
+    /// Blocked while the nodes of the cycle ran.
+    blocked_in_cycle: Duration,
+    /// In the nodes of the cycle, without what they were blocked.
+    in_nodes: Duration,
+    /// The node of the cycle that took longest, if they were timed.
+    longest: Option<(&'static str, Duration)>,
+    /// Of each node, in manifest order.
+    nodes: Vec<(&'static str, Histogram)>,
     /// The cycle after an overrun is timed, so that there is somebody to blame.
     overran: bool,
     durations: Durations,
@@ -25,19 +31,27 @@ pub(super) struct Stopwatch {
 
 #[derive(Debug, Default)]
 struct Lap {
-    since: Option<Instant>,
+    since: Option<Ticks>,
     spent: Duration,
 }
 
 impl Stopwatch {
-    pub(super) fn new(clock: &Clock, deadline: Option<Duration>) -> Self {
+    pub(super) fn new(
+        clock: &Clock,
+        deadline: Option<Duration>,
+        nodes: impl Iterator<Item = &'static str>,
+    ) -> Self {
+        Ticks::calibrate();
         Self {
             stepped: clock.is_stepped(),
             deadline: deadline.filter(|_| !clock.is_stepped()),
             waiting: Lap::default(),
             blocked: Duration::ZERO,
             cycle: Lap::default(),
-            tally: None,
+            blocked_in_cycle: Duration::ZERO,
+            in_nodes: Duration::ZERO,
+            longest: None,
+            nodes: nodes.map(|node| (node, Histogram::default())).collect(),
             overran: false,
             durations: Durations::default(),
             slowest: Vec::new(),
@@ -49,32 +63,62 @@ impl Stopwatch {
         self.overran
     }
 
-    #[inline]
-    pub(super) fn start_waiting(&mut self, timed: bool) {
-        if timed {
-            self.waiting.start();
-        }
+    pub(super) fn start_waiting(&mut self) {
+        timing::forget_laps();
+        self.waiting.start();
     }
 
     #[inline]
     pub(super) fn end_waiting(&mut self, tally: &Tally) {
-        self.waiting.pause();
-        self.blocked += tally.blocked;
-    }
-
-    #[inline]
-    pub(super) fn begin(&mut self, timed: bool, now: Option<Instant>) {
-        if timed || self.deadline.is_some() {
-            self.cycle.since = Some(now.unwrap_or_else(Instant::now));
+        if self.waiting.since.is_some() {
+            self.end_laps();
+            self.waiting.pause();
+            self.blocked += tally.blocked;
         }
     }
 
     #[inline]
-    pub(super) fn end_running(&mut self, tally: Tally) {
-        self.tally = Some(tally);
-        if self.stepped {
+    pub(super) fn begin(&mut self, timed: bool) {
+        if timed || self.deadline.is_some() {
+            self.in_nodes = Duration::ZERO;
+            self.longest = None;
+            self.cycle.start();
+        }
+    }
+
+    #[inline]
+    pub(super) fn end_running(&mut self, timed: bool, tally: &Tally) {
+        if timed {
+            self.end_laps();
+            self.blocked_in_cycle = tally.blocked;
+        }
+        if self.stepped && self.cycle.since.is_some() {
             self.cycle.pause();
         }
+    }
+
+    #[cold]
+    fn end_laps(&mut self) {
+        let mut before = self.nodes.len();
+        timing::end_laps(|node, took| {
+            // Mostly nodes run in manifest order.
+            let expected = before.wrapping_sub(1);
+            let is_node = |place: &usize| {
+                self.nodes
+                    .get(*place)
+                    .is_some_and(|(there, _)| *there == node)
+            };
+            let place = Some(expected).filter(is_node);
+            let place = place.or_else(|| (0..self.nodes.len()).find(is_node));
+            if let Some(place) = place {
+                self.nodes[place].1.record(took);
+                before = place;
+            }
+            self.in_nodes += took;
+            if self.longest.is_none_or(|(_, longest)| took > longest) {
+                self.longest = Some((node, took));
+            }
+        });
     }
 
     #[inline]
@@ -87,12 +131,19 @@ impl Stopwatch {
     /// The cycle was published; whether it took too long.
     #[inline]
     pub(super) fn finish(&mut self, timed: bool) -> bool {
+        if !timed && self.deadline.is_none() {
+            self.overran = false;
+            return false;
+        }
+        self.end(timed)
+    }
+
+    fn end(&mut self, timed: bool) -> bool {
         let took = self.cycle.take();
         let waited = self.waiting.take();
         let blocked = std::mem::take(&mut self.blocked);
-        let tally = self.tally.take();
         if timed {
-            let elsewhere = tally.map_or(Duration::ZERO, |tally| tally.in_nodes + tally.blocked);
+            let elsewhere = self.in_nodes + self.blocked_in_cycle;
             self.durations.cycle.record(took);
             self.durations
                 .framework
@@ -102,7 +153,7 @@ impl Stopwatch {
         }
         self.overran = self.deadline.is_some_and(|deadline| took > deadline);
         if self.overran {
-            self.blame(tally.and_then(|tally| tally.slowest));
+            self.blame();
         }
         self.overran
     }
@@ -111,11 +162,16 @@ impl Stopwatch {
         self.waiting.take();
         self.cycle.take();
         self.blocked = Duration::ZERO;
-        self.tally = None;
     }
 
     pub(super) fn durations(&self) -> &Durations {
         &self.durations
+    }
+
+    /// How long the calls of a node took that were timed.
+    pub(super) fn of_node(&self, node: &str) -> Histogram {
+        let found = self.nodes.iter().find(|(there, _)| *there == node);
+        found.map_or_else(Histogram::default, |(_, histogram)| histogram.clone())
     }
 
     pub(super) fn slowest(&self) -> &[(&'static str, u64)] {
@@ -123,8 +179,10 @@ impl Stopwatch {
     }
 
     #[cold]
-    fn blame(&mut self, slowest: Option<(&'static str, Duration)>) {
-        let Some((node, _)) = slowest else { return };
+    fn blame(&mut self) {
+        let Some((node, _)) = self.longest else {
+            return;
+        };
         match self.slowest.iter_mut().find(|(known, _)| *known == node) {
             Some((_, overruns)) => *overruns += 1,
             None => self.slowest.push((node, 1)),
@@ -135,13 +193,13 @@ impl Stopwatch {
 impl Lap {
     #[inline]
     fn start(&mut self) {
-        self.since = Some(Instant::now());
+        self.since = Some(Ticks::now());
     }
 
     #[inline]
     fn pause(&mut self) {
         if let Some(since) = self.since.take() {
-            self.spent += since.elapsed();
+            self.spent += Ticks::now() - since;
         }
     }
 

@@ -78,6 +78,7 @@ impl Nodes {
     }
 
     /// Setup nodes: wait for the data this cycle is about.
+    #[inline(always)]
     pub fn setup(&mut self, frame: &mut Frame<'_, impl BodyInterface>) -> Result<()> {
         self.body(frame)?;
         Ok(())
@@ -91,6 +92,7 @@ impl Nodes {
     }
 
     /// Nodes: each call reads only what a call above it, or another cycler, wrote.
+    #[inline(always)]
     pub fn cycle(
         &mut self,
         frame: &mut Frame<'_, impl BodyInterface + LegInterface>,
@@ -102,6 +104,16 @@ impl Nodes {
         self.legs(frame)?;
         self.counter(frame)?;
         Ok(())
+    }
+
+    /// As `cycle`, when it is timed or clients replace outputs.
+    #[cold]
+    #[inline(never)]
+    pub fn cycle_closely(
+        &mut self,
+        frame: &mut Frame<'_, impl BodyInterface + LegInterface>,
+    ) -> Result<()> {
+        self.cycle(frame)
     }
 
     /// What the states of nodes do not hold is rebuilt, after they were loaded.
@@ -118,22 +130,24 @@ impl Nodes {
     }
 
     /// hardware -> joints
+    #[inline(always)]
     fn body(&mut self, frame: &mut Frame<'_, impl BodyInterface>) -> Result<()> {
         let context = body::CycleContext {
             hardware_interface: frame.hardware_interface,
         };
-        let outputs = self.body.call(frame.cycle, |node| node.cycle(context))?;
+        let outputs = self.body.call(&frame.cycle, |node| node.cycle(context))?;
         frame.own.joints = outputs.joints.value;
         *frame.capture_time = Some(outputs.measured_at.0);
         Ok(())
     }
 
     /// state count -> cycles
+    #[inline(always)]
     fn counter<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
         let context = counter::CycleContext {
             count: &mut frame.cycler_state.count,
         };
-        let outputs = self.counter.call(frame.cycle, |node| node.cycle(context))?;
+        let outputs = self.counter.call(&frame.cycle, |node| node.cycle(context))?;
         frame.own.cycles = outputs.cycles.value;
         if let Some(injections) = frame.injections {
             injections.cycles.replace(&mut frame.own.cycles);
@@ -142,6 +156,7 @@ impl Nodes {
     }
 
     /// target, state gait.phase, procedure walk, procedure stop -> plan, speed
+    #[inline(always)]
     fn gait<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
         Clear::clear(&mut frame.own.plan);
         self.gait.renew_if_broken(|| Self::create_gait(&mut frame.creation()))?;
@@ -153,7 +168,7 @@ impl Nodes {
             stop: frame.procedures.stop.call(),
             plan: &mut frame.own.plan,
         };
-        let outputs = self.gait.call_or_hold(frame.cycle, |node| node.cycle(context))?;
+        let outputs = self.gait.call_or_hold(&frame.cycle, |node| node.cycle(context))?;
         match outputs {
             Held::Written(outputs) => {
                 frame.own.speed = outputs.speed.value;
@@ -175,6 +190,7 @@ impl Nodes {
     }
 
     /// plan, target (required) -> hardware
+    #[inline(always)]
     fn legs(
         &mut self,
         frame: &mut Frame<'_, impl BodyInterface + LegInterface>,
@@ -186,7 +202,7 @@ impl Nodes {
                 target,
                 hardware_interface: frame.hardware_interface,
             };
-            self.legs.call_or_skip(frame.cycle, |node| node.cycle(context))?;
+            self.legs.call_or_skip(&frame.cycle, |node| node.cycle(context))?;
         } else {
             // A required input is absent.
             self.legs.skip();
@@ -195,6 +211,7 @@ impl Nodes {
     }
 
     /// joints, state filter.gain, state filter.drift -> pose
+    #[inline(always)]
     fn pose_filter<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
         let context = pose_filter::CycleContext {
             cycle_time: frame.cycle.time,
@@ -202,7 +219,7 @@ impl Nodes {
             gain: &mut frame.cycler_state.filter.gain,
             drift: &mut frame.cycler_state.filter.drift,
         };
-        let outputs = self.pose_filter.call(frame.cycle, |node| node.cycle(context))?;
+        let outputs = self.pose_filter.call(&frame.cycle, |node| node.cycle(context))?;
         frame.own.pose = outputs.pose.value;
         if let Some(injections) = frame.injections {
             injections.pose.replace(&mut frame.own.pose);
@@ -213,6 +230,7 @@ impl Nodes {
     /// perception Vision.spots, perception Vision.best, perception VisionTop.best, perception
     /// Hearing.loudness, perception Hearing.whistle, historic pose, historic pose.position,
     /// historic pose.heading, previous target, previous report.best -> target, report
+    #[inline(always)]
     fn spot_filter<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
         self.spot_filter.renew_if_broken(Self::create_spot_filter)?;
         let spots = Interleaved {
@@ -257,7 +275,7 @@ impl Nodes {
         };
         let outputs = self
             .spot_filter
-            .call_or_hold(frame.cycle, |node| node.cycle(context))?;
+            .call_or_hold(&frame.cycle, |node| node.cycle(context))?;
         match outputs {
             Held::Written(outputs) => {
                 frame.own.target = outputs.target.value;
@@ -283,6 +301,7 @@ impl Nodes {
     /// report.nested.plain, report.nested.deep, report.nested.plain (required), state
     /// filter.gain, state filter.drift -> seen; when subscribed: debug.watcher.seen,
     /// debug.certainty
+    #[inline(always)]
     fn watcher<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
         if let Some(nested) = frame.own.report.nested.as_ref()
             && let Some(outputs_input) = frame
@@ -320,7 +339,7 @@ impl Nodes {
                     &mut frame.additional_outputs.debug.certainty,
                 ),
             };
-            let outputs = self.watcher.call(frame.cycle, |node| node.cycle(context))?;
+            let outputs = self.watcher.call(&frame.cycle, |node| node.cycle(context))?;
             frame.own.seen = outputs.seen.value;
         } else {
             // A required input is absent: the main outputs take their defaults.

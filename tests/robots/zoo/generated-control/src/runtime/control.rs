@@ -81,6 +81,7 @@ pub struct Control<Hardware> {
 
 impl<Hardware> Control<Hardware> {
     /// The nodes, and everything they may touch in this cycle.
+    #[inline(always)]
     fn frame<'a>(&'a mut self, cycle: Cycle) -> (&'a mut Nodes, Frame<'a, Hardware>) {
         let parameters = self.parameters.view().value();
         let (own, previous_own) = self.own.both();
@@ -147,11 +148,13 @@ impl<Hardware: BodyInterface + LegInterface + Send + Sync> Body for Control<Hard
         self.perception
             .vision
             .merge([&self.perception.vision_top, &self.perception.vision_bottom]);
-        let mut wanted = self.subscriptions.wanted();
-        self.subscribed = Subscribed {
-            debug_certainty: wanted.next_one(),
-            debug_watcher_seen: wanted.next_one(),
-        };
+        if self.subscriptions.changed() {
+            let mut wanted = self.subscriptions.wanted();
+            self.subscribed = Subscribed {
+                debug_certainty: wanted.next_one(),
+                debug_watcher_seen: wanted.next_one(),
+            };
+        }
         self.procedures.stop.take();
         self.procedures.walk.take();
         let (_, mut frame) = self.frame(cycle);
@@ -159,6 +162,10 @@ impl<Hardware: BodyInterface + LegInterface + Send + Sync> Body for Control<Hard
     }
 
     fn run(&mut self, _slots: Slots<'_, ()>, cycle: Cycle) -> Result<()> {
+        if cycle.timed || self.injections.view().get().is_some() {
+            let (nodes, mut frame) = self.frame(cycle);
+            return nodes.cycle_closely(&mut frame);
+        }
         let (nodes, mut frame) = self.frame(cycle);
         nodes.cycle(&mut frame)
     }

@@ -44,6 +44,7 @@ impl Nodes {
     }
 
     /// Setup nodes: wait for the data this cycle is about.
+    #[inline(always)]
     pub fn setup(
         &mut self,
         frame: &mut Frame<'_, impl MetronomeInterface>,
@@ -53,6 +54,7 @@ impl Nodes {
     }
 
     /// Nodes: each call reads only what a call above it, or another cycler, wrote.
+    #[inline(always)]
     pub fn cycle(
         &mut self,
         frame: &mut Frame<'_, impl LampInterface + LegInterface>,
@@ -62,14 +64,26 @@ impl Nodes {
         Ok(())
     }
 
+    /// As `cycle`, when it is timed or clients replace outputs.
+    #[cold]
+    #[inline(never)]
+    pub fn cycle_closely(
+        &mut self,
+        frame: &mut Frame<'_, impl LampInterface + LegInterface>,
+    ) -> Result<()> {
+        self.cycle(frame)
+    }
+
     /// -> nothing
+    #[inline(always)]
     fn cycle_node<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
         let context = cycle::CycleContext {};
-        self.cycle_node.call(frame.cycle, |node| node.cycle(context))?;
+        self.cycle_node.call(&frame.cycle, |node| node.cycle(context))?;
         Ok(())
     }
 
     /// latest Control.pose.heading, state beat -> hardware
+    #[inline(always)]
     fn lamp(
         &mut self,
         frame: &mut Frame<'_, impl LampInterface + LegInterface>,
@@ -79,11 +93,12 @@ impl Nodes {
             beat: &frame.cycler_state.beat,
             hardware_interface: frame.hardware_interface,
         };
-        self.lamp.call(frame.cycle, |node| node.cycle(context))?;
+        self.lamp.call(&frame.cycle, |node| node.cycle(context))?;
         Ok(())
     }
 
     /// hardware, state beat -> nothing
+    #[inline(always)]
     fn setup_node(
         &mut self,
         frame: &mut Frame<'_, impl MetronomeInterface>,
@@ -92,7 +107,7 @@ impl Nodes {
             hardware_interface: frame.hardware_interface,
             beat: &mut frame.cycler_state.beat,
         };
-        self.setup_node.call(frame.cycle, |node| node.cycle(context))?;
+        self.setup_node.call(&frame.cycle, |node| node.cycle(context))?;
         Ok(())
     }
 

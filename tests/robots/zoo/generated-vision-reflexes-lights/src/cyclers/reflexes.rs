@@ -51,6 +51,7 @@ impl Nodes {
     }
 
     /// Setup nodes: wait for the data this cycle is about.
+    #[inline(always)]
     pub fn setup(&mut self, frame: &mut Frame<'_, impl BumperInterface>) -> Result<()> {
         self.bumper(frame)?;
         Ok(())
@@ -64,6 +65,7 @@ impl Nodes {
     }
 
     /// Nodes: each call reads only what a call above it, or another cycler, wrote.
+    #[inline(always)]
     pub fn cycle(&mut self, frame: &mut Frame<'_, impl LampInterface>) -> Result<()> {
         self.flinch(frame)?;
         self.create_node2(frame)?;
@@ -71,17 +73,29 @@ impl Nodes {
         Ok(())
     }
 
+    /// As `cycle`, when it is timed or clients replace outputs.
+    #[cold]
+    #[inline(never)]
+    pub fn cycle_closely(
+        &mut self,
+        frame: &mut Frame<'_, impl LampInterface>,
+    ) -> Result<()> {
+        self.cycle(frame)
+    }
+
     /// hardware -> pressed
+    #[inline(always)]
     fn bumper(&mut self, frame: &mut Frame<'_, impl BumperInterface>) -> Result<()> {
         let context = bumper::CycleContext {
             hardware_interface: frame.hardware_interface,
         };
-        let outputs = self.bumper.call(frame.cycle, |node| node.cycle(context))?;
+        let outputs = self.bumper.call(&frame.cycle, |node| node.cycle(context))?;
         frame.own.pressed = outputs.pressed.value;
         Ok(())
     }
 
     /// -> sum
+    #[inline(always)]
     fn create_node2<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
         let context = create::CycleContext {
             own: &frame.parameters.self_.x,
@@ -90,7 +104,7 @@ impl Nodes {
             nested: &frame.instance_a_b.x,
             joined: &frame.instance_a_b2.y,
         };
-        let outputs = self.create_node2.call(frame.cycle, |node| node.cycle(context))?;
+        let outputs = self.create_node2.call(&frame.cycle, |node| node.cycle(context))?;
         frame.own.sum = outputs.sum.value;
         if let Some(injections) = frame.injections {
             injections.sum.replace(&mut frame.own.sum);
@@ -99,6 +113,7 @@ impl Nodes {
     }
 
     /// pressed, perception VisionBottom.spots, latest Control.pose -> hardware
+    #[inline(always)]
     fn flinch(&mut self, frame: &mut Frame<'_, impl LampInterface>) -> Result<()> {
         let bottom = frame.perception.vision_bottom.project(|outputs| &outputs.spots);
         let context = flinch::CycleContext {
@@ -110,17 +125,18 @@ impl Nodes {
                 .latest(frame.cycle.time.start, |outputs| &outputs.pose),
             hardware_interface: frame.hardware_interface,
         };
-        self.flinch.call(frame.cycle, |node| node.cycle(context))?;
+        self.flinch.call(&frame.cycle, |node| node.cycle(context))?;
         Ok(())
     }
 
     /// sum, procedure type_ -> nothing
+    #[inline(always)]
     fn node<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
         let context = node::CycleContext {
             sum: &frame.own.sum,
             add: frame.procedures.type_.call(),
         };
-        self.node.call(frame.cycle, |node| node.cycle(context))?;
+        self.node.call(&frame.cycle, |node| node.cycle(context))?;
         Ok(())
     }
 

@@ -54,6 +54,7 @@ pub struct Lights<Hardware> {
 
 impl<Hardware> Lights<Hardware> {
     /// The nodes, and everything they may touch in this cycle.
+    #[inline(always)]
     fn frame<'a>(&'a mut self, cycle: Cycle) -> (&'a mut Nodes, Frame<'a, Hardware>) {
         let frame = Frame {
             cycle,
@@ -92,6 +93,10 @@ for Lights<Hardware> {
     }
 
     fn run(&mut self, _slots: Slots<'_, ()>, cycle: Cycle) -> Result<()> {
+        if cycle.timed {
+            let (nodes, mut frame) = self.frame(cycle);
+            return nodes.cycle_closely(&mut frame);
+        }
         let (nodes, mut frame) = self.frame(cycle);
         nodes.cycle(&mut frame)
     }

@@ -67,6 +67,7 @@ pub struct Reflexes<Hardware> {
 
 impl<Hardware> Reflexes<Hardware> {
     /// The nodes, and everything they may touch in this cycle.
+    #[inline(always)]
     fn frame<'a>(&'a mut self, cycle: Cycle) -> (&'a mut Nodes, Frame<'a, Hardware>) {
         let parameters = self.parameters.view().value();
         let frame = Frame {
@@ -121,6 +122,10 @@ for Reflexes<Hardware> {
     }
 
     fn run(&mut self, _slots: Slots<'_, ()>, cycle: Cycle) -> Result<()> {
+        if cycle.timed || self.injections.view().get().is_some() {
+            let (nodes, mut frame) = self.frame(cycle);
+            return nodes.cycle_closely(&mut frame);
+        }
         let (nodes, mut frame) = self.frame(cycle);
         nodes.cycle(&mut frame)
     }

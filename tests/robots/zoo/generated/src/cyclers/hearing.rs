@@ -36,6 +36,7 @@ impl Nodes {
     }
 
     /// Setup nodes: wait for the data this cycle is about.
+    #[inline(always)]
     pub fn setup(&mut self, frame: &mut Frame<'_, impl EarInterface>) -> Result<()> {
         self.ear(frame)?;
         Ok(())
@@ -49,24 +50,37 @@ impl Nodes {
     }
 
     /// Nodes: each call reads only what a call above it, or another cycler, wrote.
+    #[inline(always)]
     pub fn cycle<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
         self.whistle(frame)?;
         Ok(())
     }
 
+    /// As `cycle`, when it is timed or clients replace outputs.
+    #[cold]
+    #[inline(never)]
+    pub fn cycle_closely<Hardware>(
+        &mut self,
+        frame: &mut Frame<'_, Hardware>,
+    ) -> Result<()> {
+        self.cycle(frame)
+    }
+
     /// hardware -> loudness
+    #[inline(always)]
     fn ear(&mut self, frame: &mut Frame<'_, impl EarInterface>) -> Result<()> {
         self.ear.renew_if_broken(Self::create_ear)?;
         let context = ear::CycleContext {
             hardware_interface: frame.hardware_interface,
         };
-        let outputs = self.ear.call(frame.cycle, |node| node.cycle(context))?;
+        let outputs = self.ear.call(&frame.cycle, |node| node.cycle(context))?;
         frame.shared.loudness = outputs.loudness.value;
         *frame.capture_time = Some(outputs.heard_at.0);
         Ok(())
     }
 
     /// loudness -> whistle
+    #[inline(always)]
     fn whistle<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
         self.whistle.renew_if_broken(Self::create_whistle)?;
         let context = whistle::CycleContext {
@@ -74,7 +88,7 @@ impl Nodes {
         };
         let outputs = self
             .whistle
-            .call_or_hold(frame.cycle, |node| node.cycle(context))?;
+            .call_or_hold(&frame.cycle, |node| node.cycle(context))?;
         match outputs {
             Held::Written(outputs) => {
                 frame.shared.whistle = outputs.whistle.value;

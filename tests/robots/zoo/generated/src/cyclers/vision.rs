@@ -66,6 +66,7 @@ impl Nodes {
     }
 
     /// Setup nodes: wait for the data this cycle is about.
+    #[inline(always)]
     pub fn setup(&mut self, frame: &mut Frame<'_, impl EyeInterface>) -> Result<()> {
         self.eye(frame)?;
         self.exposure(frame)?;
@@ -81,6 +82,7 @@ impl Nodes {
     }
 
     /// Nodes: each call reads only what a call above it, or another cycler, wrote.
+    #[inline(always)]
     pub fn cycle<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
         self.horizon_finder(frame)?;
         self.spot_finder(frame)?;
@@ -89,12 +91,23 @@ impl Nodes {
         Ok(())
     }
 
+    /// As `cycle`, when it is timed or clients replace outputs.
+    #[cold]
+    #[inline(never)]
+    pub fn cycle_closely<Hardware>(
+        &mut self,
+        frame: &mut Frame<'_, Hardware>,
+    ) -> Result<()> {
+        self.cycle(frame)
+    }
+
     /// state count -> cycles
+    #[inline(always)]
     fn counter<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
         let context = counter::CycleContext {
             count: &mut frame.cycler_state.count,
         };
-        let outputs = self.counter.call(frame.cycle, |node| node.cycle(context))?;
+        let outputs = self.counter.call(&frame.cycle, |node| node.cycle(context))?;
         frame.own.cycles = outputs.cycles.value;
         if let Some(injections) = frame.injections {
             injections.cycles.replace(&mut frame.own.cycles);
@@ -103,18 +116,20 @@ impl Nodes {
     }
 
     /// image, state exposure -> exposure
+    #[inline(always)]
     fn exposure<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
         let context = exposure::CycleContext {
             image: &frame.own.image,
             wanted: frame.instance_exposure,
             smoothed: &mut frame.cycler_state.exposure,
         };
-        let outputs = self.exposure.call(frame.cycle, |node| node.cycle(context))?;
+        let outputs = self.exposure.call(&frame.cycle, |node| node.cycle(context))?;
         frame.own.exposure = outputs.exposure.value;
         Ok(())
     }
 
     /// hardware -> image; when subscribed: $cycler_instance.width
+    #[inline(always)]
     fn eye(&mut self, frame: &mut Frame<'_, impl EyeInterface>) -> Result<()> {
         Clear::clear(&mut frame.own.image);
         let context = eye::CycleContext {
@@ -126,13 +141,14 @@ impl Nodes {
                 &mut frame.additional_outputs.cycler_instance.width,
             ),
         };
-        let outputs = self.eye.call(frame.cycle, |node| node.cycle(context))?;
+        let outputs = self.eye.call(&frame.cycle, |node| node.cycle(context))?;
         *frame.capture_time = Some(outputs.taken_at.0);
         Ok(())
     }
 
     /// latest Control.pose (required), latest Control.pose.position (required), latest
     /// Control.target, latest Control.pose.heading -> horizon
+    #[inline(always)]
     fn horizon_finder<Hardware>(
         &mut self,
         frame: &mut Frame<'_, Hardware>,
@@ -157,7 +173,7 @@ impl Nodes {
             };
             let outputs = self
                 .horizon_finder
-                .call(frame.cycle, |node| node.cycle(context))?;
+                .call(&frame.cycle, |node| node.cycle(context))?;
             frame.own.horizon = outputs.horizon.value;
         } else {
             // A required input is absent: the main outputs take their defaults.
@@ -172,6 +188,7 @@ impl Nodes {
 
     /// latest VisionTop.spots, latest VisionBottom.best, previous spots, previous agreement ->
     /// agreement
+    #[inline(always)]
     fn other_eye<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
         let context = other_eye::CycleContext {
             top: &frame.latest.vision_top.spots,
@@ -182,7 +199,7 @@ impl Nodes {
             last_spots: &frame.previous.shared.spots,
             last_agreement: &frame.previous.own.agreement,
         };
-        let outputs = self.other_eye.call(frame.cycle, |node| node.cycle(context))?;
+        let outputs = self.other_eye.call(&frame.cycle, |node| node.cycle(context))?;
         frame.own.agreement = outputs.agreement.value;
         if let Some(injections) = frame.injections {
             injections.agreement.replace(&mut frame.own.agreement);
@@ -191,6 +208,7 @@ impl Nodes {
     }
 
     /// image, horizon (required), state exposure -> spots, best; when subscribed: candidates
+    #[inline(always)]
     fn spot_finder<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
         self.spot_finder
             .renew_if_broken(|| Self::create_spot_finder(&mut frame.creation()))?;
@@ -209,7 +227,7 @@ impl Nodes {
             };
             let outputs = self
                 .spot_finder
-                .call_or_skip(frame.cycle, |node| node.cycle(context))?;
+                .call_or_skip(&frame.cycle, |node| node.cycle(context))?;
             if let Some(outputs) = outputs {
                 frame.shared.spots = outputs.spots.value;
                 frame.shared.best = outputs.best.value;

@@ -82,6 +82,7 @@ pub struct Control<Hardware> {
 
 impl<Hardware> Control<Hardware> {
     /// The nodes, and everything they may touch in this cycle.
+    #[inline(always)]
     fn frame<'a>(
         &'a mut self,
         slots: Slots<'a, SharedOutputs>,
@@ -156,11 +157,13 @@ impl<Hardware: BodyInterface + LegInterface + Send + Sync> Body for Control<Hard
         self.perception
             .vision
             .merge([&self.perception.vision_top, &self.perception.vision_bottom]);
-        let mut wanted = self.subscriptions.wanted();
-        self.subscribed = Subscribed {
-            debug_certainty: wanted.next_one(),
-            debug_watcher_seen: wanted.next_one(),
-        };
+        if self.subscriptions.changed() {
+            let mut wanted = self.subscriptions.wanted();
+            self.subscribed = Subscribed {
+                debug_certainty: wanted.next_one(),
+                debug_watcher_seen: wanted.next_one(),
+            };
+        }
         self.procedures.stop.take();
         self.procedures.walk.take();
         let (_, mut frame) = self.frame(slots, cycle);
@@ -168,6 +171,10 @@ impl<Hardware: BodyInterface + LegInterface + Send + Sync> Body for Control<Hard
     }
 
     fn run(&mut self, slots: Slots<'_, SharedOutputs>, cycle: Cycle) -> Result<()> {
+        if cycle.timed || self.injections.view().get().is_some() {
+            let (nodes, mut frame) = self.frame(slots, cycle);
+            return nodes.cycle_closely(&mut frame);
+        }
         let (nodes, mut frame) = self.frame(slots, cycle);
         nodes.cycle(&mut frame)
     }

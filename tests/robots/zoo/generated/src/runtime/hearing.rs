@@ -53,6 +53,7 @@ pub struct Hearing<Hardware> {
 
 impl<Hardware> Hearing<Hardware> {
     /// The nodes, and everything they may touch in this cycle.
+    #[inline(always)]
     fn frame<'a>(
         &'a mut self,
         slots: Slots<'a, SharedOutputs>,
@@ -96,6 +97,10 @@ impl<Hardware: EarInterface + Send + Sync> Body for Hearing<Hardware> {
     }
 
     fn run(&mut self, slots: Slots<'_, SharedOutputs>, cycle: Cycle) -> Result<()> {
+        if cycle.timed || self.injections.view().get().is_some() {
+            let (nodes, mut frame) = self.frame(slots, cycle);
+            return nodes.cycle_closely(&mut frame);
+        }
         let (nodes, mut frame) = self.frame(slots, cycle);
         nodes.cycle(&mut frame)
     }

@@ -93,6 +93,7 @@ pub struct Vision<Hardware> {
 
 impl<Hardware> Vision<Hardware> {
     /// The nodes, and everything they may touch in this cycle.
+    #[inline(always)]
     fn frame<'a>(
         &'a mut self,
         slots: Slots<'a, SharedOutputs>,
@@ -161,16 +162,22 @@ impl<Hardware: EyeInterface + Send + Sync> Body for Vision<Hardware> {
         self.vision_top.take();
         self.vision_bottom.take();
         self.control.take();
-        let mut wanted = self.subscriptions.wanted();
-        self.subscribed = Subscribed {
-            candidates: wanted.next_one(),
-            cycler_instance_width: wanted.next_one(),
-        };
+        if self.subscriptions.changed() {
+            let mut wanted = self.subscriptions.wanted();
+            self.subscribed = Subscribed {
+                candidates: wanted.next_one(),
+                cycler_instance_width: wanted.next_one(),
+            };
+        }
         let (_, mut frame) = self.frame(slots, cycle);
         Nodes::inject(&mut frame);
     }
 
     fn run(&mut self, slots: Slots<'_, SharedOutputs>, cycle: Cycle) -> Result<()> {
+        if cycle.timed || self.injections.view().get().is_some() {
+            let (nodes, mut frame) = self.frame(slots, cycle);
+            return nodes.cycle_closely(&mut frame);
+        }
         let (nodes, mut frame) = self.frame(slots, cycle);
         nodes.cycle(&mut frame)
     }
