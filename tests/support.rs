@@ -55,7 +55,9 @@ fn collect(root: &Path, folder: &Path, ending: &str, found: &mut Vec<Source>) {
             .to_string_lossy()
             .into_owned();
         if path.is_dir() {
-            if name != "target" && name != "node_modules" && !name.starts_with('.') {
+            // What programs write and nobody checks in.
+            let is_output = matches!(name.as_str(), "node_modules" | "target" | "written");
+            if !is_output && !name.starts_with('.') {
                 collect(root, &path, ending, found);
             }
         } else if name.ends_with(ending) {

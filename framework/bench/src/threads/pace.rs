@@ -1,0 +1,97 @@
+//! The mix at a robot's pace: the cycler every 12 ms, four producers at theirs, each on a thread of its own.
+//!
+//! Between two cycles a robot's thread sleeps and others use the caches; here each walks through memory after its cycle, so that
+//! nothing of the cycle is left in the core's own caches.
+
+use std::hint::black_box;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use framework::timing::{self, Timing};
+use framework::{Instance, Result};
+use mix_at_83_hz_runtime::runtime;
+
+use super::{become_real_time, quantiles};
+use crate::measure::Measured;
+use crate::mix::{ByHand, EVERY, PARAMETERS};
+use crate::turn::{robot, take, turn};
+
+const PERIOD: Duration = Duration::from_millis(12);
+/// By hand so long after ours.
+const LATER: Duration = Duration::from_millis(4);
+const CYCLES: u32 = 1000;
+/// Until history reaches as far back as it ever will.
+const WARM_UP: u32 = 100;
+/// More than a core's own caches hold.
+const MEMORY: usize = 8 << 20;
+
+pub(super) fn measure() -> Result<Vec<Measured>> {
+    timing::set(Timing::Off);
+    let mut robot = robot(runtime::create, PARAMETERS)?;
+    let mut control = take(&mut robot, "Control");
+    let producers = EVERY.map(|(name, every)| (take(&mut robot, name), every));
+    let mut hand = ByHand::new()?;
+    let done = AtomicBool::new(false);
+    let (mut by_hand, mut ours) = thread::scope(|scope| {
+        for (mut producer, every) in producers {
+            let done = &done;
+            scope.spawn(move || produce(producer.as_mut(), PERIOD * every as u32, done));
+        }
+        let control = scope.spawn(|| turn_control(control.as_mut(), &mut hand));
+        let measured = control.join();
+        done.store(true, Ordering::Relaxed);
+        measured.expect("no cycle panics")
+    });
+    let mut measured = quantiles(["83 Hz: HAND, p50", "83 Hz: HAND, p99"], &mut by_hand).to_vec();
+    measured.extend(quantiles(
+        ["83 Hz: ours, p50", "83 Hz: ours, p99"],
+        &mut ours,
+    ));
+    Ok(measured)
+}
+
+fn produce(instance: &mut dyn Instance, period: Duration, done: &AtomicBool) {
+    let mut memory = vec![0_u8; MEMORY];
+    while !done.load(Ordering::Relaxed) {
+        thread::sleep(period);
+        turn(instance);
+        walk(&mut memory);
+    }
+}
+
+/// What each cycle took: by hand, and ours.
+fn turn_control(control: &mut dyn Instance, hand: &mut ByHand) -> (Vec<f64>, Vec<f64>) {
+    become_real_time();
+    let (mut by_hand, mut ours) = (Vec::new(), Vec::new());
+    let mut memory = vec![0_u8; MEMORY];
+    let mut due = Instant::now();
+    for cycle in 0..CYCLES {
+        due += PERIOD;
+        sleep_until(due);
+        let started = Instant::now();
+        turn(control);
+        let took = started.elapsed();
+        walk(&mut memory);
+        sleep_until(due + LATER);
+        let took_by_hand = hand.cycle();
+        walk(&mut memory);
+        if cycle >= WARM_UP {
+            ours.push(took.as_nanos() as f64);
+            by_hand.push(took_by_hand.as_nanos() as f64);
+        }
+    }
+    (by_hand, ours)
+}
+
+fn sleep_until(due: Instant) {
+    thread::sleep(due.saturating_duration_since(Instant::now()));
+}
+
+/// Through all of it, line by line.
+fn walk(memory: &mut [u8]) {
+    for line in memory.chunks_mut(64) {
+        line[0] = line[0].wrapping_add(1);
+    }
+    black_box(memory);
+}

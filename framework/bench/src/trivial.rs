@@ -1,0 +1,103 @@
+//! 61 trivial nodes published as latest, beside four perception instances without news.
+
+use framework::timing::{self, Timing};
+use framework::{CycleTime, Result};
+
+use crate::floor::Floor;
+use crate::measure::{Row, timed};
+use crate::report::{Limit, Report, Section};
+use crate::turn::{robot, take, turn};
+
+const PARAMETERS: &str = include_str!("../written/trivial/parameters/default.toml");
+
+/// The robot `trivial` as one of its variants compiles it, and the same nodes by hand.
+macro_rules! variant {
+    ($name:ident, $nodes:ident, $runtime:ident) => {
+        mod $name {
+            use super::*;
+
+            mod by_hand {
+                use $nodes as nodes;
+                include!("../written/trivial/by_hand.rs");
+            }
+
+            pub(super) fn by_hand(name: &'static str) -> Result<Row<'static>> {
+                let mut hand = by_hand::Hand::new(by_hand::Remembered::new(&[]))?;
+                let perceived = by_hand::Perceived::new(|_| Vec::new());
+                Ok(Row::new(name, move || {
+                    let cycled = hand.cycle(&perceived, CycleTime::default());
+                    assert!(cycled.is_ok(), "no node fails");
+                }))
+            }
+
+            pub(super) fn ours(name: &'static str, timing: Timing) -> Result<Row<'static>> {
+                let mut robot = robot($runtime::runtime::create, PARAMETERS)?;
+                let mut control = take(&mut robot, "Control");
+                Ok(Row::timed(name, move |times| {
+                    // The others are there and have no news.
+                    let _robot = &robot;
+                    timing::set(timing);
+                    timed(times, || turn(control.as_mut()))
+                }))
+            }
+        }
+    };
+}
+
+variant!(called, trivial_nodes_called, trivial_runtime_called);
+variant!(inlined, trivial_nodes_inlined, trivial_runtime_inlined);
+variant!(plain, trivial_nodes, trivial_runtime);
+
+/// The rows, in the order of the table.
+pub(crate) fn rows() -> Result<Vec<Row<'static>>> {
+    let mut floor = Floor::new();
+    Ok(vec![
+        Row::new("F", move || floor.cycle()),
+        called::by_hand("HAND, called")?,
+        called::ours("ours, called", Timing::Off)?,
+        inlined::by_hand("HAND, inlined")?,
+        inlined::ours("ours, inlined", Timing::Off)?,
+        inlined::ours("ours, inlined, timing sampled", Timing::Sampled)?,
+        inlined::ours("ours, inlined, timing on", Timing::Complete)?,
+        plain::by_hand("HAND, as written")?,
+        plain::ours("ours, as written", Timing::Off)?,
+        plain::ours("ours, as written, timing on", Timing::Complete)?,
+    ])
+}
+
+/// What is asked of the rows.
+pub(crate) fn section(report: &Report) -> Section {
+    let over = |ours, hand| report.nanos(ours) - report.nanos(hand);
+    let floor = report.nanos("F");
+    Section {
+        title: "61 trivial nodes published as latest, four perception instances without news",
+        unit: ("F", floor),
+        rows: report.rows_until("F", "ours, as written, timing on"),
+        limits: vec![
+            Limit::new(
+                "framework over HAND, nodes inlined",
+                over("ours, inlined", "HAND, inlined") / floor,
+                0.25,
+                "F",
+            ),
+            Limit::new(
+                "total, nodes inlined",
+                report.nanos("ours, inlined") / floor,
+                0.8,
+                "F",
+            ),
+            Limit::new(
+                "total, nodes called",
+                report.nanos("ours, called") / floor,
+                2.0,
+                "F",
+            ),
+            Limit::new(
+                "allocations",
+                report.allocations("ours, called") + report.allocations("ours, inlined"),
+                0.0,
+                "",
+            ),
+        ],
+    }
+}
