@@ -107,7 +107,10 @@ pub(crate) fn end_laps(mut tell: impl FnMut(&'static str, Duration)) {
     LAPS.with_borrow_mut(|laps| {
         for lap in laps.iter().rev() {
             let blocked_in_lap = blocked.saturating_sub(lap.blocked);
-            tell(lap.node, (ends - lap.begins).saturating_sub(blocked_in_lap));
+            tell(
+                lap.node,
+                ends.since(lap.begins).saturating_sub(blocked_in_lap),
+            );
             (ends, blocked) = (lap.begins, lap.blocked);
         }
         laps.clear();

@@ -199,7 +199,7 @@ impl Lap {
     #[inline]
     fn pause(&mut self) {
         if let Some(since) = self.since.take() {
-            self.spent += Ticks::now() - since;
+            self.spent += Ticks::now().since(since);
         }
     }
 
