@@ -70,6 +70,7 @@ fn expand<'a>(
             cycler: index,
             node: node.source.path.clone(),
         },
+        writes: false,
         instance: None,
         source: node.source,
         range: range(span),

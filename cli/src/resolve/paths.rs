@@ -6,6 +6,7 @@ use super::robot::{Access, Segment};
 use crate::scan::Library;
 use crate::scan::compare::{Comparison, compare};
 use crate::scan::components::{Component, component};
+use crate::scan::nalgebra::Geometry;
 use crate::scan::types::{Definition, Resolved, Shape};
 
 /// What comparing a reader's type with the value at the end of its path shows.
@@ -93,6 +94,19 @@ pub(super) fn check(
             expected: format!("Option<{}>", end.text),
         },
     }
+}
+
+/// The segment before the end of a path, and its type, that is read by part but changed only as a whole.
+pub(super) fn only_whole(
+    library: &Library<'_>,
+    start: &Resolved,
+    segments: &[Segment],
+) -> Option<(String, String)> {
+    (1..segments.len()).find_map(|end| {
+        let owner = walk(library, start, &segments[..end]).ok()?;
+        let is_unit = matches!(Geometry::of(&owner), Some(Geometry::Unit(_)));
+        is_unit.then(|| (segments[end - 1].name.clone(), owner.text))
+    })
 }
 
 fn without_mark(end: &Resolved, written: &Resolved, last: &str) -> Agreement {

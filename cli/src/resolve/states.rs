@@ -45,6 +45,7 @@ pub(super) fn states(
                     node: source.path.clone(),
                     shared: state.shared,
                 },
+                writes: !state.shared,
                 instance: None,
                 source,
                 range: range.clone(),
@@ -169,6 +170,7 @@ pub(super) fn additional_outputs(
                 user: Writer {
                     node: node.source.path.clone(),
                 },
+                writes: false,
                 instance: None,
                 source: node.source,
                 range: range(field.span),

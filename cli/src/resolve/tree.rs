@@ -18,6 +18,8 @@ pub(super) struct Declaration<'a, U> {
     /// As written.
     pub(super) data: Resolved,
     pub(super) user: U,
+    /// Whether its node changes the value in place.
+    pub(super) writes: bool,
     /// Where `$cycler_instance` stood, and the cycler whose instance stands there now.
     pub(super) instance: Option<(usize, usize)>,
     pub(super) source: &'a NodeSource,
@@ -124,7 +126,10 @@ fn agree<U>(
         paths::check(library, &leaf.leaf(), below, &declaration.data)
     };
     let (code, message, help) = match agreement {
-        Agreement::Same => return true,
+        Agreement::Same => match only_whole(library, leaf, declaration) {
+            Some((message, help)) => (rules.conflict, message, Some(help)),
+            None => return true,
+        },
         Agreement::Unknown => return false,
         Agreement::Type { expected } => (
             rules.conflict,
@@ -164,6 +169,22 @@ fn agree<U>(
         .help_if(help);
     diagnostics.add(error);
     true
+}
+
+/// What is wrong with a node that changes a part of what must stay consistent, and what to do.
+fn only_whole<U>(
+    library: &Library<'_>,
+    leaf: &Declaration<'_, U>,
+    declaration: &Declaration<'_, U>,
+) -> Option<(String, String)> {
+    let below = &declaration.segments[leaf.segments.len() - 1..];
+    let (owner, kind) = paths::only_whole(library, &leaf.leaf(), below)?;
+    declaration.writes.then(|| {
+        (
+            format!("`{}` cannot be changed alone", declaration.path()),
+            format!("change `{owner}` as a whole: a `{kind}` keeps its length"),
+        )
+    })
 }
 
 /// A `?` before the last segment needs somebody who declares that part as an `Option`.

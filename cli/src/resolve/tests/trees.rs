@@ -127,6 +127,16 @@ fn clashing_states_show_both_places() {
         "x: CyclerState<u8, \"a\">",
     )
     .expect("overlapping-states", &["`a` and `a` are one cycler state"]);
+    let pose = "x: CyclerState<nalgebra::Isometry3<f32>, \"pose\">";
+    two(pose, "x: CyclerState<f32, \"pose.rotation.i\">").expect(
+        "state-conflict",
+        &[
+            "`pose.rotation.i` cannot be changed alone",
+            "change `rotation` as a whole",
+        ],
+    );
+    two(pose, "x: CyclerState<&f32, \"pose.rotation.i\">").robot();
+    two(pose, "x: CyclerState<f32, \"pose.translation.z\">").robot();
     two(
         "x: CyclerState<&u8, \"a\">",
         "x: CyclerState<u8, \"b\">,\ny: CycleTime",

@@ -1,0 +1,202 @@
+//! Following names to the types they stand for.
+
+use super::WRITER;
+use crate::scan::compare::{Comparison, compare};
+use crate::scan::fixture::{Fixture, Node};
+use crate::scan::{Library, types::Resolved};
+use crate::workspace::Workspace;
+
+/// The type that an author writes in a node file, resolved.
+fn resolve(head: &str, written: &str) -> Resolved {
+    let fixture = Fixture::control(&["a"]).node("a", Node { head, ..WRITER });
+    let workspace = Workspace::in_memory(fixture.files());
+    let library = Library::new(&workspace, "generated".into());
+    let module = library.find_module("nodes::a").expect("it is there");
+    library.resolve(&module, &syn::parse_str(written).expect("it is a type"))
+}
+
+#[test]
+fn names_resolve_as_rustc_would() {
+    for (head, written, text, known) in [
+        ("use types::Ball;", "Ball", "types::Ball", true),
+        ("use types::Ball as B;", "Vec<B>", "Vec<types::Ball>", true),
+        (
+            "use types::{self, shapes::{self, Line}};",
+            "(types::Ball, shapes::Shape, Line)",
+            "(types::Ball, types::shapes::Shape, types::shapes::Line)",
+            true,
+        ),
+        ("use types::*;", "Option<Ball>", "Option<types::Ball>", true),
+        ("use types::*;", "Line", "types::shapes::Line", true),
+        ("", "types::Shown", "types::Shown", true),
+        ("use types::Found;", "Found", "types::Found", true),
+        ("", "types::Distance", "f32", true),
+        ("use types::*;", "Listed<Ball>", "Vec<types::Ball>", true),
+        ("pub struct Own;", "Own", "nodes::a::Own", true),
+        ("pub struct Own;", "self::Own", "nodes::a::Own", true),
+        ("pub struct Own;", "crate::a::Own", "nodes::a::Own", true),
+        ("pub struct Own;", "super::a::Own", "nodes::a::Own", true),
+        (
+            "pub mod parts { pub struct Leg; }",
+            "parts::Leg",
+            "nodes::a::parts::Leg",
+            true,
+        ),
+        ("pub type Pair<T> = (T, T);", "Pair<u8>", "(u8, u8)", true),
+        ("", "nalgebra::Point2<f32>", "nalgebra::Point2<f32>", true),
+        (
+            "use nalgebra as na;",
+            "na::Point2<f32>",
+            "nalgebra::Point2<f32>",
+            true,
+        ),
+        (
+            "use ordered_float::OrderedFloat;",
+            "OrderedFloat<f32>",
+            "ordered_float::OrderedFloat<f32>",
+            true,
+        ),
+        (
+            "use std::time::Duration;",
+            "Duration",
+            "std::time::Duration",
+            true,
+        ),
+        (
+            "use std::collections::{BTreeMap as Map};",
+            "Map<String, u8>",
+            "std::collections::BTreeMap<String, u8>",
+            true,
+        ),
+        (
+            "",
+            "std::vec::Vec<core::option::Option<u8>>",
+            "Vec<Option<u8>>",
+            true,
+        ),
+        (
+            "use types::COUNT;",
+            "[f32; COUNT]",
+            "[f32; types::COUNT]",
+            true,
+        ),
+        ("", "[f32; 3_usize]", "[f32; 3]", true),
+        ("", "&'static str", "&'static str", true),
+        ("", "Unknown<u8>", "Unknown<u8>", false),
+        ("use unknown::Thing;", "Thing", "Thing", false),
+        ("", "<u8 as Trait>::Out", "<u8 as Trait>::Out", false),
+        ("", "Box<dyn Fn()>", "Box<dyn Fn ()>", false),
+        (
+            "#[cfg(a)] struct X; #[cfg(not(a))] struct X;",
+            "X",
+            "X",
+            false,
+        ),
+        ("use types::Vec;", "Vec<u8>", "Vec<u8>", false),
+    ] {
+        let resolved = resolve(head, written);
+        assert_eq!(resolved.text, text, "{head} {written}");
+        assert_eq!(resolved.is_known(), known, "{head} {written}");
+        assert!(resolved.private.is_empty(), "{head} {written}");
+    }
+}
+
+#[test]
+fn private_types_are_seen() {
+    for (head, written) in [
+        ("struct Own;", "Vec<Own>"),
+        ("mod inner { pub struct Own; }", "inner::Own"),
+        ("", "types::hidden::Lost"),
+    ] {
+        assert_eq!(resolve(head, written).private.len(), 1, "{head} {written}");
+    }
+    // What is hidden behind a public alias can be named by the alias.
+    let alias = resolve(
+        "mod inner { pub struct Own; } pub type Name = inner::Own;",
+        "Name",
+    );
+    assert_eq!(
+        (alias.text.as_str(), alias.private.len()),
+        ("nodes::a::Name", 0)
+    );
+}
+
+#[test]
+fn types_are_only_told_apart_where_that_is_certain() {
+    let head = "use types::*; use std::time::Duration;";
+    for (a, b, answer) in [
+        ("Ball", "types::Ball", Comparison::Same),
+        ("Distance", "f32", Comparison::Same),
+        ("[u8; COUNT]", "[u8; 3]", Comparison::Same),
+        ("Wrapper<u8>", "Wrapper<u8>", Comparison::Same),
+        ("Ball", "Point", Comparison::Different),
+        ("Vec<Ball>", "Vec<Point>", Comparison::Different),
+        ("Wrapper<u8>", "Wrapper<u16>", Comparison::Different),
+        ("(u8, u8)", "(u8,)", Comparison::Different),
+        ("[u8; 3]", "[u8; 4]", Comparison::Different),
+        (
+            "nalgebra::Point2<f32>",
+            "nalgebra::Vector2<f32>",
+            Comparison::Different,
+        ),
+        (
+            "nalgebra::Point2<f32>",
+            "nalgebra::Point2<f64>",
+            Comparison::Different,
+        ),
+        (
+            "nalgebra::Vector3<f32>",
+            "nalgebra::SVector<f32, 3>",
+            Comparison::Unknown,
+        ),
+        ("nalgebra::Point2<f32>", "f32", Comparison::Different),
+        ("nalgebra::SVector<f32, 3>", "f32", Comparison::Different),
+        ("nalgebra::Vector2<f32>", "[f32; 2]", Comparison::Different),
+        ("nalgebra::Point2<f32>", "(f32, f32)", Comparison::Different),
+        (
+            "nalgebra::Point2<f32>",
+            "Option<nalgebra::Point2<f32>>",
+            Comparison::Different,
+        ),
+        ("nalgebra::Point2<f32>", "Vec<f32>", Comparison::Different),
+        ("nalgebra::Vector2<f32>", "Duration", Comparison::Different),
+        ("nalgebra::Point2<f32>", "Ball", Comparison::Different),
+        // Nobody here knows what these are.
+        ("nalgebra::Point2<f32>", "Missing", Comparison::Unknown),
+        (
+            "nalgebra::Point2<Missing>",
+            "nalgebra::Point2<f32>",
+            Comparison::Unknown,
+        ),
+        ("nalgebra::Scalar", "f32", Comparison::Unknown),
+        ("ordered_float::NotNan<f32>", "f32", Comparison::Unknown),
+        (
+            "ordered_float::NotNan<f32>",
+            "[f32; 2]",
+            Comparison::Unknown,
+        ),
+        (
+            "ordered_float::NotNan<f32>",
+            "nalgebra::Point2<f32>",
+            Comparison::Unknown,
+        ),
+        ("Duration", "core::time::Duration", Comparison::Same),
+        (
+            "std::collections::HashMap<u8, u8>",
+            "std::collections::hash_map::HashMap<u8, u8>",
+            Comparison::Unknown,
+        ),
+        ("Missing", "u8", Comparison::Unknown),
+    ] {
+        assert_eq!(
+            compare(&resolve(head, a), &resolve(head, b)),
+            answer,
+            "{a} {b}"
+        );
+        assert_eq!(
+            compare(&resolve(head, b), &resolve(head, a)),
+            answer,
+            "{b} {a}"
+        );
+    }
+}
