@@ -35,7 +35,7 @@ fn main() -> ExitCode {
     let arguments: Vec<_> = arguments.iter().map(String::as_str).collect();
     let done = match arguments[..] {
         [] => measure_and_print(),
-        ["--rows"] => rows().map(|rows| print_measured(rows)),
+        ["--rows"] => rows().map(print_measured),
         ["--threads"] => threads::measure().map(print_all),
         ["--times", times, name] => rows().map(|rows| {
             let found = rows.into_iter().find(|row| row.is(name));

@@ -11,7 +11,7 @@ pub(crate) fn render(robot: &Robot) -> String {
     let nodes = &robot.control().nodes;
     let modules: Vec<_> = nodes.iter().map(|node| node.name.as_str()).collect();
     let mut text = format!(
-        "// The cycler `Control` of the robot `{}`, by hand. Written by `cargo run -p bench_robots`.\n\n\
+        "// The cycler `Control` of the robot `{}`, by hand. Written by the program in `robots`.\n\n\
          use nodes::control::{{{}}};\n\n",
         robot.name,
         modules.join(", ")
@@ -242,7 +242,11 @@ fn call(node: &Node) -> String {
                 ),
             ),
         };
-        writeln!(fields, "{field}: {value},").expect("a String");
+        match *field == value {
+            true => writeln!(fields, "{field},"),
+            false => writeln!(fields, "{field}: {value},"),
+        }
+        .expect("a String");
     }
     let call = format!("self.nodes.{name}.cycle({name}::CycleContext {{\n{fields}}})?");
     let returned: Vec<_> = node

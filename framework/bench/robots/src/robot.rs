@@ -79,7 +79,7 @@ impl Robot {
             ..
         } = self;
         let mut text = format!(
-            "# {purpose}\n# Written by `cargo run -p bench_robots`.\n[robot]\nname = \"{name}\"\n\
+            "# {purpose}\n# Written by the program in `robots`.\n[robot]\nname = \"{name}\"\n\
              generated = \"generated\"\nparameters = \"parameters\"\n"
         );
         for cycler in &self.cyclers {
@@ -121,7 +121,7 @@ impl Robot {
     }
 
     fn parameters(&self) -> String {
-        let mut text = "# Written by `cargo run -p bench_robots`.\n".to_owned();
+        let mut text = "# Written by the program in `robots`.\n".to_owned();
         for node in self.cyclers.iter().flat_map(|cycler| &cycler.nodes) {
             let mut names = node.fields.iter().filter_map(|field| match field {
                 Field::Parameter { name } => Some(name),
