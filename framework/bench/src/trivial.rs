@@ -16,6 +16,7 @@ macro_rules! variant {
         mod $name {
             use super::*;
 
+            #[expect(dead_code, reason = "trivial nodes keep nothing")]
             mod by_hand {
                 use $nodes as nodes;
                 include!("../written/trivial/by_hand.rs");
@@ -51,7 +52,7 @@ variant!(plain, trivial_nodes, trivial_runtime);
 /// The rows, in the order of the table.
 pub(crate) fn rows() -> Result<Vec<Row<'static>>> {
     let mut floor = Floor::new();
-    Ok(vec![
+    let mut rows = vec![
         Row::new("F", move || floor.cycle()),
         called::by_hand("HAND, called")?,
         called::ours("ours, called", Timing::Off)?,
@@ -62,42 +63,82 @@ pub(crate) fn rows() -> Result<Vec<Row<'static>>> {
         plain::by_hand("HAND, as written")?,
         plain::ours("ours, as written", Timing::Off)?,
         plain::ours("ours, as written, timing on", Timing::Complete)?,
+    ];
+    rows.extend(copper_rows()?);
+    Ok(rows)
+}
+
+const COPPER: &str = "copper, no log";
+const COPPER_LOGGING: &str = "copper, log on";
+
+#[cfg(feature = "copper")]
+fn copper_rows() -> Result<[Row<'static>; 2]> {
+    let mut quiet = bench_copper::Quiet::start().map_err(framework::Error::new)?;
+    let mut logging = bench_copper::Logging::start().map_err(framework::Error::new)?;
+    Ok([
+        Row::new(COPPER, move || assert!(quiet.iterate(), "no task fails")),
+        Row::new(COPPER_LOGGING, move || {
+            assert!(logging.iterate(), "no task fails");
+        }),
     ])
+}
+
+#[cfg(not(feature = "copper"))]
+fn copper_rows() -> Result<[Row<'static>; 0]> {
+    Ok([])
 }
 
 /// What is asked of the rows.
 pub(crate) fn section(report: &Report) -> Section {
-    let over = |ours, hand| report.nanos(ours) - report.nanos(hand);
     let floor = report.nanos("F");
+    let beside_copper = cfg!(feature = "copper").then(|| {
+        let ours = report.nanos("ours, called");
+        Limit::new(
+            "total beside copper without log, nodes called",
+            ours / report.nanos(COPPER),
+            0.35,
+            "x",
+        )
+    });
+    let last = match cfg!(feature = "copper") {
+        true => COPPER_LOGGING,
+        false => "ours, as written, timing on",
+    };
+    let limits = limits(report, floor);
     Section {
         title: "61 trivial nodes published as latest, four perception instances without news",
         unit: ("F", floor),
-        rows: report.rows_until("F", "ours, as written, timing on"),
-        limits: vec![
-            Limit::new(
-                "framework over HAND, nodes inlined",
-                over("ours, inlined", "HAND, inlined") / floor,
-                0.25,
-                "F",
-            ),
-            Limit::new(
-                "total, nodes inlined",
-                report.nanos("ours, inlined") / floor,
-                0.8,
-                "F",
-            ),
-            Limit::new(
-                "total, nodes called",
-                report.nanos("ours, called") / floor,
-                2.0,
-                "F",
-            ),
-            Limit::new(
-                "allocations",
-                report.allocations("ours, called") + report.allocations("ours, inlined"),
-                0.0,
-                "",
-            ),
-        ],
+        rows: report.rows_until("F", last),
+        limits: limits.into_iter().chain(beside_copper).collect(),
     }
+}
+
+fn limits(report: &Report, floor: f64) -> [Limit; 4] {
+    let over = |ours, hand| report.nanos(ours) - report.nanos(hand);
+    [
+        Limit::new(
+            "framework over HAND, nodes inlined",
+            over("ours, inlined", "HAND, inlined") / floor,
+            0.25,
+            "F",
+        ),
+        Limit::new(
+            "total, nodes inlined",
+            report.nanos("ours, inlined") / floor,
+            0.8,
+            "F",
+        ),
+        Limit::new(
+            "total, nodes called",
+            report.nanos("ours, called") / floor,
+            2.0,
+            "F",
+        ),
+        Limit::new(
+            "allocations",
+            report.allocations("ours, called") + report.allocations("ours, inlined"),
+            0.0,
+            "",
+        ),
+    ]
 }

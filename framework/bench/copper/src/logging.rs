@@ -19,11 +19,10 @@ impl Logging {
         let folder = tempfile::tempdir().map_err(|error| error.to_string())?;
         let app = App::builder()
             .with_clock(RobotClock::new())
-            .with_log_path(&folder.path().join("bench.copper"), Some(LOG_BYTES))
+            .with_log_path(folder.path().join("bench.copper"), Some(LOG_BYTES))
             .and_then(|builder| builder.build());
-        let mut running = app
-            .and_then(|app| app.start())
-            .map_err(|error| error.to_string())?;
+        let app = app.map_err(|error| error.to_string())?;
+        let mut running = app.start().map_err(|error| error.to_string())?;
         Ok(Self(Box::new(move || {
             // As long as the files are written.
             let _folder = &folder;

@@ -14,9 +14,8 @@ impl Quiet {
     /// The graph, started; what went wrong otherwise.
     pub fn start() -> Result<Self, String> {
         let app = App::builder().with_clock(RobotClock::new()).build();
-        let mut running = app
-            .and_then(|app| app.start())
-            .map_err(|error| error.to_string())?;
+        let app = app.map_err(|error| error.to_string())?;
+        let mut running = app.start().map_err(|error| error.to_string())?;
         Ok(Self(Box::new(move || running.run_one_iteration().is_ok())))
     }
 
