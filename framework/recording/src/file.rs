@@ -1,0 +1,446 @@
+//! An MCAP file that is being written.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs::File;
+use std::io::{self, Seek, SeekFrom, Write};
+use std::path::Path;
+
+use crate::format::{MAGIC, MESSAGE_HEAD, Put, RECORD_HEAD, Take, opcode};
+use crate::ring::Ring;
+
+/// What there is to say before anything was recorded.
+#[derive(Clone, Debug, Default)]
+pub struct Description {
+    /// What wrote the file.
+    pub library: String,
+    pub schemas: Vec<Schema>,
+    pub channels: Vec<Channel>,
+    pub metadata: Vec<Metadata>,
+    pub attachments: Vec<Attachment>,
+}
+
+/// What messages of channels look like.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Schema {
+    pub name: String,
+    /// `jsonschema` or one of ours.
+    pub encoding: String,
+    pub data: Vec<u8>,
+}
+
+/// A channel by its place in [`Description::channels`], counted from 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct ChannelId(pub u16);
+
+/// Messages of one kind.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Channel {
+    pub topic: String,
+    /// Place in [`Description::schemas`], counted from 0.
+    pub schema: Option<u16>,
+    /// `json`, or one of ours.
+    pub encoding: String,
+    pub metadata: Vec<(String, String)>,
+    /// Of messages with one sequence number only the first is kept in a chunk: several instances write what they read of
+    /// another one, each for itself.
+    pub once_per_chunk: bool,
+}
+
+/// A named list of texts.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Metadata {
+    pub name: String,
+    pub entries: Vec<(String, String)>,
+}
+
+/// A file inside of the file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Attachment {
+    pub name: String,
+    pub media_type: String,
+    pub data: Vec<u8>,
+}
+
+/// A chunk that lies in the file.
+#[derive(Clone, Debug)]
+pub(crate) struct ChunkIndex {
+    pub(crate) start: u64,
+    /// Of the chunk's record.
+    length: u64,
+    /// Of the records that list its messages.
+    index_length: u64,
+    times: (u64, u64),
+    compressed: u64,
+    uncompressed: u64,
+    /// Where the list of each channel's messages lies, and how many there are.
+    lists: BTreeMap<u16, (u64, u64)>,
+}
+
+impl ChunkIndex {
+    /// With the lists of its messages.
+    pub(crate) fn bytes(&self) -> u64 {
+        self.length + self.index_length
+    }
+}
+
+/// The writing end of a file.
+pub(crate) struct Writer {
+    file: File,
+    position: u64,
+    description: Description,
+    chunk: Vec<u8>,
+    times: Option<(u64, u64)>,
+    messages: BTreeMap<u16, Vec<(u64, u64)>>,
+    /// What stands once per chunk and is in this one.
+    known: BTreeSet<(u16, u32)>,
+    ring: Ring,
+    /// Offset and length of metadata, by name.
+    metadata: Vec<(u64, u64, String)>,
+    attachments: Vec<(u64, u64, usize)>,
+    buffer: Vec<u8>,
+}
+
+impl Writer {
+    /// Creates the file, which must not exist, with everything that is known before.
+    pub(crate) fn create(path: &Path, description: Description, budget: u64) -> io::Result<Self> {
+        let file = File::options().write(true).create_new(true).open(path)?;
+        let mut writer = Self {
+            file,
+            position: 0,
+            description,
+            chunk: Vec::new(),
+            times: None,
+            messages: BTreeMap::new(),
+            known: BTreeSet::new(),
+            ring: Ring::new(budget),
+            metadata: Vec::new(),
+            attachments: Vec::new(),
+            buffer: Vec::new(),
+        };
+        writer.write_head()?;
+        Ok(writer)
+    }
+
+    fn write_head(&mut self) -> io::Result<()> {
+        let mut head = MAGIC.to_vec();
+        head.put_record(opcode::HEADER, |content| {
+            content.put_text("");
+            content.put_text(&self.description.library);
+        });
+        put_schemas_and_channels(&mut head, &self.description);
+        self.append(&head)?;
+        for metadata in self.description.metadata.clone() {
+            self.write_metadata(&metadata)?;
+        }
+        for index in 0..self.description.attachments.len() {
+            let mut record = Vec::new();
+            put_attachment(&mut record, &self.description.attachments[index]);
+            let place = (self.position, record.len() as u64, index);
+            self.attachments.push(place);
+            self.append(&record)?;
+        }
+        Ok(())
+    }
+
+    pub(crate) fn write_metadata(&mut self, metadata: &Metadata) -> io::Result<()> {
+        let mut record = Vec::new();
+        record.put_record(opcode::METADATA, |content| {
+            content.put_text(&metadata.name);
+            put_map(content, &metadata.entries);
+        });
+        let place = (self.position, record.len() as u64, metadata.name.clone());
+        self.metadata.push(place);
+        self.append(&record)
+    }
+
+    fn append(&mut self, bytes: &[u8]) -> io::Result<()> {
+        // What a failed write left behind is overwritten.
+        self.file.seek(SeekFrom::Start(self.position))?;
+        self.file.write_all(bytes)?;
+        self.position += bytes.len() as u64;
+        Ok(())
+    }
+
+    /// Adds the messages of one block to the chunk that is open.
+    pub(crate) fn add(&mut self, messages: &[u8]) {
+        let mut rest = Take(messages);
+        while let Some((opcode::MESSAGE, content)) = rest.record() {
+            let mut head = Take(content);
+            let (Some(channel), Some(sequence), Some(time)) = (head.u16(), head.u32(), head.u64())
+            else {
+                break;
+            };
+            let is_once = self.description.channels.get(usize::from(channel));
+            if is_once.is_some_and(|channel| channel.once_per_chunk)
+                && !self.known.insert((channel, sequence))
+            {
+                continue;
+            }
+            let offset = self.chunk.len() as u64;
+            self.messages
+                .entry(channel)
+                .or_default()
+                .push((time, offset));
+            let (first, last) = self.times.unwrap_or((time, time));
+            self.times = Some((first.min(time), last.max(time)));
+            // Channels count from 1 in the file.
+            self.chunk.put_record(opcode::MESSAGE, |record| {
+                record.put_u16(channel + 1);
+                record.extend_from_slice(&content[2..]);
+            });
+            debug_assert!(content.len() >= MESSAGE_HEAD);
+        }
+    }
+
+    /// Bytes of the chunk that is open, not compressed.
+    pub(crate) fn open_bytes(&self) -> usize {
+        self.chunk.len()
+    }
+
+    /// Writes the open chunk; on an error nothing of it counts. It is empty afterwards in either case.
+    pub(crate) fn close_chunk(&mut self) -> io::Result<()> {
+        let messages = std::mem::take(&mut self.messages);
+        self.known.clear();
+        let Some(times) = self.times.take() else {
+            return Ok(());
+        };
+        let mut buffer = std::mem::take(&mut self.buffer);
+        buffer.clear();
+        let mut index = put_chunk(&mut buffer, &self.chunk, times);
+        index.start = self.position;
+        index.length = buffer.len() as u64;
+        self.chunk.clear();
+        for (channel, mut places) in messages {
+            places.sort_unstable();
+            let offset = self.position + buffer.len() as u64;
+            index
+                .lists
+                .insert(channel + 1, (offset, places.len() as u64));
+            buffer.put_record(opcode::MESSAGE_INDEX, |content| {
+                content.put_u16(channel + 1);
+                content.put_list(|list| {
+                    for (time, offset) in places {
+                        list.put_u64(time);
+                        list.put_u64(offset);
+                    }
+                });
+            });
+        }
+        index.index_length = buffer.len() as u64 - index.length;
+        let written = self.append(&buffer);
+        self.buffer = buffer;
+        written?;
+        self.ring.add(&mut self.file, index)
+    }
+
+    /// Writes what finds everything again; the file is whole afterwards.
+    pub(crate) fn finish(mut self) -> io::Result<()> {
+        self.close_chunk()?;
+        let mut end = Vec::new();
+        end.put_record(opcode::DATA_END, |content| content.put_u32(0));
+        let summary_start = self.position + end.len() as u64;
+        let mut summary = Vec::new();
+        let mut groups = Vec::new();
+        let mut group = |summary: &mut Vec<u8>, opcode: u8, write: &mut dyn FnMut(&mut Vec<u8>)| {
+            let start = summary.len();
+            write(summary);
+            if summary.len() > start {
+                groups.push((opcode, start as u64, (summary.len() - start) as u64));
+            }
+        };
+        let description = &self.description;
+        group(&mut summary, opcode::SCHEMA, &mut |out| {
+            put_schemas(out, description);
+        });
+        group(&mut summary, opcode::CHANNEL, &mut |out| {
+            put_channels(out, description);
+        });
+        group(&mut summary, opcode::STATISTICS, &mut |out| {
+            self.put_statistics(out);
+        });
+        group(&mut summary, opcode::CHUNK_INDEX, &mut |out| {
+            self.ring
+                .chunks()
+                .for_each(|chunk| put_chunk_index(out, chunk));
+        });
+        group(&mut summary, opcode::ATTACHMENT_INDEX, &mut |out| {
+            self.put_attachment_indexes(out);
+        });
+        group(&mut summary, opcode::METADATA_INDEX, &mut |out| {
+            for (offset, length, name) in &self.metadata {
+                out.put_record(opcode::METADATA_INDEX, |content| {
+                    content.put_u64(*offset);
+                    content.put_u64(*length);
+                    content.put_text(name);
+                });
+            }
+        });
+        let offsets_start = summary_start + summary.len() as u64;
+        for (opcode, start, length) in groups {
+            summary.put_record(opcode::SUMMARY_OFFSET, |content| {
+                content.put_u8(opcode);
+                content.put_u64(summary_start + start);
+                content.put_u64(length);
+            });
+        }
+        // The check sum covers the footer up to itself.
+        summary.put_u8(opcode::FOOTER);
+        summary.put_u64(8 + 8 + 4);
+        summary.put_u64(summary_start);
+        summary.put_u64(offsets_start);
+        let sum = crc32fast::hash(&summary);
+        summary.put_u32(sum);
+        summary.extend(MAGIC);
+        end.extend(summary);
+        self.append(&end)?;
+        self.file.sync_all()
+    }
+
+    fn put_statistics(&self, out: &mut Vec<u8>) {
+        let mut counts: BTreeMap<u16, u64> = BTreeMap::new();
+        let mut times: Option<(u64, u64)> = None;
+        for chunk in self.ring.chunks() {
+            for (channel, (_, messages)) in &chunk.lists {
+                *counts.entry(*channel).or_default() += messages;
+            }
+            let (first, last) = times.unwrap_or(chunk.times);
+            times = Some((first.min(chunk.times.0), last.max(chunk.times.1)));
+        }
+        let (first, last) = times.unwrap_or_default();
+        out.put_record(opcode::STATISTICS, |content| {
+            content.put_u64(counts.values().sum());
+            content.put_u16(self.description.schemas.len() as u16);
+            content.put_u32(self.description.channels.len() as u32);
+            content.put_u32(self.attachments.len() as u32);
+            content.put_u32(self.metadata.len() as u32);
+            content.put_u32(self.ring.chunks().count() as u32);
+            content.put_u64(first);
+            content.put_u64(last);
+            content.put_list(|map| {
+                for (channel, count) in counts {
+                    map.put_u16(channel);
+                    map.put_u64(count);
+                }
+            });
+        });
+    }
+
+    fn put_attachment_indexes(&self, out: &mut Vec<u8>) {
+        for (offset, length, index) in &self.attachments {
+            let attachment = &self.description.attachments[*index];
+            out.put_record(opcode::ATTACHMENT_INDEX, |content| {
+                content.put_u64(*offset);
+                content.put_u64(*length);
+                content.put_u64(0);
+                content.put_u64(0);
+                content.put_u64(attachment.data.len() as u64);
+                content.put_text(&attachment.name);
+                content.put_text(&attachment.media_type);
+            });
+        }
+    }
+}
+
+fn put_schemas_and_channels(out: &mut Vec<u8>, description: &Description) {
+    put_schemas(out, description);
+    put_channels(out, description);
+}
+
+fn put_schemas(out: &mut Vec<u8>, description: &Description) {
+    for (id, schema) in (1..).zip(&description.schemas) {
+        out.put_record(opcode::SCHEMA, |content| {
+            content.put_u16(id);
+            content.put_text(&schema.name);
+            content.put_text(&schema.encoding);
+            content.put_list(|data| data.extend_from_slice(&schema.data));
+        });
+    }
+}
+
+fn put_channels(out: &mut Vec<u8>, description: &Description) {
+    for (id, channel) in (1..).zip(&description.channels) {
+        out.put_record(opcode::CHANNEL, |content| {
+            content.put_u16(id);
+            // 0: none.
+            content.put_u16(channel.schema.map_or(0, |schema| schema + 1));
+            content.put_text(&channel.topic);
+            content.put_text(&channel.encoding);
+            put_map(content, &channel.metadata);
+        });
+    }
+}
+
+fn put_map(out: &mut Vec<u8>, entries: &[(String, String)]) {
+    out.put_list(|map| {
+        for (key, value) in entries {
+            map.put_text(key);
+            map.put_text(value);
+        }
+    });
+}
+
+fn put_attachment(out: &mut Vec<u8>, attachment: &Attachment) {
+    out.put_record(opcode::ATTACHMENT, |content| {
+        let start = content.len();
+        content.put_u64(0);
+        content.put_u64(0);
+        content.put_text(&attachment.name);
+        content.put_text(&attachment.media_type);
+        content.put_u64(attachment.data.len() as u64);
+        content.extend_from_slice(&attachment.data);
+        let sum = crc32fast::hash(&content[start..]);
+        content.put_u32(sum);
+    });
+}
+
+/// One chunk of these messages; what lies where is not known yet.
+fn put_chunk(out: &mut Vec<u8>, messages: &[u8], times: (u64, u64)) -> ChunkIndex {
+    let mut encoder = lz4_flex::frame::FrameEncoder::new(Vec::new());
+    // Writing into memory does not fail.
+    let compressed = encoder
+        .write_all(messages)
+        .ok()
+        .and_then(|()| encoder.finish().ok());
+    let (compression, records) = match &compressed {
+        Some(compressed) => ("lz4", compressed.as_slice()),
+        None => ("", messages),
+    };
+    out.reserve(records.len() + RECORD_HEAD + 64);
+    out.put_record(opcode::CHUNK, |content| {
+        content.put_u64(times.0);
+        content.put_u64(times.1);
+        content.put_u64(messages.len() as u64);
+        content.put_u32(crc32fast::hash(messages));
+        content.put_text(compression);
+        content.put_u64(records.len() as u64);
+        content.extend_from_slice(records);
+    });
+    ChunkIndex {
+        start: 0,
+        length: 0,
+        index_length: 0,
+        times,
+        compressed: records.len() as u64,
+        uncompressed: messages.len() as u64,
+        lists: BTreeMap::new(),
+    }
+}
+
+fn put_chunk_index(out: &mut Vec<u8>, chunk: &ChunkIndex) {
+    out.put_record(opcode::CHUNK_INDEX, |content| {
+        content.put_u64(chunk.times.0);
+        content.put_u64(chunk.times.1);
+        content.put_u64(chunk.start);
+        content.put_u64(chunk.length);
+        content.put_list(|map| {
+            for (channel, (offset, _)) in &chunk.lists {
+                map.put_u16(*channel);
+                map.put_u64(*offset);
+            }
+        });
+        content.put_u64(chunk.index_length);
+        content.put_text("lz4");
+        content.put_u64(chunk.compressed);
+        content.put_u64(chunk.uncompressed);
+    });
+}

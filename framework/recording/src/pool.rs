@@ -1,0 +1,48 @@
+//! Blocks on their way between cyclers and the writer; nobody waits, nothing is allocated.
+
+use crossbeam_queue::ArrayQueue;
+
+use crate::block::Block;
+
+/// All blocks of a recording.
+#[derive(Debug)]
+pub(crate) struct Pool {
+    empty: ArrayQueue<Block>,
+    full: ArrayQueue<Block>,
+}
+
+impl Pool {
+    /// So many blocks of so many bytes, whose memory is touched now and not in a cycle.
+    pub(crate) fn new(blocks: usize, bytes: usize) -> Self {
+        let blocks = blocks.max(1);
+        let pool = Self {
+            empty: ArrayQueue::new(blocks),
+            full: ArrayQueue::new(blocks),
+        };
+        for _ in 0..blocks {
+            pool.give_back(Block::with_capacity(bytes));
+        }
+        pool
+    }
+
+    pub(crate) fn take_empty(&self) -> Option<Block> {
+        self.empty.pop()
+    }
+
+    /// For the writer.
+    pub(crate) fn hand_over(&self, block: Block) {
+        // There is room for all blocks there are.
+        let handed = self.full.push(block);
+        debug_assert!(handed.is_ok(), "a block from elsewhere");
+    }
+
+    pub(crate) fn take_full(&self) -> Option<Block> {
+        self.full.pop()
+    }
+
+    pub(crate) fn give_back(&self, mut block: Block) {
+        block.clear();
+        let given = self.empty.push(block);
+        debug_assert!(given.is_ok(), "a block from elsewhere");
+    }
+}

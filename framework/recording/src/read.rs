@@ -1,0 +1,247 @@
+//! Reading a recording, however it ended.
+
+use std::fmt;
+use std::fs;
+use std::io::{self, Read as _};
+use std::path::Path;
+
+use crate::file::{Attachment, Channel, Metadata, Schema};
+use crate::format::{MAGIC, Take, opcode};
+
+/// No chunk says that it is larger when it is not compressed.
+const LARGEST_CHUNK: u64 = 1 << 30;
+
+/// A file that was read: whole chunks in the order of the file.
+#[derive(Debug, Default)]
+pub struct Recording {
+    pub schemas: Vec<(u16, Schema)>,
+    /// By their numbers in the file.
+    pub channels: Vec<(u16, Channel)>,
+    pub metadata: Vec<Metadata>,
+    pub attachments: Vec<Attachment>,
+    pub chunks: Vec<Chunk>,
+    /// How many chunks the ring closed over.
+    pub gone: u64,
+    pub way: Way,
+}
+
+/// How the file ends.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum Way {
+    /// With all that belongs to the end of a file.
+    #[default]
+    Whole,
+    /// It breaks off, or something else stands there, behind so many bytes.
+    Cut { behind: u64 },
+}
+
+/// Some messages that can be understood without any other chunk.
+#[derive(Clone, Debug)]
+pub struct Chunk {
+    /// Offset of its record in the file.
+    pub offset: u64,
+    /// Not compressed.
+    bytes: Vec<u8>,
+}
+
+/// One message.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Message<'chunk> {
+    /// Number of its channel in the file.
+    pub channel: u16,
+    pub sequence: u32,
+    /// In nanoseconds of the run.
+    pub time: u64,
+    pub data: &'chunk [u8],
+}
+
+/// Why there is nothing to read.
+#[derive(Debug)]
+pub enum ReadError {
+    Disk(io::Error),
+    /// It does not begin as an MCAP file does.
+    Other,
+}
+
+impl Recording {
+    /// Reads a file up to where it breaks off.
+    pub fn open(path: &Path) -> Result<Self, ReadError> {
+        let bytes = fs::read(path).map_err(ReadError::Disk)?;
+        Self::read(&bytes)
+    }
+
+    /// As [`open`](Self::open), of the file's bytes.
+    pub fn read(bytes: &[u8]) -> Result<Self, ReadError> {
+        let mut rest = Take(bytes);
+        if rest.bytes(MAGIC.len()) != Some(&MAGIC) {
+            return Err(ReadError::Other);
+        }
+        let mut recording = Self::default();
+        loop {
+            let behind = (bytes.len() - rest.0.len()) as u64;
+            let understood = rest
+                .record()
+                .and_then(|(opcode, content)| recording.add(opcode, content, behind));
+            match understood {
+                Some(opcode::DATA_END) => break,
+                Some(_) => {}
+                None => {
+                    recording.way = Way::Cut { behind };
+                    return Ok(recording);
+                }
+            }
+        }
+        if !bytes.ends_with(&MAGIC) {
+            let behind = (bytes.len() - rest.0.len()) as u64;
+            recording.way = Way::Cut { behind };
+        }
+        Ok(recording)
+    }
+
+    /// The metadata of this name that was written last.
+    pub fn metadata(&self, name: &str) -> Option<&Metadata> {
+        self.metadata.iter().rfind(|one| one.name == name)
+    }
+
+    /// Whether the run ended and everything was recorded.
+    pub fn is_complete(&self) -> bool {
+        let state = self.metadata("end").and_then(|end| {
+            let state = end.entries.iter().find(|(key, _)| key == "state");
+            state.map(|(_, state)| state.as_str())
+        });
+        self.way == Way::Whole && state == Some("COMPLETE")
+    }
+
+    /// What kind of record it was; `None`: it cannot be understood.
+    fn add(&mut self, opcode: u8, content: &[u8], offset: u64) -> Option<u8> {
+        let mut rest = Take(content);
+        match opcode {
+            opcode::SCHEMA => {
+                let schema = schema(&mut rest)?;
+                self.schemas.push(schema);
+            }
+            opcode::CHANNEL => {
+                let channel = channel(&mut rest)?;
+                self.channels.push(channel);
+            }
+            opcode::METADATA => self.metadata.push(Metadata {
+                name: rest.text()?.to_owned(),
+                entries: rest.map()?,
+            }),
+            opcode::ATTACHMENT => {
+                let attachment = attachment(content)?;
+                self.attachments.push(attachment);
+            }
+            opcode::CHUNK => {
+                let bytes = chunk(&mut rest)?;
+                self.chunks.push(Chunk { offset, bytes });
+            }
+            opcode::GONE => self.gone += 1,
+            // No kind is 0: this is a hole.
+            0 => return None,
+            _ => {}
+        }
+        Some(opcode)
+    }
+}
+
+fn schema(rest: &mut Take<'_>) -> Option<(u16, Schema)> {
+    let id = rest.u16()?;
+    let (name, encoding) = (rest.text()?.to_owned(), rest.text()?.to_owned());
+    let length = rest.u32()?;
+    let data = rest.bytes(length as usize)?.to_vec();
+    let schema = Schema {
+        name,
+        encoding,
+        data,
+    };
+    Some((id, schema))
+}
+
+fn channel(rest: &mut Take<'_>) -> Option<(u16, Channel)> {
+    let (id, schema) = (rest.u16()?, rest.u16()?);
+    let channel = Channel {
+        topic: rest.text()?.to_owned(),
+        schema: (schema != 0).then_some(schema),
+        encoding: rest.text()?.to_owned(),
+        metadata: rest.map()?,
+        once_per_chunk: false,
+    };
+    Some((id, channel))
+}
+
+fn attachment(content: &[u8]) -> Option<Attachment> {
+    let (covered, sum) = content.split_at_checked(content.len().checked_sub(4)?)?;
+    if crc32fast::hash(covered) != Take(sum).u32()? {
+        return None;
+    }
+    let mut rest = Take(covered);
+    rest.bytes(16)?;
+    let (name, media_type) = (rest.text()?.to_owned(), rest.text()?.to_owned());
+    let length = usize::try_from(rest.u64()?).ok()?;
+    Some(Attachment {
+        name,
+        media_type,
+        data: rest.bytes(length)?.to_vec(),
+    })
+}
+
+/// The messages of a chunk whose check sum is right.
+fn chunk(rest: &mut Take<'_>) -> Option<Vec<u8>> {
+    rest.bytes(16)?;
+    let uncompressed = rest.u64().filter(|bytes| *bytes <= LARGEST_CHUNK)?;
+    let sum = rest.u32()?;
+    let compression = rest.text()?;
+    let length = usize::try_from(rest.u64()?).ok()?;
+    let records = rest.bytes(length)?;
+    let bytes = match compression {
+        "" => records.to_vec(),
+        "lz4" => {
+            let mut bytes = Vec::new();
+            let decoder = lz4_flex::frame::FrameDecoder::new(records);
+            decoder
+                .take(uncompressed + 1)
+                .read_to_end(&mut bytes)
+                .ok()?;
+            bytes
+        }
+        _ => return None,
+    };
+    let is_whole = bytes.len() as u64 == uncompressed && crc32fast::hash(&bytes) == sum;
+    is_whole.then_some(bytes)
+}
+
+impl Chunk {
+    /// In the order in which they were written.
+    pub fn messages(&self) -> impl Iterator<Item = Message<'_>> {
+        let mut rest = Take(&self.bytes);
+        std::iter::from_fn(move || {
+            loop {
+                let (opcode, content) = rest.record()?;
+                if opcode != opcode::MESSAGE {
+                    continue;
+                }
+                let mut head = Take(content);
+                let (channel, sequence, time) = (head.u16()?, head.u32()?, head.u64()?);
+                head.u64()?;
+                return Some(Message {
+                    channel,
+                    sequence,
+                    time,
+                    data: head.0,
+                });
+            }
+        })
+    }
+}
+
+impl fmt::Display for ReadError {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Disk(error) => write!(formatter, "{error}"),
+            Self::Other => formatter.write_str("it is no MCAP file"),
+        }
+    }
+}
+
+impl std::error::Error for ReadError {}

@@ -1,0 +1,234 @@
+//! The thread that owns the file.
+
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+use crate::file::{Description, Metadata, Writer};
+use crate::pool::Pool;
+use crate::track::{Counts, Track};
+
+/// How often the writer looks for blocks: their memory must last so long.
+const LOOK: Duration = Duration::from_millis(5);
+
+/// Sizes of a recording.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Settings {
+    /// Bytes of chunks that the file keeps; more, and the oldest go.
+    pub budget: u64,
+    /// How many blocks there are, for all tracks together.
+    pub blocks: usize,
+    /// Bytes of one block: no frame is larger.
+    pub block_bytes: usize,
+    /// Bytes from which on a chunk is closed, not compressed.
+    pub chunk_bytes: usize,
+    /// How long frames stay in memory while their instance has new ones, about.
+    pub longest: Duration,
+}
+
+/// A recording on its way to the disk.
+#[derive(Debug)]
+pub struct Recorder {
+    path: PathBuf,
+    counts: Vec<(String, Arc<Counts>)>,
+    is_ending: Arc<AtomicBool>,
+    thread: Option<JoinHandle<Option<io::Error>>>,
+}
+
+/// How a recording ended.
+#[derive(Debug)]
+pub struct Ended {
+    pub path: PathBuf,
+    /// Whether every frame is in the file, or was until the ring closed over it.
+    pub is_complete: bool,
+    /// What the disk said first.
+    pub error: Option<io::Error>,
+}
+
+impl Default for Settings {
+    /// 64 blocks of 1 MiB, chunks of 4 MiB, a ring of 2 GiB.
+    fn default() -> Self {
+        Self {
+            budget: 2 << 30,
+            blocks: 64,
+            block_bytes: 1 << 20,
+            chunk_bytes: 4 << 20,
+            longest: Duration::from_secs(1),
+        }
+    }
+}
+
+impl Recorder {
+    /// Creates the file, which must not exist, and a track for each of these instances.
+    pub fn start(
+        path: &Path,
+        description: Description,
+        instances: &[&str],
+        settings: Settings,
+    ) -> io::Result<(Self, Vec<Track>)> {
+        let writer = Writer::create(path, description, settings.budget)?;
+        let pool = Arc::new(Pool::new(settings.blocks, settings.block_bytes));
+        let counts: Vec<_> = instances
+            .iter()
+            .map(|instance| ((*instance).to_owned(), Arc::<Counts>::default()))
+            .collect();
+        let tracks = counts.iter().enumerate().map(|(index, (_, counts))| {
+            Track::new(pool.clone(), counts.clone(), index, settings.longest)
+        });
+        let tracks = tracks.collect();
+        let is_ending = Arc::new(AtomicBool::new(false));
+        let thread = Thread {
+            writer,
+            pool,
+            settings,
+            counts: counts.clone(),
+            is_ending: is_ending.clone(),
+            open: Vec::new(),
+            since: Instant::now(),
+            error: None,
+        };
+        let thread = std::thread::Builder::new()
+            .name("recording".to_owned())
+            .spawn(move || thread.run())?;
+        let recorder = Self {
+            path: path.to_owned(),
+            counts,
+            is_ending,
+            thread: Some(thread),
+        };
+        Ok((recorder, tracks))
+    }
+
+    /// The file.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// What became of each instance's frames so far.
+    pub fn counts(&self) -> impl Iterator<Item = (&str, &Counts)> {
+        self.counts
+            .iter()
+            .map(|(instance, counts)| (instance.as_str(), &**counts))
+    }
+
+    /// Writes what was handed over and ends the file. Tracks that are dropped before have handed over everything.
+    pub fn end(mut self) -> Ended {
+        let error = self.join();
+        let is_whole = self.counts.iter().all(|(_, counts)| counts.is_complete());
+        Ended {
+            path: self.path.clone(),
+            is_complete: error.is_none() && is_whole,
+            error,
+        }
+    }
+
+    fn join(&mut self) -> Option<io::Error> {
+        // Release: the writer sees all blocks that this thread saw handed over.
+        self.is_ending.store(true, Ordering::Release);
+        let thread = self.thread.take()?;
+        thread
+            .join()
+            .unwrap_or_else(|_| Some(io::Error::other("the thread of the recording panicked")))
+    }
+}
+
+impl Drop for Recorder {
+    fn drop(&mut self) {
+        self.join();
+    }
+}
+
+struct Thread {
+    writer: Writer,
+    pool: Arc<Pool>,
+    settings: Settings,
+    counts: Vec<(String, Arc<Counts>)>,
+    is_ending: Arc<AtomicBool>,
+    /// Tracks and frames in the chunk that is open.
+    open: Vec<(usize, u64)>,
+    /// When the chunk that is open got its first block.
+    since: Instant,
+    error: Option<io::Error>,
+}
+
+impl Thread {
+    fn run(mut self) -> Option<io::Error> {
+        loop {
+            // Acquire, and before the blocks: what was handed over before the end is found.
+            let is_ending = self.is_ending.load(Ordering::Acquire);
+            let is_idle = !self.take_blocks();
+            let is_old = !self.open.is_empty() && self.since.elapsed() >= self.settings.longest;
+            if is_old || is_ending {
+                self.close_chunk();
+            }
+            if is_ending {
+                break;
+            }
+            if is_idle {
+                std::thread::sleep(LOOK);
+            }
+        }
+        self.finish()
+    }
+
+    /// Whether there were any.
+    fn take_blocks(&mut self) -> bool {
+        let mut is_any = false;
+        while let Some(block) = self.pool.take_full() {
+            is_any = true;
+            if self.open.is_empty() {
+                self.since = Instant::now();
+            }
+            self.open.push((block.track, block.frames));
+            self.writer.add(block.whole());
+            self.pool.give_back(block);
+            if self.writer.open_bytes() >= self.settings.chunk_bytes {
+                self.close_chunk();
+            }
+        }
+        is_any
+    }
+
+    /// A disk that takes no chunk now may take the next one.
+    fn close_chunk(&mut self) {
+        let open = std::mem::take(&mut self.open);
+        if let Err(error) = self.writer.close_chunk() {
+            for (track, frames) in open {
+                if let Some((_, counts)) = self.counts.get(track) {
+                    counts.lost.fetch_add(frames, Ordering::Relaxed);
+                }
+            }
+            self.error.get_or_insert(error);
+        }
+    }
+
+    fn finish(mut self) -> Option<io::Error> {
+        let is_whole = self.counts.iter().all(|(_, counts)| counts.is_complete());
+        let state = match is_whole && self.error.is_none() {
+            true => "COMPLETE",
+            false => "INCOMPLETE",
+        };
+        let mut entries = vec![("state".to_owned(), state.to_owned())];
+        for (instance, counts) in &self.counts {
+            let mut entry = |what: &str, count: u64| {
+                entries.push((format!("{instance}.{what}"), count.to_string()));
+            };
+            entry("recorded", counts.recorded());
+            entry("dropped", counts.dropped());
+            entry("failed", counts.failed());
+            entry("lost", counts.lost());
+        }
+        let end = Metadata {
+            name: "end".to_owned(),
+            entries,
+        };
+        let ended = self
+            .writer
+            .write_metadata(&end)
+            .and_then(|()| self.writer.finish());
+        self.error.or(ended.err())
+    }
+}

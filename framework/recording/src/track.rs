@@ -1,0 +1,239 @@
+//! The frames of one instance, on its way from the cycler to the file.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::{Duration, Instant};
+
+use crate::block::{Block, Full, Writing};
+use crate::file::ChannelId;
+use crate::pool::Pool;
+
+/// What became of the frames of one instance so far, to be read while it runs.
+#[derive(Debug, Default)]
+pub struct Counts {
+    pub(crate) recorded: AtomicU64,
+    pub(crate) dropped: AtomicU64,
+    pub(crate) failed: AtomicU64,
+    pub(crate) lost: AtomicU64,
+}
+
+impl Counts {
+    /// Whole frames that were handed over, or are about to be.
+    pub fn recorded(&self) -> u64 {
+        self.recorded.load(Ordering::Relaxed)
+    }
+
+    /// Frames for which there was no block, or that are larger than one.
+    pub fn dropped(&self) -> u64 {
+        self.dropped.load(Ordering::Relaxed)
+    }
+
+    /// Frames of which something could not be encoded.
+    pub fn failed(&self) -> u64 {
+        self.failed.load(Ordering::Relaxed)
+    }
+
+    /// Recorded frames that the disk did not take.
+    pub fn lost(&self) -> u64 {
+        self.lost.load(Ordering::Relaxed)
+    }
+
+    /// Whether every frame is in the file, as far as is known now.
+    pub fn is_complete(&self) -> bool {
+        self.dropped() + self.failed() + self.lost() == 0
+    }
+}
+
+/// The recording end of one instance; on its cycler's thread.
+#[derive(Debug)]
+pub struct Track {
+    pool: Arc<Pool>,
+    counts: Arc<Counts>,
+    index: usize,
+    block: Option<Block>,
+    /// When the block's first frame was written.
+    since: Instant,
+    longest: Duration,
+}
+
+/// A frame that is being written; it counts when it is whole.
+#[derive(Debug)]
+pub struct Frame<'track> {
+    block: &'track mut Block,
+    keep: usize,
+    is_first: bool,
+    is_full: bool,
+}
+
+/// What became of a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Recorded<E> {
+    Whole,
+    /// No block was empty, or the frame is larger than one.
+    Dropped,
+    /// Nothing of it is recorded.
+    Failed(E),
+}
+
+impl Track {
+    pub(crate) fn new(
+        pool: Arc<Pool>,
+        counts: Arc<Counts>,
+        index: usize,
+        longest: Duration,
+    ) -> Self {
+        Self {
+            pool,
+            counts,
+            index,
+            block: None,
+            since: Instant::now(),
+            longest,
+        }
+    }
+
+    /// Its counts.
+    pub fn counts(&self) -> &Arc<Counts> {
+        &self.counts
+    }
+
+    /// Writes one frame, at a time in nanoseconds of the run, and leaves `keep` bytes free for what its
+    /// [`end`](Self::end) adds.
+    ///
+    /// Called again with a new block where the frame does not fit into the rest of the old one: what it wrote there is
+    /// forgotten, and [`Frame::is_first`] is true.
+    pub fn frame<E>(
+        &mut self,
+        time: u64,
+        keep: usize,
+        mut write: impl FnMut(&mut Frame<'_>) -> Result<(), E>,
+    ) -> Recorded<E> {
+        if self.is_old() {
+            self.hand_over();
+        }
+        let mut is_new = false;
+        loop {
+            if self.block.is_none() {
+                is_new = true;
+                self.since = Instant::now();
+                self.block = self.pool.take_empty();
+            }
+            let Some(block) = &mut self.block else {
+                return self.dropped();
+            };
+            block.track = self.index;
+            let mut frame = Frame {
+                is_first: block.is_empty(),
+                block,
+                keep,
+                is_full: false,
+            };
+            let written = write(&mut frame);
+            let is_full = frame.is_full;
+            match written {
+                Ok(()) if !is_full => {
+                    block.end_frame(time);
+                    self.counts.recorded.fetch_add(1, Ordering::Relaxed);
+                    return Recorded::Whole;
+                }
+                Err(error) if !is_full => {
+                    block.roll_back();
+                    self.counts.failed.fetch_add(1, Ordering::Relaxed);
+                    return Recorded::Failed(error);
+                }
+                _ => block.roll_back(),
+            }
+            if is_new {
+                return self.dropped();
+            }
+            self.hand_over();
+        }
+    }
+
+    /// Adds to the frame before what only its end tells; there must have been kept room.
+    pub fn end<E>(
+        &mut self,
+        time: u64,
+        write: impl FnOnce(&mut Frame<'_>) -> Result<(), E>,
+    ) -> Recorded<E> {
+        let Some(block) = &mut self.block else {
+            return Recorded::Dropped;
+        };
+        let mut frame = Frame {
+            is_first: false,
+            block,
+            keep: 0,
+            is_full: false,
+        };
+        let written = write(&mut frame);
+        let is_full = frame.is_full;
+        match written {
+            Ok(()) if !is_full => {
+                let frames = block.frames;
+                block.end_frame(time);
+                block.frames = frames;
+                Recorded::Whole
+            }
+            Err(error) if !is_full => {
+                block.roll_back();
+                self.counts.failed.fetch_add(1, Ordering::Relaxed);
+                Recorded::Failed(error)
+            }
+            _ => {
+                block.roll_back();
+                self.dropped()
+            }
+        }
+    }
+
+    fn dropped<E>(&self) -> Recorded<E> {
+        self.counts.dropped.fetch_add(1, Ordering::Relaxed);
+        Recorded::Dropped
+    }
+
+    fn is_old(&self) -> bool {
+        self.block.as_ref().is_some_and(|block| !block.is_empty())
+            && self.since.elapsed() >= self.longest
+    }
+
+    /// Gives what is whole to the writer; the next frame is the first of a block.
+    pub fn hand_over(&mut self) {
+        if let Some(mut block) = self.block.take() {
+            block.roll_back();
+            match block.is_empty() {
+                true => self.pool.give_back(block),
+                false => self.pool.hand_over(block),
+            }
+        }
+    }
+}
+
+impl Drop for Track {
+    fn drop(&mut self) {
+        self.hand_over();
+    }
+}
+
+impl Frame<'_> {
+    /// Whether it is the first of its block, so that it must not refer to what stands before it.
+    pub fn is_first(&self) -> bool {
+        self.is_first
+    }
+
+    /// Writes one message of the frame.
+    pub fn message<E: From<Full>>(
+        &mut self,
+        channel: ChannelId,
+        sequence: u32,
+        time: u64,
+        write: impl FnOnce(&mut Writing<'_>) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let written = self
+            .block
+            .message((channel, sequence, time), self.keep, write);
+        written.unwrap_or_else(|full| {
+            self.is_full = true;
+            Err(full.into())
+        })
+    }
+}

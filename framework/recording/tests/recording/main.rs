@@ -1,0 +1,341 @@
+//! What cyclers write is what readers find, however the file ended.
+
+mod description;
+mod readers;
+mod support;
+
+use std::convert::Infallible;
+use std::os::unix::fs::MetadataExt as _;
+use std::process::Command;
+use std::time::Duration;
+
+use hulkgen_recording::{Full, Recorded, Recorder, Recording, Settings, Way};
+use proptest::prelude::*;
+
+use description::{FRAMES, description, settings};
+use support::{frame, record};
+
+/// Cycles of the frames in all chunks; each chunk has every value that its frames refer to, once.
+fn cycles(recording: &Recording) -> Vec<u32> {
+    let mut cycles = Vec::new();
+    for chunk in &recording.chunks {
+        let mut values = Vec::new();
+        for message in chunk.messages() {
+            let number = std::str::from_utf8(message.data).expect("digits");
+            let number: u32 = number.parse().expect("digits");
+            assert_eq!(number, message.sequence);
+            if message.channel == 2 {
+                assert!(!values.contains(&number), "{number} stands twice");
+                values.push(number);
+            } else {
+                assert!(
+                    values.contains(&(number / 3)),
+                    "{number} cannot be replayed"
+                );
+                cycles.push(number);
+            }
+        }
+    }
+    cycles
+}
+
+#[test]
+fn everything_is_found_again() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("run.mcap");
+    // Nothing was dropped for good, but the recording counts each time that a frame found no block.
+    record(&path, 2000, 20, settings());
+    let recording = Recording::open(&path).expect("it can be read");
+    assert_eq!(recording.way, Way::Whole);
+    assert!(recording.chunks.len() > 5);
+    assert_eq!(cycles(&recording), Vec::from_iter(0..2000));
+    let own = description();
+    let channels = recording.channels.iter().map(|(_, channel)| &channel.topic);
+    assert!(channels.eq(own.channels.iter().map(|channel| &channel.topic)));
+    assert_eq!(recording.schemas, [(1, own.schemas[0].clone())]);
+    assert_eq!(recording.attachments, own.attachments);
+    assert_eq!(recording.metadata("run"), own.metadata.first());
+}
+
+#[test]
+fn nothing_is_overwritten() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("run.mcap");
+    assert!(record(&path, 10, 4, settings()));
+    let again = Recorder::start(&path, description(), &[], settings());
+    assert!(again.is_err());
+    assert!(
+        Recording::open(&path)
+            .expect("it is still there")
+            .is_complete()
+    );
+}
+
+#[test]
+fn a_frame_that_does_not_fit_begins_the_next_block() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("run.mcap");
+    let (recorder, mut tracks) =
+        Recorder::start(&path, description(), &["Control"], settings()).expect("it is new");
+    let mut track = tracks.pop().expect("one was asked for");
+    let mut firsts = Vec::new();
+    for cycle in 0..5 {
+        let recorded = track.frame(cycle, 0, |frame| {
+            let is_first = frame.is_first();
+            let written: Result<(), Full> =
+                frame.message(FRAMES, 0, cycle, |writing| writing.put(&[b'0'; 1500]));
+            if written.is_ok() {
+                firsts.push(is_first);
+            }
+            written
+        });
+        assert_eq!(recorded, Recorded::Whole);
+    }
+    assert_eq!(firsts, [true, false, true, false, true]);
+    let large = track.frame(9, 0, |frame| {
+        frame.message(FRAMES, 9, 9, |writing| writing.put(&[b'0'; 5000]))
+    });
+    assert_eq!(large, Recorded::<Full>::Dropped);
+    assert_eq!(
+        (track.counts().recorded(), track.counts().dropped()),
+        (5, 1)
+    );
+    drop(track);
+    let ended = recorder.end();
+    assert!(!ended.is_complete && ended.error.is_none());
+    let recording = Recording::open(&path).expect("it can be read");
+    assert!(!recording.is_complete());
+    let end = recording.metadata("end").expect("it ended");
+    let dropped = ("Control.dropped".to_owned(), "1".to_owned());
+    assert!(end.entries.contains(&dropped));
+}
+
+#[test]
+fn what_cannot_be_encoded_is_no_frame() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("run.mcap");
+    let (recorder, mut tracks) =
+        Recorder::start(&path, description(), &["Control"], settings()).expect("it is new");
+    let mut track = tracks.pop().expect("one was asked for");
+    assert_eq!(frame(&mut track, 0, 1), Recorded::Whole);
+    let failed = track.frame(1, 0, |frame| {
+        frame.message(FRAMES, 1, 1, |writing| writing.put(b"1"))?;
+        Err("no number".to_owned()).or_else(|error: String| match error.as_str() {
+            "" => Ok(()),
+            _ => Err(Failure(error)),
+        })
+    });
+    assert_eq!(failed, Recorded::Failed(Failure("no number".to_owned())));
+    assert_eq!(frame(&mut track, 2, 1), Recorded::Whole);
+    drop(track);
+    assert!(!recorder.end().is_complete);
+    let recording = Recording::open(&path).expect("it can be read");
+    assert_eq!(cycles(&recording), [0, 2]);
+}
+
+#[derive(Debug, PartialEq, Eq)]
+struct Failure(String);
+
+impl From<Full> for Failure {
+    fn from(_: Full) -> Self {
+        Self("full".to_owned())
+    }
+}
+
+#[test]
+fn the_end_of_a_cycle_stands_behind_its_frame() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("run.mcap");
+    let (recorder, mut tracks) =
+        Recorder::start(&path, description(), &["Control"], settings()).expect("it is new");
+    let mut track = tracks.pop().expect("one was asked for");
+    for cycle in 0..500 {
+        // What was kept free is enough, wherever the block ends.
+        while frame(&mut track, cycle, 3) != Recorded::Whole {
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        let ended = track.end::<Full>(u64::from(cycle), |frame| {
+            frame.message(FRAMES, cycle, u64::from(cycle), |writing| {
+                writing.put(cycle.to_string().as_bytes())
+            })
+        });
+        assert_eq!(ended, Recorded::Whole);
+    }
+    drop(track);
+    recorder.end();
+    let recording = Recording::open(&path).expect("it can be read");
+    let twice = (0..500).flat_map(|cycle| [cycle, cycle]);
+    assert!(cycles(&recording).into_iter().eq(twice));
+}
+
+#[test]
+fn frames_without_a_block_are_dropped_and_counted() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("run.mcap");
+    let (recorder, mut tracks) = Recorder::start(
+        &path,
+        description(),
+        &["One", "Other"],
+        Settings {
+            blocks: 1,
+            ..settings()
+        },
+    )
+    .expect("it is new");
+    let [one, other] = tracks.as_mut_slice() else {
+        panic!("two were asked for");
+    };
+    // The only block is with one of the two.
+    assert_eq!(frame(one, 0, 1), Recorded::Whole);
+    for cycle in 0..7 {
+        assert_eq!(frame(other, cycle, 1), Recorded::Dropped);
+    }
+    let counts: Vec<_> = recorder
+        .counts()
+        .map(|(name, counts)| (name.to_owned(), counts.recorded(), counts.dropped()))
+        .collect();
+    assert_eq!(
+        counts,
+        [("One".to_owned(), 1, 0), ("Other".to_owned(), 0, 7)]
+    );
+    drop(tracks);
+    assert!(!recorder.end().is_complete);
+}
+
+#[test]
+fn a_cut_file_has_all_chunks_before_the_cut() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("run.mcap");
+    record(&path, 1500, 20, settings());
+    let bytes = std::fs::read(&path).expect("it was written");
+    let whole = Recording::read(&bytes).expect("it can be read");
+    let all = cycles(&whole);
+    let boundaries = whole.chunks.iter().map(|chunk| chunk.offset as usize);
+    let boundaries: Vec<_> = boundaries.collect();
+    let step = bytes.len() / 500;
+    let cuts = (8..bytes.len()).step_by(step.max(1));
+    for cut in cuts.chain(boundaries.iter().copied()) {
+        let recording = Recording::read(&bytes[..cut]).expect("its beginning is there");
+        assert_ne!(recording.way, Way::Whole);
+        let found = cycles(&recording);
+        assert_eq!(found, all[..found.len()]);
+        // The last record of a chunk ends before the next one's first.
+        let before = boundaries.iter().filter(|offset| **offset < cut).count();
+        assert!(recording.chunks.len() + 1 >= before, "cut at {cut}");
+    }
+}
+
+#[test]
+fn a_budget_makes_a_ring() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("run.mcap");
+    // Digits that differ, so that compression does not hide the ring.
+    let budget = 64 << 10;
+    record(
+        &path,
+        60_000,
+        1,
+        Settings {
+            budget,
+            ..settings()
+        },
+    );
+    let recording = Recording::open(&path).expect("it can be read");
+    assert_eq!(recording.way, Way::Whole);
+    assert!(recording.gone > 10, "{} chunks are gone", recording.gone);
+    let found = cycles(&recording);
+    let first = *found.first().expect("the newest are there");
+    assert!(first > 0);
+    assert_eq!(found, Vec::from_iter(first..60_000));
+    let file = std::fs::metadata(&path).expect("it was written");
+    let on_disk = file.blocks() * 512;
+    assert!(
+        on_disk < 3 * budget + (recording.gone * 4096),
+        "{on_disk} bytes are on the disk"
+    );
+    assert!(on_disk < file.len(), "{} bytes are in the file", file.len());
+}
+
+proptest! {
+    #[test]
+    fn any_bytes_are_read_or_refused(bytes in proptest::collection::vec(any::<u8>(), 0..400), flips in proptest::collection::vec((0_usize..6000, any::<u8>()), 0..4)) {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("run.mcap");
+        record(&path, 100, 5, settings());
+        let mut file = std::fs::read(&path).expect("it was written");
+        for (place, value) in flips {
+            if let Some(byte) = file.get_mut(place) {
+                *byte = value;
+            }
+        }
+        let read = |bytes: &[u8]| {
+            if let Ok(recording) = Recording::read(bytes) {
+                recording.chunks.iter().for_each(|chunk| {
+                    chunk.messages().count();
+                });
+            }
+        };
+        read(&file);
+        read(&bytes);
+        file.splice(40.min(file.len()).., bytes);
+        read(&file);
+    }
+}
+
+#[test]
+fn errors_of_messages_can_be_anything() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("run.mcap");
+    let (_recorder, mut tracks) =
+        Recorder::start(&path, description(), &["Control"], settings()).expect("it is new");
+    let recorded = tracks[0].frame::<Infallible>(0, 0, |_| Ok(()));
+    assert_eq!(recorded, Recorded::Whole);
+}
+
+/// Where the child of the test below writes.
+const LIMITED: &str = "HULKGEN_TEST_LIMITED";
+
+#[test]
+fn a_full_disk_stops_nobody_and_is_told() {
+    const NAME: &str = "a_full_disk_stops_nobody_and_is_told";
+    if let Some(path) = std::env::var_os(LIMITED) {
+        let (recorder, mut tracks) =
+            Recorder::start(path.as_ref(), description(), &["Control"], settings()).expect("new");
+        let mut track = tracks.pop().expect("one was asked for");
+        for cycle in 0..50_000 {
+            while frame(&mut track, cycle, 1) != Recorded::Whole {
+                std::thread::sleep(Duration::from_millis(1));
+            }
+        }
+        drop(track);
+        let lost = recorder
+            .counts()
+            .map(|(_, counts)| counts.lost())
+            .sum::<u64>();
+        let ended = recorder.end();
+        assert!(!ended.is_complete && ended.error.is_some());
+        assert!(lost > 0 && lost < 50_000, "{lost} frames are lost");
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("run.mcap");
+    let test = std::env::current_exe().expect("it runs");
+    // In blocks of 512 bytes; a write beyond is an error and no signal.
+    let child = Command::new("sh")
+        .args([
+            "-c",
+            "ulimit -f 256; trap '' XFSZ; exec \"$0\" --exact \"$1\"",
+        ])
+        .arg(test)
+        .arg(NAME)
+        .env(LIMITED, &path)
+        .output();
+    let child = child.expect("every Unix has a shell");
+    let said = String::from_utf8_lossy(&child.stdout);
+    assert!(child.status.success(), "{said}");
+    let recording = Recording::open(&path).expect("it can be read");
+    assert!(!recording.is_complete());
+    let found = cycles(&recording);
+    // What came last may be small enough for what is left.
+    assert!(found.len() > 1000 && found.starts_with(&[0, 1, 2]) && found.is_sorted());
+}
