@@ -14,6 +14,7 @@
 //! | [`mod@buffer`] | the newest database of an instance, without blocking, lock or copy; the only unsafe code |
 //! | [`stub`] | what stands in for an instance that a partial robot does without |
 //! | [`temporal`], [`history`] | results of perception in order of time; own outputs by time |
+//! | [`recorded`] | what a cycle took, saved and given back |
 //! | [`subscriptions`], [`injection`] | clients: listen to an output, replace one |
 //! | [`time`], [`clock`], [`stop`], [`timing`], [`report`] | when, until when, how long, and how to tell |
 //! | [`reflect`], [`data`], [`clear`], [`digest`] | what values must be able to do |
@@ -39,6 +40,7 @@ pub mod launch;
 pub mod parameters;
 pub mod procedure;
 pub mod rearm;
+pub mod recorded;
 pub mod reflect;
 pub mod report;
 pub mod robot;

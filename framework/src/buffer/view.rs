@@ -58,6 +58,12 @@ impl<'a, T> View<'a, T> {
         self.entry.timestamp
     }
 
+    /// Whether the reading instance's previous cycle saw an older one, or none.
+    #[inline]
+    pub fn is_new(self) -> bool {
+        self.is_new
+    }
+
     /// One value with its origin as a cycle at `now` sees it; `None` before the first cycle.
     #[inline]
     pub fn latest<V>(self, now: Timestamp, path: impl FnOnce(&'a T) -> V) -> Option<Latest<V>> {

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::horizon::{Bounds, Lane};
 use super::reference::{Reference, ReferenceKind};
 use super::series::{Item, Series};
-use crate::buffer::Queue;
+use crate::buffer::{Entry, Queue};
 use crate::time::Timestamp;
 
 /// The cycles of one instance that are taken and not let go, oldest first: some persistent, then
@@ -100,6 +100,51 @@ impl<T> Consumer<T> {
                 kind,
             });
         }
+    }
+
+    /// How many cycles the consuming cycle sees.
+    pub(crate) fn seen(&self) -> usize {
+        self.visible
+    }
+
+    /// How many of them are persistent: the oldest.
+    pub(crate) fn seen_persistent(&self) -> usize {
+        self.persistent
+    }
+
+    /// A cycle that is seen, and its order.
+    pub(crate) fn entry(&self, index: usize) -> Option<(&Entry<T>, Timestamp)> {
+        let place = self.places.get(index)?;
+        Some((self.queue.get(index)?, place.order))
+    }
+
+    /// Lets go of everything, also of what is complete and was not taken.
+    pub(crate) fn forget(&mut self) {
+        self.queue.release(self.places.len());
+        self.places.clear();
+        (self.persistent, self.visible) = (0, 0);
+        while self.queue.take().is_some() {
+            self.queue.release(1);
+        }
+    }
+
+    /// Takes the next cycle with an order that was given before; `false`: there is none, or no room.
+    pub(crate) fn take_at(&mut self, order: Timestamp) -> bool {
+        let Some(entry) = self.queue.take() else {
+            return false;
+        };
+        self.places.push_back(Place {
+            order,
+            timestamp: entry.timestamp,
+            is_expired: false,
+        });
+        true
+    }
+
+    /// Shows everything that was taken, the oldest `persistent` as such.
+    pub(crate) fn show(&mut self, persistent: usize) {
+        self.visible = self.places.len();
+        self.persistent = persistent.min(self.visible);
     }
 
     fn let_go_of_persistent(&mut self) {

@@ -1,0 +1,53 @@
+//! Own outputs by time: the whole window where nothing stands before the frame, else what came since the last one.
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use super::{Loading, SaveError, Saving};
+use crate::error::Result;
+use crate::history::{History, Past};
+use crate::time::Timestamp;
+
+impl<T: Clone + Serialize> History<T> {
+    /// Saves the values from `since` on, `None` for all of them.
+    ///
+    /// # Errors
+    /// If there is no room, or a value cannot be serialised.
+    pub fn save(
+        &self,
+        since: Option<Timestamp>,
+        out: &mut Saving<'_, '_>,
+    ) -> Result<(), SaveError> {
+        let all = self.project(|value| value);
+        let first = since.map_or(0, |since| {
+            (0..all.len())
+                .rev()
+                .take_while(|index| all.value(*index).0 >= since)
+                .last()
+                .unwrap_or(all.len())
+        });
+        out.put(&since.is_none())?;
+        out.put(&((all.len() - first) as u32))?;
+        for index in first..all.len() {
+            out.put(&all.value(index))?;
+        }
+        Ok(())
+    }
+}
+
+impl<T: Clone + DeserializeOwned> History<T> {
+    /// Makes it what was saved; what was saved since some time is added to what is there.
+    ///
+    /// # Errors
+    /// If the bytes are none of a history of this type.
+    pub fn load(&mut self, from: &mut Loading<'_>) -> Result<()> {
+        if from.take()? {
+            self.clear();
+        }
+        for _ in 0..from.take::<u32>()? {
+            let (timestamp, value) = from.take::<(Timestamp, T)>()?;
+            self.push(timestamp, &value);
+        }
+        Ok(())
+    }
+}

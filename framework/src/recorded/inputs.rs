@@ -1,0 +1,143 @@
+//! Values of other instances: the newest one, and all in order of time.
+
+use serde::{Deserialize, Serialize};
+
+use super::{Loading, SaveError, Saving};
+use crate::buffer::{Reader, Writer};
+use crate::error::{Error, Result};
+use crate::temporal::Consumer;
+use crate::time::Timestamp;
+
+/// Gives the value that the instance wrote in the cycle of this number.
+pub type Found<'a, T> = &'a mut dyn FnMut(u64) -> Result<T>;
+
+/// An input from another instance.
+pub trait Foreign<T> {
+    /// Every cycle of the instance that the taking cycle sees, by its number, oldest first.
+    fn values(
+        &self,
+        visit: &mut dyn FnMut(u64, &T) -> Result<(), SaveError>,
+    ) -> Result<(), SaveError>;
+
+    /// Saves which cycles these are and how they are seen.
+    ///
+    /// # Errors
+    /// If there is no room.
+    fn save(&self, out: &mut Saving<'_, '_>) -> Result<(), SaveError>;
+
+    /// Makes the input what was saved, by way of a buffer that nobody else writes.
+    ///
+    /// # Errors
+    /// If the bytes are none of such an input, or a value is not found; what the input shows is then not defined.
+    fn load(
+        &mut self,
+        from: &mut Loading<'_>,
+        buffer: &mut Writer<T>,
+        value: Found<'_, T>,
+    ) -> Result<()>;
+}
+
+/// One cycle of another instance, as a frame names it.
+#[derive(Clone, Copy, Debug, Deserialize, Serialize)]
+struct Named {
+    cycle: u64,
+    timestamp: Timestamp,
+    /// Its place in the order of time; of the newest cycle its timestamp.
+    order: Timestamp,
+}
+
+impl<T> Foreign<T> for Reader<T> {
+    fn values(
+        &self,
+        visit: &mut dyn FnMut(u64, &T) -> Result<(), SaveError>,
+    ) -> Result<(), SaveError> {
+        let view = self.view();
+        match view.written() {
+            Some(value) => visit(view.cycle(), value),
+            None => Ok(()),
+        }
+    }
+
+    fn save(&self, out: &mut Saving<'_, '_>) -> Result<(), SaveError> {
+        let view = self.view();
+        out.put(&Named {
+            cycle: view.cycle(),
+            timestamp: view.timestamp(),
+            order: view.timestamp(),
+        })?;
+        out.put(&view.is_new())
+    }
+
+    fn load(
+        &mut self,
+        from: &mut Loading<'_>,
+        buffer: &mut Writer<T>,
+        value: Found<'_, T>,
+    ) -> Result<()> {
+        let named: Named = from.take()?;
+        let is_new: bool = from.take()?;
+        if named.cycle != 0 {
+            *buffer.slots().0 = value(named.cycle)?;
+        }
+        buffer.complete(named.cycle, named.timestamp);
+        self.take();
+        if !is_new {
+            // Nothing came since.
+            self.take();
+        }
+        Ok(())
+    }
+}
+
+impl<T> Foreign<T> for Consumer<T> {
+    fn values(
+        &self,
+        visit: &mut dyn FnMut(u64, &T) -> Result<(), SaveError>,
+    ) -> Result<(), SaveError> {
+        (0..self.seen()).try_for_each(|index| match self.entry(index) {
+            Some((entry, _)) => visit(entry.cycle, &entry.value),
+            None => Ok(()),
+        })
+    }
+
+    fn save(&self, out: &mut Saving<'_, '_>) -> Result<(), SaveError> {
+        out.put(&(self.seen() as u32))?;
+        out.put(&(self.seen_persistent() as u32))?;
+        for (entry, order) in (0..self.seen()).filter_map(|index| self.entry(index)) {
+            out.put(&Named {
+                cycle: entry.cycle,
+                timestamp: entry.timestamp,
+                order,
+            })?;
+        }
+        Ok(())
+    }
+
+    fn load(
+        &mut self,
+        from: &mut Loading<'_>,
+        buffer: &mut Writer<T>,
+        value: Found<'_, T>,
+    ) -> Result<()> {
+        let seen: u32 = from.take()?;
+        let persistent: u32 = from.take()?;
+        self.forget();
+        for _ in 0..seen {
+            let Named {
+                cycle,
+                timestamp,
+                order,
+            } = from.take()?;
+            *buffer.slots().0 = value(cycle)?;
+            buffer.complete(cycle, timestamp);
+            if !self.take_at(order) {
+                return Err(Error::new(format!(
+                    "a cycle sees {seen} cycles of an instance, more than its queue has room for: the recording is of \
+                     another manifest"
+                )));
+            }
+        }
+        self.show(persistent as usize);
+        Ok(())
+    }
+}
