@@ -4,6 +4,7 @@
 //! and serialises nothing; [`Reflect::as_serialize`] of what it found serialises just that. Names below a value are those
 //! that serde gives them. [`Shape`] tells the same tree without a value, with documentation and units.
 
+pub mod binary;
 pub mod derived;
 pub mod path;
 pub mod shape;
@@ -11,21 +12,26 @@ pub mod shape;
 mod collections;
 mod hashed;
 mod leaves;
+mod limits;
 mod nalgebra;
 mod pointers;
+mod schema;
 mod tuples;
 mod unknown;
 
 use std::borrow::Cow;
 
+pub use binary::EncodeError;
+pub use limits::{Limits, OutOfRange};
 pub use path::{InvalidPath, Path, Segment};
-pub use shape::{Content, FieldShape, Leaf, Shape, VariantContent, VariantShape};
+pub use shape::{Content, FieldShape, Form, Leaf, Shape, VariantContent, VariantShape};
 pub use unknown::{Reason, UnknownPath};
 
 /// A value whose parts can be named, read and written.
 ///
-/// Derived: `#[derive(Reflect)]` beside `Serialize` and `Deserialize`, whose `rename`, `rename_all`, `skip`, `flatten` and
-/// `transparent` it follows. `#[reflect(unit = "m")]` on a field tells its unit, `#[reflect(skip)]` hides a field.
+/// Derived: `#[derive(Reflect)]` beside `Serialize` and `Deserialize`, whose `rename`, `rename_all`, `skip`, `flatten`,
+/// `transparent`, `tag`, `content` and `untagged` it follows. On a field `#[reflect(unit = "m")]` tells its unit,
+/// `#[reflect(range = 0.0..=1.0)]` where its numbers must lie when it is a parameter, `#[reflect(skip)]` hides it.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` does not implement `Reflect`",
     label = "cannot be shown, recorded or set by path",
@@ -50,6 +56,17 @@ pub trait Reflect {
     /// What [`Reflect::child`] knows now.
     fn children(&self) -> Children {
         Children::default()
+    }
+
+    /// Appends the whole value as [`binary`] lays out its shape. Whoever wants to send it calls [`binary::encode`].
+    fn encode(&self, bytes: &mut Vec<u8>) -> Result<(), EncodeError>;
+
+    /// As [`Reflect::encode`] of each.
+    fn encode_all(values: &[Self], bytes: &mut Vec<u8>) -> Result<(), EncodeError>
+    where
+        Self: Sized,
+    {
+        values.iter().try_for_each(|value| value.encode(bytes))
     }
 
     /// The whole value, for any serde format.

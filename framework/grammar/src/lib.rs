@@ -7,6 +7,7 @@
 
 mod context;
 mod field;
+mod hints;
 mod kind;
 mod mistake;
 mod nearest;
@@ -20,6 +21,7 @@ pub use field::{
     AnyField, CreationField, CycleField, Field, FromInstance, FromOutput, OutputField, Pathed,
     ProcedureName, ReadField, StatePath, option_argument, read_field,
 };
+pub use hints::{Hints, Range, documentation, is_hint_attribute};
 pub use mistake::{Mistake, Rule};
 pub use nearest::nearest;
 pub use path::{DataPath, Name, Segment, SegmentName};

@@ -4,6 +4,7 @@ mod enums;
 mod parts;
 mod structs;
 
+use grammar::documentation;
 use proc_macro2::TokenStream as Tokens;
 use quote::quote;
 use syn::{Data, DeriveInput, parse_quote};
@@ -17,6 +18,8 @@ struct Functions {
     shape: Tokens,
     /// Bodies of `child`, `child_mut` and `children`; none where the trait's own will do.
     parts: Option<Walk>,
+    /// Body of `encode`; none where the serde form is written as it comes.
+    encode: Option<Tokens>,
 }
 
 /// How to find the parts of a value.
@@ -28,10 +31,11 @@ struct Walk {
 
 pub(crate) fn expand(item: &DeriveInput) -> syn::Result<Tokens> {
     let container = Container::read(&item.attrs)?;
+    let docs = documentation(&item.attrs);
     let functions = match &item.data {
-        _ if container.foreign => foreign(),
-        Data::Struct(data) => structs::functions(&data.fields, &container)?,
-        Data::Enum(data) => enums::functions(data, &container)?,
+        _ if container.foreign => opaque(),
+        Data::Struct(data) => structs::functions(&data.fields, &container, &docs)?,
+        Data::Enum(data) => enums::functions(data, &container, &docs)?,
         Data::Union(data) => {
             let message = "`Reflect` is for structs and enums";
             return Err(syn::Error::new(data.union_token.span, message));
@@ -40,13 +44,25 @@ pub(crate) fn expand(item: &DeriveInput) -> syn::Result<Tokens> {
     Ok(quote_implementation(item, &functions))
 }
 
-/// A type whose serde form is that of another type: shown as a whole.
-fn foreign() -> Functions {
+/// A type whose serde form is not that of its parts: shown as a whole.
+fn opaque() -> Functions {
     Functions {
         shape: quote!(framework_reflect::Shape::leaf::<Self>(
             framework_reflect::Leaf::Opaque
         )),
         parts: None,
+        encode: None,
+    }
+}
+
+/// The shape of a type with these parts.
+fn quote_shape(content: &Tokens, form: &Tokens, docs: &str) -> Tokens {
+    quote! {
+        framework_reflect::Shape::of::<Self>(|| framework_reflect::Shape {
+            docs: #docs,
+            form: framework_reflect::Form::#form,
+            ..framework_reflect::Shape::new::<Self>(#content)
+        })
     }
 }
 
@@ -67,6 +83,10 @@ fn quote_implementation(item: &DeriveInput, functions: &Functions) -> Tokens {
     let (parameters, arguments, clause) = generics.split_for_impl();
     let shape = &functions.shape;
     let walk = functions.parts.as_ref().map(quote_walk);
+    let encode = match &functions.encode {
+        Some(encode) => encode.clone(),
+        None => quote!(framework_reflect::encode_any(self, bytes)),
+    };
     quote! {
         const _: () = {
             use ::framework::reflect::derived as framework_reflect;
@@ -78,6 +98,13 @@ fn quote_implementation(item: &DeriveInput, functions: &Functions) -> Tokens {
                 }
 
                 #walk
+
+                fn encode(
+                    &self,
+                    bytes: &mut ::std::vec::Vec<u8>,
+                ) -> ::core::result::Result<(), framework_reflect::EncodeError> {
+                    #encode
+                }
 
                 fn as_serialize(&self) -> &dyn framework_reflect::erased_serde::Serialize {
                     self
@@ -140,7 +167,7 @@ mod tests {
             ),
             (
                 "struct S { #[reflect(units = \"m\")] a: u8 }",
-                "expected `unit = \"…\"` or `skip`",
+                "expected `unit = \"…\"`, `range = 0.0..=1.0`, `skip` or `creation_only`",
             ),
             (
                 "enum E { A { #[reflect(unit = 5)] a: u8 } }",

@@ -4,7 +4,7 @@ mod case;
 
 use proc_macro2::TokenStream as Tokens;
 use syn::meta::ParseNestedMeta;
-use syn::{Attribute, LitStr, Token, parenthesized, token};
+use syn::{Attribute, ExprPath, LitStr, Token, parenthesized, token};
 
 use case::Case;
 
@@ -19,6 +19,12 @@ pub(crate) struct Container {
     pub(crate) transparent: bool,
     /// Its serde form is that of another type.
     pub(crate) foreign: bool,
+    /// Where the name of the variant stands.
+    pub(crate) tag: Option<LitStr>,
+    /// Where the variant stands beside its name.
+    pub(crate) content: Option<LitStr>,
+    /// The variant has no name.
+    pub(crate) untagged: bool,
 }
 
 /// `#[serde(…)]` of a field or variant, for itself.
@@ -29,6 +35,10 @@ pub(crate) struct Member {
     pub(crate) skip: bool,
     /// Its parts stand among its neighbours.
     pub(crate) flatten: bool,
+    /// The function that tells whether it stands in the serde form.
+    pub(crate) is_left_out: Option<ExprPath>,
+    /// It is not written by the implementation of its type, or, a variant, not by its name.
+    pub(crate) own_form: bool,
 }
 
 impl Container {
@@ -39,7 +49,12 @@ impl Container {
                 container.rename_all = case(&meta)?;
             } else if meta.path.is_ident("rename_all_fields") {
                 container.rename_all_fields = case(&meta)?;
+            } else if meta.path.is_ident("tag") {
+                container.tag = Some(meta.value()?.parse()?);
+            } else if meta.path.is_ident("content") {
+                container.content = Some(meta.value()?.parse()?);
             } else {
+                container.untagged |= meta.path.is_ident("untagged");
                 container.transparent |= meta.path.is_ident("transparent");
                 let foreign = ["from", "into", "remote", "try_from"];
                 container.foreign |= foreign.iter().any(|name| meta.path.is_ident(name));
@@ -84,6 +99,13 @@ impl Member {
                 member.rename = serialized_value(&meta)?.map(|name| name.value());
                 return Ok(());
             }
+            if meta.path.is_ident("skip_serializing_if") {
+                let function: LitStr = meta.value()?.parse()?;
+                member.is_left_out = Some(function.parse()?);
+                return Ok(());
+            }
+            let own_form = ["getter", "serialize_with", "untagged", "with"];
+            member.own_form |= own_form.iter().any(|name| meta.path.is_ident(name));
             member.skip |= meta.path.is_ident("skip") || meta.path.is_ident("skip_serializing");
             member.flatten |= meta.path.is_ident("flatten");
             skip_value(&meta)

@@ -4,8 +4,10 @@ pub use erased_serde;
 pub use serde::Serialize;
 pub use serde::de::DeserializeOwned;
 
+pub use super::binary::{EncodeError, encode_any, encode_tag, encode_unless, skipped_variant};
 pub use super::{
-    Children, Content, FieldShape, Leaf, Reflect, Segment, Shape, VariantContent, VariantShape,
+    Children, Content, FieldShape, Form, Leaf, Limits, Reflect, Segment, Shape, VariantContent,
+    VariantShape,
 };
 
 /// The fields of a struct, with those of its flattened fields.
@@ -31,7 +33,15 @@ pub enum Fields {
 fn flattened(shape: Shape) -> Vec<FieldShape> {
     match shape.content {
         Content::Struct(fields) => fields,
-        Content::Option(inner) => flattened(*inner),
+        Content::Option(inner) => {
+            let fields = flattened(*inner).into_iter();
+            fields
+                .map(|field| FieldShape {
+                    optional: true,
+                    ..field
+                })
+                .collect()
+        }
         // Keys or variants, which only a value has.
         _ => Vec::new(),
     }

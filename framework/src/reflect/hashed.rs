@@ -11,8 +11,9 @@ use std::hash::{BuildHasher, Hash};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use super::collections::map;
-use super::{Children, Content, Leaf, Reflect, Segment, Shape, whole};
+use super::binary::{EncodeError, encode_count, encode_display, encode_text};
+use super::collections::{counted_map, map, set};
+use super::{Children, Content, Reflect, Segment, Shape, whole};
 
 impl<V, S> Reflect for HashMap<String, V, S>
 where
@@ -24,12 +25,22 @@ where
 
 impl<T, S> Reflect for HashSet<T, S>
 where
-    T: Serialize + DeserializeOwned + Eq + Hash,
+    T: Reflect + Serialize + DeserializeOwned + Eq + Hash,
     S: BuildHasher + Default,
 {
-    fn shape() -> Shape {
-        Shape::leaf::<Self>(Leaf::Opaque)
-    }
-
-    whole!();
+    set!();
 }
+
+macro_rules! counted_maps {
+    ($($key:ty)*) => {$(
+        impl<V, S> Reflect for HashMap<$key, V, S>
+        where
+            V: Reflect + Serialize + DeserializeOwned,
+            S: BuildHasher + Default,
+        {
+            counted_map!($key);
+        }
+    )*};
+}
+
+counted_maps! { i8 i16 i32 i64 isize u8 u16 u32 u64 usize }

@@ -6,6 +6,7 @@ use nalgebra::{
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
+use super::binary::EncodeError;
 use super::{Children, Content, FieldShape, Reflect, Segment, Shape, whole};
 
 const AXES: [&str; 4] = ["x", "y", "z", "w"];
@@ -36,6 +37,10 @@ impl<T: Number, const R: usize, const C: usize> Reflect for SMatrix<T, R, C> {
         list_children(R * C, axes(R, C))
     }
 
+    fn encode(&self, bytes: &mut Vec<u8>) -> Result<(), EncodeError> {
+        T::encode_all(self.as_slice(), bytes)
+    }
+
     whole!();
 }
 
@@ -54,6 +59,10 @@ impl<T: Number, const D: usize> Reflect for Point<T, D> {
 
     fn children(&self) -> Children {
         self.coords.children()
+    }
+
+    fn encode(&self, bytes: &mut Vec<u8>) -> Result<(), EncodeError> {
+        self.coords.encode(bytes)
     }
 
     whole!();
@@ -76,6 +85,10 @@ impl<T: Number, const D: usize> Reflect for Translation<T, D> {
         self.vector.children()
     }
 
+    fn encode(&self, bytes: &mut Vec<u8>) -> Result<(), EncodeError> {
+        self.vector.encode(bytes)
+    }
+
     whole!();
 }
 
@@ -85,19 +98,10 @@ where
     R: Reflect + Serialize + DeserializeOwned,
 {
     fn shape() -> Shape {
-        let field = |name, shape| FieldShape {
-            name,
-            docs: "",
-            unit: None,
-            shape,
-        };
-        Shape {
-            type_name: std::any::type_name::<Self>(),
-            content: Content::Struct(vec![
-                field("rotation", R::shape()),
-                field("translation", Translation::<T, D>::shape()),
-            ]),
-        }
+        Shape::new::<Self>(Content::Struct(vec![
+            FieldShape::new("rotation", R::shape()),
+            FieldShape::new("translation", Translation::<T, D>::shape()),
+        ]))
     }
 
     fn child(&self, segment: &Segment) -> Option<&dyn Reflect> {
@@ -118,6 +122,11 @@ where
 
     fn children(&self) -> Children {
         Children::named(["rotation", "translation"])
+    }
+
+    fn encode(&self, bytes: &mut Vec<u8>) -> Result<(), EncodeError> {
+        self.rotation.encode(bytes)?;
+        self.translation.encode(bytes)
     }
 
     whole!();
@@ -142,6 +151,10 @@ impl<T: Number> Reflect for Quaternion<T> {
 
     fn children(&self) -> Children {
         list_children(4, &QUATERNION)
+    }
+
+    fn encode(&self, bytes: &mut Vec<u8>) -> Result<(), EncodeError> {
+        T::encode_all(self.coords.as_slice(), bytes)
     }
 
     whole!();
@@ -172,6 +185,11 @@ impl<T: Number> Reflect for Complex<T> {
         list_children(2, &COMPLEX)
     }
 
+    fn encode(&self, bytes: &mut Vec<u8>) -> Result<(), EncodeError> {
+        self.re.encode(bytes)?;
+        self.im.encode(bytes)
+    }
+
     whole!();
 }
 
@@ -192,6 +210,10 @@ macro_rules! unit {
 
             fn children(&self) -> Children {
                 self.as_ref().children()
+            }
+
+            fn encode(&self, bytes: &mut Vec<u8>) -> Result<(), EncodeError> {
+                self.as_ref().encode(bytes)
             }
 
             fn as_serialize(&self) -> &dyn erased_serde::Serialize {
@@ -232,6 +254,10 @@ impl<T: Number + RealField, const D: usize> Reflect for Rotation<T, D> {
         self.matrix().children()
     }
 
+    fn encode(&self, bytes: &mut Vec<u8>) -> Result<(), EncodeError> {
+        self.matrix().encode(bytes)
+    }
+
     fn as_serialize(&self) -> &dyn erased_serde::Serialize {
         self
     }
@@ -257,14 +283,11 @@ fn axes(rows: usize, columns: usize) -> &'static [&'static str] {
 }
 
 fn list_shape<L, T: Reflect>(length: usize, names: &'static [&'static str]) -> Shape {
-    Shape {
-        type_name: std::any::type_name::<L>(),
-        content: Content::List {
-            item: Box::new(T::shape()),
-            length: Some(length),
-            names,
-        },
-    }
+    Shape::new::<L>(Content::List {
+        item: Box::new(T::shape()),
+        length: Some(length),
+        names,
+    })
 }
 
 fn list_children(length: usize, names: &'static [&'static str]) -> Children {

@@ -41,6 +41,18 @@ impl Segment {
         }
     }
 
+    /// The whole number that it is the text of, as a key of a map.
+    pub(crate) fn number<T: FromStr + TryFrom<usize>>(&self) -> Option<T> {
+        match self {
+            // What is not negative would be an index.
+            Self::Field(name) if name.starts_with('-') && !name.starts_with("-0") => {
+                name.parse().ok()
+            }
+            Self::Field(_) => None,
+            Self::Index(index) => T::try_from(*index).ok(),
+        }
+    }
+
     /// The position among names, or the index itself: for values whose elements have both.
     pub(crate) fn position(&self, names: &[&str]) -> Option<usize> {
         match self {
@@ -59,6 +71,11 @@ impl Path {
     /// From the value downwards.
     pub fn segments(&self) -> &[Segment] {
         &self.segments
+    }
+
+    /// Whether it leads to `other` or to a part of it.
+    pub fn starts_with(&self, other: &Self) -> bool {
+        self.segments.starts_with(&other.segments)
     }
 
     /// The path of the first `length` segments.

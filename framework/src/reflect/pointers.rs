@@ -5,14 +5,12 @@ use std::sync::Arc;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
+use super::binary::EncodeError;
 use super::{Children, Content, Reflect, Segment, Shape, whole};
 
 impl<T: Reflect + Serialize + DeserializeOwned> Reflect for Option<T> {
     fn shape() -> Shape {
-        Shape {
-            type_name: std::any::type_name::<Self>(),
-            content: Content::Option(Box::new(T::shape())),
-        }
+        Shape::new::<Self>(Content::Option(Box::new(T::shape())))
     }
 
     fn child(&self, segment: &Segment) -> Option<&dyn Reflect> {
@@ -30,6 +28,19 @@ impl<T: Reflect + Serialize + DeserializeOwned> Reflect for Option<T> {
                 absent: true,
                 ..Children::default()
             },
+        }
+    }
+
+    fn encode(&self, bytes: &mut Vec<u8>) -> Result<(), EncodeError> {
+        match self {
+            None => {
+                bytes.push(0);
+                Ok(())
+            }
+            Some(value) => {
+                bytes.push(1);
+                value.encode(bytes)
+            }
         }
     }
 
@@ -51,6 +62,10 @@ impl<T: Reflect> Reflect for Box<T> {
 
     fn children(&self) -> Children {
         (**self).children()
+    }
+
+    fn encode(&self, bytes: &mut Vec<u8>) -> Result<(), EncodeError> {
+        (**self).encode(bytes)
     }
 
     fn as_serialize(&self) -> &dyn erased_serde::Serialize {
@@ -81,6 +96,10 @@ impl<T: Reflect + Clone> Reflect for Arc<T> {
 
     fn children(&self) -> Children {
         (**self).children()
+    }
+
+    fn encode(&self, bytes: &mut Vec<u8>) -> Result<(), EncodeError> {
+        (**self).encode(bytes)
     }
 
     fn as_serialize(&self) -> &dyn erased_serde::Serialize {

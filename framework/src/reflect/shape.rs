@@ -4,14 +4,41 @@ use std::cell::RefCell;
 
 use serde::Serialize;
 
-use super::{Children, Path, Reflect, Segment, UnknownPath};
+use super::{Children, Limits, Path, Reflect, Segment, UnknownPath};
+
+/// The name of no type: variants differ there.
+const UNTOLD: &str = "";
 
 /// A type as its serde form shows it.
 #[derive(Clone, Debug, Serialize)]
 pub struct Shape {
     /// Full name of the type, for people.
     pub type_name: &'static str,
+    #[serde(skip_serializing_if = "str::is_empty")]
+    pub docs: &'static str,
     pub content: Content,
+    #[serde(skip_serializing_if = "Form::is_plain")]
+    pub form: Form,
+}
+
+/// How a serde form differs from what the content alone would tell.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Form {
+    /// Not at all.
+    #[default]
+    Plain,
+    /// It has parts that the content does not know: flattened, hidden, or written by functions of the author's own.
+    Open,
+    /// The variant's name stands among its fields: `#[serde(tag)]`.
+    Tagged { tag: &'static str },
+    /// The variant's name stands beside its content: `#[serde(tag, content)]`.
+    Adjacent {
+        tag: &'static str,
+        content: &'static str,
+    },
+    /// The variant has no name: `#[serde(untagged)]`.
+    Untagged,
 }
 
 /// What a value consists of.
@@ -30,7 +57,9 @@ pub enum Content {
         #[serde(skip_serializing_if = "<[_]>::is_empty")]
         names: &'static [&'static str],
     },
-    /// Values of one type by key.
+    /// Values of one type, each once, without an index.
+    Set(Box<Shape>),
+    /// Values of one type by key; keys are texts.
     Map(Box<Shape>),
     /// In the order of the source.
     Struct(Vec<FieldShape>),
@@ -49,6 +78,8 @@ pub enum Content {
 pub enum Leaf {
     Bool,
     Character,
+    /// Whole seconds and nanoseconds.
+    Duration,
     Float {
         bits: u32,
     },
@@ -74,6 +105,15 @@ pub struct FieldShape {
     /// From `#[reflect(unit = "…")]`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unit: Option<&'static str>,
+    /// From `#[reflect(range = …)]`: where every number in it must lie.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub range: Option<Limits>,
+    /// It may be left out of the serde form.
+    #[serde(skip_serializing_if = "is_false")]
+    pub optional: bool,
+    /// From `#[reflect(creation_only)]`: read once, when nodes are created.
+    #[serde(skip_serializing_if = "is_false")]
+    pub creation_only: bool,
     pub shape: Shape,
 }
 
@@ -98,27 +138,64 @@ pub enum VariantContent {
     Fields(Content),
 }
 
+impl FieldShape {
+    /// A field without anything that attributes or documentation say.
+    pub fn new(name: &'static str, shape: Shape) -> Self {
+        Self {
+            name,
+            docs: "",
+            unit: None,
+            range: None,
+            optional: false,
+            creation_only: false,
+            shape,
+        }
+    }
+}
+
+impl Form {
+    /// Whether the content tells all.
+    pub fn is_plain(&self) -> bool {
+        *self == Self::Plain
+    }
+}
+
 impl Shape {
+    /// The shape of `T`, as its content tells.
+    pub fn new<T>(content: Content) -> Self {
+        Self {
+            type_name: std::any::type_name::<T>(),
+            docs: "",
+            content,
+            form: Form::Plain,
+        }
+    }
+
     /// The shape of `T`, which may lie in itself.
-    pub fn of<T: Reflect>(content: impl FnOnce() -> Content) -> Self {
+    pub fn of<T: Reflect>(shape: impl FnOnce() -> Self) -> Self {
         let type_name = std::any::type_name::<T>();
-        let content = match Entered::new(type_name) {
-            Some(_entered) => content(),
-            None => Content::Recursive(T::shape),
-        };
-        Self { type_name, content }
+        match Entered::new(type_name) {
+            Some(_entered) => Self {
+                type_name,
+                ..shape()
+            },
+            None => Self::new::<T>(Content::Recursive(T::shape)),
+        }
     }
 
     /// The shape of `T`, which has no parts.
     pub fn leaf<T>(leaf: Leaf) -> Self {
-        Self {
-            type_name: std::any::type_name::<T>(),
-            content: Content::Leaf(leaf),
-        }
+        Self::new::<T>(Content::Leaf(leaf))
+    }
+
+    /// Whether the type does not tell what its values look like.
+    pub fn is_opaque(&self) -> bool {
+        matches!(self.content, Content::Leaf(Leaf::Opaque))
     }
 
     /// The shape at a path, as far as a type can tell: every variant counts as active, every option as present, every
-    /// list as long enough and every map as having the key.
+    /// list as long enough and every map as having the key. Where variants differ in what they have there, and none is
+    /// named, it is opaque.
     pub fn at(&self, path: &Path) -> Result<Self, UnknownPath> {
         let mut part = self.clone();
         for (position, segment) in path.segments().iter().enumerate() {
@@ -132,7 +209,8 @@ impl Shape {
 
     fn child(&self, segment: &Segment) -> Option<Self> {
         match &self.content {
-            Content::Leaf(_) => None,
+            Content::Leaf(_) if self.type_name == UNTOLD => Some(self.clone()),
+            Content::Leaf(_) | Content::Set(_) => None,
             Content::Option(inner) => inner.child(segment),
             Content::List {
                 item,
@@ -166,15 +244,27 @@ impl Shape {
             Some(VariantContent::Unit) => None,
             Some(VariantContent::Value(shape)) => Some(shape.clone()),
             Some(VariantContent::Fields(_)) => Some(self.clone()),
-            None => variants
-                .iter()
-                .find_map(|variant| variant.inside(self)?.child(segment)),
+            None => {
+                let mut found = variants
+                    .iter()
+                    .filter_map(|variant| variant.inside(self)?.child(segment));
+                let first = found.next()?;
+                if found.all(|other| other.type_name == first.type_name) {
+                    return Some(first);
+                }
+                Some(Self {
+                    type_name: UNTOLD,
+                    docs: "",
+                    content: Content::Leaf(Leaf::Opaque),
+                    form: Form::Plain,
+                })
+            }
         }
     }
 
     fn children(&self) -> Children {
         match &self.content {
-            Content::Leaf(_) | Content::Map(_) => Children::default(),
+            Content::Leaf(_) | Content::Set(_) | Content::Map(_) => Children::default(),
             Content::Option(inner) => inner.children(),
             Content::List { length, names, .. } => Children {
                 indices: length.unwrap_or_default(),
@@ -203,8 +293,9 @@ impl VariantShape {
             VariantContent::Unit => None,
             VariantContent::Value(shape) => Some(shape.clone()),
             VariantContent::Fields(content) => Some(Shape {
-                type_name: whole.type_name,
                 content: content.clone(),
+                form: Form::Plain,
+                ..*whole
             }),
         }
     }
@@ -235,6 +326,10 @@ impl Drop for Entered {
     fn drop(&mut self) {
         OPEN.with_borrow_mut(Vec::pop);
     }
+}
+
+fn is_false(value: &bool) -> bool {
+    !value
 }
 
 fn nothing<S: serde::Serializer>(

@@ -3,16 +3,14 @@
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
+use super::binary::EncodeError;
 use super::{Children, Content, Reflect, Segment, Shape, whole};
 
 macro_rules! tuple {
     ($length:literal: $($index:tt $item:ident),*) => {
         impl<$($item: Reflect + Serialize + DeserializeOwned),*> Reflect for ($($item,)*) {
             fn shape() -> Shape {
-                Shape {
-                    type_name: std::any::type_name::<Self>(),
-                    content: Content::Tuple(vec![$($item::shape()),*]),
-                }
+                Shape::new::<Self>(Content::Tuple(vec![$($item::shape()),*]))
             }
 
             fn child(&self, segment: &Segment) -> Option<&dyn Reflect> {
@@ -31,6 +29,11 @@ macro_rules! tuple {
 
             fn children(&self) -> Children {
                 Children::indexed($length)
+            }
+
+            fn encode(&self, bytes: &mut Vec<u8>) -> Result<(), EncodeError> {
+                $(self.$index.encode(bytes)?;)*
+                Ok(())
             }
 
             whole!();

@@ -3,7 +3,8 @@
 use std::fmt;
 use std::str::FromStr;
 
-use framework::reflect::{Leaf, Shape};
+use framework::reflect::binary::encode_text;
+use framework::reflect::{EncodeError, Leaf, Shape};
 use framework::{Clear, Reflect};
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -67,6 +68,10 @@ impl Clear for Identifier {}
 impl Reflect for Identifier {
     fn shape() -> Shape {
         Shape::leaf::<Self>(Leaf::Text)
+    }
+
+    fn encode(&self, bytes: &mut Vec<u8>) -> Result<(), EncodeError> {
+        encode_text(self.as_str(), bytes)
     }
 
     fn as_serialize(&self) -> &dyn erased_serde::Serialize {

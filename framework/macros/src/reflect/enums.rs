@@ -3,13 +3,14 @@
 //! A variant with one field without a name is that field. Any other fields belong to the enum itself, for Rust has no
 //! reference to a variant: its name then leads to the enum again, so that `Walk.speed` is found as in the serde form.
 
+use grammar::documentation;
 use proc_macro2::TokenStream as Tokens;
 use quote::quote;
 use syn::{DataEnum, Fields, Ident};
 
 use super::parts::{
-    Part, documentation, quote_children, quote_content, quote_lookup, quote_pattern, quote_shape,
-    read_parts,
+    Part, Parts, quote_children, quote_content, quote_encode, quote_lookup, quote_part_shape,
+    quote_pattern, read_parts,
 };
 use super::{Functions, Walk};
 use crate::serde_names::{Container, Member};
@@ -28,8 +29,12 @@ enum VariantContent {
     Fields { parts: Vec<Part>, named: bool },
 }
 
-pub(super) fn functions(data: &DataEnum, container: &Container) -> syn::Result<Functions> {
-    let variants = read_variants(data, container)?;
+pub(super) fn functions(
+    data: &DataEnum,
+    container: &Container,
+    docs: &str,
+) -> syn::Result<Functions> {
+    let Variants { variants, is_open } = read_variants(data, container)?;
     let shapes = variants.iter().map(quote_variant_shape);
     let content = quote!(framework_reflect::Content::Enum(::std::vec![#(#shapes),*]));
     let all_units = variants
@@ -50,8 +55,18 @@ pub(super) fn functions(data: &DataEnum, container: &Container) -> syn::Result<F
     .then_some(());
     let none = others.map(|()| quote!(_ => ::core::option::Option::None,));
     let nothing = others.map(|()| quote!(_ => framework_reflect::Children::default(),));
+    let form = if is_open {
+        quote!(Open)
+    } else {
+        quote_form(container)
+    };
+    let is_plain = form.to_string() == "Plain" && !data.variants.is_empty();
+    let unwritten = (variants.len() < data.variants.len())
+        .then(|| quote!(_ => ::core::result::Result::Err(framework_reflect::skipped_variant()),));
+    let encode = (0_u32..).zip(&variants).map(quote_encode_arm);
     Ok(Functions {
-        shape: quote!(framework_reflect::Shape::of::<Self>(|| #content)),
+        encode: is_plain.then(|| quote!(match self { #(#encode)* #unwritten })),
+        shape: super::quote_shape(&content, &form, docs),
         parts: (!all_units).then(|| Walk {
             child: quote!(match self { #(#child)* #none }),
             child_mut: quote!(match self { #(#child_mut)* #none }),
@@ -60,23 +75,33 @@ pub(super) fn functions(data: &DataEnum, container: &Container) -> syn::Result<F
     })
 }
 
+/// The variants that serde writes.
+struct Variants<'item> {
+    variants: Vec<Variant<'item>>,
+    /// Whether it writes them in another way than their parts tell.
+    is_open: bool,
+}
+
 fn read_variants<'item>(
     data: &'item DataEnum,
     container: &Container,
-) -> syn::Result<Vec<Variant<'item>>> {
+) -> syn::Result<Variants<'item>> {
     let mut variants = Vec::new();
+    let mut is_open = false;
     for variant in &data.variants {
         let member = Member::read(&variant.attrs)?;
         if member.skip {
             continue;
         }
         let inside = Container::read(&variant.attrs)?.inside(container);
-        let mut parts = read_parts(&variant.fields, &inside)?;
+        let read = read_parts(&variant.fields, &inside)?;
+        is_open |= read.is_open || member.own_form;
+        let Parts { mut parts, .. } = read;
         let content = match &variant.fields {
             Fields::Unit => VariantContent::Unit,
             Fields::Unnamed(fields) if fields.unnamed.len() == 1 => match parts.pop() {
-                Some(part) => VariantContent::Value(Box::new(part)),
-                None => VariantContent::Unit,
+                Some(part) if part.is_seen() => VariantContent::Value(Box::new(part)),
+                _ => VariantContent::Unit,
             },
             fields => VariantContent::Fields {
                 parts,
@@ -90,7 +115,34 @@ fn read_variants<'item>(
             content,
         });
     }
-    Ok(variants)
+    Ok(Variants { variants, is_open })
+}
+
+/// Where the name of the active variant stands.
+fn quote_form(container: &Container) -> Tokens {
+    match (&container.tag, &container.content) {
+        (Some(tag), Some(content)) => quote!(Adjacent { tag: #tag, content: #content }),
+        (Some(tag), None) => quote!(Tagged { tag: #tag }),
+        (None, _) if container.untagged => quote!(Untagged),
+        (None, _) => quote!(Plain),
+    }
+}
+
+fn quote_encode_arm((tag, variant): (u32, &Variant<'_>)) -> Tokens {
+    let ident = variant.ident;
+    let parts = match &variant.content {
+        VariantContent::Unit => &[],
+        VariantContent::Value(part) => std::slice::from_ref(&**part),
+        VariantContent::Fields { parts, .. } => &parts[..],
+    };
+    let pattern = quote_pattern(parts);
+    let encode = quote_encode(parts);
+    quote! {
+        Self::#ident #pattern => {
+            framework_reflect::encode_tag(#tag, bytes);
+            #encode
+        }
+    }
 }
 
 fn quote_variant_shape(variant: &Variant<'_>) -> Tokens {
@@ -98,7 +150,7 @@ fn quote_variant_shape(variant: &Variant<'_>) -> Tokens {
     let content = match &variant.content {
         VariantContent::Unit => quote!(Unit),
         VariantContent::Value(part) => {
-            let shape = quote_shape(&part.data);
+            let shape = quote_part_shape(part);
             quote!(Value(#shape))
         }
         VariantContent::Fields { parts, named } => {

@@ -2,6 +2,10 @@
 
 #![expect(clippy::disallowed_types, reason = "authors may exchange hash maps")]
 
+mod binary;
+mod odd;
+mod schema;
+
 use std::collections::{BTreeMap, HashMap, VecDeque};
 use std::ops::Range;
 use std::sync::Arc;

@@ -1,0 +1,170 @@
+//! `#[reflect(…)]` of a field: what people and clients should know about its value.
+
+use syn::spanned::Spanned;
+use syn::{Attribute, Expr, ExprLit, Lit, LitStr, Meta, RangeLimits, UnOp};
+
+/// What `#[reflect(…)]` of one field says.
+#[derive(Clone, Debug, Default)]
+pub struct Hints {
+    /// `unit = "m/s"`
+    pub unit: Option<LitStr>,
+    /// `range = 0.0..=1.0`
+    pub range: Option<Range>,
+    /// `skip`
+    pub skip: bool,
+    /// `creation_only`
+    pub creation_only: bool,
+}
+
+/// Where numbers must lie; at least one bound is there, and they are in order.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Range {
+    pub minimum: Option<f64>,
+    pub maximum: Option<f64>,
+    /// Whether the maximum itself is outside: `..` instead of `..=`.
+    pub is_half_open: bool,
+}
+
+impl Hints {
+    /// Reads all `#[reflect(…)]` among the attributes of a field.
+    pub fn read(attributes: &[Attribute]) -> syn::Result<Self> {
+        let mut hints = Self::default();
+        let own = attributes
+            .iter()
+            .filter(|attribute| is_hint_attribute(attribute));
+        for attribute in own {
+            attribute.parse_nested_meta(|meta| {
+                if meta.path.is_ident("unit") {
+                    hints.unit = Some(meta.value()?.parse()?);
+                } else if meta.path.is_ident("range") {
+                    hints.range = Some(Range::read(&meta.value()?.parse()?)?);
+                } else if meta.path.is_ident("skip") {
+                    hints.skip = true;
+                } else if meta.path.is_ident("creation_only") {
+                    hints.creation_only = true;
+                } else {
+                    return Err(meta.error(
+                        "expected `unit = \"…\"`, `range = 0.0..=1.0`, `skip` or `creation_only`",
+                    ));
+                }
+                Ok(())
+            })?;
+        }
+        Ok(hints)
+    }
+}
+
+/// Whether it is a `#[reflect(…)]`.
+pub fn is_hint_attribute(attribute: &Attribute) -> bool {
+    attribute.path().is_ident("reflect")
+}
+
+impl Range {
+    fn read(expression: &Expr) -> syn::Result<Self> {
+        const EXPECTED: &str = "expected a range of numbers: `0.0..=1.0`, `1..` or `..100`";
+        let wrong = || syn::Error::new(expression.span(), EXPECTED);
+        let Expr::Range(range) = expression else {
+            return Err(wrong());
+        };
+        let bound = |bound: &Option<Box<Expr>>| match bound {
+            Some(bound) => number(bound).ok_or_else(wrong).map(Some),
+            None => Ok(None),
+        };
+        let read = Self {
+            minimum: bound(&range.start)?,
+            maximum: bound(&range.end)?,
+            is_half_open: matches!(range.limits, RangeLimits::HalfOpen(_)),
+        };
+        match (read.minimum, read.maximum) {
+            (None, None) => Err(wrong()),
+            (Some(minimum), Some(maximum)) if minimum > maximum => {
+                Err(syn::Error::new(expression.span(), "the range is empty"))
+            }
+            (Some(minimum), Some(maximum)) if minimum == maximum && read.is_half_open => {
+                Err(syn::Error::new(expression.span(), "the range is empty"))
+            }
+            _ => Ok(read),
+        }
+    }
+}
+
+fn number(expression: &Expr) -> Option<f64> {
+    match expression {
+        Expr::Unary(unary) if matches!(unary.op, UnOp::Neg(_)) => number(&unary.expr).map(|it| -it),
+        Expr::Lit(ExprLit { lit, .. }) => match lit {
+            Lit::Int(number) => number.base10_parse::<f64>().ok(),
+            Lit::Float(number) => number.base10_parse::<f64>().ok(),
+            _ => None,
+        },
+        Expr::Group(group) => number(&group.expr),
+        _ => None,
+    }
+    .filter(|number| number.is_finite())
+}
+
+/// Lines of documentation, as written behind `///`, joined; empty without any.
+pub fn documentation(attributes: &[Attribute]) -> String {
+    let lines = attributes
+        .iter()
+        .filter_map(|attribute| match &attribute.meta {
+            Meta::NameValue(meta) if meta.path.is_ident("doc") => match &meta.value {
+                Expr::Lit(ExprLit {
+                    lit: Lit::Str(text),
+                    ..
+                }) => Some(text.value()),
+                _ => None,
+            },
+            _ => None,
+        });
+    let lines: Vec<_> = lines.map(|line| line.trim().to_owned()).collect();
+    lines.join("\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Hints;
+
+    fn read(attribute: &str) -> Result<Hints, String> {
+        let item = format!("struct S {{ #[reflect({attribute})] a: f32 }}");
+        let item: syn::ItemStruct = syn::parse_str(&item).expect("it is a struct");
+        let field = item.fields.iter().next().expect("it has a field");
+        Hints::read(&field.attrs).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn ranges_are_those_of_rust() {
+        for (text, minimum, maximum, is_half_open) in [
+            ("range = 0.0..=1.0", Some(0.0), Some(1.0), false),
+            ("range = -0.5..2", Some(-0.5), Some(2.0), true),
+            ("range = 1..", Some(1.0), None, true),
+            ("unit = \"m\", range = ..=1e3", None, Some(1000.0), false),
+        ] {
+            let range = read(text).expect(text).range.expect("it has a range");
+            assert_eq!(
+                (range.minimum, range.maximum, range.is_half_open),
+                (minimum, maximum, is_half_open),
+                "{text}"
+            );
+        }
+    }
+
+    #[test]
+    fn what_is_no_range_is_told() {
+        let no_range = "expected a range of numbers: `0.0..=1.0`, `1..` or `..100`";
+        for (text, message) in [
+            ("range = 1.0", no_range),
+            ("range = ..", no_range),
+            ("range = \"0.0..1.0\"", no_range),
+            ("range = a..b", no_range),
+            ("range = 0..=1e999", no_range),
+            ("range = 2..=1", "the range is empty"),
+            ("range = 1..1", "the range is empty"),
+            (
+                "units = \"m\"",
+                "expected `unit = \"…\"`, `range = 0.0..=1.0`, `skip` or `creation_only`",
+            ),
+        ] {
+            assert_eq!(read(text).expect_err(text), message, "{text}");
+        }
+    }
+}
