@@ -6,6 +6,7 @@
 //! joints at zero every frame is parallel to the torso's: arms forward, legs straight.
 
 pub mod chains;
+pub mod inverse;
 pub mod links;
 
 pub mod limits;
@@ -15,3 +16,4 @@ pub mod feet;
 pub mod inertial;
 
 pub use chains::{Poses, forward_kinematics};
+pub use inverse::{LegAngles, LegsAngles, leg_angles};
