@@ -1,5 +1,6 @@
 //! Two small cyclers in the style of generated code: `Eye` perceives, `Legs` consume what it saw.
 
+use std::collections::HashMap;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -65,6 +66,28 @@ pub(crate) struct Worker {
     pub(crate) calls: u64,
 }
 
+/// Why a node does not do the same twice.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Mistake {
+    AsksTheRealTime,
+    IteratesAHashMap,
+}
+
+impl Mistake {
+    fn make(self) -> u64 {
+        match self {
+            Self::AsksTheRealTime => {
+                std::hint::black_box(Instant::now()).elapsed().as_nanos() as u64
+            }
+            Self::IteratesAHashMap => {
+                let map: HashMap<u64, ()> = (0..64).map(|key| (key, ())).collect();
+                map.into_keys()
+                    .fold(0, |order, key| order.wrapping_mul(31).wrapping_add(key))
+            }
+        }
+    }
+}
+
 /// What one instance is to do and where it is written down.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Plan {
@@ -75,8 +98,8 @@ pub(crate) struct Plan {
     pub(crate) required_is_absent: bool,
     /// Captured, instead of what the hardware says.
     pub(crate) captured: Option<fn(Timestamp) -> Timestamp>,
-    /// A node that asks the real time: the mistake that lockstep runs must show.
-    pub(crate) reads_instant: bool,
+    /// What lockstep runs must show.
+    pub(crate) mistake: Option<Mistake>,
     /// A panic outside of every node and of what the framework contains.
     pub(crate) nodes_panic: bool,
     pub(crate) answer: Option<fn(u32) -> Result<u32, String>>,
@@ -225,10 +248,9 @@ impl Body for TestBody {
         self.perceive(current);
         current.gain = self.parameters.view().gain;
         current.since_last = cycle.time.since_last;
-        current.clock = if self.plan.reads_instant {
-            std::hint::black_box(Instant::now()).elapsed().as_nanos() as u64
-        } else {
-            cycle.time.start.as_nanos()
+        current.clock = match self.plan.mistake {
+            Some(mistake) => mistake.make(),
+            None => cycle.time.start.as_nanos(),
         };
         self.work(Slots { current, previous }, cycle)
     }

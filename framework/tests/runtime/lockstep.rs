@@ -6,7 +6,7 @@ use framework::driver::lockstep::Step;
 use framework::{Digest, Finished, Lockstep, Timestamp, Waited};
 use serde_json::json;
 
-use crate::body::{Plan, Setting, robot};
+use crate::body::{Mistake, Plan, Setting, robot};
 use crate::scripted::{Act, Script, ScriptedHardware, millis};
 
 /// All steps until the end of the world, as (milliseconds, instance, step).
@@ -327,16 +327,6 @@ fn one_seed_is_the_same_bits_and_another_is_not() {
     assert_eq!(digest(1), digest(1));
     assert_ne!(digest(1), digest(2));
     assert_ne!(digest(1), digest_of_a_run(&Setting::default()));
-    let legs = Plan {
-        reads_instant: true,
-        ..Plan::default()
-    };
-    let setting = Setting {
-        legs,
-        ..Setting::default()
-    };
-    let real = [0; 3].map(|_| digest_of_runs(&setting, Some(1), &[Timestamp::NEVER]));
-    assert!(real.iter().any(|one| *one != real[0]), "{real:?}");
 }
 
 #[test]
@@ -355,20 +345,24 @@ fn same_events_same_bits() {
 }
 
 #[test]
-fn a_node_that_asks_the_real_time_shows_in_the_bits() {
-    let legs = Plan {
-        reads_instant: true,
-        ..Plan::default()
-    };
-    let setting = Setting {
-        legs,
-        ..Setting::default()
-    };
-    let digests = [0; 3].map(|_| digest_of_a_run(&setting));
-    assert!(
-        digests.iter().any(|digest| *digest != digests[0]),
-        "{digests:?}"
-    );
+fn a_node_that_does_not_do_the_same_twice_shows_in_the_bits() {
+    for mistake in [Mistake::AsksTheRealTime, Mistake::IteratesAHashMap] {
+        let legs = Plan {
+            mistake: Some(mistake),
+            ..Plan::default()
+        };
+        let setting = Setting {
+            legs,
+            ..Setting::default()
+        };
+        for chaos in [None, Some(1)] {
+            let digests = [0; 3].map(|_| digest_of_runs(&setting, chaos, &[Timestamp::NEVER]));
+            assert!(
+                digests.iter().any(|digest| *digest != digests[0]),
+                "{mistake:?}: {digests:?}"
+            );
+        }
+    }
 }
 
 #[test]
