@@ -30,6 +30,7 @@ pub trait InNode<T> {
 
 struct Inner {
     node: Option<&'static str>,
+    cycle: Option<u64>,
     on_failure: Option<OnFailure>,
     source: Box<dyn StandardError + Send + Sync>,
 }
@@ -57,6 +58,11 @@ impl Error {
     /// The node that failed: `sensing::edge_finder`.
     pub fn node(&self) -> Option<&'static str> {
         self.0.node
+    }
+
+    /// Number of the cycle in which it failed.
+    pub fn cycle(&self) -> Option<u64> {
+        self.0.cycle
     }
 
     /// Whether [`Stopped`] is this error or one of its causes.
@@ -97,12 +103,19 @@ impl Error {
         self.0.on_failure = on_failure.or(self.0.on_failure);
         self
     }
+
+    /// Numbers the cycle, unless it is numbered already.
+    pub(crate) fn in_cycle(mut self, number: u64) -> Self {
+        self.0.cycle.get_or_insert(number);
+        self
+    }
 }
 
 impl<E: Into<Box<dyn StandardError + Send + Sync>>> From<E> for Error {
     fn from(source: E) -> Self {
         Self(Box::new(Inner {
             node: None,
+            cycle: None,
             on_failure: None,
             source: source.into(),
         }))
@@ -110,10 +123,13 @@ impl<E: Into<Box<dyn StandardError + Send + Sync>>> From<E> for Error {
 }
 
 impl fmt::Display for Error {
-    /// The node, then the error and its causes, joined by colons.
+    /// The node and the cycle, then the error and its causes, joined by colons.
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if let Some(node) = self.0.node {
-            write!(formatter, "node `{node}`: ")?;
+        match (self.0.node, self.0.cycle) {
+            (Some(node), Some(cycle)) => write!(formatter, "node `{node}` in cycle {cycle}: ")?,
+            (Some(node), None) => write!(formatter, "node `{node}`: ")?,
+            (None, Some(cycle)) => write!(formatter, "in cycle {cycle}: ")?,
+            (None, None) => {}
         }
         write!(formatter, "{}", self.0.source)?;
         let mut next = self.0.source.source();

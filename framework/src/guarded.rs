@@ -6,8 +6,8 @@ use std::hint::cold_path;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Duration;
 
-use serde::Serialize;
 use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
 
 use crate::cycler::Cycle;
 use crate::error::{Error, Result};
@@ -47,8 +47,27 @@ pub enum Held<O> {
 pub trait State {
     /// Writes the state in any format.
     fn save(&self, serializer: &mut dyn erased_serde::Serializer) -> Result<()>;
-    /// Replaces the state by what was saved.
+    /// Replaces the state by what was saved, in good condition.
     fn load(&mut self, deserializer: &mut dyn erased_serde::Deserializer<'_>) -> Result<()>;
+
+    /// What its failures left behind, which the state itself does not know. Only nodes fail.
+    fn condition(&self) -> Condition {
+        Condition::default()
+    }
+
+    /// Puts back what [`State::condition`] gave, after the state was loaded.
+    fn set_condition(&mut self, _condition: Condition) {}
+}
+
+/// What the failures of a node left behind: beside its state all that decides what its next call does.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Condition {
+    /// It panicked, and is created anew before its next call.
+    pub broken: bool,
+    /// Why it could not be created anew: what its next call fails with.
+    pub not_renewed: Option<String>,
+    /// Timestamp of the last cycle in which it did not fail; under `hold` its outputs stand for [`LONGEST_HOLD`] from there.
+    pub good_at: Option<Timestamp>,
 }
 
 /// A node of one instance.
@@ -109,7 +128,7 @@ impl<N> Guarded<N> {
         if self.broken {
             cold_path();
             let error = self.ledger.refused();
-            return Err(self.ledger.failed(error, cycle.in_setup));
+            return Err(self.ledger.failed(error, cycle));
         }
         if cycle.timed {
             timing::start_lap(self.ledger.name);
@@ -125,7 +144,7 @@ impl<N> Guarded<N> {
             Ok(outputs) => Ok(outputs),
             Err(error) => {
                 cold_path();
-                Err(self.ledger.failed(error.into(), cycle.in_setup))
+                Err(self.ledger.failed(error.into(), cycle))
             }
         }
     }
@@ -137,13 +156,11 @@ impl<N> Guarded<N> {
         cycle: &Cycle,
         call: impl FnOnce(&mut N) -> Result<O, E>,
     ) -> Result<O> {
-        let inside = panics::enter(self.ledger.name);
         // Through a place of its own: what a closure returns would be copied piece by piece.
         let mut returned = None;
         let caught = catch_unwind(AssertUnwindSafe(|| returned = Some(self.call(cycle, call))));
-        drop(inside);
         returned.unwrap_or_else(|| {
-            let error = panics::of_caught(caught);
+            let error = panics::of_caught(caught).in_cycle(cycle.number);
             self.ledger.tell(&error);
             Err(error)
         })
@@ -253,11 +270,14 @@ impl<N> Guarded<N> {
 impl Ledger {
     #[cold]
     #[inline(never)]
-    fn failed(&mut self, error: Error, in_setup: bool) -> Error {
+    fn failed(&mut self, error: Error, cycle: &Cycle) -> Error {
         let error = error.of_node(self.name, Some(self.on_failure));
-        if !ends_cycle(&error, in_setup) {
+        let error = error.in_cycle(cycle.number);
+        if !ends_cycle(&error, cycle.in_setup) {
             self.count_failure();
-            self.tell(&error);
+            if self.is_told_here(cycle) {
+                self.tell(&error);
+            }
         }
         error
     }
@@ -282,11 +302,20 @@ impl Ledger {
         Tally::change(|tally| tally.failures += 1);
     }
 
+    /// Whether the error ends here: what starts over, restarts or stops is told there.
+    fn is_told_here(&self, cycle: &Cycle) -> bool {
+        !cycle.in_setup && matches!(self.on_failure, OnFailure::Skip | OnFailure::Hold)
+    }
+
     /// Every failure is counted; a node that fails in every cycle must not flood the terminal.
     fn tell(&self, error: &Error) {
         if self.failures.is_power_of_two() {
             let failures = self.failures;
-            tell(format_args!("{error} (failure {failures} of this node)"));
+            let failed = format_args!("{error} (failure {failures} of this node)");
+            match panics::inside() {
+                Some(instance) => tell(format_args!("{instance}: {failed}")),
+                None => tell(failed),
+            }
         }
     }
 }
@@ -313,7 +342,22 @@ impl<N: Serialize + DeserializeOwned> State for Guarded<N> {
 
     fn load(&mut self, deserializer: &mut dyn erased_serde::Deserializer<'_>) -> Result<()> {
         self.renew(erased_serde::deserialize(deserializer)?);
+        self.ledger.good_at = None;
         Ok(())
+    }
+
+    fn condition(&self) -> Condition {
+        Condition {
+            broken: self.broken,
+            not_renewed: self.ledger.not_renewed.clone(),
+            good_at: self.ledger.good_at,
+        }
+    }
+
+    fn set_condition(&mut self, condition: Condition) {
+        self.broken = condition.broken;
+        self.ledger.not_renewed = condition.not_renewed;
+        self.ledger.good_at = condition.good_at;
     }
 }
 

@@ -70,7 +70,7 @@ pub use digest::Digest;
 pub use driver::{Lockstep, Paused, SafeState, Threads};
 pub use error::{Error, InNode, NoEvent, Result, Stopped};
 pub use framework_macros::{Clear, Reflect, context};
-pub use guarded::{Guarded, Held, OnFailure, State};
+pub use guarded::{Condition, Guarded, Held, OnFailure, State};
 pub use hardware::{Event, Hardware, HardwareContext};
 pub use history::{HistoricInput, History, Past, Stored};
 pub use injection::{Inject, Injected, Injection, InjectionCell, InjectionTable, Injector};

@@ -195,11 +195,13 @@ impl<B: Body> Instance for Cycler<B> {
                 self.counters.no_events.add(1);
                 Ok(Waited::NoEvent)
             }
-            Err(error) => Ok(match self.judge(error, self.description.on_failure)? {
-                Consequence::Stopped => Waited::Stopped,
-                Consequence::StartOver => Waited::Failed,
-                Consequence::Restart { at } => Waited::Restarting { at },
-            }),
+            Err(error) => Ok(
+                match self.judge(error.in_cycle(number), self.description.on_failure)? {
+                    Consequence::Stopped => Waited::Stopped,
+                    Consequence::StartOver => Waited::Failed,
+                    Consequence::Restart { at } => Waited::Restarting { at },
+                },
+            ),
         }
     }
 
@@ -285,12 +287,15 @@ impl<B: Body> Instance for Cycler<B> {
         let Err(error) = result else {
             return Ok(self.publish());
         };
+        let number = self.cycle.number;
         self.give_up();
-        Ok(match self.judge(error, self.description.on_failure)? {
-            Consequence::Stopped => Finished::Stopped,
-            Consequence::StartOver => Finished::Abandoned,
-            Consequence::Restart { at } => Finished::Restarting { at },
-        })
+        Ok(
+            match self.judge(error.in_cycle(number), self.description.on_failure)? {
+                Consequence::Stopped => Finished::Stopped,
+                Consequence::StartOver => Finished::Abandoned,
+                Consequence::Restart { at } => Finished::Restarting { at },
+            },
+        )
     }
 
     fn abandon(&mut self) {

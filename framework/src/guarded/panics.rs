@@ -1,7 +1,8 @@
-//! Panics of nodes: one line that names the instance, or the node where it is caught there, and an error that names the node.
+//! Panics of nodes: errors that name the node. Whoever catches one tells it, once, as any other failure.
 //!
 //! The standard hook prints three lines and a hint about backtraces for every panic, and it cannot know the instance. Outside
-//! of instances whatever hook was installed before is called.
+//! of instances whatever hook was installed before is called. Two panics at once end the process before anybody catches one:
+//! those the hook tells.
 
 use std::any::Any;
 use std::cell::{Cell, RefCell};
@@ -14,11 +15,12 @@ use crate::report::tell;
 
 thread_local! {
     static INSIDE: Cell<Option<&'static str>> = const { Cell::new(None) };
+    /// Not caught yet.
     static LAST: RefCell<Option<String>> = const { RefCell::new(None) };
     static OF_NODE: Cell<Option<(&'static str, OnFailure)>> = const { Cell::new(None) };
 }
 
-/// While it lives, panics of this thread are those of the node (or instance) with this name.
+/// While it lives, panics of this thread are those of the instance (or other part) with this name.
 pub(super) struct Inside {
     before: Option<&'static str>,
 }
@@ -37,7 +39,12 @@ impl Drop for Inside {
     }
 }
 
-/// Makes panics inside nodes short; once per process.
+/// The instance that this thread works for.
+pub(super) fn inside() -> Option<&'static str> {
+    INSIDE.get()
+}
+
+/// Leaves panics inside of instances to whoever catches them; once per process.
 pub(super) fn install_hook() {
     static INSTALLED: Once = Once::new();
     INSTALLED.call_once(|| {
@@ -45,8 +52,9 @@ pub(super) fn install_hook() {
         set_hook(Box::new(move |panic| match INSIDE.get() {
             Some(name) => {
                 let message = describe(panic);
-                tell(format_args!("`{name}` {message}"));
-                LAST.set(Some(message));
+                if let Some(first) = LAST.replace(Some(message.clone())) {
+                    tell(format_args!("{name} {first}\n{name} {message}"));
+                }
             }
             None => before(panic),
         }));

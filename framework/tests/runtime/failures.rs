@@ -3,7 +3,10 @@
 use std::time::Duration;
 
 use framework::driver::lockstep::Step;
-use framework::{Cycle, Error, Finished, Guarded, Lockstep, OnFailure, Robot, Timestamp, Waited};
+use framework::{
+    Cycle, CycleTime, Error, Finished, Guarded, Held, Lockstep, OnFailure, Robot, State as _,
+    Timestamp, Waited,
+};
 
 use crate::body::{Parameters, Plan, Setting, robot};
 use crate::scripted::{Act, Log, Script, ScriptedHardware, millis};
@@ -324,7 +327,7 @@ fn a_node_that_could_not_be_created_anew_says_why_in_its_next_failure() {
         .to_string();
     assert_eq!(
         message,
-        "node `test::worker`: it panicked and could not be created anew: no such camera"
+        "node `test::worker` in cycle 0: it panicked and could not be created anew: no such camera"
     );
     let report = node.report();
     assert_eq!((report.calls, report.failures), (2, 2));
@@ -362,6 +365,67 @@ fn a_failed_perception_cycle_is_abandoned_and_nobody_waits_for_it() {
         !hardware.log.lines()[..].iter().any(|line| line == "rearm"),
         "perception commands no actuators"
     );
+}
+
+/// As a recording does it: state and condition, by way of a format.
+fn saved(node: &Guarded<u32>) -> [String; 2] {
+    let mut state = Vec::new();
+    let mut json = serde_json::Serializer::new(&mut state);
+    node.save(&mut <dyn erased_serde::Serializer>::erase(&mut json))
+        .expect("a number serialises");
+    let condition = serde_json::to_string(&node.condition()).expect("it serialises");
+    [String::from_utf8(state).expect("JSON is text"), condition]
+}
+
+fn loaded([state, condition]: &[String; 2]) -> Guarded<u32> {
+    let mut node = Guarded::new("test::worker", OnFailure::Hold, 0);
+    let mut json = serde_json::Deserializer::from_str(state);
+    node.load(&mut <dyn erased_serde::Deserializer>::erase(&mut json))
+        .expect("it was saved");
+    node.set_condition(serde_json::from_str(condition).expect("it was saved"));
+    node
+}
+
+#[test]
+fn what_failures_left_behind_is_saved_beside_the_state() {
+    let at = |time| Cycle {
+        time: CycleTime {
+            start: millis(time),
+            ..CycleTime::default()
+        },
+        ..Cycle::default()
+    };
+    let count = |node: &mut u32| -> framework::Result<u32> {
+        *node += 1;
+        Ok(*node)
+    };
+    let fail = |_: &mut u32| -> framework::Result<u32> { Err(Error::new("as scripted")) };
+    let mut node = Guarded::new("test::worker", OnFailure::Hold, 7_u32);
+    let good = saved(&node);
+    node.call_or_hold(&at(10), count).expect("it works");
+    let held = saved(&node);
+    let panicked = node.call_or_hold(&at(20), |_| -> framework::Result<u32> { panic!("once") });
+    assert_eq!(panicked.expect("held"), Held::Hold);
+    let broken = saved(&node);
+
+    // Where nothing was good there is nothing to hold, else for 100 ms from there.
+    for (saved, time, expected) in [
+        (&good, 20, Held::Skip),
+        (&held, 110, Held::Hold),
+        (&held, 111, Held::Skip),
+    ] {
+        let called = loaded(saved).call_or_hold(&at(time), fail);
+        assert_eq!(called.expect("held"), expected, "{saved:?}");
+    }
+    // What panicked is not called before it is created anew.
+    let mut node = loaded(&broken);
+    let called = node.call_or_hold(&at(30), count);
+    assert_eq!(called.expect("held"), Held::Hold);
+    node.renew_if_broken(|| Ok(40)).expect("it can be created");
+    let called = node.call_or_hold(&at(40), count);
+    assert_eq!(called.expect("it works"), Held::Written(41));
+    let called = loaded(&held).call_or_hold(&at(30), count);
+    assert_eq!(called.expect("it works"), Held::Written(9));
 }
 
 #[test]

@@ -78,6 +78,28 @@ fn a_process_of_this_test_is_the_run_it_was_told_to_be() {
             let setting = failing(OnFailure::Stop, &[Act::Fail]);
             launch(&["--format", "json"], &setting)
         }
+        Ok("skipping") => launch(
+            &["--for", "1s"],
+            &failing(OnFailure::Skip, &[Act::Fail, Act::Panic]),
+        ),
+        Ok("restarting") => launch(
+            &["--for", "1s"],
+            &failing(OnFailure::Restart, &[Act::Panic]),
+        ),
+        Ok("stopping") => launch(&[], &failing(OnFailure::Stop, &[Act::Panic])),
+        Ok("panicking in setup") => {
+            let receive = Script::new([Act::Panic, Act::Fail]);
+            let legs = Plan {
+                receive,
+                ..Plan::default()
+            };
+            let setting = Setting {
+                legs,
+                on_failure: OnFailure::Skip,
+                ..Setting::default()
+            };
+            launch(&["--for", "1s"], &setting)
+        }
         // Without a run it is one of many tests, and there is nothing to do.
         _ => {}
     }
@@ -135,7 +157,48 @@ fn why_the_robot_failed_is_told_even_if_nobody_reads_the_report() {
     let (status, errors) = end_of("failing", Stdio::piped());
     assert_eq!(status.code(), Some(1), "{status}: {errors}");
     assert!(
-        errors.contains("error: node `test::worker`: Legs failed: as scripted"),
+        errors.contains("error: node `test::worker` in cycle 1: Legs failed: as scripted"),
         "{errors}"
     );
+}
+
+/// What was told of failures, without the place of a panic.
+fn told(run: &str) -> Vec<String> {
+    let (_, errors) = end_of(run, Stdio::piped());
+    let lines = errors.lines().filter(|line| line.contains("as scripted"));
+    let without_place = |line: &str| match (line.find(" at "), line.find(": as scripted")) {
+        (Some(place), Some(text)) => format!("{}{}", &line[..place], &line[text..]),
+        _ => line.to_owned(),
+    };
+    lines.map(without_place).collect()
+}
+
+#[test]
+fn a_failure_is_told_once_with_its_node_and_cycle() {
+    for (run, expected) in [
+        (
+            "skipping",
+            &[
+                "Legs: node `test::worker` in cycle 1: as scripted (failure 1 of this node)",
+                "Legs: node `test::worker` in cycle 2: panicked: as scripted (failure 2 of this node)",
+            ][..],
+        ),
+        (
+            "restarting",
+            &["Legs restarts: node `test::worker` in cycle 1: panicked: as scripted"],
+        ),
+        (
+            "stopping",
+            &["error: node `test::worker` in cycle 1: Legs failed: panicked: as scripted"],
+        ),
+        (
+            "panicking in setup",
+            &[
+                "Legs: node `test::receiver` in cycle 1: panicked: as scripted (failure 1 of this instance)",
+                "Legs: node `test::receiver` in cycle 1: as scripted (failure 2 of this instance)",
+            ],
+        ),
+    ] {
+        assert_eq!(told(run), expected, "{run}");
+    }
 }

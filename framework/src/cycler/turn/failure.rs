@@ -27,7 +27,17 @@ impl<B: Body> Cycler<B> {
         }
         match error.on_failure().unwrap_or(unless_of_node) {
             OnFailure::Stop => Err(error),
-            OnFailure::Skip | OnFailure::Hold => Ok(Consequence::StartOver),
+            OnFailure::Skip | OnFailure::Hold => {
+                // Setup starts over soon: what fails every time must not flood the terminal.
+                let failures = self.counters.failures.get();
+                if failures.is_power_of_two() {
+                    let name = self.description.name;
+                    tell(format_args!(
+                        "{name}: {error} (failure {failures} of this instance)"
+                    ));
+                }
+                Ok(Consequence::StartOver)
+            }
             OnFailure::Restart => match self.restarts.after_failure(self.clock.now()) {
                 Some(at) => {
                     tell(format_args!("{} restarts: {error}", self.description.name));
