@@ -6,7 +6,7 @@ pub mod observer;
 pub mod safe_state;
 pub mod threads;
 
-pub use lockstep::{Lockstep, Paused};
+pub use lockstep::{Lockstep, Paused, Together};
 pub use observer::Observer;
 pub use safe_state::SafeState;
 pub use threads::Threads;

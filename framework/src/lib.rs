@@ -67,7 +67,7 @@ pub use cycler::{
 };
 pub use data::{Data, NodeState, ParameterData};
 pub use digest::Digest;
-pub use driver::{Lockstep, Paused, SafeState, Threads};
+pub use driver::{Lockstep, Paused, SafeState, Threads, Together};
 pub use error::{Error, InNode, NoEvent, Result, Stopped};
 pub use framework_macros::{Clear, Reflect, context};
 pub use guarded::{Condition, Guarded, Held, OnFailure, State};

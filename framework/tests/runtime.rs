@@ -20,3 +20,5 @@ mod scheduling;
 mod scripted;
 #[path = "runtime/threads.rs"]
 mod threads;
+#[path = "runtime/together.rs"]
+mod together;

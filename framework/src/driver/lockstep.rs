@@ -8,6 +8,10 @@
 //! has not finished stays due. An event of an instance that a partial robot does without is only told: who feeds its stub
 //! does it then. Same events, same bits.
 
+mod together;
+
+pub use together::Together;
+
 use super::chaos::Chaos;
 use super::observer::Observed;
 use super::safe_state::Causes;
@@ -282,6 +286,13 @@ impl<'robot, P> Lockstep<'robot, P> {
         // Of equals the first is taken: new data replaces what is due before that begins.
         let deeds = arrival.into_iter().chain(tracks);
         Ok(deeds.min_by_key(|(at, deed, index)| (*at, deed.rank(), *index)))
+    }
+
+    /// Whether there is nothing left to do of what the hardware told.
+    fn is_idle(&self) -> bool {
+        let mut tracks = self.tracks.iter();
+        self.ahead.is_none()
+            && tracks.all(|track| matches!(track.state, State::Idle) && track.due.is_none())
     }
 
     fn look_ahead(&mut self) -> Result<()> {

@@ -88,6 +88,9 @@ pub(crate) struct ScriptedHardware {
     /// Threads: data comes so often.
     pub(crate) period: Duration,
     reads: AtomicU64,
+    /// Counts the events of all hardwares that share it, if there is one; what is read is the count at the last own event.
+    pub(crate) world: Option<Arc<AtomicU64>>,
+    told: AtomicU64,
     /// Somebody presses the button that gives the nodes the actuators back.
     pub(crate) button: AtomicBool,
 }
@@ -117,6 +120,8 @@ impl ScriptedHardware {
             latency: Duration::from_millis(5),
             period: Duration::from_millis(2),
             reads: AtomicU64::new(0),
+            world: None,
+            told: AtomicU64::new(0),
             button: AtomicBool::new(false),
         }
     }
@@ -131,7 +136,11 @@ impl ScriptedHardware {
         }
         let now = self.clock.now();
         let captured = Timestamp::ZERO + (now - Timestamp::ZERO).saturating_sub(self.latency);
-        Ok((captured, self.reads.fetch_add(1, Ordering::Relaxed)))
+        let value = match self.world {
+            Some(_) => self.told.load(Ordering::Relaxed),
+            None => self.reads.fetch_add(1, Ordering::Relaxed),
+        };
+        Ok((captured, value))
     }
 }
 
@@ -160,6 +169,10 @@ impl Hardware for ScriptedHardware {
     }
 
     fn next_event(&self) -> Result<Option<Event>> {
+        if let Some(world) = &self.world {
+            let count = world.fetch_add(1, Ordering::Relaxed);
+            self.told.store(count, Ordering::Relaxed);
+        }
         Ok(self.events.lock().expect("not poisoned").pop_front())
     }
 }
