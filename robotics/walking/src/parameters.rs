@@ -1,0 +1,72 @@
+//! The numbers of the walk.
+
+use framework::Reflect;
+use serde::{Deserialize, Serialize};
+
+use crate::step::Limits;
+
+/// Everything that can be tuned.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Parameters {
+    pub limits: Limits,
+    pub stride: StrideParameters,
+    pub balance: BalanceParameters,
+    pub arms: ArmParameters,
+    /// From the soles up to the axis of the hips, in m.
+    pub hip_height: f32,
+    /// The body stands so far in front of the middle between its feet, in m.
+    pub torso_offset: f32,
+    /// The body leans forward so much, in rad.
+    pub torso_tilt: f32,
+    /// From the middle to each foot, in m.
+    pub foot_offset: f32,
+    /// Of the legs, 0 (limp) to 1.
+    pub leg_stiffness: f32,
+}
+
+/// How a foot goes from here to there.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct StrideParameters {
+    /// In s, of a step on the spot.
+    pub duration: f32,
+    /// In s per m of travel of the swing foot.
+    pub duration_per_meter: f32,
+    /// In m: how high the swing foot is lifted in a step on the spot.
+    pub apex: f32,
+    /// In m per m of travel of the swing foot.
+    pub apex_per_meter: f32,
+    /// In s: a foot that feels the floor earlier has not left it yet.
+    pub earliest_contact: f32,
+    /// Share of the body's weight from which on the swing foot stands, 0 to 1.
+    pub contact_threshold: f32,
+    /// In s: without any contact the feet change roles after so long.
+    pub timeout: f32,
+}
+
+/// How the ankles answer the gyroscope.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct BalanceParameters {
+    /// Of the ankle's pitch, in rad per rad/s.
+    pub pitch_gain: f32,
+    /// Of the ankle's roll, in rad per rad/s.
+    pub roll_gain: f32,
+    /// Share of the newest value in the low-pass filter, 0 to 1.
+    pub newest: f32,
+    /// In rad/s: no correction changes faster.
+    pub greatest_speed: f32,
+}
+
+/// What the arms do meanwhile.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct ArmParameters {
+    /// In rad: how far they are spread.
+    pub roll: f32,
+    /// In rad per m that the opposite foot is in front.
+    pub swing: f32,
+    /// 0 (limp) to 1.
+    pub stiffness: f32,
+}
