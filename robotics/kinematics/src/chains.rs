@@ -59,7 +59,7 @@ impl<T: RealField + Copy> Poses<T> {
         let others = LINKS.iter().map(|link| (self.link(link.name), link.mass));
         let (moment, mass) = others.chain([torso]).fold(
             (Vector3::zeros(), T::zero()),
-            |(moment, total), (pose, Mass { mass, center })| {
+            |(moment, total), (pose, Mass { mass, center, .. })| {
                 let center = pose * Point3::from(vector(center));
                 let mass: T = convert(mass);
                 (moment + center.coords * mass, total + mass)

@@ -10,6 +10,8 @@ pub mod inverse;
 pub mod links;
 
 pub mod limits;
+pub mod motors;
+pub mod shells;
 
 pub mod cameras;
 pub mod feet;

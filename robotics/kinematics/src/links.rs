@@ -35,6 +35,10 @@ pub struct Mass {
     pub mass: f64,
     /// Centre of mass in the link's frame, in m.
     pub center: [f64; 3],
+    /// Moments of inertia about the centre of mass along the link's axes, in kg m²: xx, yy, zz, xy,
+    /// xz, yz. The published tables are about the origin of the link; these are moved by the
+    /// parallel axis theorem and are those of the URDF.
+    pub inertia: [f64; 6],
 }
 
 /// The rigid parts of the robot; `as usize` is the place in [`crate::Poses`].

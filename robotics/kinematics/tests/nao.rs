@@ -1,8 +1,8 @@
 //! The constants in Rust are those of `nao.toml`.
 
 use kinematics::cameras::{self, FOCAL_LENGTH, IMAGE_RATE, IMAGE_SIZE, OPTICAL_CENTER};
-use kinematics::links::{LINKS, Link, TORSO};
-use kinematics::{chains, feet, inertial, limits};
+use kinematics::links::{LINKS, Link, LinkName, TORSO};
+use kinematics::{chains, feet, inertial, limits, motors, shells};
 use serde::Deserialize;
 use types::camera::CameraPosition;
 use types::joints::JointName;
@@ -55,6 +55,8 @@ struct Joint {
     lower: f64,
     upper: f64,
     max_velocity: f64,
+    stall_torque: f64,
+    gear_ratio: f64,
     kind: Option<String>,
 }
 
@@ -64,6 +66,9 @@ struct LinkMass {
     joint: Option<String>,
     mass: f64,
     com: [f64; 3],
+    inertia_com: [f64; 6],
+    aabb_min: Option<[f64; 3]>,
+    aabb_max: Option<[f64; 3]>,
 }
 
 #[derive(Deserialize)]
@@ -142,6 +147,38 @@ fn limits_are_those_of_the_file() {
 }
 
 #[test]
+fn motors_are_those_of_the_file() {
+    for joint in nao().joints {
+        let motor = motors::of(JointName::ALL[joint.lola_index]);
+        let expected = (joint.stall_torque, joint.gear_ratio);
+        assert_eq!(
+            (motor.stall_torque, motor.gear_ratio),
+            expected,
+            "{}",
+            joint.name
+        );
+    }
+}
+
+#[test]
+fn shells_are_those_of_the_file() {
+    for link in nao().links {
+        let name = LINKS.iter().find(|other| file_name(other) == link.name);
+        let shell = shells::of(name.map_or(LinkName::Torso, |link| link.name));
+        let (lowest, highest) = (
+            shell.map(|shell| shell.lowest),
+            shell.map(|shell| shell.highest),
+        );
+        assert_eq!(
+            (lowest, highest),
+            (link.aabb_min, link.aabb_max),
+            "{}",
+            link.name
+        );
+    }
+}
+
+#[test]
 fn links_turn_where_the_file_says() {
     let joints = nao().joints;
     let angles: Vec<_> = joints.iter().filter(|joint| joint.kind.is_none()).collect();
@@ -177,8 +214,8 @@ fn masses_are_those_of_the_file() {
         assert_eq!(link.is_none(), expected.joint.is_none());
         let mass = link.map_or(TORSO, |link| link.mass);
         assert_eq!(
-            (mass.mass, mass.center),
-            (expected.mass, expected.com),
+            (mass.mass, mass.center, mass.inertia),
+            (expected.mass, expected.com, expected.inertia_com),
             "{}",
             expected.name
         );

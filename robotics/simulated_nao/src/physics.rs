@@ -1,60 +1,87 @@
-//! The seam to physics: what moves the robot's body when its motors are told to turn.
+//! The seam to physics: what moves robots and ball when motors are told to turn.
+//!
+//! [`Dynamic`] has masses, contacts and torques; [`Kinematic`] is the cheap choice, whose robots never
+//! fall and whose ball stays where it is. Both know the same [`Situation`] and any number of robots.
 
+mod body;
+mod dynamic;
 mod kinematic;
 
+pub(crate) use body::heading;
+pub use body::{Body, Start};
+pub use dynamic::{Dynamic, ROLLING_DECELERATION};
 pub use kinematic::Kinematic;
 
 use std::time::Duration;
 
-use nalgebra::{Isometry3, Point3};
-use types::feet::Feet;
-use types::joints::Joints;
+use nalgebra::{Isometry3, Point3, Vector3};
 use types::motor_commands::MotorCommands;
 
-/// Moves the body through time. The same calls give the same bits.
+/// Time passes in steps of this length: short enough for feet on the floor, and a quarter of LoLA's
+/// cycle.
+pub const STEP: Duration = Duration::from_millis(3);
+
+/// Moves the world through time. The same calls give the same bits.
 pub trait Physics: Send {
-    /// Lets `duration` pass while the motors are driven to `commands`.
-    fn advance(&mut self, duration: Duration, commands: &MotorCommands) -> &Body;
+    /// Lets [`STEP`] pass while the motors of each robot are driven to its commands. A robot without
+    /// commands is limp.
+    fn step(&mut self, commands: &[MotorCommands]);
 
-    /// The body as the last `advance` left it.
-    fn body(&self) -> &Body;
+    /// The robots' bodies as the last step left them.
+    fn bodies(&self) -> &[Body];
+
+    /// The ball, if there is one.
+    fn ball(&self) -> Option<Ball>;
+
+    /// From the torso frames of the bystanders to the field frame.
+    fn bystanders(&self) -> &[Isometry3<f64>];
+
+    /// Does to the world what no motor does. Who does not exist is not disturbed.
+    fn disturb(&mut self, disturbance: &Disturbance);
 }
 
-/// The state of the robot's body.
-#[derive(Clone, Copy, Debug)]
-pub struct Body {
-    /// Angles in rad; hands from 0 to 1.
-    pub joints: Joints<f64>,
-    /// From the torso frame to the field frame.
-    pub torso_to_field: Isometry3<f64>,
-    /// From the sole frames to the field frame.
-    pub soles_to_field: Feet<Isometry3<f64>>,
-    /// Centre of mass in the field frame, m.
-    pub center_of_mass: Point3<f64>,
-    /// Vertical forces on the resistors front left, front right, rear left, rear right, in N.
-    pub contact_forces: Feet<[f64; 4]>,
+/// How a world begins.
+#[derive(Clone, Debug, Default)]
+pub struct Situation {
+    /// Robots with motors.
+    pub robots: Vec<Start>,
+    /// Robots that keep their joints as they are; one can run into them and knock them over.
+    pub bystanders: Vec<Start>,
+    /// Where the ball lies in the field frame, m.
+    pub ball: Option<[f64; 2]>,
 }
 
-impl Body {
-    /// The ground frame in the field frame: on the floor midway between the soles, x along the
-    /// heading of the torso.
-    pub fn ground_to_field(&self) -> Isometry3<f64> {
-        let Feet { left, right } = &self.soles_to_field;
-        let middle = (left.translation.vector + right.translation.vector) / 2.0;
-        planar(middle.x, middle.y, heading(&self.torso_to_field))
-    }
+/// A ball in motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ball {
+    /// Its centre in the field frame, m.
+    pub position: Point3<f64>,
+    /// In the field frame, m/s.
+    pub velocity: Vector3<f64>,
 }
 
-/// A pose on the floor.
-pub(crate) fn planar(x: f64, y: f64, heading: f64) -> Isometry3<f64> {
-    Isometry3::new(
-        nalgebra::Vector3::new(x, y, 0.0),
-        nalgebra::Vector3::z() * heading,
-    )
-}
-
-/// The direction of a frame's x axis on the floor, in rad.
-pub(crate) fn heading(pose: &Isometry3<f64>) -> f64 {
-    let forward = pose.rotation * nalgebra::Vector3::x();
-    forward.y.atan2(forward.x)
+/// What somebody does to the world.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Disturbance {
+    /// Pushes a robot at the origin of its torso; [`Kinematic`] does not feel it.
+    Push {
+        /// Its place among the robots.
+        robot: usize,
+        /// In the field frame, N s.
+        impulse: Vector3<f64>,
+    },
+    /// Puts the ball somewhere, if there is one, and lets it roll.
+    MoveBall {
+        /// Its centre in the field frame, m.
+        position: Point3<f64>,
+        /// In the field frame, m/s; [`Kinematic`] lets it lie.
+        velocity: Vector3<f64>,
+    },
+    /// Takes a robot up, turns it upright, and puts it down elsewhere with its joints as they are.
+    Kidnap {
+        /// Its place among the robots.
+        robot: usize,
+        /// Of its ground frame in the field frame: x and y in m, heading in rad.
+        pose: [f64; 3],
+    },
 }

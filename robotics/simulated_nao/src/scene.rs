@@ -7,14 +7,14 @@
 
 use framework::{Error, Result};
 use kinematics::forward_kinematics;
-use nalgebra::{Point2, Point3};
+use nalgebra::{Isometry3, Point2, Point3};
 use serde::Deserialize;
 use types::feet::{Feet, Side};
 use types::game::PLAYER_COUNT;
 
 use crate::camera::figure::{self, Capsule, PARTS};
 use crate::field::{GOAL_POST_RADIUS, goal_posts};
-use crate::physics::{Kinematic, Physics};
+use crate::physics::{Body, Start, heading};
 use crate::posture;
 
 /// Two teams of seven without this robot.
@@ -61,7 +61,7 @@ pub struct ImageSettings {
     pub seed: u32,
 }
 
-/// Another robot, standing.
+/// Another robot: it stands as long as nobody knocks it over.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Robot {
     /// On the floor midway between its soles, in the field frame, m.
@@ -74,6 +74,8 @@ pub struct Robot {
     pub number: u8,
     /// The frames' origins of its soles in the field frame, m.
     pub soles: Feet<Point3<f32>>,
+    /// From its torso frame to the field frame.
+    pub torso_to_field: Isometry3<f64>,
     /// Its body in the field frame.
     pub(crate) parts: [Capsule; PARTS],
 }
@@ -89,26 +91,46 @@ impl Default for ImageSettings {
     }
 }
 
-impl From<&RobotSettings> for Robot {
-    fn from(settings: &RobotSettings) -> Self {
-        let [x, y] = settings.position;
-        let joints = posture::standing();
-        let body = *Kinematic::new(joints, [x, y, settings.heading]).body();
+impl RobotSettings {
+    /// How it begins.
+    pub fn start(&self) -> Start {
+        let [x, y] = self.position;
+        Start {
+            joints: posture::standing(),
+            pose: [x, y, self.heading],
+        }
+    }
+}
+
+impl Robot {
+    /// A robot with its torso at a pose in the field frame.
+    pub fn new(settings: &RobotSettings, torso_to_field: &Isometry3<f64>) -> Self {
+        let joints = settings.start().joints;
+        let body = Body::new(joints, *torso_to_field);
+        let ground = body.ground_to_field();
         let poses = forward_kinematics(&joints.map(|angle| angle as f32));
-        let torso_to_field = body.torso_to_field.cast();
         let parts = figure::parts(&poses, figure::shirt(settings.team));
         let sole = |side| Point3::from(body.soles_to_field.on(side).translation.vector).cast();
         Self {
-            position: settings.position.into(),
-            heading: settings.heading,
+            position: ground.translation.vector.xy().into(),
+            heading: heading(&ground),
             team: settings.team,
             number: settings.number,
             soles: Feet {
                 left: sole(Side::Left),
                 right: sole(Side::Right),
             },
-            parts: parts.map(|part| part.transformed(&torso_to_field)),
+            torso_to_field: *torso_to_field,
+            parts: parts.map(|part| part.transformed(&torso_to_field.cast())),
         }
+    }
+}
+
+impl From<&RobotSettings> for Robot {
+    /// Where it begins.
+    fn from(settings: &RobotSettings) -> Self {
+        let body = Body::standing(&settings.start());
+        Self::new(settings, &body.torso_to_field)
     }
 }
 

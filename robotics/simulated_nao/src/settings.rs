@@ -5,6 +5,7 @@
 //! | option | does |
 //! |---|---|
 //! | `--socket PATH` | serves LoLA there instead of in a fresh folder |
+//! | `--physics NAME` | `dynamic` (masses, torques and contacts) or `kinematic` (cheap; robots never fall) |
 //! | `--pose X,Y,HEADING` | puts the robot there (m, m, rad) |
 //! | `--ball X,Y` | puts the ball there (m) |
 //! | `--no-ball` | takes the ball away |
@@ -42,6 +43,8 @@ pub use crate::sound::SoundSettings;
 pub struct Settings {
     /// Where LoLA is served; left out: in a fresh temporary folder.
     pub socket: Option<PathBuf>,
+    /// What moves robots and ball.
+    pub physics: PhysicsChoice,
     /// Where the robot starts in the field frame: x and y in m, heading in rad.
     pub robot_pose: [f64; 3],
     /// The ball.
@@ -68,6 +71,31 @@ pub struct Settings {
     pub microphones: bool,
 }
 
+/// What moves robots and ball.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, PartialEq)]
+#[serde(rename_all = "snake_case")]
+pub enum PhysicsChoice {
+    /// Masses, torques and contacts: robots fall, balls roll.
+    Dynamic,
+    /// Joints turn as they are told and robots never fall: the cheap choice.
+    #[default]
+    Kinematic,
+}
+
+impl FromStr for PhysicsChoice {
+    type Err = Error;
+
+    fn from_str(name: &str) -> Result<Self> {
+        match name {
+            "dynamic" => Ok(Self::Dynamic),
+            "kinematic" => Ok(Self::Kinematic),
+            _ => Err(Error::new(format!(
+                "no physics is called `{name}`; there are `dynamic` and `kinematic`"
+            ))),
+        }
+    }
+}
+
 /// The ball of the world.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -82,6 +110,7 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             socket: None,
+            physics: PhysicsChoice::default(),
             robot_pose: [2.0, 0.0, 0.0],
             ball: BallSettings::default(),
             robots: Vec::new(),

@@ -148,6 +148,10 @@ impl Simulation {
         &self.world
     }
 
+    pub(crate) fn world_mut(&mut self) -> &mut World {
+        &mut self.world
+    }
+
     pub(crate) fn server(&self) -> &LolaServer {
         &self.server
     }
@@ -244,6 +248,7 @@ impl Simulation {
     pub(crate) fn skip_to(&mut self, now: Timestamp) {
         let passed = now - Timestamp::ZERO;
         self.ticks = self.ticks.max(count(passed, TICK));
+        self.world.skip_to(now);
         self.network.skip_to(now);
         while block_time(self.blocks) <= now {
             self.blocks += 1;

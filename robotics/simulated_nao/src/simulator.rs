@@ -10,6 +10,7 @@ use tempfile::TempDir;
 
 use crate::ground_truth::GroundTruth;
 use crate::network::{Network, NetworkTruth, RobotSockets};
+use crate::physics::Disturbance;
 use crate::server::LolaServer;
 use crate::settings::Settings;
 use crate::simulation::Simulation;
@@ -99,6 +100,11 @@ impl Simulator {
     /// What is really the case, for tests.
     pub fn ground_truth(&self) -> GroundTruth {
         self.shared.lock().ground_truth()
+    }
+
+    /// Does to the world what no motor does, for tests and scenarios.
+    pub fn disturb(&self, disturbance: &Disturbance) {
+        self.shared.lock().world_mut().disturb(disturbance);
     }
 
     /// What the referee's computer and the team mate have said and heard, for tests.

@@ -1,5 +1,6 @@
 //! The simulated world at one moment: the robot's body, its motors and cameras, and the ball.
 
+mod inertial;
 mod motor_boards;
 mod power;
 mod sensors;
@@ -15,20 +16,21 @@ use kinematics::cameras::{
 };
 use kinematics::forward_kinematics;
 use kinematics::links::LinkName;
-use nalgebra::{Isometry3, Point2, Point3, UnitQuaternion, Vector2, Vector3};
+use nalgebra::{Isometry3, Point2, Point3, Vector2};
 use types::camera::{CameraPosition, Intrinsics};
 use types::motor_commands::MotorCommands;
 use types::sensor_data::{RobotConfiguration, SensorData, Touch};
 
+use self::inertial::InertialUnit;
 use self::motor_boards::MotorBoards;
 use self::power::Power;
 pub(crate) use self::sonar::NO_ECHO;
 use crate::camera::{Exposure, OwnBody};
-use crate::field::{BALL_RADIUS, Field};
-use crate::physics::{Body, Kinematic, Physics};
+use crate::field::Field;
+use crate::physics::{Body, Disturbance, Dynamic, Kinematic, Physics, STEP, Situation, Start};
 use crate::posture;
-use crate::scene::{self, ImageSettings, Robot};
-use crate::settings::{Press, Settings};
+use crate::scene::{self, ImageSettings, Robot, RobotSettings};
+use crate::settings::{PhysicsChoice, Press, Settings};
 
 /// From exposure to the arrival of the image.
 pub(crate) const IMAGE_LATENCY: Duration = Duration::from_millis(25);
@@ -38,38 +40,40 @@ pub(crate) struct World {
     pub(crate) field: Arc<Field>,
     now: Timestamp,
     physics: Box<dyn Physics>,
+    /// When the last step of the physics was.
+    stepped: Timestamp,
+    inertial: InertialUnit,
     motors: MotorBoards,
     power: Power,
     presses: Vec<Press>,
     configuration: RobotConfiguration,
-    /// Centre of the ball in the field frame.
-    ball: Option<Point3<f64>>,
-    /// The others; they stand still.
+    others: Vec<RobotSettings>,
+    /// The others where they are now.
     robots: Arc<[Robot]>,
     images: ImageSettings,
-    /// When the sensors were read last, and how the torso was turned then.
-    last_sample: (Timestamp, UnitQuaternion<f64>),
 }
 
 impl World {
     pub(crate) fn new(settings: &Settings) -> Self {
-        let physics = Kinematic::new(posture::sitting(), settings.robot_pose);
-        let body = *physics.body();
-        let radius = f64::from(BALL_RADIUS);
+        let situation = situation(settings);
+        let physics: Box<dyn Physics> = match settings.physics {
+            PhysicsChoice::Dynamic => Box::new(Dynamic::new(&situation)),
+            PhysicsChoice::Kinematic => Box::new(Kinematic::new(&situation)),
+        };
+        let joints = posture::sitting();
         Self {
             field: Arc::default(),
             now: Timestamp::ZERO,
-            physics: Box::new(physics),
-            motors: MotorBoards::new(&body.joints),
+            stepped: Timestamp::ZERO,
+            inertial: InertialUnit::default(),
+            motors: MotorBoards::new(&joints),
             power: Power::new(),
             presses: settings.buttons.clone(),
             configuration: settings.configuration(),
-            ball: settings
-                .ball_position()
-                .map(|[x, y]| Point3::new(x, y, radius)),
-            robots: settings.robots.iter().map(Robot::from).collect(),
+            others: settings.robots.clone(),
+            robots: robots(&settings.robots, physics.bystanders()),
             images: settings.images,
-            last_sample: (Timestamp::ZERO, body.torso_to_field.rotation),
+            physics,
         }
     }
 
@@ -78,7 +82,7 @@ impl World {
     }
 
     pub(crate) fn body(&self) -> &Body {
-        self.physics.body()
+        &self.physics.bodies()[0]
     }
 
     /// What the motors were told last.
@@ -87,7 +91,7 @@ impl World {
     }
 
     pub(crate) fn ball(&self) -> Option<Point3<f64>> {
-        self.ball
+        self.physics.ball().map(|ball| ball.position)
     }
 
     pub(crate) fn robots(&self) -> &[Robot] {
@@ -101,32 +105,43 @@ impl World {
 
     /// Lets time pass; a time that is over already changes nothing.
     pub(crate) fn advance_to(&mut self, time: Timestamp) {
-        if time > self.now {
-            let duration = time - self.now;
-            self.physics.advance(duration, &self.motors.at(time));
-            self.power
-                .advance(duration, &self.motors.commands().stiffnesses);
-            self.now = time;
+        if time <= self.now {
+            return;
         }
+        // On a grid of its own, so that the body does not depend on who looks at it when.
+        while self.stepped + STEP <= time {
+            self.stepped = self.stepped + STEP;
+            self.physics.step(&[self.motors.at(self.stepped)]);
+            self.inertial.measure(&self.physics.bodies()[0]);
+        }
+        if has_moved(&self.robots, self.physics.bystanders()) {
+            self.robots = robots(&self.others, self.physics.bystanders());
+        }
+        self.power
+            .advance(time - self.now, &self.motors.commands().stiffnesses);
+        self.now = time;
+    }
+
+    /// Leaves out the time until `time`: nothing moves.
+    pub(crate) fn skip_to(&mut self, time: Timestamp) {
+        self.now = self.now.max(time);
+        self.stepped = self.stepped.max(time);
+    }
+
+    /// Does to the world what no motor does.
+    pub(crate) fn disturb(&mut self, disturbance: &Disturbance) {
+        self.physics.disturb(disturbance);
     }
 
     /// Tells the motors what to do from now on.
     pub(crate) fn command(&mut self, commands: MotorCommands) {
         self.motors
-            .command(commands, &self.physics.body().joints, self.now);
+            .command(commands, &self.physics.bodies()[0].joints, self.now);
     }
 
     /// Reads all sensors of the body.
     pub(crate) fn sample(&mut self) -> SensorData {
-        let rotation = self.body().torso_to_field.rotation;
-        let (time, before) = self.last_sample;
-        let seconds = (self.now - time).as_secs_f64();
-        let gyroscope = if seconds > 0.0 {
-            (before.inverse() * rotation).scaled_axis() / seconds
-        } else {
-            Vector3::zeros()
-        };
-        self.last_sample = (self.now, rotation);
+        let inertial = self.inertial.take(&self.physics.bodies()[0]);
         let (body, commands) = (self.body(), self.commands());
         let stiffnesses = commands.stiffnesses;
         SensorData {
@@ -136,7 +151,7 @@ impl World {
             touch: self.touch(),
             sonar: sonar::echoes(&body.torso_to_field, self.obstacles()),
             battery: self.power.battery(&stiffnesses),
-            ..sensors::sample(body, gyroscope, stiffnesses, self.configuration)
+            ..sensors::sample(body, inertial, stiffnesses, self.configuration)
         }
     }
 
@@ -154,7 +169,7 @@ impl World {
             camera_to_field: self.camera_to_field(camera),
             ground_to_field: self.body().ground_to_field().cast(),
             intrinsics: intrinsics(),
-            ball: self.ball.map(|ball| ball.cast()),
+            ball: self.ball().map(|ball| ball.cast()),
             robots: Arc::clone(&self.robots),
             body: Some(OwnBody {
                 joints: self.body().joints.map(|angle| angle as f32),
@@ -171,6 +186,38 @@ impl World {
             body.torso_to_field * head * camera_to_head::<f64>(camera) * optical_to_camera::<f64>();
         camera_to_field.cast()
     }
+}
+
+/// Nearer than this, m, a bystander is where it was: a body at rest trembles less.
+const STILL: f64 = 1e-4;
+
+/// What the settings put on the field; the robot sits and waits.
+fn situation(settings: &Settings) -> Situation {
+    let others = settings.robots.iter();
+    Situation {
+        robots: vec![Start {
+            joints: posture::sitting(),
+            pose: settings.robot_pose,
+        }],
+        bystanders: others.map(RobotSettings::start).collect(),
+        ball: settings.ball_position(),
+    }
+}
+
+fn robots(settings: &[RobotSettings], torsos_to_field: &[Isometry3<f64>]) -> Arc<[Robot]> {
+    let robots = settings.iter().zip(torsos_to_field);
+    robots
+        .map(|(settings, torso_to_field)| Robot::new(settings, torso_to_field))
+        .collect()
+}
+
+fn has_moved(robots: &[Robot], torsos_to_field: &[Isometry3<f64>]) -> bool {
+    robots.iter().zip(torsos_to_field).any(|(robot, torso)| {
+        let is_at = &robot.torso_to_field;
+        let moved = (is_at.translation.vector - torso.translation.vector).norm();
+        // A metre away from the torso a turn moves as much.
+        moved > STILL || is_at.rotation.angle_to(&torso.rotation) > STILL
+    })
 }
 
 fn intrinsics() -> Intrinsics {

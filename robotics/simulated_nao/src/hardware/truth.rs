@@ -10,12 +10,18 @@ use types::network::Channel;
 use super::Hardware;
 use crate::ground_truth::{BodyTruth, GroundTruth, ImageTruth};
 use crate::network::{NetworkTruth, Received};
+use crate::physics::Disturbance;
 use crate::sound::WhistleTruth;
 
 impl Hardware {
     /// What is really the case, for tests.
     pub fn ground_truth(&self) -> GroundTruth {
         self.shared.lock().ground_truth()
+    }
+
+    /// Does to the world what no motor does, for tests and scenarios.
+    pub fn disturb(&self, disturbance: &Disturbance) {
+        self.shared.lock().world_mut().disturb(disturbance);
     }
 
     /// The body at each of LoLA's last 512 states, oldest first, for tests.

@@ -3,18 +3,16 @@
 //! The robot never falls: the lower sole always stands flat on the floor, and it stays in its place
 //! until the other sole becomes the lower one. Stepping therefore walks.
 
-use std::time::Duration;
-
-use kinematics::feet::{FORCE_SENSITIVE_RESISTORS, LEFT_SOLE};
-use kinematics::inertial::GRAVITY;
-use kinematics::links::{LINKS, TORSO};
-use kinematics::{Poses, forward_kinematics, limits};
-use nalgebra::{Isometry3, Point3};
+use kinematics::feet::FORCE_SENSITIVE_RESISTORS;
+use kinematics::{forward_kinematics, limits};
+use nalgebra::{Isometry3, Point3, Vector3};
 use types::feet::{Feet, Side};
 use types::joints::Joints;
 use types::motor_commands::MotorCommands;
 
-use super::{Body, Physics, heading, planar};
+use super::body::{flat, weight};
+use super::{Ball, Body, Disturbance, Physics, STEP, Situation, Start};
+use crate::field::BALL_RADIUS;
 
 /// How deep, in m, the raised sole may reach into the floor before it becomes the standing one.
 const DEEPEST: f64 = 1e-4;
@@ -24,93 +22,103 @@ const TOUCHING: f64 = 0.003;
 /// Joints follow at their greatest speed times their stiffness; limp joints keep their angle.
 #[derive(Debug)]
 pub struct Kinematic {
-    body: Body,
-    standing_on: Side,
+    bodies: Vec<Body>,
+    /// The sole on which each body stands.
+    standing_on: Vec<Side>,
+    bystanders: Vec<Isometry3<f64>>,
+    ball: Option<Ball>,
 }
 
 impl Kinematic {
-    /// A robot with these joint angles whose ground frame lies at x, y (m) and heading (rad).
-    pub fn new(joints: Joints<f64>, [x, y, heading]: [f64; 3]) -> Self {
-        let poses = forward_kinematics(&joints);
-        let somewhere = stand(joints, &poses, Side::Left, &Isometry3::identity());
-        let to_field = planar(x, y, heading) * somewhere.ground_to_field().inverse();
-        let sole = to_field * somewhere.soles_to_field.left;
+    /// The robots of a situation on the floor.
+    pub fn new(situation: &Situation) -> Self {
+        let bodies = situation.robots.iter().map(|start| {
+            let mut body = Body::standing(start);
+            body.contact_forces = contact_forces(&body);
+            body
+        });
+        let bystanders = situation.bystanders.iter();
         Self {
-            body: stand(joints, &poses, Side::Left, &flat(&sole)),
-            standing_on: Side::Left,
+            bodies: bodies.collect(),
+            standing_on: vec![Side::Left; situation.robots.len()],
+            bystanders: bystanders
+                .map(|start| Body::standing(start).torso_to_field)
+                .collect(),
+            ball: situation.ball.map(|[x, y]| Ball {
+                position: Point3::new(x, y, f64::from(BALL_RADIUS)),
+                velocity: Vector3::zeros(),
+            }),
         }
-    }
-
-    /// The body with its joints turned, still standing on what it stood on if it can.
-    fn settle(&mut self, joints: Joints<f64>) {
-        let poses = forward_kinematics(&joints);
-        let stay = stand(
-            joints,
-            &poses,
-            self.standing_on,
-            self.body.soles_to_field.on(self.standing_on),
-        );
-        let raised = other(self.standing_on);
-        if lowest(&stay, raised) < -DEEPEST {
-            // It touches the floor already, or is about to: it stays where it was.
-            let place = flat(self.body.soles_to_field.on(raised));
-            let change = stand(joints, &poses, raised, &place);
-            if lowest(&change, self.standing_on) > lowest(&stay, raised) {
-                self.standing_on = raised;
-                self.body = change;
-                return;
-            }
-        }
-        self.body = stay;
     }
 }
 
 impl Physics for Kinematic {
-    fn advance(&mut self, duration: Duration, commands: &MotorCommands) -> &Body {
-        let joints = Joints::from_fn(|joint| {
-            let stiffness = f64::from(commands.stiffnesses[joint]).clamp(0.0, 1.0);
-            let target = f64::from(limits::clamp(joint, commands.positions[joint]));
-            let reach = limits::of(joint).velocity * stiffness * duration.as_secs_f64();
-            let angle = self.body.joints[joint];
-            angle + (target - angle).clamp(-reach, reach)
-        });
-        self.settle(joints);
-        &self.body
+    fn step(&mut self, commands: &[MotorCommands]) {
+        let seconds = STEP.as_secs_f64();
+        let robots = self.bodies.iter_mut().zip(&mut self.standing_on);
+        for ((body, standing_on), commands) in robots.zip(commands) {
+            let joints = Joints::from_fn(|joint| {
+                let stiffness = f64::from(commands.stiffnesses[joint]).clamp(0.0, 1.0);
+                let target = f64::from(limits::clamp(joint, commands.positions[joint]));
+                let reach = limits::of(joint).velocity * stiffness * seconds;
+                let angle = body.joints[joint];
+                angle + (target - angle).clamp(-reach, reach)
+            });
+            let before = body.torso_to_field.rotation;
+            *body = settle(body, standing_on, joints);
+            body.contact_forces = contact_forces(body);
+            let turn = before.inverse() * body.torso_to_field.rotation;
+            body.angular_velocity = turn.scaled_axis() / seconds;
+        }
     }
 
-    fn body(&self) -> &Body {
-        &self.body
+    fn bodies(&self) -> &[Body] {
+        &self.bodies
+    }
+
+    fn ball(&self) -> Option<Ball> {
+        self.ball
+    }
+
+    fn bystanders(&self) -> &[Isometry3<f64>] {
+        &self.bystanders
+    }
+
+    fn disturb(&mut self, disturbance: &Disturbance) {
+        match *disturbance {
+            Disturbance::Push { .. } => {}
+            Disturbance::MoveBall { position, .. } => {
+                if let Some(ball) = &mut self.ball {
+                    ball.position = position;
+                }
+            }
+            Disturbance::Kidnap { robot, pose } => {
+                if let Some(body) = self.bodies.get_mut(robot) {
+                    let joints = body.joints;
+                    *body = Body::standing(&Start { joints, pose });
+                    body.contact_forces = contact_forces(body);
+                }
+            }
+        }
     }
 }
 
-/// The body with one sole at a pose on the floor.
-fn stand(
-    joints: Joints<f64>,
-    poses: &Poses<f64>,
-    side: Side,
-    sole_to_field: &Isometry3<f64>,
-) -> Body {
-    let torso_to_field = sole_to_field * poses.sole(side).inverse();
-    let mut body = Body {
-        joints,
-        torso_to_field,
-        soles_to_field: Feet {
-            left: torso_to_field * poses.sole(Side::Left),
-            right: torso_to_field * poses.sole(Side::Right),
-        },
-        center_of_mass: torso_to_field * poses.center_of_mass(),
-        contact_forces: Feet {
-            left: [0.0; 4],
-            right: [0.0; 4],
-        },
-    };
-    body.contact_forces = contact_forces(&body);
-    body
-}
-
-/// The pose on the floor below a sole.
-fn flat(sole: &Isometry3<f64>) -> Isometry3<f64> {
-    planar(sole.translation.x, sole.translation.y, heading(sole))
+/// The body with its joints turned, still standing on what it stood on if it can.
+fn settle(body: &Body, standing_on: &mut Side, joints: Joints<f64>) -> Body {
+    let poses = forward_kinematics(&joints);
+    let sole = body.soles_to_field.on(*standing_on);
+    let stay = Body::on_sole(joints, &poses, *standing_on, sole);
+    let raised = other(*standing_on);
+    if stay.lowest(raised) < -DEEPEST {
+        // It touches the floor already, or is about to: it stays where it was.
+        let place = flat(body.soles_to_field.on(raised));
+        let change = Body::on_sole(joints, &poses, raised, &place);
+        if change.lowest(*standing_on) > stay.lowest(raised) {
+            *standing_on = raised;
+            return change;
+        }
+    }
+    stay
 }
 
 fn other(side: Side) -> Side {
@@ -120,27 +128,12 @@ fn other(side: Side) -> Side {
     }
 }
 
-/// Height of the lowest point of a sole.
-fn lowest(body: &Body, side: Side) -> f64 {
-    let mirror = match side {
-        Side::Left => 1.0,
-        Side::Right => -1.0,
-    };
-    let outline =
-        LEFT_SOLE.map(|[x, y]| body.soles_to_field.on(side) * Point3::new(x, mirror * y, 0.0));
-    outline
-        .iter()
-        .map(|corner| corner.z)
-        .fold(f64::INFINITY, f64::min)
-}
-
 /// The weight, shared between the soles and their resistors by where the centre of mass is.
 fn contact_forces(body: &Body) -> Feet<[f64; 4]> {
-    let weight = LINKS.iter().map(|link| link.mass.mass).sum::<f64>() + TORSO.mass;
-    let touching = |side| (lowest(body, side) < TOUCHING).then_some(weight * GRAVITY);
+    let touching = |side| body.lowest(side) < TOUCHING;
     let on_left = match (touching(Side::Left), touching(Side::Right)) {
-        (Some(_), None) => 1.0,
-        (None, Some(_)) => 0.0,
+        (true, false) => 1.0,
+        (false, true) => 0.0,
         _ => {
             let Feet { left, right } = body.soles_to_field;
             let across = (left.translation.vector - right.translation.vector).xy();
@@ -148,7 +141,7 @@ fn contact_forces(body: &Body) -> Feet<[f64; 4]> {
             (from_right.dot(&across) / across.norm_squared()).clamp(0.0, 1.0)
         }
     };
-    let total = weight * GRAVITY;
+    let total = weight();
     let both = on_left > 0.0 && on_left < 1.0;
     Feet {
         left: resistors(body, Side::Left, both).map(|share| share * on_left * total),
@@ -181,12 +174,18 @@ fn resistors(body: &Body, side: Side, both_carry: bool) -> [f64; 4] {
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::Vector3;
+    use kinematics::inertial::GRAVITY;
 
     use super::*;
+    use crate::physics::heading;
     use crate::posture;
 
-    const TICK: Duration = Duration::from_millis(12);
+    fn robot(joints: Joints<f64>, pose: [f64; 3]) -> Kinematic {
+        Kinematic::new(&Situation {
+            robots: vec![Start { joints, pose }],
+            ..Situation::default()
+        })
+    }
 
     fn commands(positions: Joints<f64>, stiffness: f32) -> MotorCommands {
         MotorCommands {
@@ -197,35 +196,36 @@ mod tests {
 
     #[test]
     fn joints_reach_their_targets_no_faster_than_they_can() {
-        let mut physics = Kinematic::new(posture::sitting(), [0.0; 3]);
+        let mut physics = robot(posture::sitting(), [0.0; 3]);
         let target = posture::standing();
-        for _ in 0..200 {
-            let before = physics.body().joints;
-            let after = physics.advance(TICK, &commands(target, 0.7)).joints;
+        for _ in 0..800 {
+            let before = physics.bodies[0].joints;
+            physics.step(&[commands(target, 0.7)]);
+            let after = physics.bodies[0].joints;
             for (joint, angle) in after.iter() {
-                let speed = (angle - before[joint]).abs() / TICK.as_secs_f64();
+                let speed = (angle - before[joint]).abs() / STEP.as_secs_f64();
                 assert!(
                     speed <= limits::of(joint).velocity * 0.7 + 1e-9,
                     "{joint:?}: {speed}"
                 );
             }
         }
-        for (joint, angle) in physics.body().joints.iter() {
+        for (joint, angle) in physics.bodies[0].joints.iter() {
             assert!((angle - target[joint]).abs() < 1e-6, "{joint:?}");
         }
     }
 
     #[test]
     fn limp_joints_stay() {
-        let mut physics = Kinematic::new(posture::sitting(), [0.0; 3]);
-        physics.advance(TICK, &commands(posture::standing(), 0.0));
-        assert_eq!(physics.body().joints, posture::sitting());
+        let mut physics = robot(posture::sitting(), [0.0; 3]);
+        physics.step(&[commands(posture::standing(), 0.0)]);
+        assert_eq!(physics.bodies[0].joints, posture::sitting());
     }
 
     #[test]
     fn both_soles_of_a_standing_robot_are_on_the_floor() {
-        let physics = Kinematic::new(posture::standing(), [1.0, -0.5, 2.0]);
-        let body = physics.body();
+        let physics = robot(posture::standing(), [1.0, -0.5, 2.0]);
+        let body = physics.bodies[0];
         for sole in [body.soles_to_field.left, body.soles_to_field.right] {
             assert!(sole.translation.z.abs() < 1e-9);
             assert!((sole.rotation * Vector3::z()).z > 1.0 - 1e-9);
@@ -241,7 +241,7 @@ mod tests {
     #[test]
     fn the_resistors_carry_the_weight_of_the_robot() {
         for joints in [posture::standing(), posture::sitting()] {
-            let forces = Kinematic::new(joints, [0.0; 3]).body().contact_forces;
+            let forces = robot(joints, [0.0; 3]).bodies[0].contact_forces;
             let sum: f64 = forces.left.iter().chain(&forces.right).sum();
             assert!((sum / GRAVITY - 5.35975).abs() < 1e-3, "{sum}");
         }
@@ -249,16 +249,16 @@ mod tests {
 
     #[test]
     fn lifting_a_leg_moves_the_weight_to_the_other() {
-        let mut physics = Kinematic::new(posture::standing(), [0.0; 3]);
+        let mut physics = robot(posture::standing(), [0.0; 3]);
         let mut joints = posture::standing();
         joints.left_knee_pitch += 0.4;
         joints.left_hip_pitch -= 0.2;
         joints.left_ankle_pitch -= 0.2;
-        let before = physics.body().soles_to_field.right;
-        for _ in 0..50 {
-            physics.advance(TICK, &commands(joints, 1.0));
+        let before = physics.bodies[0].soles_to_field.right;
+        for _ in 0..200 {
+            physics.step(&[commands(joints, 1.0)]);
         }
-        let body = physics.body();
+        let body = physics.bodies[0];
         assert!(body.soles_to_field.left.translation.z > 0.003);
         assert_eq!(body.contact_forces.left, [0.0; 4]);
         let moved = body.soles_to_field.right.translation.vector - before.translation.vector;

@@ -22,6 +22,7 @@ impl Settings {
             };
             match option.as_str() {
                 "--socket" => self.socket = Some(value()?.into()),
+                "--physics" => self.physics = value()?.parse()?,
                 "--pose" => self.robot_pose = numbers(option, value()?)?,
                 "--ball" => {
                     self.ball = BallSettings {
@@ -46,7 +47,7 @@ impl Settings {
 
 fn unknown(option: &str) -> Error {
     Error::new(format!(
-        "unknown option `{option}` of the simulated NAO; it knows --socket PATH, --pose X,Y,HEADING, \
+        "unknown option `{option}` of the simulated NAO; it knows --socket PATH, --physics NAME, --pose X,Y,HEADING, \
          --ball X,Y, --no-ball, --game STATE, --no-referee, --no-mate, --free-ports, --no-buttons, \
          --no-cameras, --no-sound"
     ))

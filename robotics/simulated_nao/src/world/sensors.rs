@@ -3,28 +3,27 @@
 //! Without noise: a test that compares with the truth shows the error of what it tests.
 
 use kinematics::inertial::GRAVITY;
-use nalgebra::Vector3;
 use types::joints::Joints;
 use types::sensor_data::{InertialMeasurement, RobotConfiguration, SensorData};
 
+use super::inertial::Inertial;
 use crate::physics::Body;
 
-/// One sample; `gyroscope` in rad/s in the torso frame.
+/// One sample.
 pub(super) fn sample(
     body: &Body,
-    gyroscope: Vector3<f64>,
+    inertial: Inertial,
     stiffnesses: Joints<f32>,
     configuration: RobotConfiguration,
 ) -> SensorData {
     let rotation = body.torso_to_field.rotation;
     let (roll, pitch, _) = rotation.euler_angles();
-    let upwards = rotation.inverse() * Vector3::new(0.0, 0.0, GRAVITY);
     SensorData {
         positions: body.joints.map(|angle| angle as f32),
         stiffnesses,
         inertial: InertialMeasurement {
-            gyroscope: gyroscope.cast(),
-            accelerometer: upwards.cast(),
+            gyroscope: inertial.angular_velocity.cast(),
+            accelerometer: inertial.proper_acceleration.cast(),
             roll: roll as f32,
             pitch: pitch as f32,
         },

@@ -11,7 +11,7 @@ use nalgebra::{Point3, Vector2};
 use simulated_nao::camera::{Exposure, OwnBody, render};
 use simulated_nao::field::{Field, LENGTH, WIDTH};
 use simulated_nao::ground_truth::ImageTruth;
-use simulated_nao::physics::{Kinematic, Physics};
+use simulated_nao::physics::{Body, Start};
 use simulated_nao::posture;
 use simulated_nao::scene::{Robot, RobotSettings, Team};
 use types::ball::BallCandidate;
@@ -251,7 +251,7 @@ impl Vision {
 impl Look {
     pub(crate) fn expose(&self, number: u64, ball: Option<Point3<f32>>) -> Exposure {
         let joints = self.joints();
-        let body = *Kinematic::new(joints, self.robot).body();
+        let body = self.body(joints);
         let head = forward_kinematics(&joints).link(LinkName::Head);
         let camera = head * camera_to_head::<f64>(self.camera) * optical_to_camera::<f64>();
         let size = Vector2::from(IMAGE_SIZE.map(f64::from));
@@ -270,6 +270,11 @@ impl Look {
         }
     }
 
+    fn body(&self, joints: Joints<f64>) -> Body {
+        let pose = self.robot;
+        Body::standing(&Start { joints, pose })
+    }
+
     /// The same with other robots and the own body.
     pub(crate) fn expose_among(
         &self,
@@ -278,7 +283,7 @@ impl Look {
         robots: &[Robot],
     ) -> Exposure {
         let joints = self.joints();
-        let torso_to_field = Kinematic::new(joints, self.robot).body().torso_to_field;
+        let torso_to_field = self.body(joints).torso_to_field;
         Exposure {
             robots: robots.into(),
             body: Some(OwnBody {
