@@ -1,0 +1,185 @@
+//! The walk on legs with masses.
+
+use kinematics::inertial::GRAVITY;
+use kinematics::links::{LINKS, TORSO};
+use simulated_nao::physics::{Body, Dynamic, Physics, Situation, Start};
+use simulated_nao::posture;
+use types::feet::Feet;
+use walking::{
+    ArmParameters, BalanceParameters, Engine, Limits, Parameters, Senses, Step, StrideParameters,
+};
+
+const CYCLE: f32 = 0.012;
+const STEPS_PER_CYCLE: usize = 4;
+
+/// As teams of the league published theirs.
+fn parameters() -> Parameters {
+    Parameters {
+        limits: Limits {
+            forward: 0.065,
+            backward: 0.04,
+            sideways: 0.08,
+            turn: 0.6,
+            acceleration: 0.01,
+            turn_acceleration: 0.2,
+        },
+        stride: StrideParameters {
+            duration: 0.25,
+            duration_per_meter: 0.1,
+            apex: 0.012,
+            apex_per_meter: 0.1,
+            earliest_contact: 0.15,
+            contact_threshold: 0.3,
+            timeout: 0.6,
+        },
+        balance: BalanceParameters {
+            pitch_gain: 0.05,
+            roll_gain: 0.0,
+            newest: 0.4,
+            greatest_speed: 4.0,
+        },
+        arms: ArmParameters {
+            roll: 0.13,
+            swing: 6.0,
+            stiffness: 0.5,
+        },
+        hip_height: 0.22,
+        torso_offset: 0.0,
+        torso_tilt: 0.05,
+        foot_offset: 0.05,
+        leg_stiffness: 1.0,
+    }
+}
+
+fn pressures(body: &Body) -> Feet<f32> {
+    let weight = (LINKS.iter().map(|link| link.mass.mass).sum::<f64>() + TORSO.mass) * GRAVITY;
+    let Feet { left, right } = body.contact_forces;
+    let share = |forces: [f64; 4]| (forces.iter().sum::<f64>() / weight) as f32;
+    Feet {
+        left: share(left),
+        right: share(right),
+    }
+}
+
+/// One robot that walks over an empty field.
+struct Walk {
+    physics: Dynamic,
+    engine: Engine,
+}
+
+impl Walk {
+    fn new(pose: [f64; 3]) -> Self {
+        let joints = posture::standing();
+        Self {
+            physics: Dynamic::new(&Situation {
+                robots: vec![Start { joints, pose }],
+                ..Situation::default()
+            }),
+            engine: Engine::new(),
+        }
+    }
+
+    /// So many seconds with this wish; the robot must not fall meanwhile.
+    fn go(&mut self, seconds: f32, wanted: Option<Step>) -> Body {
+        for _ in 0..(seconds / CYCLE) as usize {
+            let body = self.physics.bodies()[0];
+            let velocity = body.angular_velocity;
+            let senses = Senses {
+                since_last: CYCLE,
+                angular_velocity: [velocity.x as f32, velocity.y as f32],
+                pressures: pressures(&body),
+            };
+            let commands = [self.engine.cycle(wanted, &senses, &parameters())];
+            for _ in 0..STEPS_PER_CYCLE {
+                self.physics.step(&commands);
+            }
+            let body = self.physics.bodies()[0];
+            assert!(body.tilt() < 0.4, "it falls at {}", body.torso_to_field);
+        }
+        self.physics.bodies()[0]
+    }
+
+    /// Where it is after so many seconds from the middle of the field: x, y in m, heading in rad.
+    fn way(seconds: f32, wish: Step) -> [f64; 3] {
+        let mut walk = Self::new([0.0; 3]);
+        walk.go(1.0, None);
+        let body = walk.go(seconds, Some(wish));
+        let ground = body.ground_to_field();
+        let (.., heading) = body.torso_to_field.rotation.euler_angles();
+        [ground.translation.x, ground.translation.y, heading]
+    }
+}
+
+/// Only these of forward, left and turn.
+fn step(forward: f32, left: f32, turn: f32) -> Step {
+    Step {
+        forward,
+        left,
+        turn,
+    }
+}
+
+#[test]
+fn it_goes_where_it_shall() {
+    let [x, y, heading] = Walk::way(8.0, step(0.06, 0.0, 0.0));
+    assert!(
+        x > 1.1 && y.abs() < 0.2 && heading.abs() < 0.2,
+        "{x} {y} {heading}"
+    );
+    let [x, y, heading] = Walk::way(6.0, step(-0.04, 0.0, 0.0));
+    assert!(
+        x < -0.5 && y.abs() < 0.2 && heading.abs() < 0.2,
+        "{x} {y} {heading}"
+    );
+    for side in [1.0, -1.0] {
+        let [x, y, heading] = Walk::way(6.0, step(0.0, side * 0.06, 0.0));
+        let y = y * f64::from(side);
+        assert!(
+            x.abs() < 0.2 && y > 0.35 && heading.abs() < 0.2,
+            "{x} {y} {heading}"
+        );
+        let [x, y, heading] = Walk::way(5.0, step(0.0, 0.0, side * 0.4));
+        let heading = heading * f64::from(side);
+        assert!(
+            x.abs() < 0.2 && y.abs() < 0.2 && heading > 0.7,
+            "{x} {y} {heading}"
+        );
+    }
+}
+
+#[test]
+fn it_stops_and_stands() {
+    let mut walk = Walk::new([0.0; 3]);
+    walk.go(4.0, Some(step(0.06, 0.0, 0.0)));
+    walk.go(2.0, None);
+    assert!(walk.engine.is_standing());
+    let before = walk.physics.bodies()[0].torso_to_field.translation.vector;
+    let after = walk.go(1.0, None).torso_to_field.translation.vector;
+    assert!((after - before).norm() < 0.005, "{}", after - before);
+}
+
+#[test]
+fn it_does_not_fall_whatever_is_wished_for() {
+    let wishes = [
+        step(0.2, 0.0, 0.0),
+        step(-0.2, 0.0, 0.0),
+        step(0.06, 0.0, 1.0),
+        step(0.0, -0.2, 0.0),
+        step(0.0, 0.2, -1.0),
+        step(-0.1, 0.1, 0.5),
+        step(0.1, -0.1, -0.5),
+    ];
+    let mut walk = Walk::new([0.0; 3]);
+    for wish in wishes {
+        walk.go(2.0, Some(wish));
+    }
+}
+
+#[test]
+fn same_wishes_same_bits() {
+    let [one, other] = [(); 2].map(|()| {
+        let mut walk = Walk::new([0.5, 0.5, 1.0]);
+        walk.go(2.0, Some(step(0.05, 0.02, 0.2)))
+    });
+    assert_eq!(one, other);
+}
