@@ -1,7 +1,7 @@
 //! Values without parts.
 
 use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr};
-use std::path::PathBuf;
+use std::path::{Path as FilePath, PathBuf};
 use std::time::Duration;
 
 use super::binary::{EncodeError, encode_display, encode_numbers, encode_text};
@@ -71,7 +71,7 @@ number! {
 leaf! {
     () => Leaf::Unit, |(), _| Ok(());
     String => Leaf::Text, |text, bytes| encode_text(text, bytes);
-    PathBuf => Leaf::Text, encode_path;
+    PathBuf => Leaf::Text, |path, bytes| encode_path(path, bytes);
     IpAddr => Leaf::Text, |address, bytes| encode_display(address, bytes);
     Ipv4Addr => Leaf::Text, |address, bytes| encode_display(address, bytes);
     Ipv6Addr => Leaf::Text, |address, bytes| encode_display(address, bytes);
@@ -80,7 +80,7 @@ leaf! {
     Timestamp => Leaf::Unsigned { bits: 64 }, |timestamp, bytes| timestamp.as_nanos().encode(bytes);
 }
 
-fn encode_path(path: &PathBuf, bytes: &mut Vec<u8>) -> Result<(), EncodeError> {
+fn encode_path(path: &FilePath, bytes: &mut Vec<u8>) -> Result<(), EncodeError> {
     match path.to_str() {
         Some(text) => encode_text(text, bytes),
         None => Err(EncodeError::new(format!(

@@ -83,7 +83,8 @@ impl<'robot, P: Send + Sync> Together<'robot, P> {
             self.rounds(end, &mut observe, |tasks| {
                 let count = tasks.len();
                 for (task, worker) in tasks.into_iter().zip(workers.iter().cycle()) {
-                    worker.send(task).ok().expect("workers outlive the rounds");
+                    let sent = worker.send(task);
+                    assert!(sent.is_ok(), "workers outlive the rounds");
                 }
                 finished.iter().take(count).collect()
             })
@@ -130,7 +131,8 @@ impl<'robot, P: Send + Sync> Together<'robot, P> {
             failure?;
         }
         for lockstep in self.locksteps.iter_mut().flatten() {
-            if !lockstep.stopped && !(lockstep.world_has_ended && lockstep.is_idle()) {
+            let is_done = lockstep.world_has_ended && lockstep.is_idle();
+            if !lockstep.stopped && !is_done {
                 lockstep.robot.clock.advance_to(end);
             }
         }
