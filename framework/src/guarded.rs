@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::cycler::Cycle;
 use crate::error::{Error, Result};
-use crate::report::{NodeReport, tell};
+use crate::report::{Allocations, NodeReport, tell};
 use crate::time::Timestamp;
 use crate::timing::{self, Histogram, Tally};
 
@@ -239,6 +239,7 @@ impl<N> Guarded<N> {
             skipped: self.ledger.skipped,
             failures: self.ledger.failures,
             histogram: Histogram::default(),
+            allocations: Allocations::default(),
         }
     }
 

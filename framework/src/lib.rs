@@ -89,4 +89,4 @@ pub use temporal::{
     QueueCounts, Reference, ReferenceKind, RollBack, Series, Timeline, interleave,
 };
 pub use time::{CycleTime, Timestamp};
-pub use timing::{Histogram, blocking};
+pub use timing::{CountingAllocator, Histogram, blocking};

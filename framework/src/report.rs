@@ -11,7 +11,7 @@ use crate::cycler::{Counts, InstanceDescription};
 use crate::robot::Robot;
 use crate::scheduling::Granted;
 use crate::temporal::QueueCounts;
-use crate::timing::Histogram;
+use crate::timing::{CountingAllocator, Histogram};
 
 /// A whole run.
 #[derive(Clone, Debug)]
@@ -33,14 +33,27 @@ pub struct InstanceReport {
     pub counts: Counts,
     /// What the system gave its thread, where something was asked.
     pub granted: Option<Granted>,
+    /// Slots of what others read of it.
+    pub slots: SlotsReport,
     /// Of the overruns: how many had this node as the one that took longest, as far as they were timed.
     pub slowest: Vec<(&'static str, u64)>,
     /// Durations of timed cycles.
     pub durations: Durations,
+    /// Allocations of timed cycles.
+    pub allocations: CycleAllocations,
     /// In manifest order.
     pub nodes: Vec<NodeReport>,
     /// In manifest order of the instances that it consumes.
     pub queues: Vec<QueueReport>,
+}
+
+/// The slots of one instance.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct SlotsReport {
+    /// How many: enough for its readers and consumers.
+    pub number: usize,
+    /// Of all together, without what values own on the heap.
+    pub bytes: usize,
 }
 
 /// Where the time of an instance's timed cycles went.
@@ -56,6 +69,26 @@ pub struct Durations {
     pub framework: Histogram,
 }
 
+/// How often something allocated; zeros where nobody counts: see [`CountingAllocator`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Allocations {
+    /// How many times it was looked at.
+    pub looks: u64,
+    /// All together.
+    pub total: u64,
+    /// The most in one look.
+    pub most: u64,
+}
+
+/// From the capture point to the end of a timed cycle.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct CycleAllocations {
+    /// Of nodes and framework.
+    pub cycle: Allocations,
+    /// Of the framework alone.
+    pub framework: Allocations,
+}
+
 /// What one node did.
 #[derive(Clone, Debug)]
 pub struct NodeReport {
@@ -69,6 +102,8 @@ pub struct NodeReport {
     pub failures: u64,
     /// Durations of timed calls, without what they were blocked inside the hardware interface.
     pub histogram: Histogram,
+    /// Allocations of timed calls.
+    pub allocations: Allocations,
 }
 
 /// What one consumer got of one perception instance.
@@ -120,5 +155,26 @@ impl NodeReport {
         self.skipped += other.skipped;
         self.failures += other.failures;
         self.histogram.merge(&other.histogram);
+        self.allocations.merge(&other.allocations);
+    }
+}
+
+impl Allocations {
+    /// On average in one look; `None` without a look, and where nobody counts.
+    pub fn mean(&self) -> Option<f64> {
+        CountingAllocator::of_this_thread()?;
+        (self.looks > 0).then(|| self.total as f64 / self.looks as f64)
+    }
+
+    pub(crate) fn record(&mut self, allocations: u64) {
+        self.looks += 1;
+        self.total += allocations;
+        self.most = self.most.max(allocations);
+    }
+
+    fn merge(&mut self, other: &Self) {
+        self.looks += other.looks;
+        self.total += other.total;
+        self.most = self.most.max(other.most);
     }
 }

@@ -3,6 +3,7 @@
 //! What happens inside the calls of one cycle is added up per thread, in a [`Tally`], so that hardware interfaces and
 //! nodes need not know which instance they work for.
 
+mod allocations;
 mod histogram;
 mod ticks;
 
@@ -10,6 +11,8 @@ use std::cell::{Cell, RefCell};
 use std::sync::atomic::{AtomicU8, Ordering};
 use std::time::{Duration, Instant};
 
+pub use allocations::CountingAllocator;
+pub(crate) use allocations::so_far as allocations_so_far;
 pub use histogram::Histogram;
 pub(crate) use ticks::Ticks;
 
@@ -46,6 +49,16 @@ struct Lap {
     begins: Ticks,
     /// How long the thread had been blocked by then.
     blocked: Duration,
+    /// How often it had allocated by then.
+    allocations: u64,
+}
+
+/// What a node took in a cycle that is timed.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Took {
+    /// Without what the thread was blocked.
+    pub(crate) time: Duration,
+    pub(crate) allocations: u64,
 }
 
 /// What one thread spent where since the tally was last taken.
@@ -97,29 +110,35 @@ pub(crate) fn start_lap(node: &'static str) {
         node,
         begins: Ticks::now(),
         blocked: Tally::peek().blocked,
+        allocations: allocations_so_far(),
     };
     LAPS.with_borrow_mut(|laps| laps.push(lap));
 }
 
-/// Ends the last lap, and tells how long each node took, without what the thread was blocked; the last one first.
-pub(crate) fn end_laps(mut tell: impl FnMut(&'static str, Duration)) {
+/// Ends the last lap, and tells what each node took; the last one first.
+pub(crate) fn end_laps(mut tell: impl FnMut(&'static str, Took)) {
     let (mut ends, mut blocked) = (Ticks::now(), Tally::peek().blocked);
+    let mut allocations = allocations_so_far();
     LAPS.with_borrow_mut(|laps| {
         for lap in laps.iter().rev() {
             let blocked_in_lap = blocked.saturating_sub(lap.blocked);
-            tell(
-                lap.node,
-                ends.since(lap.begins).saturating_sub(blocked_in_lap),
-            );
-            (ends, blocked) = (lap.begins, lap.blocked);
+            let took = Took {
+                time: ends.since(lap.begins).saturating_sub(blocked_in_lap),
+                allocations: allocations - lap.allocations,
+            };
+            tell(lap.node, took);
+            (ends, blocked, allocations) = (lap.begins, lap.blocked, lap.allocations);
         }
         laps.clear();
     });
 }
 
-/// Forgets what a cycle left that was given up.
-pub(crate) fn forget_laps() {
-    LAPS.with_borrow_mut(Vec::clear);
+/// Forgets what a cycle left that was given up, and makes room for so many nodes: none of them is to be blamed for it.
+pub(crate) fn prepare_laps(nodes: usize) {
+    LAPS.with_borrow_mut(|laps| {
+        laps.clear();
+        laps.reserve(nodes);
+    });
 }
 
 impl Tally {

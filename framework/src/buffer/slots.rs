@@ -151,6 +151,10 @@ impl<T> Slots<T> {
         )
     }
 
+    pub(super) fn len(&self) -> usize {
+        self.places.len()
+    }
+
     /// The slot being written and the newest.
     #[inline]
     pub(super) fn both<'a>(&'a self, pen: &'a mut Pen) -> (&'a mut Entry<T>, &'a Entry<T>) {

@@ -64,6 +64,12 @@ impl<T> Writer<T> {
         }
     }
 
+    /// How many slots there are, and the bytes of all of them, without what values own on the heap.
+    pub fn size(&self) -> (usize, usize) {
+        let slots = self.slots.len();
+        (slots, slots * size_of::<Entry<T>>())
+    }
+
     /// How many announced cycles were abandoned.
     pub fn abandoned(&self) -> u64 {
         self.slots.abandoned()

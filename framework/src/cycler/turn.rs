@@ -16,7 +16,7 @@ use crate::clock::Clock;
 use crate::error::{Error, Result};
 use crate::guarded::{OnFailure, State, contain};
 use crate::reflect::Reflect;
-use crate::report::{InstanceReport, NodeReport};
+use crate::report::{InstanceReport, NodeReport, SlotsReport};
 use crate::time::{CycleTime, Timestamp};
 use crate::timing::{self, Tally};
 use failure::Consequence;
@@ -337,14 +337,17 @@ impl<B: Body> Instance for Cycler<B> {
         self.body.queues(&mut |queue| queues.push(queue));
         let mut nodes = self.nodes_so_far();
         for node in &mut nodes {
-            node.histogram = self.stopwatch.of_node(node.node);
+            self.stopwatch.complete(node);
         }
+        let (number, bytes) = self.writer.size();
         InstanceReport {
             description: self.description,
+            slots: SlotsReport { number, bytes },
             counts: self.counters.read(),
             granted: self.counters.granted().cloned(),
             slowest: self.stopwatch.slowest().to_vec(),
             durations: self.stopwatch.durations().clone(),
+            allocations: self.stopwatch.allocations(),
             nodes,
             queues,
         }

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use serde_json::{Value, json};
 
-use super::{InstanceReport, NodeReport, QueueReport, RobotReport};
+use super::{Allocations, InstanceReport, NodeReport, QueueReport, RobotReport};
 use crate::scheduling::{Granted, Policy};
 use crate::timing::Histogram;
 
@@ -49,6 +49,9 @@ fn instance_to_json(instance: &InstanceReport, duration: Duration) -> Value {
         "wait_us": quantiles(&durations.wait),
         "setup_us": quantiles(&durations.setup),
         "framework_us": quantiles(&durations.framework),
+        "allocations": allocations_to_json(&instance.allocations.cycle),
+        "framework_allocations": allocations_to_json(&instance.allocations.framework),
+        "slots": { "number": instance.slots.number, "bytes": instance.slots.bytes },
         "scheduling": instance.granted.as_ref().map(granted_to_json),
         "nodes": instance.nodes.iter().map(node_to_json).collect::<Vec<_>>(),
         "queues": instance.queues.iter().map(queue_to_json).collect::<Vec<_>>(),
@@ -73,7 +76,16 @@ fn node_to_json(node: &NodeReport) -> Value {
         "calls": node.calls,
         "skipped": node.skipped,
         "failures": node.failures,
+        "allocations": allocations_to_json(&node.allocations),
     })
+}
+
+fn allocations_to_json(allocations: &Allocations) -> Value {
+    let mean = allocations.mean();
+    mean.map_or(
+        Value::Null,
+        |mean| json!({ "mean": mean, "max": allocations.most }),
+    )
 }
 
 fn queue_to_json(queue: &QueueReport) -> Value {

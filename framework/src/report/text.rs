@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::{InstanceReport, RobotReport};
+use super::{InstanceReport, NodeReport, RobotReport};
 use crate::timing::Histogram;
 
 impl fmt::Display for RobotReport {
@@ -69,6 +69,19 @@ fn write_remarks(instance: &InstanceReport, formatter: &mut fmt::Formatter<'_>) 
             formatter,
             "{name}: `{node}` took longest in {}",
             plural(*overruns, "overrun")
+        )?;
+    }
+    if let Some(mean) = instance.allocations.cycle.mean().filter(|mean| *mean > 0.0) {
+        let per_call = |node: &NodeReport| node.allocations.mean().unwrap_or_default();
+        let nodes = instance.nodes.iter().filter(|node| per_call(node) > 0.0);
+        let most = nodes.max_by(|one, other| per_call(one).total_cmp(&per_call(other)));
+        let most = most.map_or_else(String::new, |node| {
+            format!(", most in `{}`: {:.1}", node.node, per_call(node))
+        });
+        let framework = instance.allocations.framework.mean().unwrap_or_default();
+        writeln!(
+            formatter,
+            "{name}: {mean:.1} allocations a cycle, {framework:.1} of the framework{most}"
         )?;
     }
     for node in instance.nodes.iter().filter(|node| node.failures > 0) {

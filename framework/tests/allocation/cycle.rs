@@ -3,11 +3,12 @@
 use std::time::Duration;
 
 use framework::cycler::Reference;
+use framework::report::Allocations;
 use framework::{
     Answerer, Body, Clock, Cycle, Cycler, Finished, Guarded, Injected, Injection, InjectionCell,
     InjectionTable, Instance, InstanceDescription, Kind, NodeReport, OnFailure, QueueReport,
-    Reader, Reflect, Result, Scheduling, Slots, State, Subscriptions, Timestamp, Waited, buffer,
-    procedure, timing,
+    Reader, Reflect, Result, RobotReport, Scheduling, Slots, State, Subscriptions, Timestamp,
+    Waited, buffer, procedure, timing,
 };
 
 use crate::counting::allocations;
@@ -26,6 +27,8 @@ impl InjectionTable for Injections {
 /// Twenty nodes that add one each.
 struct Adding {
     nodes: [Guarded<f32>; NODES],
+    /// The first node but one allocates so often.
+    greed: usize,
     injections: Reader<Injected<Injections>>,
     subscriptions: Subscriptions,
     procedure: Answerer<u32, u32>,
@@ -50,7 +53,9 @@ impl Body for Adding {
 
     fn run(&mut self, slots: Slots<'_, Self::Shared>, cycle: Cycle) -> Result<()> {
         for (index, node) in self.nodes.iter_mut().enumerate() {
+            let greed = if index == 1 { self.greed } else { 0 };
             slots.current[index] = node.call(&cycle, |state| {
+                (0..greed).for_each(|number| drop(std::hint::black_box(Box::new(number))));
                 *state += 1.0;
                 Ok::<_, framework::Error>(*state + slots.previous[index])
             })?;
@@ -81,7 +86,9 @@ impl Body for Adding {
         None
     }
 
-    fn nodes(&self, _: &mut dyn FnMut(NodeReport)) {}
+    fn nodes(&self, visit: &mut dyn FnMut(NodeReport)) {
+        self.nodes.iter().for_each(|node| visit(node.report()));
+    }
 
     fn queues(&self, _: &mut dyn FnMut(QueueReport)) {}
 
@@ -121,18 +128,28 @@ fn turn(instance: &mut dyn Instance, cycles: u64) {
     }
 }
 
-#[test]
-fn a_cycle_allocates_nothing() {
+fn cycler(greed: usize) -> Cycler<Adding> {
     let (writer, [_reader], []) = buffer::<[f32; NODES], 1, 0>([]);
     let (_injector, [injections], []) = buffer([]);
     let (_caller, procedure) = procedure();
+    let name = |index| match index {
+        0 => "test::first",
+        1 => "test::greedy",
+        _ => "test::node",
+    };
     let body = Adding {
-        nodes: std::array::from_fn(|_| Guarded::new("test::node", OnFailure::Stop, 0.0)),
+        nodes: std::array::from_fn(|index| Guarded::new(name(index), OnFailure::Stop, 0.0)),
+        greed,
         injections,
         subscriptions: Subscriptions::new(&["a"]),
         procedure,
     };
-    let mut cycler = Cycler::new(DESCRIPTION, body, writer, Clock::wall());
+    Cycler::new(DESCRIPTION, body, writer, Clock::wall())
+}
+
+#[test]
+fn a_cycle_allocates_nothing() {
+    let mut cycler = cycler(0);
     turn(&mut cycler, 100);
     let before = allocations();
     turn(&mut cycler, 10_000);
@@ -140,4 +157,37 @@ fn a_cycle_allocates_nothing() {
     turn(&mut cycler, 1_000);
     assert_eq!(allocations() - before, 0);
     assert_eq!(cycler.counters().cycles.get(), 11_100);
+}
+
+#[test]
+fn what_a_node_allocates_is_told_by_node() {
+    timing::set(timing::Timing::Complete);
+    let mut cycler = cycler(3);
+    turn(&mut cycler, 50);
+    let report = cycler.report();
+    let all = |total, most| Allocations {
+        looks: 50,
+        total,
+        most,
+    };
+    let [first, greedy, ..] = &report.nodes[..] else {
+        panic!("there are twenty")
+    };
+    assert_eq!((first.node, first.allocations), ("test::first", all(0, 0)));
+    let of_greedy = (greedy.node, greedy.allocations);
+    assert_eq!(of_greedy, ("test::greedy", all(150, 3)));
+    assert_eq!(greedy.allocations.mean(), Some(3.0));
+    assert_eq!(report.allocations.cycle, all(150, 3));
+    assert_eq!(report.allocations.framework, all(0, 0));
+    let report = RobotReport {
+        target: "test",
+        duration: Duration::from_secs(1),
+        instances: vec![report],
+    };
+    let told = report.to_string();
+    let line = "Adding: 3.0 allocations a cycle, 0.0 of the framework, most in `test::greedy`: 3.0";
+    assert!(told.contains(line), "{told}");
+    let json = report.to_json();
+    let greedy = &json["instances"][0]["nodes"][1]["allocations"];
+    assert_eq!(*greedy, serde_json::json!({ "mean": 3.0, "max": 3 }));
 }

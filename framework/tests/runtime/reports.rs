@@ -5,7 +5,7 @@ use std::time::Duration;
 use framework::report::RobotReport;
 use framework::{Lockstep, OnFailure, Timestamp, timing};
 
-use crate::body::{Plan, Setting, robot};
+use crate::body::{Plan, Setting, SharedOutputs, robot};
 use crate::scripted::{Act, Script, ScriptedHardware};
 
 fn report() -> RobotReport {
@@ -157,6 +157,9 @@ fn the_json_has_the_keys_of_the_contract() {
             "wait_us",
             "setup_us",
             "framework_us",
+            "allocations",
+            "framework_allocations",
+            "slots",
             "scheduling",
             "nodes",
             "queues"
@@ -168,8 +171,19 @@ fn the_json_has_the_keys_of_the_contract() {
     }
     assert_eq!(
         keys(&instance["nodes"][0]),
-        ["node", "p50", "p99", "max", "calls", "skipped", "failures"]
+        [
+            "node",
+            "p50",
+            "p99",
+            "max",
+            "calls",
+            "skipped",
+            "failures",
+            "allocations"
+        ]
     );
+    // Nobody counts in this program.
+    assert!(instance["allocations"].is_null() && instance["nodes"][0]["allocations"].is_null());
     assert_eq!(
         keys(&instance["queues"][0]),
         [
@@ -181,6 +195,12 @@ fn the_json_has_the_keys_of_the_contract() {
             "dropped"
         ]
     );
+    // Nobody reads what `Legs` write: one is written, one is the newest. `Eye` has a consumer with a window of eight.
+    let bytes = size_of::<framework::Entry<SharedOutputs>>();
+    for (instance, slots) in [(0, 2 + 8), (1, 2)] {
+        let expected = serde_json::json!({ "number": slots, "bytes": slots * bytes });
+        assert_eq!(json["instances"][instance]["slots"], expected);
+    }
     assert_eq!(instance["kind"], "real-time");
     assert_eq!(instance["rate_hz"], 44.0);
     assert!(json["recording"].is_null());

@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use crate::clock::Clock;
-use crate::report::Durations;
+use crate::report::{Allocations, CycleAllocations, Durations, NodeReport};
 use crate::timing::{self, Histogram, Tally, Ticks};
 
 /// Measures the cycles that are timed, and all if there is a deadline.
@@ -21,18 +21,29 @@ pub(super) struct Stopwatch {
     in_nodes: Duration,
     /// The node of the cycle that took longest, if they were timed.
     longest: Option<(&'static str, Duration)>,
+    /// Allocations of the nodes of the cycle.
+    allocations_in_nodes: u64,
     /// Of each node, in manifest order.
-    nodes: Vec<(&'static str, Histogram)>,
+    nodes: Vec<OfNode>,
     /// The cycle after an overrun is timed, so that there is somebody to blame.
     overran: bool,
     durations: Durations,
+    allocations: CycleAllocations,
     slowest: Vec<(&'static str, u64)>,
+}
+
+#[derive(Debug)]
+struct OfNode {
+    node: &'static str,
+    times: Histogram,
+    allocations: Allocations,
 }
 
 #[derive(Debug, Default)]
 struct Lap {
-    since: Option<Ticks>,
+    since: Option<(Ticks, u64)>,
     spent: Duration,
+    allocations: u64,
 }
 
 impl Stopwatch {
@@ -51,9 +62,17 @@ impl Stopwatch {
             blocked_in_cycle: Duration::ZERO,
             in_nodes: Duration::ZERO,
             longest: None,
-            nodes: nodes.map(|node| (node, Histogram::default())).collect(),
+            allocations_in_nodes: 0,
+            nodes: nodes
+                .map(|node| OfNode {
+                    node,
+                    times: Histogram::default(),
+                    allocations: Allocations::default(),
+                })
+                .collect(),
             overran: false,
             durations: Durations::default(),
+            allocations: CycleAllocations::default(),
             slowest: Vec::new(),
         }
     }
@@ -64,7 +83,7 @@ impl Stopwatch {
     }
 
     pub(super) fn start_waiting(&mut self) {
-        timing::forget_laps();
+        timing::prepare_laps(self.nodes.len());
         self.waiting.start();
     }
 
@@ -81,6 +100,7 @@ impl Stopwatch {
     pub(super) fn begin(&mut self, timed: bool) {
         if timed || self.deadline.is_some() {
             self.in_nodes = Duration::ZERO;
+            self.allocations_in_nodes = 0;
             self.longest = None;
             self.cycle.start();
         }
@@ -106,17 +126,19 @@ impl Stopwatch {
             let is_node = |place: &usize| {
                 self.nodes
                     .get(*place)
-                    .is_some_and(|(there, _)| *there == node)
+                    .is_some_and(|there| there.node == node)
             };
             let place = Some(expected).filter(is_node);
             let place = place.or_else(|| (0..self.nodes.len()).find(is_node));
             if let Some(place) = place {
-                self.nodes[place].1.record(took);
+                self.nodes[place].times.record(took.time);
+                self.nodes[place].allocations.record(took.allocations);
                 before = place;
             }
-            self.in_nodes += took;
-            if self.longest.is_none_or(|(_, longest)| took > longest) {
-                self.longest = Some((node, took));
+            self.in_nodes += took.time;
+            self.allocations_in_nodes += took.allocations;
+            if self.longest.is_none_or(|(_, longest)| took.time > longest) {
+                self.longest = Some((node, took.time));
             }
         });
     }
@@ -139,8 +161,8 @@ impl Stopwatch {
     }
 
     fn end(&mut self, timed: bool) -> bool {
-        let took = self.cycle.take();
-        let waited = self.waiting.take();
+        let (took, allocations) = self.cycle.take();
+        let (waited, _) = self.waiting.take();
         let blocked = std::mem::take(&mut self.blocked);
         if timed {
             let elsewhere = self.in_nodes + self.blocked_in_cycle;
@@ -148,6 +170,9 @@ impl Stopwatch {
             self.durations
                 .framework
                 .record(took.saturating_sub(elsewhere));
+            self.allocations.cycle.record(allocations);
+            let framework = allocations.saturating_sub(self.allocations_in_nodes);
+            self.allocations.framework.record(framework);
             self.durations.wait.record(blocked);
             self.durations.setup.record(waited.saturating_sub(blocked));
         }
@@ -168,10 +193,20 @@ impl Stopwatch {
         &self.durations
     }
 
-    /// How long the calls of a node took that were timed.
-    pub(super) fn of_node(&self, node: &str) -> Histogram {
-        let found = self.nodes.iter().find(|(there, _)| *there == node);
-        found.map_or_else(Histogram::default, |(_, histogram)| histogram.clone())
+    pub(super) fn allocations(&self) -> CycleAllocations {
+        self.allocations
+    }
+
+    /// Adds what is known of the calls of a node that were timed.
+    pub(super) fn complete(&self, report: &mut NodeReport) {
+        let found = self.nodes.iter().find(|there| there.node == report.node);
+        if let Some(OfNode {
+            times, allocations, ..
+        }) = found
+        {
+            report.histogram = times.clone();
+            report.allocations = *allocations;
+        }
     }
 
     pub(super) fn slowest(&self) -> &[(&'static str, u64)] {
@@ -193,19 +228,21 @@ impl Stopwatch {
 impl Lap {
     #[inline]
     fn start(&mut self) {
-        self.since = Some(Ticks::now());
+        self.since = Some((Ticks::now(), timing::allocations_so_far()));
     }
 
     #[inline]
     fn pause(&mut self) {
-        if let Some(since) = self.since.take() {
+        if let Some((since, allocations)) = self.since.take() {
             self.spent += Ticks::now().since(since);
+            self.allocations += timing::allocations_so_far() - allocations;
         }
     }
 
     #[inline]
-    fn take(&mut self) -> Duration {
+    fn take(&mut self) -> (Duration, u64) {
         self.pause();
-        std::mem::take(&mut self.spent)
+        let spent = std::mem::take(&mut self.spent);
+        (spent, std::mem::take(&mut self.allocations))
     }
 }
