@@ -17,7 +17,7 @@ use std::process::ExitCode;
 use std::sync::Arc;
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
-use serde::de::DeserializeOwned;
+use crate::data::ParameterData;
 
 use crate::clock::Clock;
 use crate::driver::Threads;
@@ -59,7 +59,7 @@ pub fn main<H, P>(
 ) -> ExitCode
 where
     H: Hardware,
-    P: DeserializeOwned,
+    P: ParameterData,
 {
     let arguments = std::env::args_os().skip(1);
     ExitCode::from(run(target, arguments, &mut std::io::stdout(), create))
@@ -74,7 +74,7 @@ pub fn run<H, P>(
 ) -> u8
 where
     H: Hardware,
-    P: DeserializeOwned,
+    P: ParameterData,
 {
     let options = match options::parse(arguments) {
         Ok(Command::Run(options)) => *options,
@@ -123,7 +123,7 @@ fn start_and_run<H, P>(
 ) -> Result<()>
 where
     H: Hardware,
-    P: DeserializeOwned,
+    P: ParameterData,
 {
     timing::set(match options.format {
         Format::Json => Timing::Complete,
@@ -134,13 +134,14 @@ where
     let mut layers = layers(target, options);
     let hardware = connect::<H>(target, options, &layers.load()?, &clock, stop)?;
     layers.identities = known_identities(target, hardware.identities());
-    let parameters = layers.load()?.deserialize()?;
+    let loaded = layers.load()?;
     let start = Start {
         clock: clock.clone(),
         stop: stop.clone(),
-        parameters,
+        parameters: loaded.deserialize()?,
     };
     let mut robot = create(&hardware, start)?;
+    robot.parameters.came_from(layers, loaded)?;
 
     tell(format_args!(
         "robot {} on target {}; Ctrl-C stops it",

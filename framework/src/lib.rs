@@ -75,6 +75,7 @@ pub use hardware::{Event, Hardware, HardwareContext};
 pub use history::{HistoricInput, History, Past, Stored};
 pub use injection::{Inject, Injected, Injection, InjectionCell, InjectionTable, Injector};
 pub use launch::Target;
+pub use parameters::LiveParameters;
 pub use procedure::{Answerer, Call, CallAny, Caller, Pending, PendingAny, Refused, procedure};
 pub use rearm::Rearm;
 pub use reflect::Reflect;

@@ -2,17 +2,22 @@
 //!
 //! Later layers win: `default.toml`, `<location>/default.toml`, `<identity>.<id>.toml` for each identity,
 //! `<location>/<identity>.<id>.toml`, the environment (`HULK_PARAMETERS__a__b`), `--set a.b=value`. Tables merge; arrays and
-//! all other values are replaced whole. Only `default.toml` has to be there.
+//! all other values are replaced whole, and `key = { unset = true }` takes away what earlier layers say. Only `default.toml` has
+//! to be there. [`Live`] is the last layer: what is changed while the robot runs.
 
 mod combinations;
 mod deserialize;
 mod error;
 mod layers;
+mod live;
 mod nearest;
 mod tree;
 
 pub use error::{Fault, Origin, ParameterError};
 pub use layers::{Layers, Parameters};
+pub use live::{
+    Leaf, Live, LiveParameters, Provenance, Reading, Refusal, Refusals, Stored, Unstored, Version,
+};
 
 use serde::de::DeserializeOwned;
 

@@ -1,10 +1,10 @@
 //! A robot that was put together: its instances, and the ends that clients hold.
 
-use crate::buffer::Writer;
 use crate::clock::Clock;
 use crate::cycler::Instance;
 use crate::error::{Error, Result};
 use crate::injection::Inject;
+use crate::parameters::LiveParameters;
 use crate::procedure::CallAny;
 use crate::reflect;
 use crate::stop::Stop;
@@ -33,8 +33,8 @@ pub struct Robot<P> {
     pub access: Vec<Access>,
     /// Instances that a partial robot does without: the hardware may have events for them, and nothing comes of those.
     pub left_out: &'static [&'static str],
-    /// The parameters: what is completed here, every instance sees from its next `begin` on.
-    pub parameters: Writer<P>,
+    /// The parameters: what is changed here, every instance sees from its next `begin` on.
+    pub parameters: LiveParameters<P>,
 }
 
 /// What clients may do with one instance while a driver has it.

@@ -5,10 +5,14 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::Duration;
 
+use framework::LiveParameters;
 use framework::launch::{self, Target};
 use framework::{Hardware, HardwareContext, Result, Robot, Start, buffer_of};
 
 static IN_SAFE_STATE: AtomicBool = AtomicBool::new(false);
+
+#[derive(Clone, Debug, serde::Deserialize, framework::Reflect, serde::Serialize)]
+struct Parameters {}
 
 struct InterruptedHardware;
 
@@ -45,16 +49,16 @@ fn an_interrupted_run_reports_and_ends_with_130() {
         directory.path().into(),
         "--format=json".into(),
     ];
-    let create = |_: &Arc<InterruptedHardware>, start: Start<toml::Table>| {
+    let create = |_: &Arc<InterruptedHardware>, start: Start<Parameters>| {
         let (parameters, [], []) = buffer_of(|| start.parameters.clone(), []);
         let (instances, access) = (Vec::new(), Vec::new());
         Ok(Robot {
             name: "test",
-            clock: start.clock,
+            clock: start.clock.clone(),
             instances,
             access,
             left_out: &[],
-            parameters,
+            parameters: LiveParameters::new(parameters, start.parameters, start.clock),
         })
     };
     let mut output = Vec::new();

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use std::sync::Mutex;
 use std::time::Duration;
 
+use framework::LiveParameters;
 use framework::launch::{self, Target};
 use framework::{
     Clock, Hardware, HardwareContext, Parameter, Reflect, Result, Robot, Start, Stop, buffer_of,
@@ -100,11 +101,11 @@ fn run(directory: &TempDir, arguments: &[&str]) -> Ran {
         let (parameters, [], []) = buffer_of(|| start.parameters.clone(), []);
         Ok(Robot {
             name: "test",
-            clock: start.clock,
+            clock: start.clock.clone(),
             instances: vec![],
             access: vec![],
             left_out: &[],
-            parameters,
+            parameters: LiveParameters::new(parameters, start.parameters, start.clock),
         })
     };
     let status = launch::run(TARGET, all, &mut output, create);

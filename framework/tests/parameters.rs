@@ -2,11 +2,12 @@
 
 use std::fs;
 
+use framework::Reflect;
 use framework::parameters::{Layers, Origin, from_table, from_text};
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use tempfile::TempDir;
 
-#[derive(Debug, Deserialize, PartialEq)]
+#[derive(Debug, Deserialize, PartialEq, Reflect, Serialize)]
 #[serde(deny_unknown_fields)]
 struct Parameters {
     ball: Ball,
@@ -16,14 +17,14 @@ struct Parameters {
     offsets: Vec<i32>,
 }
 
-#[derive(Debug, Deserialize, PartialEq)]
+#[derive(Debug, Deserialize, PartialEq, Reflect, Serialize)]
 #[serde(deny_unknown_fields)]
 struct Ball {
     radius: f32,
     mass: f32,
 }
 
-#[derive(Debug, Deserialize, PartialEq)]
+#[derive(Debug, Deserialize, PartialEq, Reflect, Serialize)]
 #[serde(deny_unknown_fields)]
 enum Kick {
     None,

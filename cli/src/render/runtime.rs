@@ -66,11 +66,11 @@ fn quote_create(model: &RuntimeModel) -> TokenStream {
     let robot = quote! {
         ::framework::Robot {
             name: #robot,
-            clock: start.clock,
+            clock: start.clock.clone(),
             instances: vec![#(Box::new(#instances)),*],
             access: vec![#(#access),*],
             left_out: &[#(#left_out),*],
-            parameters,
+            parameters: ::framework::LiveParameters::new(parameters, start.parameters, start.clock),
         }
     };
     let (about, created, create) = quote_answer(&model.runtime, &robot);

@@ -11,6 +11,7 @@ use super::options::{Format, Options};
 use super::{DONE, FAILED, Target, layers};
 use crate::error::Error;
 use crate::parameters::{Fault, Origin, ParameterError};
+use crate::reflect::Reflect;
 use crate::report::tell;
 
 /// Why a robot would not start.
@@ -32,7 +33,7 @@ struct Mistake {
 /// Loads the parameters as every robot would that files name, and says what is wrong; gives the exit status.
 ///
 /// A value is only missing if no file of an identity has it: which robots there are, nobody knows here.
-pub(super) fn parameters<P: DeserializeOwned>(
+pub(super) fn parameters<P: DeserializeOwned + Reflect>(
     target: &Target,
     options: &Options,
     output: &mut dyn Write,

@@ -12,6 +12,7 @@ use super::nearest::nearest;
 use super::tree::{self, Tree, Value};
 use super::{deserialize, from_text};
 use crate::error::{Error, Result};
+use crate::reflect::{Reflect, Shape};
 
 /// What environment variables that set parameters start with.
 const ENVIRONMENT_PREFIX: &str = "HULK_PARAMETERS__";
@@ -36,7 +37,7 @@ pub struct Layers {
 /// The merged values of one robot.
 #[derive(Clone, Debug)]
 pub struct Parameters {
-    tree: Tree,
+    pub(super) tree: Tree,
     /// The files that were read, in order.
     files: Vec<PathBuf>,
 }
@@ -51,6 +52,11 @@ struct Choice {
 impl Layers {
     /// Reads and merges all layers that are there.
     pub fn load(&self) -> Result<Parameters> {
+        self.load_with(None)
+    }
+
+    /// As [`Layers::load`], with another text in place of that of one file.
+    pub(super) fn load_with(&self, replaced: Option<(&Path, &str)>) -> Result<Parameters> {
         let location = self.location()?;
         if let Some(location) = &location {
             self.check_location(location)?;
@@ -63,7 +69,11 @@ impl Layers {
             files: Vec::new(),
         };
         for (file, required) in self.files(location.as_deref()) {
-            parameters.add(file, required)?;
+            let text = match replaced {
+                Some((path, text)) if path == file => Some(text.to_owned()),
+                _ => read(&file)?,
+            };
+            parameters.add(file, text, required)?;
         }
         for (variable, value) in &self.environment {
             if let Some(path) = variable.strip_prefix(ENVIRONMENT_PREFIX) {
@@ -81,6 +91,18 @@ impl Layers {
                 .overlay(tree::parse_setting(value, &origin).below(path, "."));
         }
         Ok(parameters)
+    }
+
+    /// Every file that is a layer of this robot, later ones win, whether it is there or not.
+    pub(super) fn candidates(&self) -> Result<Vec<PathBuf>> {
+        let location = self.location()?;
+        let files = self.files(location.as_deref()).into_iter();
+        Ok(files.map(|(file, _)| file).collect())
+    }
+
+    /// Chooses the location where nobody else does.
+    pub(super) fn choice_file(&self) -> PathBuf {
+        self.directory.join("parameters.toml")
     }
 
     /// In the order of merging; only the first has to be there.
@@ -109,7 +131,7 @@ impl Layers {
         if let Some(location) = &self.location {
             return Ok(Some(location.clone()));
         }
-        let path = self.directory.join("parameters.toml");
+        let path = self.choice_file();
         let text = read(&path)?;
         let choice: Option<Choice> = text
             .map(|text| from_text(&display(&path), &text))
@@ -149,13 +171,33 @@ impl Layers {
 }
 
 impl Parameters {
-    /// As the robot's type. `hardware` does not belong to it.
-    pub fn deserialize<P: DeserializeOwned>(&self) -> Result<P> {
+    /// As the robot's type, with every number in the range of its field. `hardware` does not belong to it.
+    pub fn deserialize<P: DeserializeOwned + Reflect>(&self) -> Result<P> {
         let mut tree = self.tree.clone();
         if let Value::Table(entries) = &mut tree.value {
             entries.remove("hardware");
         }
-        deserialize::deserialize(&tree).map_err(|error| self.with_layers(error))
+        let values: P = deserialize::deserialize(&tree).map_err(|error| self.with_layers(error))?;
+        self.check_ranges(&P::shape(), &values)?;
+        Ok(values)
+    }
+
+    /// The first number that is not in the range of its field is an error, with its place.
+    pub(super) fn check_ranges(&self, shape: &Shape, values: &dyn Reflect) -> Result<()> {
+        let json = serde_json::to_value(values.as_serialize())?;
+        let Some(outside) = shape.out_of_range(&json, None).into_iter().next() else {
+            return Ok(());
+        };
+        // A part of an array may have no place of its own.
+        let mut path = outside.path.as_str();
+        let origin = loop {
+            match (self.origin(path), path.rfind('.')) {
+                (Some(origin), _) => break origin.clone(),
+                (None, Some(end)) => path = &path[..end],
+                (None, None) => break Origin::Unknown,
+            }
+        };
+        Err(ParameterError::new(origin, outside.path.clone(), outside.to_string()).into())
     }
 
     /// `[hardware.<target>]`, empty if no layer has it.
@@ -205,8 +247,8 @@ impl Parameters {
         }
     }
 
-    fn add(&mut self, file: PathBuf, required: bool) -> Result<()> {
-        match read(&file)? {
+    fn add(&mut self, file: PathBuf, text: Option<String>, required: bool) -> Result<()> {
+        match text {
             Some(text) => {
                 self.tree.overlay(tree::parse(&display(&file), &text)?);
                 self.files.push(file);

@@ -8,6 +8,9 @@ use toml::de::{DeTable, DeValue};
 
 use super::error::{Origin, ParameterError};
 
+/// The key of the table that takes a value away.
+pub(super) const UNSET: &str = "unset";
+
 /// A value and where it was written.
 #[derive(Clone, Debug)]
 pub(super) struct Tree {
@@ -127,14 +130,41 @@ impl Tree {
                     ..
                 },
             ) => {
-                for (key, tree) in later {
+                for (key, mut tree) in later {
+                    if tree.is_unset() {
+                        entries.remove(&key);
+                        continue;
+                    }
                     match entries.get_mut(&key) {
                         Some(entry) => entry.merge(tree),
-                        None => _ = entries.insert(key, tree),
+                        None => {
+                            tree.drop_unset();
+                            entries.insert(key, tree);
+                        }
                     }
                 }
             }
-            (_, later) => *self = later,
+            (_, mut later) => {
+                later.drop_unset();
+                *self = later;
+            }
+        }
+    }
+
+    /// `{ unset = true }`: no value, also if earlier layers have one.
+    fn is_unset(&self) -> bool {
+        let Value::Table(entries) = &self.value else {
+            return false;
+        };
+        let unset = entries.get(UNSET).map(|tree| &tree.value);
+        entries.len() == 1 && matches!(unset, Some(Value::Boolean(true)))
+    }
+
+    /// What would take away values of earlier layers, where there are none.
+    fn drop_unset(&mut self) {
+        if let Value::Table(entries) = &mut self.value {
+            entries.retain(|_, below| !below.is_unset());
+            entries.values_mut().for_each(Self::drop_unset);
         }
     }
 
@@ -177,6 +207,27 @@ impl Tree {
                 Value::Array(items) => items.get(key.parse::<usize>().ok()?),
                 _ => None,
             })
+    }
+
+    /// The keys of a table.
+    pub(super) fn keys(&self) -> impl Iterator<Item = &str> {
+        let entries = match &self.value {
+            Value::Table(entries) => Some(entries),
+            _ => None,
+        };
+        entries.into_iter().flatten().map(|(key, _)| key.as_str())
+    }
+
+    /// Every value that is replaced whole, with its path; `path` is that of this one.
+    pub(super) fn leaves(&self, path: String, leaves: &mut Vec<(String, Origin)>) {
+        match &self.value {
+            Value::Table(entries) => {
+                for (key, below) in entries {
+                    below.leaves(format!("{path}.{key}"), leaves);
+                }
+            }
+            _ => leaves.push((path, self.origin.clone())),
+        }
     }
 
     /// What kind of value it is, for messages.

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use framework::LiveParameters;
 use framework::cycler::{Reference, ReferenceKind};
 use framework::{
     Access, AdditionalOutput, AdditionalSlot, Answerer, Body, Consumer, Cycle, Cycler, Guarded,
@@ -434,6 +435,6 @@ pub(crate) fn robot(hardware: &Arc<ScriptedHardware>, setting: &Setting) -> Robo
         instances,
         access,
         left_out: &[],
-        parameters,
+        parameters: LiveParameters::new(parameters, Parameters { gain: 1 }, hardware.clock.clone()),
     }
 }

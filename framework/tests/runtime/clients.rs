@@ -2,7 +2,8 @@
 
 use std::time::Duration;
 
-use framework::{Lockstep, Robot, Timestamp};
+use framework::parameters::Version;
+use framework::{Lockstep, Robot};
 use serde_json::{Value, json};
 
 use crate::body::{Parameters, Plan, Setting, robot};
@@ -241,8 +242,8 @@ fn calls_after_the_end_and_too_many_calls_are_refused() {
 fn parameters_are_seen_from_the_next_begin_on() {
     let robot = run(&Setting::default(), |number, robot| {
         if number == 3 {
-            robot.parameters.slots().0.gain = 9;
-            robot.parameters.complete(1, Timestamp::ZERO);
+            let changed = robot.parameters.change(&[("gain", json!(9))]);
+            assert_eq!(changed, Ok(Version(1)));
         } else if number > 3 {
             assert_eq!(read(robot, "Legs.main_outputs.gain"), json!(9));
         } else if number > 0 {

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use framework::driver::Threads;
-use framework::{Hardware, OnFailure, Robot, Stop, Timestamp};
+use framework::{Hardware, OnFailure, Robot, Stop};
 use serde_json::json;
 
 use crate::body::{Parameters, Plan, Setting, robot};
@@ -154,8 +154,9 @@ fn clients_inject_and_change_parameters_while_the_threads_run() {
             let value = json!(4711);
             let mut erased = <dyn erased_serde::Deserializer<'_>>::erase(&value);
             let injected = access[1].injector.inject("value", &mut erased);
-            parameters.slots().0.gain = 9;
-            parameters.complete(1, Timestamp::ZERO);
+            parameters
+                .change(&[("gain", json!(9))])
+                .expect("it is a number");
             // The cycle that runs meanwhile may have begun before.
             wait_for(legs.cycles.get() + 2);
             stop.request();

@@ -12,6 +12,7 @@ use framework::History;
 use framework::Horizon;
 use framework::Injector;
 use framework::Interleaving;
+use framework::LiveParameters;
 use framework::Result;
 use framework::Robot;
 use framework::Start;
@@ -123,7 +124,7 @@ where
     Ok((
         Robot {
             name: "zoo",
-            clock: start.clock,
+            clock: start.clock.clone(),
             instances: vec![Box::new(control)],
             access: vec![
                 Access {
@@ -137,7 +138,7 @@ where
                 },
             ],
             left_out: &["VisionTop", "VisionBottom", "Hearing", "Reflexes", "Lights"],
-            parameters,
+            parameters: LiveParameters::new(parameters, start.parameters, start.clock),
         },
         stubs,
     ))

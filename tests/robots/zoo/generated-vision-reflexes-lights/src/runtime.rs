@@ -10,6 +10,7 @@ use framework::Consumer;
 use framework::Cycler;
 use framework::Horizon;
 use framework::Injector;
+use framework::LiveParameters;
 use framework::Result;
 use framework::Robot;
 use framework::Start;
@@ -207,7 +208,7 @@ where
     Ok((
         Robot {
             name: "zoo",
-            clock: start.clock,
+            clock: start.clock.clone(),
             instances: vec![
                 Box::new(vision_top),
                 Box::new(vision_bottom),
@@ -243,7 +244,7 @@ where
                 },
             ],
             left_out: &["Hearing", "Control"],
-            parameters,
+            parameters: LiveParameters::new(parameters, start.parameters, start.clock),
         },
         stubs,
     ))

@@ -12,6 +12,7 @@ use framework::History;
 use framework::Horizon;
 use framework::Injector;
 use framework::Interleaving;
+use framework::LiveParameters;
 use framework::Result;
 use framework::Robot;
 use framework::Start;
@@ -265,7 +266,7 @@ where
 
     Ok(Robot {
         name: "zoo",
-        clock: start.clock,
+        clock: start.clock.clone(),
         instances: vec![
             Box::new(vision_top),
             Box::new(vision_bottom),
@@ -318,6 +319,6 @@ where
             },
         ],
         left_out: &[],
-        parameters,
+        parameters: LiveParameters::new(parameters, start.parameters, start.clock),
     })
 }

@@ -1,0 +1,75 @@
+//! The files of the layers, and whether somebody has edited them.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::{Layers, Parameters};
+use crate::error::{Error, Result};
+
+/// What was read, and from where.
+pub(super) struct Files {
+    pub(super) layers: Layers,
+    pub(super) loaded: Parameters,
+    /// Every file that could be a layer, with its text at the last look.
+    seen: Vec<(PathBuf, Option<Vec<u8>>)>,
+}
+
+impl Files {
+    pub(super) fn new(layers: Layers, loaded: Parameters) -> Result<Self> {
+        let mut files = Self {
+            layers,
+            loaded,
+            seen: Vec::new(),
+        };
+        files.look()?;
+        Ok(files)
+    }
+
+    /// Whether a file has another text than at the last look.
+    pub(super) fn look(&mut self) -> Result<bool> {
+        let mut paths = vec![self.layers.choice_file()];
+        paths.extend(self.layers.candidates()?);
+        let read = paths.into_iter().map(|path| {
+            let text = fs::read(&path).ok();
+            (path, text)
+        });
+        let seen: Vec<_> = read.collect();
+        let is_new = seen != self.seen;
+        self.seen = seen;
+        Ok(is_new)
+    }
+
+    /// As they are now.
+    pub(super) fn load(&self) -> Result<Parameters> {
+        self.layers.load()
+    }
+
+    /// Names of the layers, later ones win: paths from the directory without `.toml`.
+    pub(super) fn names(&self) -> Vec<String> {
+        let candidates = self.layers.candidates().unwrap_or_default();
+        candidates.iter().map(|file| self.name(file)).collect()
+    }
+
+    /// The file of a layer.
+    pub(super) fn file(&self, layer: &str) -> Result<PathBuf, String> {
+        let candidates = self
+            .layers
+            .candidates()
+            .map_err(|error| error.to_string())?;
+        let name = layer.strip_suffix(".toml").unwrap_or(layer);
+        let found = candidates.into_iter().find(|file| self.name(file) == name);
+        found.ok_or_else(|| {
+            let names = self.names().join("`, `");
+            format!("no layer `{layer}`: this robot has `{names}`")
+        })
+    }
+
+    fn name(&self, file: &Path) -> String {
+        let below = file.strip_prefix(&self.layers.directory).unwrap_or(file);
+        below.with_extension("").display().to_string()
+    }
+}
+
+pub(super) fn without() -> Error {
+    Error::new("the parameters of this robot come from no files")
+}

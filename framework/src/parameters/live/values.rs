@@ -1,0 +1,128 @@
+//! The values behind a handle that does not know their type.
+
+use serde_json::Value;
+
+use super::refusal::Refusal;
+use super::{Parameters, Version};
+use crate::buffer::Writer;
+use crate::clock::Clock;
+use crate::data::ParameterData;
+use crate::error::Result;
+use crate::reflect::{self, Path, Reflect};
+
+/// All parameters: as they are, as the layers have them, and as they may be next.
+pub(super) trait Values: Send {
+    fn current(&self) -> &dyn Reflect;
+
+    /// As the layers have them.
+    fn stored(&self) -> &dyn Reflect;
+
+    /// As they will be; the current ones where nothing was written since the last [`Values::discard`].
+    fn draft(&self) -> &dyn Reflect;
+
+    fn discard(&mut self);
+
+    /// Gives a part of the draft another value.
+    fn write(&mut self, path: &str, value: &Value) -> Result<Path, Refusal>;
+
+    /// The draft becomes what was loaded; the same, for [`Values::set_stored`].
+    fn load(&mut self, loaded: &Parameters) -> Result<Box<dyn std::any::Any>>;
+
+    /// What the layers have, as it was loaded.
+    fn set_stored(&mut self, loaded: Box<dyn std::any::Any>);
+
+    /// At these paths the layers have what was loaded.
+    fn adopt(&mut self, loaded: &Parameters, paths: &[Path]) -> Result<()>;
+
+    /// The draft becomes current, also for the cyclers.
+    fn publish(&mut self, version: Version);
+}
+
+pub(super) struct Typed<P> {
+    writer: Writer<P>,
+    clock: Clock,
+    current: P,
+    stored: P,
+    draft: Option<P>,
+}
+
+impl<P: ParameterData> Typed<P> {
+    pub(super) fn new(writer: Writer<P>, start: P, clock: Clock) -> Self {
+        Self {
+            writer,
+            clock,
+            stored: start.clone(),
+            current: start,
+            draft: None,
+        }
+    }
+}
+
+impl<P: ParameterData> Values for Typed<P> {
+    fn current(&self) -> &dyn Reflect {
+        &self.current
+    }
+
+    fn stored(&self) -> &dyn Reflect {
+        &self.stored
+    }
+
+    fn draft(&self) -> &dyn Reflect {
+        self.draft.as_ref().unwrap_or(&self.current)
+    }
+
+    fn discard(&mut self) {
+        self.draft = None;
+    }
+
+    fn write(&mut self, path: &str, value: &Value) -> Result<Path, Refusal> {
+        let parsed = Refusal::parse(path)?;
+        let draft = self.draft.get_or_insert_with(|| self.current.clone());
+        let part = reflect::at_mut(draft, &parsed)
+            .map_err(|unknown| Refusal::new(path, unknown.to_string()))?;
+        let deserializer = &mut <dyn erased_serde::Deserializer<'_>>::erase(value);
+        part.deserialize_from(deserializer)
+            .map_err(|error| Refusal::new(path, error.to_string()))?;
+        Ok(parsed)
+    }
+
+    fn load(&mut self, loaded: &Parameters) -> Result<Box<dyn std::any::Any>> {
+        let loaded: P = loaded.deserialize()?;
+        self.draft = Some(loaded.clone());
+        Ok(Box::new(loaded))
+    }
+
+    fn set_stored(&mut self, loaded: Box<dyn std::any::Any>) {
+        if let Ok(loaded) = loaded.downcast() {
+            self.stored = *loaded;
+        }
+    }
+
+    fn adopt(&mut self, loaded: &Parameters, paths: &[Path]) -> Result<()> {
+        let loaded: P = loaded.deserialize()?;
+        for path in paths {
+            let value = serde_json::to_value(reflect::at(&loaded, path)?.as_serialize())?;
+            let part = reflect::at_mut(&mut self.stored, path)?;
+            let deserializer = &mut <dyn erased_serde::Deserializer<'_>>::erase(value);
+            part.deserialize_from(deserializer)?;
+        }
+        Ok(())
+    }
+
+    fn publish(&mut self, version: Version) {
+        if let Some(draft) = self.draft.take() {
+            self.current = draft;
+        }
+        let (writing, _) = self.writer.slots();
+        writing.clone_from(&self.current);
+        self.writer.complete(version.0, self.clock.now());
+    }
+}
+
+/// A part as JSON, with as many digits as it was written with; `None` where it is not there.
+pub(super) fn plain(value: &dyn Reflect, path: &Path) -> Option<Value> {
+    let part = reflect::at(value, path).ok()?;
+    // By way of text: `0.1` of 32 bits stays `0.1`.
+    let text = serde_json::to_string(part.as_serialize()).ok()?;
+    serde_json::from_str(&text).ok()
+}
