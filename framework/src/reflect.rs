@@ -15,6 +15,7 @@ mod leaves;
 mod limits;
 mod nalgebra;
 mod pointers;
+mod resolved;
 mod schema;
 mod tuples;
 mod unknown;
@@ -24,6 +25,7 @@ use std::borrow::Cow;
 pub use binary::EncodeError;
 pub use limits::{Limits, OutOfRange};
 pub use path::{InvalidPath, Path, Segment};
+pub use resolved::ResolvedPath;
 pub use shape::{Content, FieldShape, Form, Leaf, Shape, VariantContent, VariantShape};
 pub use unknown::{Reason, UnknownPath};
 

@@ -9,6 +9,9 @@ use serde::de::DeserializeOwned;
 use super::binary::{EncodeError, encode_count, encode_display, encode_text};
 use super::{Children, Content, FieldShape, Reflect, Segment, Shape, whole};
 
+/// Of a range.
+const BOUNDS: [&str; 2] = ["start", "end"];
+
 macro_rules! list {
     () => {
         fn child(&self, segment: &Segment) -> Option<&dyn Reflect> {
@@ -38,6 +41,7 @@ macro_rules! map {
             match segment {
                 Segment::Field(key) => Some(self.get(key)?),
                 Segment::Index(key) => Some(self.get(&key.to_string())?),
+                Segment::Position(_) => None,
             }
         }
 
@@ -45,6 +49,7 @@ macro_rules! map {
             match segment {
                 Segment::Field(key) => Some(self.get_mut(key)?),
                 Segment::Index(key) => Some(self.get_mut(&key.to_string())?),
+                Segment::Position(_) => None,
             }
         }
 
@@ -181,23 +186,23 @@ impl<T: Reflect + Serialize + DeserializeOwned> Reflect for Range<T> {
     }
 
     fn child(&self, segment: &Segment) -> Option<&dyn Reflect> {
-        match segment.name()? {
-            "start" => Some(&self.start),
-            "end" => Some(&self.end),
+        match segment.field(&BOUNDS)? {
+            0 => Some(&self.start),
+            1 => Some(&self.end),
             _ => None,
         }
     }
 
     fn child_mut(&mut self, segment: &Segment) -> Option<&mut dyn Reflect> {
-        match segment.name()? {
-            "start" => Some(&mut self.start),
-            "end" => Some(&mut self.end),
+        match segment.field(&BOUNDS)? {
+            0 => Some(&mut self.start),
+            1 => Some(&mut self.end),
             _ => None,
         }
     }
 
     fn children(&self) -> Children {
-        Children::named(["end", "start"])
+        Children::named(BOUNDS)
     }
 
     fn encode(&self, bytes: &mut Vec<u8>) -> Result<(), EncodeError> {
@@ -215,15 +220,15 @@ impl<T: Reflect + Serialize + DeserializeOwned> Reflect for RangeInclusive<T> {
     }
 
     fn child(&self, segment: &Segment) -> Option<&dyn Reflect> {
-        match segment.name()? {
-            "start" => Some(self.start()),
-            "end" => Some(self.end()),
+        match segment.field(&BOUNDS)? {
+            0 => Some(self.start()),
+            1 => Some(self.end()),
             _ => None,
         }
     }
 
     fn children(&self) -> Children {
-        Children::named(["end", "start"])
+        Children::named(BOUNDS)
     }
 
     fn encode(&self, bytes: &mut Vec<u8>) -> Result<(), EncodeError> {
@@ -244,5 +249,5 @@ fn list_shape<L, T: Reflect>(length: Option<usize>) -> Shape {
 
 fn range_shape<R, T: Reflect>() -> Shape {
     let bound = |name| FieldShape::new(name, T::shape());
-    Shape::new::<R>(Content::Struct(vec![bound("start"), bound("end")]))
+    Shape::new::<R>(Content::Struct(BOUNDS.map(bound).into()))
 }

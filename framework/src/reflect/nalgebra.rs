@@ -11,6 +11,7 @@ use super::{Children, Content, FieldShape, Reflect, Segment, Shape, whole};
 
 const AXES: [&str; 4] = ["x", "y", "z", "w"];
 const QUATERNION: [&str; 4] = ["i", "j", "k", "w"];
+const ISOMETRY: [&str; 2] = ["rotation", "translation"];
 const COMPLEX: [&str; 2] = ["re", "im"];
 /// How far from one the length of what must be a unit may be when it is written.
 const UNIT_TOLERANCE: f64 = 1e-3;
@@ -105,23 +106,23 @@ where
     }
 
     fn child(&self, segment: &Segment) -> Option<&dyn Reflect> {
-        match segment.name()? {
-            "rotation" => Some(&self.rotation),
-            "translation" => Some(&self.translation),
+        match segment.field(&ISOMETRY)? {
+            0 => Some(&self.rotation),
+            1 => Some(&self.translation),
             _ => None,
         }
     }
 
     fn child_mut(&mut self, segment: &Segment) -> Option<&mut dyn Reflect> {
-        match segment.name()? {
-            "rotation" => Some(&mut self.rotation),
-            "translation" => Some(&mut self.translation),
+        match segment.field(&ISOMETRY)? {
+            0 => Some(&mut self.rotation),
+            1 => Some(&mut self.translation),
             _ => None,
         }
     }
 
     fn children(&self) -> Children {
-        Children::named(["rotation", "translation"])
+        Children::named(ISOMETRY)
     }
 
     fn encode(&self, bytes: &mut Vec<u8>) -> Result<(), EncodeError> {

@@ -10,6 +10,8 @@ pub enum Segment {
     Field(String),
     /// An element, from zero.
     Index(usize),
+    /// A field by its place among those of its type, from zero: no text stands for it, only a [`super::ResolvedPath`] has it.
+    Position(usize),
 }
 
 /// Where a part lies in a value: `balls.0.position.x`. The empty path is the whole value.
@@ -29,15 +31,24 @@ impl Segment {
     pub fn name(&self) -> Option<&str> {
         match self {
             Self::Field(name) => Some(name),
-            Self::Index(_) => None,
+            Self::Index(_) | Self::Position(_) => None,
         }
     }
 
     /// The index, if it is one.
     pub fn index(&self) -> Option<usize> {
         match self {
-            Self::Field(_) => None,
+            Self::Field(_) | Self::Position(_) => None,
             Self::Index(index) => Some(*index),
+        }
+    }
+
+    /// Which of the fields with these names it is.
+    pub(crate) fn field(&self, names: &[&str]) -> Option<usize> {
+        match self {
+            Self::Field(name) => names.iter().position(|candidate| candidate == name),
+            Self::Position(position) => Some(*position),
+            Self::Index(_) => None,
         }
     }
 
@@ -48,7 +59,7 @@ impl Segment {
             Self::Field(name) if name.starts_with('-') && !name.starts_with("-0") => {
                 name.parse().ok()
             }
-            Self::Field(_) => None,
+            Self::Field(_) | Self::Position(_) => None,
             Self::Index(index) => T::try_from(*index).ok(),
         }
     }
@@ -57,7 +68,7 @@ impl Segment {
     pub(crate) fn position(&self, names: &[&str]) -> Option<usize> {
         match self {
             Self::Field(name) => names.iter().position(|candidate| candidate == name),
-            Self::Index(index) => Some(*index),
+            Self::Index(index) | Self::Position(index) => Some(*index),
         }
     }
 }
@@ -123,7 +134,7 @@ impl fmt::Display for Segment {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Field(name) => formatter.write_str(name),
-            Self::Index(index) => write!(formatter, "{index}"),
+            Self::Index(index) | Self::Position(index) => write!(formatter, "{index}"),
         }
     }
 }

@@ -3,3 +3,4 @@
 mod counting;
 mod cycle;
 mod exchange;
+mod reading;

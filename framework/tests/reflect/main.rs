@@ -12,7 +12,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use framework::Reflect;
-use framework::reflect::{Path, Reason, Segment, at, at_mut};
+use framework::reflect::{Path, Reason, ResolvedPath, Segment, at, at_mut};
 use framework::time::Timestamp;
 use nalgebra::{
     Isometry2, Isometry3, Matrix2x3, Point2, Rotation2, Rotation3, Translation3, Unit, UnitComplex,
@@ -583,6 +583,36 @@ fn a_shape_knows_paths_that_no_value_has_yet() {
 }
 
 #[test]
+fn a_resolved_path_follows_what_a_value_is_now() {
+    let resolved = |text: &str| {
+        ResolvedPath::new(&Both::<Option<Motion>>::shape(), &path(text))
+            .unwrap_or_else(|error| panic!("{text}: {error}"))
+    };
+    let mut value = Both {
+        left: None,
+        right: Some(Motion::Kick(ball())),
+    };
+    let json = |part: Option<&dyn Reflect>| part.map(|part| read(part, ""));
+    let [left, right, turn] = ["left.Kick.radius", "right.Kick.radius", "right.turn"].map(resolved);
+    assert_eq!(json(left.find(&value)), None);
+    assert_eq!(json(right.find(&value)), Some(json!(0.5)));
+    assert_eq!(json(turn.find(&value)), None);
+    value.right = Some(Motion::Walk {
+        step: Vector2::zeros(),
+        turn: 0.25,
+    });
+    assert_eq!(json(right.find(&value)), None);
+    assert_eq!(json(turn.find(&value)), Some(json!(0.25)));
+    let unknown = ResolvedPath::new(&Ball::shape(), &path("position.q"));
+    assert_eq!(
+        unknown.expect_err("there is none").to_string(),
+        "no `q`: `position` has `x`, `y`, `0` to `1`"
+    );
+    // No text stands for a place.
+    at(&ball(), &path("0")).err().expect("it has names only");
+}
+
+#[test]
 fn a_type_inside_of_itself_has_a_shape() {
     #[derive(Deserialize, Reflect, Serialize)]
     struct Tree {
@@ -751,8 +781,10 @@ proptest! {
                 Some(variant) => prop_assert_eq!(&found[variant.as_str()], expected, "{}", text),
                 None => prop_assert_eq!(&found, expected, "{}", text),
             }
-            let shape = Everything::shape().at(&path(&text));
-            prop_assert!(shape.is_ok(), "{}: {:?}", text, shape.err());
+            let resolved = ResolvedPath::new(&Everything::shape(), &path(&text));
+            let resolved = resolved.unwrap_or_else(|error| panic!("{text}: {error}"));
+            let part = resolved.find(&value).expect("it is there");
+            prop_assert_eq!(read(part, ""), found, "{}", text);
         }
     }
 

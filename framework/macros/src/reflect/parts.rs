@@ -122,9 +122,28 @@ pub(super) fn quote_lookup(parts: &[Part], function: &str) -> Tokens {
     }
     let otherwise = quote!({ #flattened ::core::option::Option::None });
     match (names.is_empty(), indices.is_empty()) {
-        (false, _) => quote!(match segment.name() { #names _ => #otherwise }),
+        (false, _) => {
+            let by_name = quote!(match segment.name() { #names _ => #otherwise });
+            let are_fields = parts.iter().all(|part| matches!(part.key, Key::Name(_)));
+            match are_fields {
+                true => quote_positions(parts, &by_name),
+                false => by_name,
+            }
+        }
         (true, false) => quote!(match segment.index() { #indices _ => #otherwise }),
         (true, true) => otherwise,
+    }
+}
+
+/// The fields by their place first: what is looked up again and again is looked up so.
+fn quote_positions(parts: &[Part], by_name: &Tokens) -> Tokens {
+    let bindings = parts.iter().map(|part| &part.binding);
+    let positions = 0..parts.len();
+    quote! {
+        match segment {
+            #(framework_reflect::Segment::Position(#positions) => ::core::option::Option::Some(#bindings),)*
+            _ => #by_name,
+        }
     }
 }
 
