@@ -44,10 +44,11 @@ impl Nao {
         .expect("the parameters of the repository are complete");
         let (clock, stop) = (Clock::stepped(), Stop::default());
         let hardware = Hardware::new(HardwareContext {
-            // Tests run side by side, so none may take the ports of a real game.
+            // Tests run side by side, so none may take the ports of a real game. They are about what the robot knows, not about
+            // its balance, which has tests of its own.
             options: options
                 .iter()
-                .chain(&["--free-ports"])
+                .chain(&["--free-ports", "--physics", "kinematic"])
                 .map(|option| (*option).to_owned())
                 .collect(),
             table: parameters

@@ -76,9 +76,9 @@ pub struct Settings {
 #[serde(rename_all = "snake_case")]
 pub enum PhysicsChoice {
     /// Masses, torques and contacts: robots fall, balls roll.
+    #[default]
     Dynamic,
     /// Joints turn as they are told and robots never fall: the cheap choice.
-    #[default]
     Kinematic,
 }
 

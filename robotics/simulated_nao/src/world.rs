@@ -259,7 +259,11 @@ mod tests {
 
     #[test]
     fn a_stiff_robot_runs_down() {
-        let mut world = World::new(&Settings::default());
+        let mut world = World::new(&Settings {
+            // A minute passes.
+            physics: PhysicsChoice::Kinematic,
+            ..Settings::default()
+        });
         let before = world.sample();
         assert_eq!(before.currents.head_yaw, 0.0);
         let mut commands = *world.commands();

@@ -22,7 +22,12 @@ use types::team::TeamMessage;
 
 fn create(options: &[&str], table: &str) -> framework::Result<Hardware> {
     Hardware::new(HardwareContext {
-        options: options.iter().map(|&option| option.to_owned()).collect(),
+        // These tests are about what the hardware says when; the bodies have tests of their own.
+        options: ["--physics", "kinematic"]
+            .iter()
+            .chain(options)
+            .map(|&option| option.to_owned())
+            .collect(),
         table: toml::from_str(table).unwrap(),
         run_folder: std::env::temp_dir(),
         clock: Clock::stepped(),

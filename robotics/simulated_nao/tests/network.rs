@@ -20,7 +20,12 @@ fn create(options: &[&str]) -> Hardware {
 /// With these settings of `[hardware.simulated]`.
 fn create_with(options: &[&str], table: &str) -> Hardware {
     Hardware::new(HardwareContext {
-        options: options.iter().map(|&option| option.to_owned()).collect(),
+        // These tests are about what the hardware says when; the bodies have tests of their own.
+        options: ["--physics", "kinematic"]
+            .iter()
+            .chain(options)
+            .map(|&option| option.to_owned())
+            .collect(),
         table: table.parse().unwrap(),
         run_folder: std::env::temp_dir(),
         clock: Clock::wall(),

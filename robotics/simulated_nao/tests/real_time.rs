@@ -25,7 +25,8 @@ fn create(stop: &Stop) -> Hardware {
 /// With these settings of `[hardware.simulated]`.
 fn create_with(stop: &Stop, table: &str) -> Hardware {
     Hardware::new(HardwareContext {
-        options: Vec::new(),
+        // The machine may be slow, and nobody looks at the body.
+        options: vec!["--physics".to_owned(), "kinematic".to_owned()],
         table: table.parse().unwrap(),
         run_folder: std::env::temp_dir(),
         clock: Clock::wall(),

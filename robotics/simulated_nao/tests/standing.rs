@@ -23,13 +23,7 @@ fn the_robot_stands_up_and_stands_for_a_minute() {
         ..Layers::default()
     };
     let parameters = parameters.load().unwrap();
-    let options = [
-        "--physics",
-        "dynamic",
-        "--no-cameras",
-        "--no-sound",
-        "--free-ports",
-    ];
+    let options = ["--no-cameras", "--no-sound", "--free-ports"];
     let hardware = Hardware::new(HardwareContext {
         options: options.map(str::to_owned).to_vec(),
         table: parameters.hardware("simulated").unwrap(),

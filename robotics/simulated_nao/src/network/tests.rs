@@ -10,7 +10,7 @@ use types::network::Datagram;
 
 use super::*;
 use crate::scene::{RobotSettings, Team};
-use crate::settings::{NetworkSettings, Settings};
+use crate::settings::{NetworkSettings, PhysicsChoice, Settings};
 use crate::simulator::Shared;
 
 struct Lockstep {
@@ -53,7 +53,11 @@ impl Lockstep {
 /// With a team mate on the field.
 fn settings(options: &[&str]) -> Settings {
     let options: Vec<_> = options.iter().map(|&option| option.to_owned()).collect();
-    let mut settings = Settings::default();
+    let mut settings = Settings {
+        // Nobody looks at the bodies.
+        physics: PhysicsChoice::Kinematic,
+        ..Settings::default()
+    };
     settings.apply(&options).unwrap();
     settings.robots = vec![robot(Team::Own, 2, 3.0)];
     settings
