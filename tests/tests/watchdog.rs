@@ -146,7 +146,9 @@ fn a_node_that_hangs_loses_the_actuators_in_one_sequence_until_somebody_rearms()
     let parameters = parameters.load().expect("the parameters are complete");
     let (clock, stop) = (Clock::wall(), Stop::default());
     let hardware = Blocking::new(HardwareContext {
-        options: ["--free-ports", "--physics", "kinematic"].map(str::to_owned).to_vec(),
+        options: ["--free-ports", "--physics", "kinematic"]
+            .map(str::to_owned)
+            .to_vec(),
         table: parameters
             .hardware("simulated")
             .expect("a table or nothing"),

@@ -103,23 +103,23 @@ impl<T> Consumer<T> {
     }
 
     /// How many cycles the consuming cycle sees.
-    pub(crate) fn seen(&self) -> usize {
+    pub fn seen(&self) -> usize {
         self.visible
     }
 
     /// How many of them are persistent: the oldest.
-    pub(crate) fn seen_persistent(&self) -> usize {
+    pub fn seen_persistent(&self) -> usize {
         self.persistent
     }
 
     /// A cycle that is seen, and its order.
-    pub(crate) fn entry(&self, index: usize) -> Option<(&Entry<T>, Timestamp)> {
+    pub fn entry(&self, index: usize) -> Option<(&Entry<T>, Timestamp)> {
         let place = self.places.get(index)?;
         Some((self.queue.get(index)?, place.order))
     }
 
     /// Lets go of everything, also of what is complete and was not taken.
-    pub(crate) fn forget(&mut self) {
+    pub fn forget(&mut self) {
         self.queue.release(self.places.len());
         self.places.clear();
         (self.persistent, self.visible) = (0, 0);
@@ -129,7 +129,7 @@ impl<T> Consumer<T> {
     }
 
     /// Takes the next cycle with an order that was given before; `false`: there is none, or no room.
-    pub(crate) fn take_at(&mut self, order: Timestamp) -> bool {
+    pub fn take_at(&mut self, order: Timestamp) -> bool {
         let Some(entry) = self.queue.take() else {
             return false;
         };
@@ -142,7 +142,7 @@ impl<T> Consumer<T> {
     }
 
     /// Shows everything that was taken, the oldest `persistent` as such.
-    pub(crate) fn show(&mut self, persistent: usize) {
+    pub fn show(&mut self, persistent: usize) {
         self.visible = self.places.len();
         self.persistent = persistent.min(self.visible);
     }

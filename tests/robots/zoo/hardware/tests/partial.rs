@@ -6,8 +6,8 @@ use std::sync::Arc;
 use framework::driver::lockstep::Step;
 use framework::parameters::Layers;
 use framework::{
-    Clock, Finished, Hardware as _, HardwareContext, Instance, Lockstep, Robot, Start, Stop, Stub,
-    Timestamp,
+    Clock, Finished, Hardware as _, HardwareContext, Instance, Lockstep, Reflect, Robot, Start,
+    Stop, Stub, Timestamp,
 };
 use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
@@ -20,7 +20,7 @@ use zoo_vision_reflexes_lights_runtime::databases::control;
 const END: Timestamp = Timestamp::from_nanos(3_000_000_000);
 
 /// The parameters of the whole zoo, with a few more, as those of one of its robots.
-fn parameters<P: DeserializeOwned>(settings: &[(&str, &str)]) -> framework::Result<P> {
+fn parameters<P: DeserializeOwned + Reflect>(settings: &[(&str, &str)]) -> framework::Result<P> {
     let own = |(path, value): &(&str, &str)| ((*path).to_owned(), (*value).to_owned());
     let layers = Layers {
         directory: concat!(env!("CARGO_MANIFEST_DIR"), "/../parameters").into(),
@@ -31,7 +31,7 @@ fn parameters<P: DeserializeOwned>(settings: &[(&str, &str)]) -> framework::Resu
 }
 
 /// One of the zoo's robots on hardware of its own, which has events for all instances.
-fn created<P: DeserializeOwned, R>(
+fn created<P: DeserializeOwned + Reflect, R>(
     create: impl FnOnce(&Arc<Hardware>, Start<P>) -> framework::Result<R>,
 ) -> (Arc<Hardware>, R) {
     let (clock, stop) = (Clock::stepped(), Stop::default());
