@@ -1,8 +1,5 @@
 //! Writers at full speed, greedy readers and several queues on threads, for `HULKGEN_SOAK` seconds (one by default):
 //! nothing is torn, nothing comes twice, and the counters agree in the end.
-//!
-//! Every cycle writes fresh heap memory over what the slot held, so that a slot that is claimed too early is a use after
-//! free, which `.ci/sanitize` shows.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
