@@ -20,13 +20,16 @@ struct Delivered {
     cycle: u64,
 }
 
+/// What one cycle got as persistent: timestamp, instance, cycle number.
+type Delivered = Vec<(Timestamp, &'static str, u64)>;
+
 /// What became known in one run.
 #[derive(Default)]
 struct Run {
     /// Timestamps of completed cycles by instance, in the order of their numbers.
     completed: BTreeMap<&'static str, Vec<Timestamp>>,
     /// By consumer, of each of its cycles.
-    delivered: BTreeMap<&'static str, Vec<Vec<(Timestamp, &'static str, u64)>>>,
+    delivered: BTreeMap<&'static str, Vec<Delivered>>,
     missed: BTreeMap<&'static str, u64>,
 }
 
