@@ -21,7 +21,7 @@ struct Delivered {
 }
 
 /// What one cycle got as persistent: timestamp, instance, cycle number.
-type Delivered = Vec<(Timestamp, &'static str, u64)>;
+type Persistent = Vec<(Timestamp, &'static str, u64)>;
 
 /// What became known in one run.
 #[derive(Default)]
@@ -29,7 +29,7 @@ struct Run {
     /// Timestamps of completed cycles by instance, in the order of their numbers.
     completed: BTreeMap<&'static str, Vec<Timestamp>>,
     /// By consumer, of each of its cycles.
-    delivered: BTreeMap<&'static str, Vec<Delivered>>,
+    delivered: BTreeMap<&'static str, Vec<Persistent>>,
     missed: BTreeMap<&'static str, u64>,
 }
 
