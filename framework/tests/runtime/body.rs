@@ -1,6 +1,5 @@
 //! Two small cyclers in the style of generated code: `Eye` perceives, `Legs` consume what it saw.
 
-use std::collections::HashMap;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -81,7 +80,9 @@ impl Mistake {
                 std::hint::black_box(Instant::now()).elapsed().as_nanos() as u64
             }
             Self::IteratesAHashMap => {
-                let map: HashMap<u64, ()> = (0..64).map(|key| (key, ())).collect();
+                #[expect(clippy::disallowed_types, reason = "it is the mistake")]
+                let map: std::collections::HashMap<u64, ()> =
+                    (0..64).map(|key| (key, ())).collect();
                 map.into_keys()
                     .fold(0, |order, key| order.wrapping_mul(31).wrapping_add(key))
             }

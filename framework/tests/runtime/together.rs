@@ -1,6 +1,5 @@
 //! Several robots in one world: the number of threads changes no bit.
 
-use std::collections::HashSet;
 use std::sync::atomic::AtomicU64;
 use std::sync::{Arc, Mutex};
 use std::thread::ThreadId;
@@ -28,12 +27,15 @@ struct Ran {
 }
 
 /// Notes on which threads cycles begin.
-struct Noting<'run>(&'run Mutex<HashSet<ThreadId>>);
+struct Noting<'run>(&'run Mutex<Vec<ThreadId>>);
 
 impl Observer for Noting<'_> {
     fn begun(&mut self, _: &mut dyn Instance) {
         let mut noted = self.0.lock().expect("not poisoned");
-        noted.insert(std::thread::current().id());
+        let thread = std::thread::current().id();
+        if !noted.contains(&thread) {
+            noted.push(thread);
+        }
     }
 }
 
