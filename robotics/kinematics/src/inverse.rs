@@ -40,7 +40,7 @@ pub struct LegsAngles<T> {
 ///
 /// `left_share` says whose yaw the shared motor follows, from 0 (the right foot's) to 1 (the left foot's). Where the yaws of
 /// the feet are no mirror images, soles stay where they were asked for and turn about themselves. Limits of joints are not
-/// looked at: that is [`crate::clamp`].
+/// looked at: that is [`crate::limits::clamp`].
 pub fn leg_angles<T: RealField + Copy>(
     soles_to_torso: &Feet<Isometry3<T>>,
     left_share: T,
