@@ -81,7 +81,7 @@ fn errors(data: &str, files: &[(&str, &str)]) -> (Vec<String>, bool) {
          #[context]\npub struct CycleContext {{ a: Parameter<{data}, \"a\"> }}\n\
          #[context]\npub struct MainOutputs {{}}\n\
          impl Node {{\npub fn new(_: CreationContext) -> Result<Self> {{ Ok(Self) }}\n\
-         pub fn cycle(&mut self, _: CycleContext) -> Result<MainOutputs> {{ todo!() }}\n}}\n"
+         pub fn cycle(&mut self, _: CycleContext) -> Result<MainOutputs> {{ Ok(MainOutputs {{}}) }}\n}}\n"
     );
     let manifest = "[robot]\nname = \"test\"\ngenerated = \"generated\"\nparameters = \"parameters\"\nidentities = [\"head\"]\n\
                     [[cycler]]\nname = \"Control\"\nkind = \"real-time\"\nnodes = [\"nodes::node\"]\n";

@@ -83,7 +83,7 @@ impl Block {
         }
         self.bytes.push(opcode::MESSAGE);
         self.bytes.extend(0_u64.to_le_bytes());
-        self.bytes.extend(channel.0.to_le_bytes());
+        self.bytes.extend(channel.number().to_le_bytes());
         self.bytes.extend(sequence.to_le_bytes());
         self.bytes.extend(time.to_le_bytes());
         self.bytes.extend(time.to_le_bytes());

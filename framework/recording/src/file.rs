@@ -5,7 +5,7 @@ use std::fs::File;
 use std::io::{self, Seek, SeekFrom, Write};
 use std::path::Path;
 
-use crate::format::{MAGIC, MESSAGE_HEAD, Put, RECORD_HEAD, Take, opcode};
+use crate::format::{MAGIC, Put, RECORD_HEAD, Take, opcode};
 use crate::ring::Ring;
 
 /// What there is to say before anything was recorded.
@@ -31,6 +31,13 @@ pub struct Schema {
 /// A channel by its place in [`Description::channels`], counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ChannelId(pub u16);
+
+impl ChannelId {
+    /// Its number in the file, where they count from 1.
+    pub(crate) fn number(self) -> u16 {
+        self.0 + 1
+    }
+}
 
 /// Messages of one kind.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -164,32 +171,32 @@ impl Writer {
     /// Adds the messages of one block to the chunk that is open.
     pub(crate) fn add(&mut self, messages: &[u8]) {
         let mut rest = Take(messages);
-        while let Some((opcode::MESSAGE, content)) = rest.record() {
+        loop {
+            let before = rest.0;
+            let Some((opcode::MESSAGE, content)) = rest.record() else {
+                break;
+            };
             let mut head = Take(content);
-            let (Some(channel), Some(sequence), Some(time)) = (head.u16(), head.u32(), head.u64())
+            let (Some(number), Some(sequence), Some(time)) = (head.u16(), head.u32(), head.u64())
             else {
                 break;
             };
-            let is_once = self.description.channels.get(usize::from(channel));
-            if is_once.is_some_and(|channel| channel.once_per_chunk)
-                && !self.known.insert((channel, sequence))
-            {
+            if self.once_per_chunk(number) && !self.known.insert((number, sequence)) {
                 continue;
             }
-            let offset = self.chunk.len() as u64;
-            self.messages
-                .entry(channel)
-                .or_default()
-                .push((time, offset));
+            let place = (time, self.chunk.len() as u64);
+            self.messages.entry(number).or_default().push(place);
             let (first, last) = self.times.unwrap_or((time, time));
             self.times = Some((first.min(time), last.max(time)));
-            // Channels count from 1 in the file.
-            self.chunk.put_record(opcode::MESSAGE, |record| {
-                record.put_u16(channel + 1);
-                record.extend_from_slice(&content[2..]);
-            });
-            debug_assert!(content.len() >= MESSAGE_HEAD);
+            let record = before.len() - rest.0.len();
+            self.chunk.extend_from_slice(&before[..record]);
         }
+    }
+
+    fn once_per_chunk(&self, number: u16) -> bool {
+        let place = usize::from(number).checked_sub(1);
+        let channel = place.and_then(|place| self.description.channels.get(place));
+        channel.is_some_and(|channel| channel.once_per_chunk)
     }
 
     /// Bytes of the chunk that is open, not compressed.
@@ -210,14 +217,12 @@ impl Writer {
         index.start = self.position;
         index.length = buffer.len() as u64;
         self.chunk.clear();
-        for (channel, mut places) in messages {
+        for (number, mut places) in messages {
             places.sort_unstable();
             let offset = self.position + buffer.len() as u64;
-            index
-                .lists
-                .insert(channel + 1, (offset, places.len() as u64));
+            index.lists.insert(number, (offset, places.len() as u64));
             buffer.put_record(opcode::MESSAGE_INDEX, |content| {
-                content.put_u16(channel + 1);
+                content.put_u16(number);
                 content.put_list(|list| {
                     for (time, offset) in places {
                         list.put_u64(time);

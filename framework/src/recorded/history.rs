@@ -19,15 +19,11 @@ impl<T: Clone + Serialize> History<T> {
         out: &mut Saving<'_, '_>,
     ) -> Result<(), SaveError> {
         let all = self.project(|value| value);
-        let first = since.map_or(0, |since| {
-            (0..all.len())
-                .rev()
-                .take_while(|index| all.value(*index).0 >= since)
-                .last()
-                .unwrap_or(all.len())
-        });
+        let is_newer = |index: &usize| since.is_none_or(|since| all.value(*index).0 >= since);
+        let newer = (0..all.len()).rev().take_while(is_newer).count();
+        let first = all.len() - newer;
         out.put(&since.is_none())?;
-        out.put(&((all.len() - first) as u32))?;
+        out.put(&(newer as u32))?;
         for index in first..all.len() {
             out.put(&all.value(index))?;
         }

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::{Loading, SaveError, Saving};
 use crate::buffer::{Reader, Writer};
 use crate::error::{Error, Result};
-use crate::temporal::Consumer;
+use crate::temporal::{Consumer, Lane};
 use crate::time::Timestamp;
 
 /// Gives the value that the instance wrote in the cycle of this number.
@@ -94,16 +94,16 @@ impl<T> Foreign<T> for Consumer<T> {
         &self,
         visit: &mut dyn FnMut(u64, &T) -> Result<(), SaveError>,
     ) -> Result<(), SaveError> {
-        (0..self.seen()).try_for_each(|index| match self.entry(index) {
+        (0..self.visible()).try_for_each(|index| match self.entry(index) {
             Some((entry, _)) => visit(entry.cycle, &entry.value),
             None => Ok(()),
         })
     }
 
     fn save(&self, out: &mut Saving<'_, '_>) -> Result<(), SaveError> {
-        out.put(&(self.seen() as u32))?;
-        out.put(&(self.seen_persistent() as u32))?;
-        for (entry, order) in (0..self.seen()).filter_map(|index| self.entry(index)) {
+        out.put(&(self.visible() as u32))?;
+        out.put(&(self.persistent() as u32))?;
+        for (entry, order) in (0..self.visible()).filter_map(|index| self.entry(index)) {
             out.put(&Named {
                 cycle: entry.cycle,
                 timestamp: entry.timestamp,

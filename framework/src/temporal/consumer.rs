@@ -102,16 +102,6 @@ impl<T> Consumer<T> {
         }
     }
 
-    /// How many cycles the consuming cycle sees.
-    pub fn seen(&self) -> usize {
-        self.visible
-    }
-
-    /// How many of them are persistent: the oldest.
-    pub fn seen_persistent(&self) -> usize {
-        self.persistent
-    }
-
     /// A cycle that is seen, and its order.
     pub fn entry(&self, index: usize) -> Option<(&Entry<T>, Timestamp)> {
         let place = self.places.get(index)?;

@@ -11,10 +11,10 @@ use crate::feet::SOLE_BELOW_ANKLE;
 use crate::links::LinkName;
 
 /// From the hip to the knee, in m (NAO V6 URDF).
-pub const THIGH: f64 = 0.1;
+pub const THIGH: f64 = -LinkName::LeftTibia.origin()[2];
 
 /// From the knee to the ankle, in m (NAO V6 URDF).
-pub const TIBIA: f64 = 0.1029;
+pub const TIBIA: f64 = -LinkName::LeftAnkle.origin()[2];
 
 /// Angles of one leg below the shared motor, in rad.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -8,7 +8,7 @@ mod dynamic;
 mod kinematic;
 
 pub(crate) use body::heading;
-pub use body::{Body, Start};
+pub use body::{Body, Start, weight};
 pub use dynamic::{Dynamic, ROLLING_DECELERATION};
 pub use kinematic::Kinematic;
 

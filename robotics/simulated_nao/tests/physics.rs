@@ -2,11 +2,11 @@
 
 use kinematics::feet::SOLE_BELOW_ANKLE;
 use kinematics::inertial::GRAVITY;
-use kinematics::links::{LINKS, LinkName, TORSO};
+use kinematics::links::{LINKS, LinkName};
 use kinematics::{forward_kinematics, limits};
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
 use simulated_nao::physics::{
-    Body, Disturbance, Dynamic, Physics, ROLLING_DECELERATION, STEP, Situation, Start,
+    Body, Disturbance, Dynamic, Physics, ROLLING_DECELERATION, STEP, Situation, Start, weight,
 };
 use simulated_nao::posture;
 use types::feet::Feet;
@@ -64,10 +64,6 @@ fn run(physics: &mut Dynamic, seconds: f64, commands: &[MotorCommands]) {
     for _ in 0..(seconds / STEP.as_secs_f64()).round() as usize {
         physics.step(commands);
     }
-}
-
-fn weight() -> f64 {
-    (LINKS.iter().map(|link| link.mass.mass).sum::<f64>() + TORSO.mass) * GRAVITY
 }
 
 fn pressure(body: &Body) -> f64 {

@@ -2,6 +2,7 @@
 
 use framework::{Clear, Reflect};
 use kinematics::leg_angles;
+use kinematics::links::LinkName;
 use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 use serde::{Deserialize, Serialize};
 use types::feet::{Feet, Side};
@@ -15,7 +16,7 @@ use crate::step::Step;
 use crate::stride::{Stride, other, standing};
 
 /// From the torso's origin down to the axis of the hips, in m (NAO V6 URDF).
-const HIPS_BELOW_TORSO: f32 = 0.085;
+const HIPS_BELOW_TORSO: f32 = -LinkName::LeftPelvis.origin()[2] as f32;
 
 /// What the walk feels in one cycle.
 #[derive(Clear, Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]

@@ -4,7 +4,6 @@ mod description;
 mod readers;
 mod support;
 
-use std::convert::Infallible;
 use std::os::unix::fs::MetadataExt as _;
 use std::process::Command;
 use std::time::Duration;
@@ -280,16 +279,6 @@ proptest! {
         file.splice(40.min(file.len()).., bytes);
         read(&file);
     }
-}
-
-#[test]
-fn errors_of_messages_can_be_anything() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join("run.mcap");
-    let (_recorder, mut tracks) =
-        Recorder::start(&path, description(), &["Control"], settings()).expect("it is new");
-    let recorded = tracks[0].frame::<Infallible>(0, 0, |_| Ok(()));
-    assert_eq!(recorded, Recorded::Whole);
 }
 
 /// Where the child of the test below writes.

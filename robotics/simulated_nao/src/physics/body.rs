@@ -119,7 +119,7 @@ impl Body {
 }
 
 /// The weight of a robot in N.
-pub(super) fn weight() -> f64 {
+pub fn weight() -> f64 {
     (LINKS.iter().map(|link| link.mass.mass).sum::<f64>() + TORSO.mass) * GRAVITY
 }
 

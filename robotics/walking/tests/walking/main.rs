@@ -1,53 +1,16 @@
 //! Whatever is wished for, feet and joints move as legs can.
 
+mod parameters;
+
 use kinematics::limits;
 use proptest::prelude::*;
 use types::feet::{Feet, Side};
 use types::joints::{JointName, Joints};
-use walking::{
-    ArmParameters, BalanceParameters, Engine, Limits, Parameters, Senses, Step, StrideParameters,
-};
+use walking::{Engine, Senses, Step};
+
+use parameters::parameters;
 
 const CYCLE: f32 = 0.012;
-
-/// As teams of the league published theirs.
-fn parameters() -> Parameters {
-    Parameters {
-        limits: Limits {
-            forward: 0.065,
-            backward: 0.04,
-            sideways: 0.08,
-            turn: 0.6,
-            acceleration: 0.01,
-            turn_acceleration: 0.2,
-        },
-        stride: StrideParameters {
-            duration: 0.26,
-            duration_per_meter: 0.1,
-            apex: 0.012,
-            apex_per_meter: 0.1,
-            earliest_contact: 0.18,
-            contact_threshold: 0.3,
-            timeout: 0.6,
-        },
-        balance: BalanceParameters {
-            pitch_gain: 0.05,
-            roll_gain: 0.02,
-            newest: 0.4,
-            greatest_speed: 4.0,
-        },
-        arms: ArmParameters {
-            roll: 0.13,
-            swing: 6.0,
-            stiffness: 0.5,
-        },
-        hip_height: 0.22,
-        torso_offset: 0.0,
-        torso_tilt: 0.05,
-        foot_offset: 0.05,
-        leg_stiffness: 1.0,
-    }
-}
 
 /// A floor: feet feel it once their stride has come down.
 fn pressures(engine: &Engine, floor_at: f32) -> Feet<f32> {
