@@ -1,0 +1,79 @@
+//! How long things take.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// All instances since the start.
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+pub struct Timings {
+    /// The robot's clock, in nanoseconds: what lies between two of these happened between their times.
+    pub time: u64,
+    /// In manifest order.
+    pub instances: Vec<InstanceTimings>,
+}
+
+/// One instance.
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+pub struct InstanceTimings {
+    /// Its name.
+    pub name: String,
+    /// Finished cycles.
+    pub cycles: u64,
+    /// Cycles that took longer than the deadline.
+    pub overruns: u64,
+    /// Cycles that failed.
+    pub failures: u64,
+    /// How long a cycle may take, in microseconds.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub deadline: Option<f64>,
+    /// From the capture point to the end; absent where nothing was timed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cycle: Option<Durations>,
+    /// Of it, what was not spent in nodes.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub framework: Option<Durations>,
+    /// In the order in which they run.
+    pub nodes: Vec<NodeTimings>,
+    /// Perception instances that it consumes.
+    pub queues: Vec<QueueTimings>,
+}
+
+/// One node of an instance.
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+pub struct NodeTimings {
+    /// Its path in the manifest.
+    pub node: String,
+    /// How often it ran.
+    pub calls: u64,
+    /// How often it did not, because a required input was absent.
+    pub skipped: u64,
+    /// How often it failed.
+    pub failures: u64,
+    /// Of timed calls; absent where nothing was timed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub durations: Option<Durations>,
+}
+
+/// Cycles of a perception instance, as far as one consumer is concerned.
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+pub struct QueueTimings {
+    /// The perception instance.
+    pub from: String,
+    /// Cycles that came.
+    pub delivered: u64,
+    /// Cycles that came after the consumer had gone on without them.
+    pub late: u64,
+    /// Cycles that found no place.
+    pub dropped: u64,
+}
+
+/// Durations in microseconds.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+pub struct Durations {
+    /// Half are shorter.
+    pub p50: f64,
+    /// Of 100, 99 are shorter.
+    pub p99: f64,
+    /// The longest.
+    pub max: f64,
+}
