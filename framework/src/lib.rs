@@ -13,6 +13,7 @@
 //! | [`mod@context`], [`mod@procedure`] | what a node sees: the kinds of the context fields |
 //! | [`mod@buffer`] | the newest database of an instance, without blocking, lock or copy; the only unsafe code |
 //! | [`stub`] | what stands in for an instance that a partial robot does without |
+//! | [`pool`] | large values that are handed on by handle |
 //! | [`temporal`], [`history`] | results of perception in order of time; own outputs by time |
 //! | [`recorded`] | what a cycle took, saved and given back |
 //! | [`subscriptions`], [`injection`] | clients: listen to an output, replace one |
@@ -38,6 +39,7 @@ pub mod history;
 pub mod injection;
 pub mod launch;
 pub mod parameters;
+pub mod pool;
 pub mod procedure;
 pub mod rearm;
 pub mod recorded;
@@ -76,6 +78,7 @@ pub use history::{HistoricInput, History, Past, Stored};
 pub use injection::{Inject, Injected, Injection, InjectionCell, InjectionTable, Injector};
 pub use launch::Target;
 pub use parameters::LiveParameters;
+pub use pool::{Free, Leased, Pool};
 pub use procedure::{Answerer, Call, CallAny, Caller, Pending, PendingAny, Refused, procedure};
 pub use rearm::Rearm;
 pub use reflect::Reflect;
