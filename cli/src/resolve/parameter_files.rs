@@ -11,6 +11,7 @@ mod keys;
 mod layer;
 mod opaque;
 mod other_names;
+mod unset;
 mod values;
 mod variants;
 mod winners;
@@ -29,6 +30,7 @@ use crate::workspace::Workspace;
 
 use expected::Expected;
 use layer::Layer;
+use unset::{Left, Part};
 
 pub use given::{Answer, Asked, Given, Identity, Robots, Value, given};
 pub use winners::Winner;
@@ -162,6 +164,7 @@ impl Checker<'_> {
             }
             path.push(name.to_string());
             match children.get(name) {
+                Some(_) if unset::is_unset(value.get_ref()) => {}
                 Some(child) => self.check_value(file, value, &child.expected, path, diagnostics),
                 None => {
                     let help = nearest(name, children.names())
@@ -217,11 +220,16 @@ impl Checker<'_> {
                     || location.as_deref() == Some(layer.file)
                     || layer.file.file_name() != Some("default.toml")
             };
-            let tables: Vec<&DeTable<'_>> = layers
+            let mut tables: Vec<Part<'_>> = layers
                 .iter()
                 .filter(of_target)
-                .map(|layer| &layer.table)
+                .map(|layer| Part {
+                    table: &layer.table,
+                    is_certain: layer.robots.identity.is_none(),
+                })
                 .collect();
+            // As they are merged: the default of all, that of the location, those of identities.
+            tables.sort_by_key(|part| !part.is_certain);
             let root = Expected::Tree(&self.robot.parameter_tree);
             self.report_missing(first, &tables, &root, &mut Vec::new(), diagnostics);
         }
@@ -242,7 +250,7 @@ impl Checker<'_> {
     fn report_missing(
         &self,
         first: &Layer<'_>,
-        tables: &[&DeTable<'_>],
+        tables: &[Part<'_>],
         expected: &Expected<'_>,
         path: &mut Vec<String>,
         diagnostics: &mut Diagnostics,
@@ -250,19 +258,15 @@ impl Checker<'_> {
         let Some(children) = expected.children(self.sources) else {
             return;
         };
-        for (name, child) in children.of_tables(tables) {
-            let values: Vec<&DeValue<'_>> = tables
-                .iter()
-                .filter_map(|table| child.names(&name).find_map(|name| table.get(name)))
-                .map(|value| value.get_ref())
-                .collect();
-            let below: Vec<&DeTable<'_>> =
-                values.iter().filter_map(|value| value.as_table()).collect();
-            path.push(name);
+        for (name, child) in children.of_tables(tables.iter().map(|part| part.table)) {
+            let names: Vec<&str> = child.names(&name).collect();
+            let left = unset::left(tables, &names);
+            let below: Vec<Part<'_>> = left.iter().filter_map(Left::part).collect();
+            path.push(name.clone());
             let is_tree = matches!(child.expected, Expected::Tree(_));
-            if is_tree || !below.is_empty() && below.len() == values.len() {
+            if is_tree || !below.is_empty() && below.len() == left.len() {
                 self.report_missing(first, &below, &child.expected, path, diagnostics);
-            } else if values.is_empty() && child.required {
+            } else if left.is_empty() && child.required {
                 diagnostics.add(self.missing(first, path));
             }
             path.pop();

@@ -86,11 +86,14 @@ impl<'a> Children<'a> {
     }
 
     /// What these tables have, and what they should have.
-    pub(super) fn of_tables(self, tables: &[&DeTable<'_>]) -> BTreeMap<String, Child<'a>> {
+    pub(super) fn of_tables<'t>(
+        self,
+        tables: impl IntoIterator<Item = &'t DeTable<'t>>,
+    ) -> BTreeMap<String, Child<'a>> {
         match self {
             Self::Named(children) => children,
             Self::Any(data) => {
-                let keys = tables.iter().flat_map(|table| table.keys());
+                let keys = tables.into_iter().flat_map(|table| table.keys());
                 let names: BTreeSet<String> = keys.map(|key| key.get_ref().to_string()).collect();
                 let child = |name| (name, Child::of(data.clone()));
                 names.into_iter().map(child).collect()

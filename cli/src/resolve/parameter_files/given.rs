@@ -8,6 +8,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::keys::{self, Key};
+use super::unset::is_unset;
 use super::{choice, layer};
 use crate::diagnostics::{Diagnostics, position};
 use crate::manifest::Manifest;
@@ -241,8 +242,9 @@ impl<'a> Place<'a> {
 
     /// Fields that are merged one by one: those of the struct, else what the tables have.
     fn names(&self, sources: &Sources<'_>) -> Vec<String> {
-        let tables = (self.found.iter()).filter_map(|found| found.value.get_ref().as_table());
-        let tables: Vec<_> = tables.collect();
+        let given = self.found.iter().map(|found| found.value.get_ref());
+        let given = given.filter(|value| !is_unset(value));
+        let tables: Vec<_> = given.filter_map(DeValue::as_table).collect();
         if tables.is_empty() || self.is_replaced_whole(sources) {
             return Vec::new();
         }
@@ -281,6 +283,10 @@ impl<'a> Place<'a> {
         };
         let found: Vec<Found<'a>> = (self.found.iter())
             .filter_map(|found| {
+                // What takes everything away takes this away.
+                if is_unset(found.value.get_ref()) {
+                    return Some(found.clone());
+                }
                 let table = found.value.get_ref().as_table()?;
                 let value = names.iter().find_map(|name| table.get(*name))?;
                 Some(Found {

@@ -43,7 +43,7 @@ fn check_tables(
         return;
     };
     let only: Vec<&DeTable<'_>> = tables.iter().map(|(_, table)| *table).collect();
-    for (name, child) in children.of_tables(&only) {
+    for (name, child) in children.of_tables(only.iter().copied()) {
         if child.alias_of.is_some() {
             continue;
         }

@@ -366,3 +366,28 @@ fn what_serde_alone_can_read_is_opaque_and_nothing_else() {
     assert!(unchecked.locations.iter().eq(&field));
     assert!(unchecked.other_locations.iter().eq(["lab"]));
 }
+
+#[test]
+fn what_a_layer_takes_away_is_missed_where_it_has_to_be_given() {
+    let limits = "b: Parameter<Limits, \"limits\">,\na: Parameter<Option<f32>, \"a\">,";
+    let robot = |field: &str, head: &str| {
+        robot(limits, NAO)
+            .file(
+                "parameters/default.toml",
+                "a = 1\nlimits = { low = 1, high = 2 }\n",
+            )
+            .file("parameters/field/default.toml", field)
+            .file("parameters/head.P1.toml", head)
+    };
+    let gone = "a = { unset = true }\n";
+    robot(gone, "").robot();
+    robot("limits.low = { unset = true }\n", "")
+        .expect("missing-parameter", &["no file gives", "`limits.low`"]);
+    robot("limits = { unset = true }\n", "limits.high = 1\n")
+        .expect("missing-parameter", &["no file gives", "`limits.low`"]);
+    // Only of robots that have this head, and nobody knows which those are.
+    robot("", "limits.low = { unset = true }\n").robot();
+    // Nothing but `unset = true` takes away.
+    robot("a = { unset = false }\n", "").expect("mistyped-parameter", &["`a` is a table"]);
+    robot("b = { unset = true }\n", "").expect("unknown-parameter", &["`b`"]);
+}

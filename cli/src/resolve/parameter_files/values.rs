@@ -128,7 +128,7 @@ fn check_fields(
             return Some(mistake);
         }
     }
-    let children = children.clone().of_tables(&[table]);
+    let children = children.clone().of_tables([table]);
     let lacking = children.iter().find(|(name, child)| {
         child.required && !child.names(name).any(|name| table.contains_key(name))
     });

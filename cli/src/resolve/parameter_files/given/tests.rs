@@ -194,3 +194,15 @@ fn every_kind_of_robot_has_one_winner() {
         ]
     );
 }
+
+#[test]
+fn a_value_that_is_taken_away_is_told_for_everything_below_it() {
+    let robot = fixture().file(
+        "parameters/field/default.toml",
+        "filter = { unset = true }  # never here\n",
+    );
+    let answer = answer(&robot, &["time"]).expect("it is a parameter");
+    let given = &answer.values[0].given[1];
+    assert_eq!(given.value, "{ unset = true }");
+    assert_eq!(given.comment.as_deref(), Some("never here"));
+}
