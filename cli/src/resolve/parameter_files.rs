@@ -28,7 +28,7 @@ use crate::manifest::Manifest;
 use crate::scan::Sources;
 use crate::workspace::Workspace;
 
-use expected::Expected;
+use expected::{Child, Expected};
 use layer::Layer;
 use unset::{Left, Part};
 
@@ -79,7 +79,7 @@ pub fn check(
     };
     for layer in &layers {
         checker.check_hardware(layer, diagnostics);
-        let root = Expected::Tree(&robot.parameter_tree);
+        let root = Child::tree(&robot.parameter_tree);
         checker.check_table(
             layer.file,
             &layer.table,
@@ -150,11 +150,11 @@ impl Checker<'_> {
         &self,
         file: &Utf8Path,
         table: &DeTable<'_>,
-        expected: &Expected<'_>,
+        place: &Child<'_>,
         path: &mut Vec<String>,
         diagnostics: &mut Diagnostics,
     ) {
-        let Some(children) = expected.children(self.sources) else {
+        let Some(children) = place.expected.children(self.sources) else {
             return;
         };
         for (key, value) in table {
@@ -165,7 +165,10 @@ impl Checker<'_> {
             path.push(name.to_string());
             match children.get(name) {
                 Some(_) if unset::is_unset(value.get_ref()) => {}
-                Some(child) => self.check_value(file, value, &child.expected, path, diagnostics),
+                Some(child) => {
+                    let child = child.within(place.limits);
+                    self.check_value(file, value, &child, path, diagnostics);
+                }
                 None => {
                     let help = nearest(name, children.names())
                         .map(|near| format!("did you mean `{near}`?"));
@@ -184,16 +187,17 @@ impl Checker<'_> {
         &self,
         file: &Utf8Path,
         value: &Spanned<DeValue<'_>>,
-        expected: &Expected<'_>,
+        place: &Child<'_>,
         path: &mut Vec<String>,
         diagnostics: &mut Diagnostics,
     ) {
-        if let (DeValue::Table(table), true) =
-            (value.get_ref(), expected.children(self.sources).is_some())
-        {
-            return self.check_table(file, table, expected, path, diagnostics);
+        if let (DeValue::Table(table), true) = (
+            value.get_ref(),
+            place.expected.children(self.sources).is_some(),
+        ) {
+            return self.check_table(file, table, place, path, diagnostics);
         }
-        if let Some(wrong) = values::mistake(value, expected, self.sources) {
+        if let Some(wrong) = values::mistake(value, place, self.sources) {
             let message = format!("`{}` {}", path.join("."), wrong.message);
             let error = Diagnostic::new(Code::MistypedParameter, message)
                 .at(file, wrong.place, "")

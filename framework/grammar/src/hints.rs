@@ -1,5 +1,7 @@
 //! `#[reflect(…)]` of a field: what people and clients should know about its value.
 
+use std::fmt;
+
 use syn::spanned::Spanned;
 use syn::{Attribute, Expr, ExprLit, Lit, LitStr, Meta, RangeLimits, UnOp};
 
@@ -60,6 +62,20 @@ pub fn is_hint_attribute(attribute: &Attribute) -> bool {
 }
 
 impl Range {
+    /// Whether a number lies in it; of an `f32`, whose bounds are rounded as it is, that cannot be told more exactly.
+    pub fn contains(&self, number: f64) -> bool {
+        #[expect(clippy::cast_possible_truncation, reason = "that is what is wanted")]
+        let round = |number: f64| f64::from(number as f32);
+        let is_below =
+            |number: f64, maximum: f64| number < maximum || number == maximum && !self.is_half_open;
+        let is_above_minimum = (self.minimum)
+            .is_none_or(|minimum| number >= minimum || round(number) >= round(minimum));
+        let is_below_maximum = self.maximum.is_none_or(|maximum| {
+            is_below(number, maximum) || is_below(round(number), round(maximum))
+        });
+        is_above_minimum && is_below_maximum
+    }
+
     fn read(expression: &Expr) -> syn::Result<Self> {
         const EXPECTED: &str = "expected a range of numbers: `0.0..=1.0`, `1..` or `..100`";
         let wrong = || syn::Error::new(expression.span(), EXPECTED);
@@ -85,6 +101,20 @@ impl Range {
             }
             _ => Ok(read),
         }
+    }
+}
+
+impl fmt::Display for Range {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(minimum) = self.minimum {
+            write!(formatter, "{minimum}")?;
+        }
+        formatter.write_str("..")?;
+        if let Some(maximum) = self.maximum {
+            let equal = if self.is_half_open { "" } else { "=" };
+            write!(formatter, "{equal}{maximum}")?;
+        }
+        Ok(())
     }
 }
 
@@ -145,6 +175,24 @@ mod tests {
                 (minimum, maximum, is_half_open),
                 "{text}"
             );
+        }
+    }
+
+    #[test]
+    fn numbers_at_the_bounds_are_judged_as_the_robot_does() {
+        for (text, inside, outside) in [
+            (
+                "range = 0.1..=0.3",
+                &[0.1, 0.3, f64::from(0.1_f32)][..],
+                &[0.099, 0.301][..],
+            ),
+            ("range = 0..1", &[0.0, 0.999], &[1.0, -0.001, f64::NAN]),
+            ("range = 1..", &[1.0, 1e300], &[0.999]),
+        ] {
+            let range = read(text).expect(text).range.expect("it has a range");
+            assert_eq!(format!("range = {range}"), text);
+            assert!(inside.iter().all(|it| range.contains(*it)), "{text}");
+            assert!(!outside.iter().any(|it| range.contains(*it)), "{text}");
         }
     }
 

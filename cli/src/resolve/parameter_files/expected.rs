@@ -2,9 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use grammar::{Hints, Range};
 use toml::de::DeTable;
 
-use super::form::{Form, is_optional};
+use super::form::{Form, is_duration, is_optional};
 use super::keys::Key;
 use crate::resolve::robot::{Content, Reader, Tree};
 use crate::scan::Sources;
@@ -25,6 +26,8 @@ pub(super) struct Child<'a> {
     pub(super) expected: Expected<'a>,
     /// It has to be given.
     pub(super) required: bool,
+    /// Where numbers in it must lie, if the field says so.
+    pub(super) limits: Option<Range>,
     /// Other keys that mean the same.
     pub(super) aliases: Vec<String>,
     /// It is another name of the value under this key.
@@ -40,14 +43,34 @@ pub(super) enum Children<'a> {
     Any(Resolved),
 }
 
-impl Child<'_> {
+impl<'a> Child<'a> {
     /// A value that has to be there.
     pub(super) fn of(data: Resolved) -> Self {
         Self {
             required: !is_optional(&data),
             expected: Expected::Value(data),
+            limits: None,
             aliases: Vec::new(),
             alias_of: None,
+        }
+    }
+
+    /// The declared paths themselves.
+    pub(super) fn tree(tree: &'a Tree<Reader>) -> Self {
+        Self {
+            expected: Expected::Tree(tree),
+            ..Self::opaque(false)
+        }
+    }
+
+    /// In a field whose numbers must lie there; its own limits win.
+    pub(super) fn within(self, limits: Option<Range>) -> Self {
+        let own = self.limits.or(limits);
+        // Meant are seconds, which are two numbers in a file.
+        let is_duration = matches!(&self.expected, Expected::Value(data) if is_duration(data));
+        Self {
+            limits: own.filter(|_| !is_duration),
+            ..self
         }
     }
 
@@ -59,7 +82,7 @@ impl Child<'_> {
     }
 
     /// Every key under which the value may stand.
-    pub(super) fn names<'a>(&'a self, name: &'a str) -> impl Iterator<Item = &'a str> {
+    pub(super) fn names<'n>(&'n self, name: &'n str) -> impl Iterator<Item = &'n str> {
         std::iter::once(name).chain(self.aliases.iter().map(String::as_str))
     }
 }
@@ -132,10 +155,7 @@ fn child<'a>(content: &'a Content<Reader>, sources: &Sources<'_>) -> Child<'a> {
                 |node| Child::of(sources.library.resolve_absolute(&node.module, &data.text)),
             )
         }
-        Content::Inner(tree) | Content::Instance { tree, .. } => Child {
-            expected: Expected::Tree(tree),
-            ..Child::opaque(false)
-        },
+        Content::Inner(tree) | Content::Instance { tree, .. } => Child::tree(tree),
     }
 }
 
@@ -146,8 +166,11 @@ pub(super) fn children(keys: Vec<Key>) -> Children<'static> {
         let child = if key.by_function {
             Child::opaque(key.required)
         } else {
+            // What cannot be read is told by the macro.
+            let hints = Hints::read(&key.field.attributes);
             Child {
                 required: key.required,
+                limits: hints.ok().and_then(|hints| hints.range),
                 ..Child::of(key.field.data)
             }
         };

@@ -89,6 +89,14 @@ pub(super) fn is_optional(data: &Resolved) -> bool {
     data.option_argument().is_some() || data.boxed().is_some_and(is_optional)
 }
 
+/// Whether it is a span of time, or may be one.
+pub(super) fn is_duration(data: &Resolved) -> bool {
+    matches!(
+        &bare(data).shape,
+        Shape::Named { definition: Definition::Standard(path), .. } if last(path) == "Duration"
+    )
+}
+
 /// The type without what serde reads as if it were not there.
 pub(super) fn bare(data: &Resolved) -> &Resolved {
     let mut data = data;

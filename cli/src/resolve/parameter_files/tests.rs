@@ -391,3 +391,74 @@ fn what_a_layer_takes_away_is_missed_where_it_has_to_be_given() {
     robot("a = { unset = false }\n", "").expect("mistyped-parameter", &["`a` is a table"]);
     robot("b = { unset = true }\n", "").expect("unknown-parameter", &["`b`"]);
 }
+
+#[test]
+fn numbers_lie_within_the_range_of_their_field() {
+    let types = "
+        #[derive(Deserialize, Reflect, Serialize)]
+        pub struct Filter {
+            #[reflect(range = 0.0..=1.0)]
+            pub gain: f32,
+            #[reflect(range = 0..10)]
+            pub axes: Axes,
+            #[reflect(range = 0..10)]
+            pub wait: std::time::Duration,
+            pub steps: Vec<Step>,
+        }
+        #[derive(Deserialize, Reflect, Serialize)]
+        pub struct Axes { pub x: f32, #[reflect(range = ..=20.5)] pub y: Option<f32> }
+        #[derive(Deserialize, Reflect, Serialize)]
+        pub enum Step { One(Axes), #[allow(unused)] Two { #[reflect(range = 1..)] count: u8 } }
+    ";
+    let robot = |gain: &str, axes: &str, steps: &str| {
+        robot("a: Parameter<types::filter::Filter, \"filter\">,", "")
+            .file("crates/types/src/lib.rs", "pub mod filter;")
+            .file("crates/types/src/filter.rs", types)
+            .file(
+                "parameters/default.toml",
+                &format!(
+                    "[filter]\ngain = {gain}\naxes = {axes}\nwait = {{ secs = 3, nanos = 500 }}\nsteps = [{steps}]\n"
+                ),
+            )
+    };
+    robot(
+        "1",
+        "{ x = 9.9, y = 20.5 }",
+        "{ Two = { count = 1 } }, { One = { x = 100 } }",
+    )
+    .robot();
+    for (gain, axes, steps, message) in [
+        (
+            "1.01",
+            "{ x = 1 }",
+            "",
+            "`filter.gain` is 1.01, not within 0..=1",
+        ),
+        (
+            "-1",
+            "{ x = 1 }",
+            "",
+            "`filter.gain` is -1, not within 0..=1",
+        ),
+        (
+            "1",
+            "{ x = 10 }",
+            "",
+            "`filter.axes.x` is 10, not within 0..10",
+        ),
+        (
+            "1",
+            "{ x = 1, y = 20.6 }",
+            "",
+            "`filter.axes.y` is 20.6, not within ..=20.5",
+        ),
+        (
+            "1",
+            "{ x = 1 }",
+            "{ Two = { count = 0 } }",
+            "`filter.steps` is 0, not within 1..",
+        ),
+    ] {
+        robot(gain, axes, steps).expect("mistyped-parameter", &[message]);
+    }
+}
