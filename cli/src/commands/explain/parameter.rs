@@ -229,7 +229,13 @@ fn value_text(subject: &ParameterSubject, explained: &ExplainedValue) -> String 
     if value.path != subject.path {
         let data = value.data.as_deref();
         let data = data.map_or(String::new(), |data| format!(": {data}"));
-        text.push_str(&format!("  {}{data}\n", value.path));
+        let unit = value.unit.as_ref().map(|unit| format!(" in {unit}"));
+        let range = value
+            .range
+            .as_ref()
+            .map(|range| format!(", within {range}"));
+        let (unit, range) = (unit.unwrap_or_default(), range.unwrap_or_default());
+        text.push_str(&format!("  {}{data}{unit}{range}\n", value.path));
         text.extend(value.docs.iter().map(|docs| format!("    {docs}\n")));
     }
     if value.given.is_empty() {

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use camino::{Utf8Path, Utf8PathBuf};
+use grammar::Hints;
 use serde::Serialize;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -25,6 +26,10 @@ pub struct Value {
     pub data: Option<String>,
     /// What the struct says about the field.
     pub docs: Option<String>,
+    /// Of its numbers, as the field's `#[reflect(unit = …)]` says.
+    pub unit: Option<String>,
+    /// Where they must lie, as `#[reflect(range = …)]` says.
+    pub range: Option<String>,
     /// Later ones win.
     pub given: Vec<Given>,
 }
@@ -93,6 +98,8 @@ pub fn given(
         path: asked.declared.to_owned(),
         data,
         docs: None,
+        unit: None,
+        range: None,
         found: tables
             .iter()
             .filter_map(|it| it.at(asked.declared))
@@ -218,6 +225,8 @@ struct Place<'a> {
     path: String,
     data: Option<Resolved>,
     docs: Option<String>,
+    unit: Option<String>,
+    range: Option<String>,
     found: Vec<Found<'a>>,
 }
 
@@ -236,6 +245,8 @@ impl<'a> Place<'a> {
             path: self.path,
             data: self.data.map(|data| data.text),
             docs: self.docs,
+            unit: self.unit,
+            range: self.range,
             given: self.found.iter().map(Found::describe).collect(),
         });
     }
@@ -299,9 +310,13 @@ impl<'a> Place<'a> {
             return None;
         }
         let written = names.first().copied().unwrap_or(name);
+        let hints = key.as_ref().map(|key| Hints::read(&key.field.attributes));
+        let hints = hints.and_then(Result::ok).unwrap_or_default();
         Some(Self {
             path: format!("{}.{written}", self.path),
             docs: key.as_ref().and_then(|key| docs(&key.field.attributes)),
+            unit: hints.unit.map(|unit| unit.value()),
+            range: hints.range.map(|range| range.to_string()),
             data: key.filter(|key| !key.by_function).map(|key| key.field.data),
             found,
         })

@@ -11,6 +11,7 @@ const TYPES: &str = "
     #[derive(Deserialize)]
     pub struct Filter {
         /// In s.
+        #[reflect(unit = \"s\", range = 0.0..)]
         pub time: f32,
         pub mode: Mode,
     }
@@ -84,6 +85,8 @@ fn layers_stand_in_the_order_in_which_they_are_merged() {
     assert_eq!(time.path, "filter.time");
     assert_eq!(time.data.as_deref(), Some("f32"));
     assert_eq!(time.docs.as_deref(), Some("In s."));
+    assert_eq!(time.unit.as_deref(), Some("s"));
+    assert_eq!(time.range.as_deref(), Some("0.."));
     assert_eq!(time.given[0].comment.as_deref(), Some("s, measured"));
     let line = |given: &Given| format!("{}:{} {}", given.file, given.line, given.value);
     let lines: Vec<String> = time.given.iter().map(line).collect();
