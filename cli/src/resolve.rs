@@ -6,6 +6,7 @@
 
 mod crates;
 mod hardware;
+mod hints;
 mod inputs;
 mod nodes;
 pub mod parameter_files;
@@ -59,8 +60,8 @@ pub fn resolve(
         cyclers.push(cycler);
     }
     mark_readers(&mut cyclers);
-    let (parameter_tree, unchecked) = parameters::parameters(&scene, diagnostics);
-    left_to_rustc += unchecked;
+    let parameters = parameters::parameters(&scene, diagnostics);
+    left_to_rustc += parameters.unchecked;
     let mut robot = Robot {
         name: manifest.robot.name.to_string(),
         generated: manifest.robot.generated.clone(),
@@ -75,7 +76,8 @@ pub fn resolve(
         left_to_rustc: left_to_rustc + cyclers.iter().map(unchecked_edges).sum::<usize>(),
         cyclers,
         partial: None,
-        parameter_tree,
+        parameter_tree: parameters.tree,
+        parameter_hints: parameters.hints,
         crates: Vec::new(),
         inherited: workspace.members().inherited.clone(),
     };

@@ -33,6 +33,7 @@ pub(crate) fn robot() -> Robot {
         partial: None,
         targets: vec![target("simulated"), target("nao")],
         parameter_tree: parameter_tree(),
+        parameter_hints: Default::default(),
         inherited: Vec::new(),
         crates: Vec::new(),
         left_to_rustc: 1,

@@ -17,7 +17,8 @@ pub struct Parameters {
 pub fn describe(robot: &Robot) -> Parameters {
     let docs =
         |readers: &[Reader]| sentences::list(readers.iter().map(|reader| reader.node.as_str()));
-    let structs = Structs::new(robot, "", &docs).describe("Parameters", &robot.parameter_tree);
+    let mut structs = Structs::new(robot, "", &docs).hinted(&robot.parameter_hints);
+    let structs = structs.describe("Parameters", &robot.parameter_tree);
     Parameters { structs }
 }
 

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use super::names::{Names, PRELUDE, upper_camel_case};
+pub use crate::resolve::robot::Hints;
 use crate::resolve::robot::{Content, Robot, Tree};
 
 /// Traits that are derived for the structs and are not the prelude's.
@@ -25,6 +26,8 @@ pub struct StructField {
     pub name: String,
     /// Its doc comment, empty if it has none: who uses it.
     pub docs: String,
+    /// What clients are told about it; nothing in other trees than that of the parameters.
+    pub hints: Hints,
     pub content: FieldType,
 }
 
@@ -37,12 +40,22 @@ pub enum FieldType {
     Struct(String),
 }
 
+/// Where a level lies.
+#[derive(Default)]
+struct Place {
+    /// What names of types begin with.
+    types: String,
+    /// As parameter files write it.
+    path: String,
+}
+
 /// Structs of a tree: the root first, then the levels below in the order of their fields.
 pub struct Structs<'a, U> {
     robot: &'a Robot,
     /// In front of the names of all structs but the root's.
     prefix: &'a str,
     docs: &'a dyn Fn(&[U]) -> String,
+    hints: Option<&'a BTreeMap<String, Hints>>,
     names: Names,
     /// What the instances of a cycler look like at a place of the tree, and the struct's name.
     instances: BTreeMap<(String, usize), Vec<Struct>>,
@@ -55,21 +68,30 @@ impl<'a, U> Structs<'a, U> {
             robot,
             prefix,
             docs,
+            hints: None,
             names: Names::with(PRELUDE.into_iter().chain(DERIVED).map(str::to_owned)),
             instances: BTreeMap::new(),
         }
     }
 
+    /// With what is known of declared values, by path.
+    #[must_use]
+    pub fn hinted(mut self, hints: &'a BTreeMap<String, Hints>) -> Self {
+        self.hints = Some(hints);
+        self
+    }
+
     /// The structs of this tree, whose root has this name.
     pub fn describe(&mut self, root: &str, tree: &Tree<U>) -> Vec<Struct> {
         let name = self.names.give(root);
-        self.level(name, "", tree)
+        self.level(name, &Place::default(), tree)
     }
 
-    fn level(&mut self, name: String, path: &str, tree: &Tree<U>) -> Vec<Struct> {
+    fn level(&mut self, name: String, place: &Place, tree: &Tree<U>) -> Vec<Struct> {
         let mut fields = Vec::new();
         let mut below = Vec::new();
         for branch in &tree.branches {
+            let written = place.written(&branch.name);
             let mut docs = String::new();
             let content = match &branch.content {
                 Content::Leaf { data, users } => {
@@ -77,13 +99,25 @@ impl<'a, U> Structs<'a, U> {
                     FieldType::Data(data.text.clone())
                 }
                 Content::Inner(tree) => {
-                    let path = format!("{path}{}", upper_camel_case(&branch.name));
-                    let name = self.names.give(&format!("{}{path}", self.prefix));
-                    below.extend(self.level(name.clone(), &path, tree));
+                    let types = format!("{}{}", place.types, upper_camel_case(&branch.name));
+                    let name = self.names.give(&format!("{}{types}", self.prefix));
+                    let place = Place {
+                        types,
+                        path: written.clone(),
+                    };
+                    below.extend(self.level(name.clone(), &place, tree));
                     FieldType::Struct(name)
                 }
                 Content::Instance { cycler, tree } => {
-                    let (name, structs) = self.instance(path, *cycler, tree);
+                    let types = format!(
+                        "{}{}Instance",
+                        place.types, self.robot.cyclers[*cycler].name
+                    );
+                    let place = Place {
+                        types,
+                        path: written.clone(),
+                    };
+                    let (name, structs) = self.instance(place, *cycler, tree);
                     below.extend(structs);
                     FieldType::Struct(name)
                 }
@@ -91,6 +125,11 @@ impl<'a, U> Structs<'a, U> {
             fields.push(StructField {
                 name: branch.name.clone(),
                 docs,
+                hints: self
+                    .hints
+                    .and_then(|hints| hints.get(&written))
+                    .cloned()
+                    .unwrap_or_default(),
                 content,
             });
         }
@@ -104,18 +143,26 @@ impl<'a, U> Structs<'a, U> {
     }
 
     /// The struct of one instance: the one of the instance before if both look alike.
-    fn instance(&mut self, path: &str, cycler: usize, tree: &Tree<U>) -> (String, Vec<Struct>) {
-        let path = format!("{path}{}Instance", self.robot.cyclers[cycler].name);
+    fn instance(&mut self, place: Place, cycler: usize, tree: &Tree<U>) -> (String, Vec<Struct>) {
         let before = self.names.clone();
-        let name = self.names.give(&format!("{}{path}", self.prefix));
-        let structs = self.level(name.clone(), &path, tree);
-        let known = self.instances.entry((path, cycler)).or_default();
+        let name = self.names.give(&format!("{}{}", self.prefix, place.types));
+        let structs = self.level(name.clone(), &place, tree);
+        let known = self.instances.entry((place.types, cycler)).or_default();
         if let Some(known) = known.iter().find(|known| same_fields(known, &structs[0])) {
             self.names = before;
             return (known.name.clone(), Vec::new());
         }
         known.push(structs[0].clone());
         (name, structs)
+    }
+}
+
+impl Place {
+    fn written(&self, name: &str) -> String {
+        match self.path.as_str() {
+            "" => name.to_owned(),
+            path => format!("{path}.{name}"),
+        }
     }
 }
 

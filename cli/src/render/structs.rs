@@ -5,7 +5,7 @@ use quote::quote;
 
 use super::layout::doc;
 use super::spelling::{data_type, ident};
-use crate::model::structs::{FieldType, Struct, StructField};
+use crate::model::structs::{FieldType, Hints, Struct, StructField};
 
 /// A struct; `head` stands in front of it, `wrap` makes the type of a declared value.
 pub(super) fn quote_struct(
@@ -29,6 +29,7 @@ pub(super) fn quote_struct(
 fn quote_field(field: &StructField, wrap: &dyn Fn(TokenStream) -> TokenStream) -> TokenStream {
     let name = ident(&field.name);
     let docs = doc(&field.docs);
+    let hints = quote_hints(&field.hints);
     let content = match &field.content {
         FieldType::Data(data) => wrap(data_type(data)),
         FieldType::Struct(name) => {
@@ -38,6 +39,19 @@ fn quote_field(field: &StructField, wrap: &dyn Fn(TokenStream) -> TokenStream) -
     };
     quote! {
         #docs
+        #hints
         pub #name: #content,
     }
+}
+
+/// `#[reflect(unit = "m", range = 0..=1)]`, as the fields of nodes say it.
+fn quote_hints(hints: &Hints) -> Option<TokenStream> {
+    let unit = hints.unit.as_ref().map(|unit| quote!(unit = #unit));
+    let range = hints.range.as_ref().map(|range| {
+        let range: TokenStream = range.parse().expect("it was read as a range");
+        quote!(range = #range)
+    });
+    let creation_only = hints.creation_only.then(|| quote!(creation_only));
+    let said: Vec<_> = [unit, range, creation_only].into_iter().flatten().collect();
+    (!said.is_empty()).then(|| quote!(#[reflect(#(#said),*)]))
 }

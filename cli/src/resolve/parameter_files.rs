@@ -166,7 +166,7 @@ impl Checker<'_> {
             match children.get(name) {
                 Some(_) if unset::is_unset(value.get_ref()) => {}
                 Some(child) => {
-                    let child = child.within(place.limits);
+                    let child = child.within(self.declared_limits(path).or(place.limits));
                     self.check_value(file, value, &child, path, diagnostics);
                 }
                 None => {
@@ -181,6 +181,12 @@ impl Checker<'_> {
             }
             path.pop();
         }
+    }
+
+    /// What the fields of nodes say about a parameter.
+    fn declared_limits(&self, path: &[String]) -> Option<grammar::Range> {
+        let hints = self.robot.parameter_hints.get(&path.join("."))?;
+        hints.range.as_ref()?.parse().ok()
     }
 
     fn check_value(

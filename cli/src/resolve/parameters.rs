@@ -1,54 +1,87 @@
 //! The one parameter tree of the robot.
 
-use grammar::{CreationField, CycleField, Pathed};
+use std::collections::BTreeMap;
 
-use super::robot::{Access, Reader, Tree};
+use grammar::{CreationField, CycleField, Pathed};
+use syn::LitStr;
+
+use super::hints::{self, Hinted};
+use super::robot::{Access, Hints, Reader, Tree};
 use super::scene::{Scene, SceneCycler, SceneNode};
 use super::tree::{Declaration, Rules, merge};
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::scan::range;
 
-/// Every declared parameter, instances in place of `$cycler_instance`, and how many paths could not be compared.
-pub(super) fn parameters(
-    scene: &Scene<'_>,
-    diagnostics: &mut Diagnostics,
-) -> (Tree<Reader>, usize) {
-    let mut declarations = Vec::new();
+/// The parameters of a robot.
+pub(super) struct Parameters {
+    /// Every declared parameter, instances in place of `$cycler_instance`.
+    pub(super) tree: Tree<Reader>,
+    /// What else is known of some, by path.
+    pub(super) hints: BTreeMap<String, Hints>,
+    /// How many paths could not be compared.
+    pub(super) unchecked: usize,
+}
+
+/// A field that reads a parameter.
+struct Declared<'a> {
+    parameter: &'a Pathed,
+    span: proc_macro2::Span,
+    hints: &'a grammar::Hints,
+    at_creation: bool,
+}
+
+/// Everything that nodes declare.
+pub(super) fn parameters(scene: &Scene<'_>, diagnostics: &mut Diagnostics) -> Parameters {
+    let mut hinted = Vec::new();
     for (index, cycler) in scene.cyclers.iter().enumerate() {
         for node in &cycler.nodes {
-            for (pathed, span) in declared(node) {
-                declarations.extend(expand(scene, (index, cycler), node, pathed, span));
+            for declared in declared(node) {
+                let declarations = expand(scene, (index, cycler), node, &declared);
+                hinted.extend(declarations.into_iter().map(|declaration| Hinted {
+                    declaration,
+                    unit: declared.hints.unit.as_ref().map(LitStr::value),
+                    range: declared.hints.range.map(|range| range.to_string()),
+                    at_creation: declared.at_creation,
+                }));
             }
         }
     }
+    let hints = hints::collect(&hinted, diagnostics);
+    let declarations: Vec<_> = hinted.into_iter().map(|one| one.declaration).collect();
     report_strangers(scene, &declarations, diagnostics);
     let rules = Rules {
         conflict: Code::ParameterConflict,
         what: "parameter",
     };
     let merged = merge(&scene.sources.library, declarations, &rules, diagnostics);
-    (merged.tree, merged.unchecked)
+    Parameters {
+        tree: merged.tree,
+        hints,
+        unchecked: merged.unchecked,
+    }
 }
 
-fn declared<'a>(node: &SceneNode<'a>) -> impl Iterator<Item = (&'a Pathed, proc_macro2::Span)> {
-    let creation = node
-        .source
-        .creation
-        .fields
-        .iter()
-        .filter_map(|field| match &field.kind {
-            CreationField::Parameter(parameter) => Some((parameter, field.span)),
-            _ => None,
-        });
-    let cycle = node
-        .source
-        .cycle
-        .fields
-        .iter()
-        .filter_map(|field| match &field.kind {
-            CycleField::Parameter(parameter) => Some((parameter, field.span)),
-            _ => None,
-        });
+fn declared<'a>(node: &SceneNode<'a>) -> impl Iterator<Item = Declared<'a>> {
+    let creation = node.source.creation.fields.iter();
+    let creation = creation.filter_map(|field| match &field.kind {
+        CreationField::Parameter(parameter) => Some(Declared {
+            parameter,
+            span: field.span,
+            hints: &field.hints,
+            at_creation: true,
+        }),
+        _ => None,
+    });
+    let cycle = node.source.cycle.fields.iter();
+    let cycle = cycle.filter_map(|field| match &field.kind {
+        CycleField::Parameter(parameter) => Some(Declared {
+            parameter,
+            span: field.span,
+            hints: &field.hints,
+            at_creation: false,
+        }),
+        _ => None,
+    });
     creation.chain(cycle)
 }
 
@@ -57,15 +90,14 @@ fn expand<'a>(
     scene: &Scene<'a>,
     (index, cycler): (usize, &SceneCycler<'a>),
     node: &SceneNode<'a>,
-    parameter: &Pathed,
-    span: proc_macro2::Span,
+    declared: &Declared<'_>,
 ) -> Vec<Declaration<'a, Reader>> {
     let declaration = Declaration {
-        segments: Access::of(&parameter.path).segments,
+        segments: Access::of(&declared.parameter.path).segments,
         data: scene
             .sources
             .library
-            .resolve(&node.source.module, &parameter.data),
+            .resolve(&node.source.module, &declared.parameter.data),
         user: Reader {
             cycler: index,
             node: node.source.path.clone(),
@@ -73,7 +105,7 @@ fn expand<'a>(
         writes: false,
         instance: None,
         source: node.source,
-        range: range(span),
+        range: range(declared.span),
     };
     let Some(place) = declaration
         .segments

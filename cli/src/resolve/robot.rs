@@ -4,6 +4,7 @@
 
 mod read;
 
+use std::collections::BTreeMap;
 use std::time::Duration;
 
 use camino::Utf8PathBuf;
@@ -28,6 +29,8 @@ pub struct Robot {
     pub targets: Vec<Target>,
     /// Every declared parameter path, instances expanded, sorted by path.
     pub parameter_tree: Tree<Reader>,
+    /// What is known about declared parameters besides their types, by path.
+    pub parameter_hints: BTreeMap<String, Hints>,
     /// Crates that generated code names, sorted by name: node crates, crates of exchanged types.
     pub crates: Vec<Dependency>,
     /// Keys of the workspace's `[workspace.package]`, sorted: packages may inherit them.
@@ -412,6 +415,17 @@ pub enum Content<U> {
         cycler: usize,
         tree: Tree<U>,
     },
+}
+
+/// What is known about a parameter besides its type.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Hints {
+    /// `unit = "m/s"` of a field that reads it.
+    pub unit: Option<String>,
+    /// `range = 0.0..=1.0` of a field that reads it.
+    pub range: Option<String>,
+    /// Nodes read it only when they are created.
+    pub creation_only: bool,
 }
 
 /// Who reads a parameter: a node of a cycler, by path.

@@ -49,7 +49,7 @@ impl<U> Declaration<'_, U> {
             .collect()
     }
 
-    fn path(&self) -> String {
+    pub(super) fn path(&self) -> String {
         self.names().join(".")
     }
 

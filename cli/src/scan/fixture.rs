@@ -12,6 +12,7 @@ use crate::scan;
 use crate::workspace::Workspace;
 
 /// A workspace with a crate `nodes`, a crate `types`, a crate `hardware`, and a manifest.
+#[derive(Clone)]
 pub(crate) struct Fixture {
     files: BTreeMap<Utf8PathBuf, String>,
 }

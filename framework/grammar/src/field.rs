@@ -10,6 +10,7 @@ use syn::spanned::Spanned;
 use syn::{Expr, ExprLit, GenericArgument, Lit, PathArguments, Type};
 
 use crate::context::ContextKind;
+use crate::hints::Hints;
 use crate::path::{DataPath, Name};
 
 pub use read::{AnyField, ReadField, read_field};
@@ -25,6 +26,8 @@ pub struct Field<K> {
     pub span: Span,
     /// Lines of documentation, as written behind `///`.
     pub docs: Vec<String>,
+    /// Of a parameter: what `#[reflect(…)]` says.
+    pub hints: Hints,
 }
 
 /// A field of `CreationContext`.
@@ -149,6 +152,8 @@ impl<K> Field<K> {
             kind_path,
             span: field.ty.span(),
             docs: field.attrs.iter().filter_map(documentation).collect(),
+            // What cannot be read is a mistake of the field.
+            hints: Hints::read(&field.attrs).unwrap_or_default(),
         }
     }
 }

@@ -1,6 +1,7 @@
 //! `#[reflect(…)]` of a field: what people and clients should know about its value.
 
 use std::fmt;
+use std::str::FromStr;
 
 use syn::spanned::Spanned;
 use syn::{Attribute, Expr, ExprLit, Lit, LitStr, Meta, RangeLimits, UnOp};
@@ -118,6 +119,15 @@ impl fmt::Display for Range {
     }
 }
 
+/// As `Display` writes it.
+impl FromStr for Range {
+    type Err = syn::Error;
+
+    fn from_str(text: &str) -> syn::Result<Self> {
+        Self::read(&syn::parse_str(text)?)
+    }
+}
+
 fn number(expression: &Expr) -> Option<f64> {
     match expression {
         Expr::Unary(unary) if matches!(unary.op, UnOp::Neg(_)) => number(&unary.expr).map(|it| -it),
@@ -191,6 +201,7 @@ mod tests {
         ] {
             let range = read(text).expect(text).range.expect("it has a range");
             assert_eq!(format!("range = {range}"), text);
+            assert_eq!(range.to_string().parse::<super::Range>().ok(), Some(range));
             assert!(inside.iter().all(|it| range.contains(*it)), "{text}");
             assert!(!outside.iter().any(|it| range.contains(*it)), "{text}");
         }

@@ -622,3 +622,45 @@ fn the_argument_of_an_option_is_found() {
         assert_eq!(grammar::option_argument(&data).map(text).as_deref(), inner);
     }
 }
+
+#[test]
+fn only_parameters_have_units_and_ranges() {
+    let read = Read::item(
+        "pub struct CycleContext { #[reflect(unit = \"m\", range = 0..)] a: Parameter<f32, \"a\"> }",
+    );
+    assert!(read.mistakes.is_empty(), "{:?}", read.mistakes);
+    let AnyContext::Cycle(context) = &read.context else {
+        panic!("it is a cycle context");
+    };
+    let hints = &context.fields[0].hints;
+    assert_eq!(
+        hints.unit.as_ref().map(syn::LitStr::value).as_deref(),
+        Some("m")
+    );
+    assert!(hints.range.is_some());
+    for (field, marked, message) in [
+        (
+            "#[reflect(unit = \"m\")] a: Input<f32, \"a\">",
+            "#[reflect(unit = \"m\")]",
+            "`Input` has no unit and no range: its type says them",
+        ),
+        (
+            "#[reflect(range = 2..1)] a: Parameter<f32, \"a\">",
+            "2..1",
+            "the range is empty",
+        ),
+        (
+            "#[reflect(skip)] a: Parameter<f32, \"a\">",
+            "#[reflect(skip)]",
+            "a field of a context says `unit` and `range`: a parameter that only `new` reads is known to be",
+        ),
+    ] {
+        let read = Read::item(&format!("pub struct CycleContext {{ {field} }}"));
+        let (rule, found, said, _) = read.mistake();
+        assert_eq!(
+            (rule, found, said),
+            (Rule::InvalidField, marked, message),
+            "{field}"
+        );
+    }
+}

@@ -6,7 +6,7 @@ mod seen;
 #[cfg(test)]
 mod tests;
 
-use grammar::{ContextKind, Mistake, Rule, parse_context, read_field};
+use grammar::{ContextKind, Mistake, Rule, is_hint_attribute, parse_context, read_field};
 use proc_macro2::TokenStream as Tokens;
 use quote::{ToTokens, quote};
 use syn::visit::Visit;
@@ -73,6 +73,10 @@ struct Uses {
 fn rewrite_field(field: &mut syn::Field, context: ContextKind, uses: &mut Uses) {
     field.vis = parse_quote!(pub);
     let read = read_field(field, context);
+    // For hulkgen, which writes it where the parameter is kept.
+    field
+        .attrs
+        .retain(|attribute| !is_hint_attribute(attribute));
     let is_kind = read
         .mistakes
         .iter()

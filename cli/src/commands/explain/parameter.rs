@@ -87,6 +87,7 @@ pub(super) fn find(
             data: found.data,
             node: found.node,
             below: &found.below,
+            hints: understood.robot.parameter_hints.get(found.path),
         };
         let answer = parameter_files::given(workspace, &manifest, &sources, asked)?;
         Some(describe(workspace, &understood.robot, found, answer))

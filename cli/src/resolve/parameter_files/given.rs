@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use camino::{Utf8Path, Utf8PathBuf};
-use grammar::Hints;
 use serde::Serialize;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -13,6 +12,7 @@ use super::unset::is_unset;
 use super::{choice, layer};
 use crate::diagnostics::{Diagnostics, position};
 use crate::manifest::Manifest;
+use crate::resolve::robot::Hints;
 use crate::scan::types::{Definition, Resolved, Shape};
 use crate::scan::{Sources, doc};
 use crate::workspace::Workspace;
@@ -70,6 +70,8 @@ pub struct Asked<'a> {
     pub data: &'a str,
     /// A node that reads it.
     pub node: &'a str,
+    /// What else is known of it.
+    pub hints: Option<&'a Hints>,
     /// The way to the field; empty for the parameter itself.
     pub below: &'a [&'a str],
 }
@@ -98,8 +100,8 @@ pub fn given(
         path: asked.declared.to_owned(),
         data,
         docs: None,
-        unit: None,
-        range: None,
+        unit: asked.hints.and_then(|hints| hints.unit.clone()),
+        range: asked.hints.and_then(|hints| hints.range.clone()),
         found: tables
             .iter()
             .filter_map(|it| it.at(asked.declared))
@@ -310,7 +312,9 @@ impl<'a> Place<'a> {
             return None;
         }
         let written = names.first().copied().unwrap_or(name);
-        let hints = key.as_ref().map(|key| Hints::read(&key.field.attributes));
+        let hints = key
+            .as_ref()
+            .map(|key| grammar::Hints::read(&key.field.attributes));
         let hints = hints.and_then(Result::ok).unwrap_or_default();
         Some(Self {
             path: format!("{}.{written}", self.path),

@@ -67,6 +67,84 @@ fn parameters_make_one_tree_with_instances() {
 }
 
 #[test]
+fn units_and_ranges_stand_at_a_field_that_reads_the_parameter() {
+    let eye = Node {
+        creation: "#[reflect(unit = \"px\")]\np: Parameter<u8, \"$cycler_instance.pitch\">,",
+        ..ACTS
+    };
+    let vision = cycler(
+        "Vision",
+        "perception",
+        "instances = [\"Top\", \"Bottom\"]",
+        &[],
+        &["eye"],
+    );
+    let control = cycler("Control", "real-time", "", &[], &["hand", "foot"]);
+    let fixture = Fixture::new(&(vision + &control)).node("eye", eye);
+    let hand = "#[reflect(range = -1..=2.50)]\na: Parameter<f32, \"walk.step\">,\nb: Parameter<u8, \"plain\">";
+    let fixture = with_field(fixture, "hand", hand);
+    let foot = "#[reflect(unit = \"m\", range = -1.0..=2.5)]\na: Parameter<f32, \"walk.step\">";
+    let fixture = with_field(fixture, "foot", foot);
+    let file = |step: &str| {
+        let text = format!(
+            "plain = 1\nwalk.step = {step}\nvision_top.pitch = 1\nvision_bottom.pitch = 2\n"
+        );
+        fixture.clone().file("parameters/default.toml", &text)
+    };
+    let hints = file("2.5").robot().parameter_hints;
+    let hints: Vec<_> = hints
+        .iter()
+        .map(|(path, it)| {
+            (
+                path.as_str(),
+                it.unit.as_deref(),
+                it.range.as_deref(),
+                it.creation_only,
+            )
+        })
+        .collect();
+    assert_eq!(
+        hints,
+        [
+            ("vision_bottom.pitch", Some("px"), None, true),
+            ("vision_top.pitch", Some("px"), None, true),
+            ("walk.step", Some("m"), Some("-1..=2.5"), false),
+        ]
+    );
+    file("2.6").expect(
+        "mistyped-parameter",
+        &["`walk.step` is 2.6, not within -1..=2.5"],
+    );
+}
+
+#[test]
+fn units_and_ranges_are_said_once_and_where_the_type_is() {
+    two(
+        "#[reflect(unit = \"m\")]\nx: Parameter<f32, \"a\">",
+        "#[reflect(unit = \"mm\")]\nx: Parameter<f32, \"a\">",
+    )
+    .expect(
+        "parameter-conflict",
+        &[
+            "two nodes say different things about the parameter `a`",
+            "`mm`",
+            "`m`",
+        ],
+    );
+    two(
+        "x: Parameter<Wrapper<u8>, \"a\">",
+        "#[reflect(unit = \"m\")]\nx: Parameter<u8, \"a.value\">",
+    )
+    .expect(
+        "parameter-conflict",
+        &[
+            "`a.value` is a part of the parameter `a`",
+            "move `#[reflect(…)]`",
+        ],
+    );
+}
+
+#[test]
 fn clashing_parameters_show_both_places() {
     two("x: Parameter<u8, \"a.b\">", "x: Parameter<u16, \"a.b\">").expect(
         "parameter-conflict",

@@ -46,6 +46,7 @@ pub fn read_field(field: &syn::Field, context: ContextKind) -> ReadField {
         };
     };
     mistakes.extend(rules::keyword_mistake(kind, field));
+    mistakes.extend(rules::hint_mistake(kind, field));
     let mut content_mistakes = Vec::new();
     let read = read_kind(kind, written_kind, &mut content_mistakes);
     if kind.contexts().contains(&context) {

@@ -6,6 +6,7 @@ use syn::{Type, TypePath};
 
 use super::{option_argument, peel, written};
 use crate::context::ContextKind;
+use crate::hints::{Hints, is_hint_attribute};
 use crate::kind::Kind;
 use crate::mistake::{Mistake, Rule};
 use crate::path::{DataPath, SegmentName};
@@ -21,6 +22,28 @@ pub(super) fn attribute_mistake(field: &syn::Field) -> Option<Mistake> {
         conditional.span(),
         message,
     ))
+}
+
+/// A `#[reflect(…)]` that cannot be read, or says what a context's field cannot.
+pub(super) fn hint_mistake(kind: Kind, field: &syn::Field) -> Option<Mistake> {
+    let attribute = field.attrs.iter().find(|one| is_hint_attribute(one))?;
+    let mistake = |span, message: String| Mistake::new(Rule::InvalidField, span, message);
+    let hints = match Hints::read(&field.attrs) {
+        Ok(hints) => hints,
+        Err(error) => return Some(mistake(error.span(), error.to_string())),
+    };
+    if kind != Kind::Parameter {
+        let message = format!(
+            "`{}` has no unit and no range: its type says them",
+            kind.name()
+        );
+        return Some(mistake(attribute.span(), message).help("remove `#[reflect(…)]`"));
+    }
+    if hints.skip || hints.creation_only {
+        let message = "a field of a context says `unit` and `range`: a parameter that only `new` reads is known to be";
+        return Some(mistake(attribute.span(), message.to_owned()));
+    }
+    None
 }
 
 /// A name that no path can have; only an output's name is one that paths begin with.

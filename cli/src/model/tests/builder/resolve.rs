@@ -43,6 +43,7 @@ pub(crate) fn robot(cyclers: Vec<CyclerBuilder>) -> Robot {
         parameters: "robotics/parameters".into(),
         identities: vec!["body".to_owned(), "head".to_owned()],
         parameter_tree: parameter_tree(&resolved),
+        parameter_hints: Default::default(),
         cyclers: resolved,
         partial: None,
         targets: vec![

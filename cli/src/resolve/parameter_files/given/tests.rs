@@ -54,6 +54,7 @@ fn answer(fixture: &Fixture, below: &[&str]) -> Option<Answer> {
         data: "types::filter::Filter",
         node: "nodes::a",
         below,
+        hints: None,
     };
     given(&workspace, &manifest, &sources, asked)
 }
