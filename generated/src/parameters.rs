@@ -87,8 +87,10 @@ pub struct Parameters {
 #[serde(deny_unknown_fields)]
 pub struct ButtonFilter {
     /// control::button_filter
+    #[reflect(unit = "s", range = 0..)]
     pub bounce_time: f32,
     /// control::button_filter
+    #[reflect(unit = "s", range = 0..)]
     pub head_hold_time: f32,
 }
 
@@ -105,18 +107,23 @@ pub struct Cameras {
 #[serde(deny_unknown_fields)]
 pub struct FallStateFilter {
     /// control::fall_state_filter
+    #[reflect(unit = "s", range = 0..)]
     pub acceleration_time: f32,
     /// control::fall_state_filter
+    #[reflect(unit = "s", range = 0..)]
     pub longest_fall: f32,
     /// control::fall_state_filter
+    #[reflect(unit = "m", range = 0..)]
     pub overhang: f32,
     /// control::fall_state_filter
+    #[reflect(unit = "m/s²", range = 0..)]
     pub resting_deviation: f32,
     /// control::fall_state_filter
     pub sitting: Sitting,
     /// control::fall_state_filter
     pub tilt: TiltLimits,
     /// control::fall_state_filter
+    #[reflect(unit = "rad/s", range = 0..)]
     pub tilting_rotation: f32,
 }
 
@@ -124,11 +131,14 @@ pub struct FallStateFilter {
 #[serde(deny_unknown_fields)]
 pub struct FieldDimensions {
     /// vision::ball_detection
+    #[reflect(unit = "m", range = 0..)]
     pub ball_radius: f32,
     /// vision::ball_detection, vision::line_detection, vision::obstacle_detection,
     /// vision::penalty_mark_detection
+    #[reflect(unit = "m", range = 0..)]
     pub line_width: f32,
     /// vision::penalty_mark_detection
+    #[reflect(unit = "m", range = 0..)]
     pub penalty_mark_size: f32,
 }
 
@@ -136,6 +146,7 @@ pub struct FieldDimensions {
 #[serde(deny_unknown_fields)]
 pub struct FootPressureFilter {
     /// control::foot_pressure_filter
+    #[reflect(unit = "s", range = 0..)]
     pub smoothing_time: f32,
 }
 
@@ -143,6 +154,7 @@ pub struct FootPressureFilter {
 #[serde(deny_unknown_fields)]
 pub struct GameControllerFilter {
     /// control::game_controller_filter
+    #[reflect(unit = "s", range = 0..)]
     pub forget_after: f32,
 }
 
@@ -150,6 +162,7 @@ pub struct GameControllerFilter {
 #[serde(deny_unknown_fields)]
 pub struct GameControllerResponder {
     /// control::game_controller_responder
+    #[reflect(unit = "s", range = 0..)]
     pub interval: f32,
 }
 
@@ -157,8 +170,10 @@ pub struct GameControllerResponder {
 #[serde(deny_unknown_fields)]
 pub struct GameStateFilter {
     /// control::game_state_filter
+    #[reflect(unit = "s", range = 0..)]
     pub playing_delay: f32,
     /// control::game_state_filter
+    #[reflect(unit = "s", range = 0..)]
     pub playing_margin: f32,
 }
 
@@ -166,8 +181,10 @@ pub struct GameStateFilter {
 #[serde(deny_unknown_fields)]
 pub struct GroundContactFilter {
     /// control::ground_contact_filter
+    #[reflect(unit = "s", range = 0..)]
     pub delay: f32,
     /// control::ground_contact_filter
+    #[reflect(unit = "kg", range = 0..)]
     pub hysteresis: f32,
     /// control::ground_contact_filter
     pub pressure: f32,
@@ -190,10 +207,12 @@ pub struct LedStatus {
     /// control::led_status
     pub ball_unknown: Color,
     /// control::led_status
+    #[reflect(unit = "s", range = 0..)]
     pub blink_period: f32,
     /// control::led_status
     pub chest: ChestColors,
     /// control::led_status
+    #[reflect(range = 0..= 1)]
     pub ear_brightness: f32,
     /// control::led_status
     pub in_the_air: Color,
@@ -216,8 +235,10 @@ pub struct LookAround {
 #[serde(deny_unknown_fields)]
 pub struct LookAt {
     /// control::look_at
+    #[reflect(unit = "m", range = 0..)]
     pub bottom_camera_range: f32,
     /// control::look_at
+    #[reflect(unit = "m", range = 0..)]
     pub hysteresis: f32,
 }
 
@@ -247,12 +268,16 @@ pub struct Odometry {
     /// control::odometry
     pub left_scale: f32,
     /// control::odometry
+    #[reflect(unit = "rad")]
     pub still_angle: f32,
     /// control::odometry
+    #[reflect(unit = "m", range = 0..)]
     pub still_distance: f32,
     /// control::odometry
+    #[reflect(unit = "rad/s", range = 0..)]
     pub still_rotation: f32,
     /// control::odometry
+    #[reflect(unit = "s", range = 0..)]
     pub still_time: f32,
 }
 
@@ -260,12 +285,15 @@ pub struct Odometry {
 #[serde(deny_unknown_fields)]
 pub struct OrientationFilter {
     /// control::orientation_filter
+    #[reflect(unit = "s", range = 0..)]
     pub bias_time: f32,
     /// control::orientation_filter
+    #[reflect(unit = "s", range = 0..)]
     pub gravity_time: f32,
     /// control::orientation_filter
     pub refused_deviation: f32,
     /// control::orientation_filter
+    #[reflect(unit = "rad/s", range = 0..)]
     pub still_rotation: f32,
     /// control::orientation_filter
     pub trusted_deviation: f32,
@@ -277,6 +305,7 @@ pub struct PenalizedPose {
     /// control::motion_dispatcher, control::penalized_pose
     pub positions: Joints<f32>,
     /// control::penalized_pose
+    #[reflect(range = 0..= 1)]
     pub stiffness: f32,
 }
 
@@ -284,6 +313,7 @@ pub struct PenalizedPose {
 #[serde(deny_unknown_fields)]
 pub struct RecordingSwitch {
     /// control::recording_switch
+    #[reflect(unit = "s", range = 0..)]
     pub after_fall: f32,
     /// control::recording_switch
     pub states: Vec<PrimaryState>,
@@ -295,12 +325,15 @@ pub struct SitDown {
     /// control::motion_dispatcher, control::sit_down
     pub crouch: Joints<f32>,
     /// control::sit_down
+    #[reflect(unit = "s", range = 0..)]
     pub minimum_duration: f32,
     /// control::sit_down
+    #[reflect(unit = "s", range = 0..)]
     pub release_duration: f32,
     /// control::sit_down
     pub sitting: Joints<f32>,
     /// control::sit_down
+    #[reflect(range = 0..= 1)]
     pub stiffness: f32,
     /// control::sit_down
     pub velocity_share: f32,
@@ -310,12 +343,16 @@ pub struct SitDown {
 #[serde(deny_unknown_fields)]
 pub struct SonarFilter {
     /// control::sonar_filter
+    #[reflect(unit = "s", range = 0..)]
     pub echo_delay: f32,
     /// control::sonar_filter
+    #[reflect(unit = "m", range = 0..)]
     pub largest_distance: f32,
     /// control::sonar_filter
+    #[reflect(unit = "m", range = 0..)]
     pub least_distance: f32,
     /// control::sonar_filter
+    #[reflect(unit = "s", range = 0..)]
     pub smoothing_time: f32,
 }
 
@@ -325,6 +362,7 @@ pub struct Stand {
     /// control::motion_dispatcher, control::stand
     pub positions: Joints<f32>,
     /// control::stand
+    #[reflect(range = 0..= 1)]
     pub stiffness: f32,
 }
 
@@ -332,6 +370,7 @@ pub struct Stand {
 #[serde(deny_unknown_fields)]
 pub struct SupportFootFilter {
     /// control::support_foot_filter
+    #[reflect(unit = "kg", range = 0..)]
     pub hysteresis: f32,
 }
 
@@ -339,6 +378,7 @@ pub struct SupportFootFilter {
 #[serde(deny_unknown_fields)]
 pub struct TeamMessageFilter {
     /// control::team_message_filter
+    #[reflect(unit = "s", range = 0..)]
     pub forget_after: f32,
 }
 
@@ -346,6 +386,7 @@ pub struct TeamMessageFilter {
 #[serde(deny_unknown_fields)]
 pub struct TeamMessageSender {
     /// control::team_message_sender
+    #[reflect(unit = "s", range = 0..)]
     pub interval: f32,
     /// control::team_message_sender
     pub reserve: u16,
@@ -377,9 +418,11 @@ pub struct VisionInstance {
 #[serde(deny_unknown_fields)]
 pub struct WhistleFilter {
     /// control::whistle_filter
+    #[reflect(range = 1..= 16)]
     pub least_blocks: u32,
     /// control::whistle_filter
     pub least_microphones: u32,
     /// control::whistle_filter
+    #[reflect(unit = "s", range = 0..)]
     pub window: f32,
 }

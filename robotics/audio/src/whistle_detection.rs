@@ -24,11 +24,14 @@ use self::spectrum::Spectrum;
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct WhistleDetectionParameters {
-    /// Whistles are not lower, Hz.
+    /// Whistles are not lower.
+    #[reflect(unit = "Hz", range = 0.0..)]
     pub lowest_frequency: f32,
-    /// Nor higher, Hz.
+    /// Nor higher.
+    #[reflect(unit = "Hz", range = 0.0..)]
     pub highest_frequency: f32,
-    /// A tone reaches so far to both sides of its peak, Hz.
+    /// A tone reaches so far to both sides of its peak.
+    #[reflect(unit = "Hz", range = 0.0..)]
     pub half_width: f32,
     /// Rivals are all peaks from this frequency on, Hz, ...
     pub lowest_rival: f32,
@@ -36,11 +39,14 @@ pub struct WhistleDetectionParameters {
     pub highest_rival: f32,
     /// ... those at the tone's frequency divided by 2 and so on up to this number.
     pub greatest_divisor: u32,
-    /// Least mean power of the tone over that of the rest of the band, dB.
+    /// Least mean power of the tone over that of the rest of the band.
+    #[reflect(unit = "dB")]
     pub least_prominence: f32,
-    /// Least power of the tone over the strongest rival, dB.
+    /// Least power of the tone over the strongest rival.
+    #[reflect(unit = "dB")]
     pub least_dominance: f32,
-    /// How far the tone may move from block to block, Hz.
+    /// How far the tone may move from block to block.
+    #[reflect(unit = "Hz", range = 0.0..)]
     pub greatest_drift: f32,
     /// Least root mean square of the tone, share of full scale: a dead microphone hears less.
     pub least_level: f32,

@@ -29,17 +29,21 @@ use crate::start_frame::ground_to_start;
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct BallFilterParameters {
-    /// In s: a rolling ball keeps 1/e of its speed for so long.
+    /// A rolling ball keeps 1/e of its speed for so long.
+    #[reflect(unit = "s", range = 0.0..)]
     pub rolling_time: f32,
-    /// In m/s: a slower ball rests.
+    /// A slower ball rests.
+    #[reflect(unit = "m/s", range = 0.0..)]
     pub resting_speed: f32,
-    /// In m/s: how fast a ball is that was seen for the first time or kicked, one standard deviation.
+    /// How fast a ball is that was seen for the first time or kicked, one standard deviation.
+    #[reflect(unit = "m/s", range = 0.0..)]
     pub initial_speed: f32,
     /// In m after 1 s: how far the ball gets without anybody knowing why, one standard deviation.
     pub position_noise: f32,
     /// In m/s after 1 s: how its speed changes without anybody knowing why, one standard deviation.
     pub velocity_noise: f32,
-    /// In m: how wrong a sighting just in front of the robot is, one standard deviation.
+    /// How wrong a sighting just in front of the robot is, one standard deviation.
+    #[reflect(unit = "m", range = 0.0..)]
     pub least_noise: f32,
     /// By how much more per m of distance, along the line of sight.
     pub noise_along: f32,
@@ -47,7 +51,8 @@ pub struct BallFilterParameters {
     pub noise_across: f32,
     /// In standard deviations: a sighting farther away from a hypothesis belongs to another one.
     pub gate: f32,
-    /// In m: nearer than this it belongs to it anyway, and was kicked; two hypotheses are one.
+    /// Nearer than this it belongs to it anyway, and was kicked; two hypotheses are one.
+    #[reflect(unit = "m", range = 0.0..)]
     pub same_place: f32,
     /// Sightings, old ones counted less, that make a hypothesis a ball.
     pub least_validity: f32,
@@ -55,9 +60,11 @@ pub struct BallFilterParameters {
     pub most_validity: f32,
     /// A hypothesis with fewer is forgotten.
     pub discarded_validity: f32,
-    /// In s: a sighting so old counts 1/e.
+    /// A sighting so old counts 1/e.
+    #[reflect(unit = "s", range = 0.0..)]
     pub validity_time: f32,
-    /// In s: a ball that nobody saw for so long is forgotten.
+    /// A ball that nobody saw for so long is forgotten.
+    #[reflect(unit = "s", range = 0.0..)]
     pub forget_after: f32,
 }
 

@@ -27,9 +27,11 @@ pub struct CycleContext {
     touch: Input<Touch, "sensor_data.touch">,
     cycle_time: CycleTime,
 
-    /// In s: what is shorter than this is a bouncing contact.
+    /// What is shorter than this is a bouncing contact.
+    #[reflect(unit = "s", range = 0.0..)]
     bounce_time: Parameter<f32, "button_filter.bounce_time">,
-    /// In s: for how long all plates of the head must be touched.
+    /// For how long all plates of the head must be touched.
+    #[reflect(unit = "s", range = 0.0..)]
     head_hold_time: Parameter<f32, "button_filter.head_hold_time">,
 }
 

@@ -72,17 +72,22 @@ pub struct CycleContext {
 
     /// Beyond these the robot falls.
     tilt: Parameter<TiltLimits, "fall_state_filter.tilt">,
-    /// In m: how far the centre of mass must be outside of the soles for a fall.
+    /// How far the centre of mass must be outside of the soles for a fall.
+    #[reflect(unit = "m", range = 0.0..)]
     overhang: Parameter<f32, "fall_state_filter.overhang">,
-    /// In rad/s: how fast the torso must tilt for a fall over the edge of the soles.
+    /// How fast the torso must tilt for a fall over the edge of the soles.
+    #[reflect(unit = "rad/s", range = 0.0..)]
     tilting_rotation: Parameter<f32, "fall_state_filter.tilting_rotation">,
-    /// In s: how slowly the smoothed acceleration follows.
+    /// How slowly the smoothed acceleration follows.
+    #[reflect(unit = "s", range = 0.0..)]
     acceleration_time: Parameter<f32, "fall_state_filter.acceleration_time">,
-    /// In m/s²: how far the smoothed acceleration may be from that of a robot that lies or sits.
+    /// How far the smoothed acceleration may be from that of a robot that lies or sits.
+    #[reflect(unit = "m/s²", range = 0.0..)]
     resting_deviation: Parameter<f32, "fall_state_filter.resting_deviation">,
     /// How the robot sits.
     sitting: Parameter<Sitting, "fall_state_filter.sitting">,
-    /// In s: after so long a fall is over, whatever the sensors say.
+    /// After so long a fall is over, whatever the sensors say.
+    #[reflect(unit = "s", range = 0.0..)]
     longest_fall: Parameter<f32, "fall_state_filter.longest_fall">,
 
     /// In m: how far the centre of mass is outside of the soles; negative inside of them.

@@ -20,7 +20,8 @@ pub struct CycleContext {
     resistors: Input<Feet<[f32; 4]>, "sensor_data.force_sensitive_resistors">,
     cycle_time: CycleTime,
 
-    /// In s: how slowly the smoothed pressure follows.
+    /// How slowly the smoothed pressure follows.
+    #[reflect(unit = "s", range = 0.0..)]
     smoothing_time: Parameter<f32, "foot_pressure_filter.smoothing_time">,
 }
 

@@ -38,7 +38,8 @@ pub struct CycleContext {
 
     /// Who this robot is in the game.
     player: Parameter<Player, "player">,
-    /// In s: a referee's computer that is silent for so long is not there, and another one may speak.
+    /// A referee's computer that is silent for so long is not there, and another one may speak.
+    #[reflect(unit = "s", range = 0.0..)]
     forget_after: Parameter<f32, "game_controller_filter.forget_after">,
 }
 

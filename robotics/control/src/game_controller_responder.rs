@@ -30,7 +30,8 @@ pub struct CycleContext {
 
     /// Who this robot is in the game.
     player: Parameter<Player, "player">,
-    /// In s: how much time passes between two answers.
+    /// How much time passes between two answers.
+    #[reflect(unit = "s", range = 0.0..)]
     interval: Parameter<f32, "game_controller_responder.interval">,
 }
 

@@ -29,9 +29,11 @@ pub struct CycleContext {
     whistle: Input<Whistle, "whistle">,
     cycle_time: CycleTime,
 
-    /// In s: how long after the whistle the referee's computer says that the game is on.
+    /// How long after the whistle the referee's computer says that the game is on.
+    #[reflect(unit = "s", range = 0.0..)]
     playing_delay: Parameter<f32, "game_state_filter.playing_delay">,
-    /// In s: how much longer the robot believes the whistle.
+    /// How much longer the robot believes the whistle.
+    #[reflect(unit = "s", range = 0.0..)]
     playing_margin: Parameter<f32, "game_state_filter.playing_margin">,
 }
 

@@ -22,9 +22,11 @@ pub struct CycleContext {
 
     /// In kg on both soles: more is contact with the ground.
     pressure: Parameter<f32, "ground_contact_filter.pressure">,
-    /// In kg: how much less than `pressure` is no contact any more.
+    /// How much less than `pressure` is no contact any more.
+    #[reflect(unit = "kg", range = 0.0..)]
     hysteresis: Parameter<f32, "ground_contact_filter.hysteresis">,
-    /// In s: contact is gained or lost after so long.
+    /// Contact is gained or lost after so long.
+    #[reflect(unit = "s", range = 0.0..)]
     delay: Parameter<f32, "ground_contact_filter.delay">,
 }
 

@@ -21,7 +21,8 @@ pub struct CycleContext {
 
     /// The chest in every state of the game.
     chest: Parameter<ChestColors, "led_status.chest">,
-    /// In s: the chest of a limp robot is lit half of this time.
+    /// The chest of a limp robot is lit half of this time.
+    #[reflect(unit = "s", range = 0.0..)]
     blink_period: Parameter<f32, "led_status.blink_period">,
     /// The left eye while the ball is known.
     ball_known: Parameter<Color, "led_status.ball_known">,
@@ -35,7 +36,8 @@ pub struct CycleContext {
     team_color: Parameter<Color, "led_status.team_color">,
     /// The right foot while the own team kicks first.
     own_kick_off: Parameter<Color, "led_status.own_kick_off">,
-    /// The ears where they are lit, 0 to 1.
+    /// The ears where they are lit.
+    #[reflect(range = 0.0..=1.0)]
     ear_brightness: Parameter<f32, "led_status.ear_brightness">,
 }
 

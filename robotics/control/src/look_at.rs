@@ -27,9 +27,11 @@ pub struct CycleContext {
     camera_matrices: Input<Option<CameraMatrices>, "camera_matrices?">,
     head_to_torso: Input<Isometry3<f32>, "robot_kinematics.head_to_torso">,
 
-    /// In m: the bottom camera looks at what is nearer than this, the top camera at what is farther.
+    /// The bottom camera looks at what is nearer than this, the top camera at what is farther.
+    #[reflect(unit = "m", range = 0.0..)]
     bottom_camera_range: Parameter<f32, "look_at.bottom_camera_range">,
-    /// In m: so much beyond that range changes the camera.
+    /// So much beyond that range changes the camera.
+    #[reflect(unit = "m", range = 0.0..)]
     hysteresis: Parameter<f32, "look_at.hysteresis">,
 }
 

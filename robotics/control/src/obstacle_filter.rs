@@ -26,19 +26,24 @@ use crate::start_frame::ground_to_start;
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct ObstacleFilterParameters {
-    /// Of a robot, in m.
+    /// Of a robot.
+    #[reflect(unit = "m", range = 0.0..)]
     pub robot_radius: f32,
-    /// Of anything else, in m.
+    /// Of anything else.
+    #[reflect(unit = "m", range = 0.0..)]
     pub unknown_radius: f32,
     /// In m after 1 s: how far an obstacle gets, one standard deviation.
     pub position_noise: f32,
     /// In m per m of distance: how wrong a camera is, one standard deviation.
     pub camera_noise: f32,
-    /// In m: how wrong an echo is that was measured once, one standard deviation.
+    /// How wrong an echo is that was measured once, one standard deviation.
+    #[reflect(unit = "m", range = 0.0..)]
     pub sonar_noise: f32,
-    /// In m: how wrong a touch is, one standard deviation.
+    /// How wrong a touch is, one standard deviation.
+    #[reflect(unit = "m", range = 0.0..)]
     pub bumper_noise: f32,
-    /// In m: what is perceived nearer to an obstacle than this is that obstacle.
+    /// What is perceived nearer to an obstacle than this is that obstacle.
+    #[reflect(unit = "m", range = 0.0..)]
     pub same_place: f32,
     /// As how many measurements something in an image counts.
     pub camera_evidence: f32,
@@ -50,15 +55,20 @@ pub struct ObstacleFilterParameters {
     pub least_evidence: f32,
     /// More measurements do not count.
     pub most_evidence: f32,
-    /// In s: what nobody perceived for so long is forgotten.
+    /// What nobody perceived for so long is forgotten.
+    #[reflect(unit = "s", range = 0.0..)]
     pub forget_after: f32,
-    /// In rad: how far to the side each of the sonar's receivers hears.
+    /// How far to the side each of the sonar's receivers hears.
+    #[reflect(unit = "rad")]
     pub sonar_angle: f32,
-    /// In m: echoes from farther away do not count.
+    /// Echoes from farther away do not count.
+    #[reflect(unit = "m", range = 0.0..)]
     pub sonar_reach: f32,
-    /// In m: how far ahead the bumpers are.
+    /// How far ahead the bumpers are.
+    #[reflect(unit = "m", range = 0.0..)]
     pub bumper_distance: f32,
-    /// In rad: how far to the side the bumpers are.
+    /// How far to the side the bumpers are.
+    #[reflect(unit = "rad")]
     pub bumper_angle: f32,
 }
 

@@ -70,13 +70,17 @@ pub struct CycleContext {
     forward_scale: Parameter<f32, "odometry.forward_scale">,
     /// How far the robot gets to its sides, as a share of what the joints say.
     left_scale: Parameter<f32, "odometry.left_scale">,
-    /// In m: soles that move less against each other are still.
+    /// Soles that move less against each other are still.
+    #[reflect(unit = "m", range = 0.0..)]
     still_distance: Parameter<f32, "odometry.still_distance">,
-    /// In rad: soles that turn less against each other are still.
+    /// Soles that turn less against each other are still.
+    #[reflect(unit = "rad")]
     still_angle: Parameter<f32, "odometry.still_angle">,
-    /// In rad/s: a torso that turns more slowly is still.
+    /// A torso that turns more slowly is still.
+    #[reflect(unit = "rad/s", range = 0.0..)]
     still_rotation: Parameter<f32, "odometry.still_rotation">,
-    /// In s: a robot that has been still for so long stands.
+    /// A robot that has been still for so long stands.
+    #[reflect(unit = "s", range = 0.0..)]
     still_time: Parameter<f32, "odometry.still_time">,
 }
 

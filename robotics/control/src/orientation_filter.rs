@@ -34,15 +34,18 @@ pub struct CycleContext {
     inertial: Input<InertialMeasurement, "sensor_data.inertial">,
     cycle_time: CycleTime,
 
-    /// In s: after so long, a wrong tilt has shrunk to a third.
+    /// After so long, a wrong tilt has shrunk to a third.
+    #[reflect(unit = "s", range = 0.0..)]
     gravity_time: Parameter<f32, "orientation_filter.gravity_time">,
     /// Share of gravity by which the acceleration may differ to be trusted fully.
     trusted_deviation: Parameter<f32, "orientation_filter.trusted_deviation">,
     /// Share of gravity from which on the acceleration is not trusted at all.
     refused_deviation: Parameter<f32, "orientation_filter.refused_deviation">,
-    /// In s: how fast the gyroscope's bias is learnt.
+    /// How fast the gyroscope's bias is learnt.
+    #[reflect(unit = "s", range = 0.0..)]
     bias_time: Parameter<f32, "orientation_filter.bias_time">,
-    /// In rad/s: a robot that turns less is taken to be still.
+    /// A robot that turns less is taken to be still.
+    #[reflect(unit = "rad/s", range = 0.0..)]
     still_rotation: Parameter<f32, "orientation_filter.still_rotation">,
 
     /// In rad: how far gravity is from where the gyroscope expected it.

@@ -23,7 +23,8 @@ pub struct CycleContext {
 
     /// What the robot does while it records.
     states: Parameter<Vec<PrimaryState>, "recording_switch.states">,
-    /// In s: how long it records after it has fallen, whatever it does.
+    /// How long it records after it has fallen, whatever it does.
+    #[reflect(unit = "s", range = 0.0..)]
     after_fall: Parameter<f32, "recording_switch.after_fall">,
 }
 

@@ -30,12 +30,15 @@ pub struct CycleContext {
     /// The pose where it ends, in rad.
     sitting: Parameter<Joints<f32>, "sit_down.sitting">,
     /// Stiffness of every joint until the robot sits, 0 (limp) to 1.
+    #[reflect(range = 0.0..=1.0)]
     stiffness: Parameter<f32, "sit_down.stiffness">,
     /// Share of every joint's greatest speed that the motion may take.
     velocity_share: Parameter<f32, "sit_down.velocity_share">,
-    /// In s: the way from the crouch to the ground takes at least so long.
+    /// The way from the crouch to the ground takes at least so long.
+    #[reflect(unit = "s", range = 0.0..)]
     minimum_duration: Parameter<f32, "sit_down.minimum_duration">,
-    /// In s: how long the stiffness takes to fade.
+    /// How long the stiffness takes to fade.
+    #[reflect(unit = "s", range = 0.0..)]
     release_duration: Parameter<f32, "sit_down.release_duration">,
 }
 

@@ -33,13 +33,17 @@ pub struct CycleContext {
     sonar: Input<Sonar, "sensor_data.sonar">,
     cycle_time: CycleTime,
 
-    /// In m: a nearer echo is none.
+    /// A nearer echo is none.
+    #[reflect(unit = "m", range = 0.0..)]
     least_distance: Parameter<f32, "sonar_filter.least_distance">,
-    /// In m: a farther echo is none.
+    /// A farther echo is none.
+    #[reflect(unit = "m", range = 0.0..)]
     largest_distance: Parameter<f32, "sonar_filter.largest_distance">,
-    /// In s: an echo is believed, or believed to be gone, after so long.
+    /// An echo is believed, or believed to be gone, after so long.
+    #[reflect(unit = "s", range = 0.0..)]
     echo_delay: Parameter<f32, "sonar_filter.echo_delay">,
-    /// In s: how slowly the smoothed distance follows.
+    /// How slowly the smoothed distance follows.
+    #[reflect(unit = "s", range = 0.0..)]
     smoothing_time: Parameter<f32, "sonar_filter.smoothing_time">,
 }
 

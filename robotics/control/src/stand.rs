@@ -20,6 +20,7 @@ pub struct CycleContext {
     /// The pose to hold, in rad.
     positions: Parameter<Joints<f32>, "stand.positions">,
     /// Stiffness of every joint, 0 (limp) to 1.
+    #[reflect(range = 0.0..=1.0)]
     stiffness: Parameter<f32, "stand.stiffness">,
 }
 

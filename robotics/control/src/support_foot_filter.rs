@@ -18,7 +18,8 @@ pub struct CycleContext {
     sole_pressures: Input<Feet<f32>, "sole_pressures">,
     has_ground_contact: Input<bool, "has_ground_contact">,
 
-    /// In kg: by how much the other sole must be heavier to become the supporting one.
+    /// By how much the other sole must be heavier to become the supporting one.
+    #[reflect(unit = "kg", range = 0.0..)]
     hysteresis: Parameter<f32, "support_foot_filter.hysteresis">,
 }
 

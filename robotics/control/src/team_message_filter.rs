@@ -26,7 +26,8 @@ pub struct CycleContext {
     messages: PerceptionInput<Option<TeamMessage>, "SplNetwork", "team_message">,
     cycle_time: CycleTime,
 
-    /// In s: a robot that is silent for so long is not there.
+    /// A robot that is silent for so long is not there.
+    #[reflect(unit = "s", range = 0.0..)]
     forget_after: Parameter<f32, "team_message_filter.forget_after">,
 
     /// The other robots of the own team that were heard lately, by their number.

@@ -31,7 +31,8 @@ pub struct CycleContext {
     report: RequiredInput<Option<TeamMessage>, "team_report?">,
     cycle_time: CycleTime,
 
-    /// In s: how much time passes between two messages.
+    /// How much time passes between two messages.
+    #[reflect(unit = "s", range = 0.0..)]
     interval: Parameter<f32, "team_message_sender.interval">,
     /// How many messages of the team's budget are never sent.
     reserve: Parameter<u16, "team_message_sender.reserve">,

@@ -41,8 +41,10 @@ pub struct CycleContext {
     /// A block votes for a whistle where so many of the four microphones heard one; at least 1.
     least_microphones: Parameter<u32, "whistle_filter.least_microphones">,
     /// So many votes within `window` are a whistle; from 1 to 16.
+    #[reflect(range = 1..=16)]
     least_blocks: Parameter<u32, "whistle_filter.least_blocks">,
-    /// In s: older votes do not count; a whistle that is so long without a vote is over.
+    /// Older votes do not count; a whistle that is so long without a vote is over.
+    #[reflect(unit = "s", range = 0.0..)]
     window: Parameter<f32, "whistle_filter.window">,
 
     /// How many blocks vote for a whistle in this cycle.

@@ -35,19 +35,25 @@ pub struct BallDetectionParameters {
     pub least_radius: f32,
     /// By which factor the radius may differ from what the distance says.
     pub radius_tolerance: f32,
-    /// Least share of the rim that must be found, 0 to 1.
+    /// Least share of the rim that must be found.
+    #[reflect(range = 0.0..=1.0)]
     pub least_rim: f32,
-    /// Least share of field in the ring around it, 0 to 1.
+    /// Least share of field in the ring around it.
+    #[reflect(range = 0.0..=1.0)]
     pub least_field_around: f32,
-    /// Largest share of field within it, 0 to 1.
+    /// Largest share of field within it.
+    #[reflect(range = 0.0..=1.0)]
     pub most_field_inside: f32,
     /// Least difference between the mean luminances of print and ground.
     pub least_contrast: f32,
-    /// Print is dark up to this share of the brightest luminance, 0 to 1.
+    /// Print is dark up to this share of the brightest luminance.
+    #[reflect(range = 0.0..=1.0)]
     pub dark_limit: f32,
-    /// Least share of dark print, 0 to 1.
+    /// Least share of dark print.
+    #[reflect(range = 0.0..=1.0)]
     pub least_dark: f32,
-    /// Largest share of dark print, 0 to 1.
+    /// Largest share of dark print.
+    #[reflect(range = 0.0..=1.0)]
     pub most_dark: f32,
 }
 
@@ -68,6 +74,7 @@ pub struct CycleContext {
     camera_matrix: RequiredInput<Option<CameraMatrix>, "camera_matrix?">,
     field_color: Parameter<FieldColor, "field_color">,
     parameters: Parameter<BallDetectionParameters, "ball_detection">,
+    #[reflect(unit = "m", range = 0.0..)]
     ball_radius: Parameter<f32, "field_dimensions.ball_radius">,
     line_width: Parameter<f32, "field_dimensions.line_width">,
     /// Where a ball was looked for.

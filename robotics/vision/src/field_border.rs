@@ -18,15 +18,19 @@ use crate::segments::{ImageSegments, Segment};
 pub struct FieldBorderParameters {
     /// How many pairs of columns are tried for each line.
     pub attempts: u32,
-    /// How far a column may be off its line, in px.
+    /// How far a column may be off its line.
+    #[reflect(unit = "px", range = 0.0..)]
     pub tolerance: f32,
     /// In how many columns a line must be seen; in half of them, where it makes a corner with the first.
     pub least_columns: u32,
-    /// How long the piece of field below the border must be, in px.
+    /// How long the piece of field below the border must be.
+    #[reflect(unit = "px")]
     pub least_field: u32,
-    /// How far the ground beyond the border must be seen, in m.
+    /// How far the ground beyond the border must be seen.
+    #[reflect(unit = "m", range = 0.0..)]
     pub least_beyond: f32,
-    /// How far the two lines may be off a right angle on the ground, in rad.
+    /// How far the two lines may be off a right angle on the ground.
+    #[reflect(unit = "rad")]
     pub angle_tolerance: f32,
 }
 

@@ -35,23 +35,30 @@ pub struct LineDetectionParameters {
     pub least_opposition: f32,
     /// By which share of a line's width the width may differ, beyond one pixel.
     pub width_tolerance: f32,
-    /// Points further away from the robot are left out, in m.
+    /// Points further away from the robot are left out.
+    #[reflect(unit = "m", range = 0.0..)]
     pub greatest_distance: f32,
-    /// How far before the border of the field it must lie, in m.
+    /// How far before the border of the field it must lie.
+    #[reflect(unit = "m", range = 0.0..)]
     pub before_border: f32,
     /// How many pairs of points are tried for each line.
     pub attempts: u32,
-    /// How far a point near the robot may be off its line, in m.
+    /// How far a point near the robot may be off its line.
+    #[reflect(unit = "m", range = 0.0..)]
     pub tolerance: f32,
-    /// What one metre of distance adds to the tolerance, in m.
+    /// What one metre of distance adds to the tolerance.
+    #[reflect(unit = "m", range = 0.0..)]
     pub tolerance_per_metre: f32,
-    /// How far the edges at a point may be turned against the line, in rad.
+    /// How far the edges at a point may be turned against the line.
+    #[reflect(unit = "rad")]
     pub direction_tolerance: f32,
-    /// How far apart the points of one segment may be, in m.
+    /// How far apart the points of one segment may be.
+    #[reflect(unit = "m", range = 0.0..)]
     pub largest_gap: f32,
     /// How many points a segment must have.
     pub least_points: u32,
-    /// How long a segment must be, in m.
+    /// How long a segment must be.
+    #[reflect(unit = "m", range = 0.0..)]
     pub least_length: f32,
     /// How many segments there are at most.
     pub most_lines: u32,
@@ -75,6 +82,7 @@ pub struct CycleContext {
     field_border: Input<FieldBorder, "field_border">,
     camera_matrix: RequiredInput<Option<CameraMatrix>, "camera_matrix?">,
     field_color: Parameter<FieldColor, "field_color">,
+    #[reflect(unit = "m", range = 0.0..)]
     line_width: Parameter<f32, "field_dimensions.line_width">,
     parameters: Parameter<LineDetectionParameters, "$cycler_instance.line_detection">,
     /// Middles of the pieces that might belong to a line, px.

@@ -21,26 +21,35 @@ use crate::segments::{ImageSegments, Segment};
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct ObstacleDetectionParameters {
-    /// What rises less from the ground is none, in m.
+    /// What rises less from the ground is none.
+    #[reflect(unit = "m", range = 0.0..)]
     pub least_height: f32,
-    /// Obstacles further away from the robot are left out, in m.
+    /// Obstacles further away from the robot are left out.
+    #[reflect(unit = "m", range = 0.0..)]
     pub greatest_distance: f32,
-    /// How far below the border of the field a foot must be, in px.
+    /// How far below the border of the field a foot must be.
+    #[reflect(unit = "px", range = 0.0..)]
     pub below_border: f32,
-    /// How far before the border of the field a foot must be, in m.
+    /// How far before the border of the field a foot must be.
+    #[reflect(unit = "m", range = 0.0..)]
     pub before_border: f32,
-    /// How long the piece of field below the foot must be, in px.
+    /// How long the piece of field below the foot must be.
+    #[reflect(unit = "px")]
     pub least_field: u32,
-    /// Feet so near to each other are one obstacle, in m.
+    /// Feet so near to each other are one obstacle.
+    #[reflect(unit = "m", range = 0.0..)]
     pub same_place: f32,
     /// How many columns an obstacle must have; twice as many at the sides of the image, where what is
     /// beyond a corner of the field looks like one.
     pub least_columns: u32,
-    /// How wide an obstacle must be, in m.
+    /// How wide an obstacle must be.
+    #[reflect(unit = "m", range = 0.0..)]
     pub least_width: f32,
-    /// Half the width of what an obstacle hides behind it, in m.
+    /// Half the width of what an obstacle hides behind it.
+    #[reflect(unit = "m", range = 0.0..)]
     pub hidden_half_width: f32,
-    /// The same for what is cut by the lower edge, at the place of that edge, in m.
+    /// The same for what is cut by the lower edge, at the place of that edge.
+    #[reflect(unit = "m", range = 0.0..)]
     pub cut_half_width: f32,
     /// As high must be seen, in m, of what is cut by the upper edge and may rise further.
     pub least_cut_height: f32,

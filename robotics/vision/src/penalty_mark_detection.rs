@@ -20,17 +20,21 @@ use crate::segments::ImageSegments;
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct PenaltyMarkDetectionParameters {
-    /// Marks further away from the robot are left out, in m.
+    /// Marks further away from the robot are left out.
+    #[reflect(unit = "m", range = 0.0..)]
     pub greatest_distance: f32,
-    /// How far before the border of the field it must lie, in m.
+    /// How far before the border of the field it must lie.
+    #[reflect(unit = "m", range = 0.0..)]
     pub before_border: f32,
     /// By which factor the white area may differ from that of the mark.
     pub area_tolerance: f32,
     /// Least ratio of the shorter to the longer extent of the white area.
     pub least_roundness: f32,
-    /// Least share of field in the ring around it, 0 to 1.
+    /// Least share of field in the ring around it.
+    #[reflect(range = 0.0..=1.0)]
     pub least_field_around: f32,
-    /// Largest share of the patch that may be darker than the field, 0 to 1.
+    /// Largest share of the patch that may be darker than the field.
+    #[reflect(range = 0.0..=1.0)]
     pub most_dark: f32,
 }
 
@@ -50,6 +54,7 @@ pub struct CycleContext {
     camera_matrix: RequiredInput<Option<CameraMatrix>, "camera_matrix?">,
     field_color: Parameter<FieldColor, "field_color">,
     line_width: Parameter<f32, "field_dimensions.line_width">,
+    #[reflect(unit = "m", range = 0.0..)]
     mark_size: Parameter<f32, "field_dimensions.penalty_mark_size">,
     parameters: Parameter<PenaltyMarkDetectionParameters, "penalty_mark_detection">,
     /// Places that were looked at closely.

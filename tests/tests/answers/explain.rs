@@ -27,6 +27,24 @@ fn a_parameter_names_its_readers_and_its_files() {
 }
 
 #[test]
+fn a_parameter_has_its_unit_and_its_range() {
+    let text = answer("explain odometry.still_rotation");
+    assert!(
+        text.starts_with("odometry.still_rotation: f32 in rad/s, within 0..\n"),
+        "{text}"
+    );
+    assert!(
+        text.contains("A torso that turns more slowly is still"),
+        "{text}"
+    );
+    let field = answer("explain ball_filter.rolling_time");
+    assert!(
+        field.contains("  ball_filter.rolling_time: f32 in s, within 0..\n"),
+        "{field}"
+    );
+}
+
+#[test]
 fn a_field_of_a_parameter_has_its_own_type_docs_and_value() {
     let text = answer("explain parameters.ball_filter.gate");
     let lines: Vec<&str> = text.lines().collect();

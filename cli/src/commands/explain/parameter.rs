@@ -186,7 +186,9 @@ fn docs_above(text: &str, line: usize) -> Option<String> {
     let docs = above
         .iter()
         .rev()
-        .map_while(|line| line.trim().strip_prefix("///"));
+        .map(|line| line.trim())
+        .skip_while(|line| line.starts_with("#["))
+        .map_while(|line| line.strip_prefix("///"));
     let mut docs: Vec<&str> = docs.map(str::trim).collect();
     docs.reverse();
     (!docs.is_empty()).then(|| docs.join(" "))
@@ -194,7 +196,12 @@ fn docs_above(text: &str, line: usize) -> Option<String> {
 
 /// The explanation for people.
 pub(super) fn text(subject: &ParameterSubject) -> String {
-    let mut text = format!("{}: {}\n", subject.path, subject.data);
+    let own = subject
+        .values
+        .iter()
+        .find(|value| value.value.path == subject.path);
+    let hints = own.map_or_else(String::new, |own| hints(&own.value));
+    let mut text = format!("{}: {}{hints}\n", subject.path, subject.data);
     for reader in &subject.readers {
         let context = match reader.context {
             "creation" => ", when it is created",
@@ -224,19 +231,23 @@ pub(super) fn text(subject: &ParameterSubject) -> String {
     text
 }
 
+/// Unit and range, behind a type.
+fn hints(value: &Value) -> String {
+    let unit = value.unit.as_ref().map(|unit| format!(" in {unit}"));
+    let range = value
+        .range
+        .as_ref()
+        .map(|range| format!(", within {range}"));
+    unit.unwrap_or_default() + &range.unwrap_or_default()
+}
+
 fn value_text(subject: &ParameterSubject, explained: &ExplainedValue) -> String {
     let value = &explained.value;
     let mut text = String::new();
     if value.path != subject.path {
         let data = value.data.as_deref();
         let data = data.map_or(String::new(), |data| format!(": {data}"));
-        let unit = value.unit.as_ref().map(|unit| format!(" in {unit}"));
-        let range = value
-            .range
-            .as_ref()
-            .map(|range| format!(", within {range}"));
-        let (unit, range) = (unit.unwrap_or_default(), range.unwrap_or_default());
-        text.push_str(&format!("  {}{data}{unit}{range}\n", value.path));
+        text.push_str(&format!("  {}{data}{}\n", value.path, hints(value)));
         text.extend(value.docs.iter().map(|docs| format!("    {docs}\n")));
     }
     if value.given.is_empty() {

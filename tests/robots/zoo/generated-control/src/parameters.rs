@@ -18,5 +18,6 @@ pub struct Parameters {
 #[serde(deny_unknown_fields)]
 pub struct Gait {
     /// zoo_nodes::control::gait
+    #[reflect(creation_only)]
     pub period: f32,
 }

@@ -80,6 +80,7 @@ pub struct Self2 {
 #[serde(deny_unknown_fields)]
 pub struct SpotFinder {
     /// zoo_nodes::vision::spot_finder
+    #[reflect(creation_only)]
     pub brightest: usize,
     /// zoo_nodes::vision::spot_finder
     pub threshold: u8,
@@ -96,6 +97,7 @@ pub struct Vec2 {
 #[serde(deny_unknown_fields)]
 pub struct VisionInstance {
     /// zoo_nodes::vision::eye
+    #[reflect(creation_only)]
     pub camera: Camera,
     /// zoo_nodes::vision::spot_finder
     pub gain: f32,

@@ -70,6 +70,7 @@ pub struct Exposure {
 #[serde(deny_unknown_fields)]
 pub struct Gait {
     /// zoo_nodes::control::gait
+    #[reflect(creation_only)]
     pub period: f32,
 }
 
@@ -91,6 +92,7 @@ pub struct Self2 {
 #[serde(deny_unknown_fields)]
 pub struct SpotFinder {
     /// zoo_nodes::vision::spot_finder
+    #[reflect(creation_only)]
     pub brightest: usize,
     /// zoo_nodes::vision::spot_finder
     pub threshold: u8,
@@ -107,6 +109,7 @@ pub struct Vec2 {
 #[serde(deny_unknown_fields)]
 pub struct VisionInstance {
     /// zoo_nodes::vision::eye
+    #[reflect(creation_only)]
     pub camera: Camera,
     /// zoo_nodes::vision::spot_finder
     pub gain: f32,
