@@ -61,6 +61,8 @@ pub struct SlotsReport {
 pub struct Durations {
     /// From the capture point to the end of the cycle.
     pub cycle: Histogram,
+    /// From the capture time that a setup node gave to the begin of the cycle; zero where none gives one.
+    pub lateness: Histogram,
     /// Blocked inside the hardware interface before the capture point.
     pub wait: Histogram,
     /// The rest before the capture point.

@@ -29,7 +29,10 @@ pub struct InstanceTimings {
     /// From the capture point to the end; absent where nothing was timed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cycle: Option<Durations>,
-    /// Of it, what was not spent in nodes.
+    /// From the capture time of the data to the begin of the cycle; absent where nothing was timed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lateness: Option<Durations>,
+    /// Of `cycle`, what was not spent in nodes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub framework: Option<Durations>,
     /// In the order in which they run.

@@ -209,8 +209,8 @@ impl<B: Body> Instance for Cycler<B> {
     fn begin(&mut self) {
         self.abandon();
         let now = self.clock.now();
-        self.stopwatch.begin(self.timed);
         let start = self.timestamp(now);
+        self.stopwatch.begin(self.timed, now - start);
         let since_last = match self.phase {
             Phase::Fresh { .. } => Duration::ZERO,
             Phase::Begun { .. } | Phase::Between { .. } => start - self.cycle.time.start,

@@ -46,6 +46,7 @@ fn instance_to_json(instance: &InstanceReport, duration: Duration) -> Value {
             "p99": quantile(&durations.cycle, 0.99),
             "max": longest(&durations.cycle),
         },
+        "lateness_us": quantiles(&durations.lateness),
         "wait_us": quantiles(&durations.wait),
         "setup_us": quantiles(&durations.setup),
         "framework_us": quantiles(&durations.framework),

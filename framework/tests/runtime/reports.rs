@@ -87,6 +87,7 @@ fn while_somebody_listens_every_cycle_is_timed() {
     let durations = &eye.durations;
     for histogram in [
         &durations.cycle,
+        &durations.lateness,
         &durations.wait,
         &durations.setup,
         &durations.framework,
@@ -116,6 +117,12 @@ fn a_cycle_is_what_its_nodes_and_the_framework_take() {
         .expect("nothing stops the robot");
     let report = RobotReport::new("test", Duration::from_secs(1), &robot);
     let durations = &report.instances[0].durations;
+    // From capture to arrival, on the stepped clock.
+    let late = durations.lateness.longest();
+    assert!(
+        late >= hardware.latency && late < 2 * hardware.latency,
+        "{late:?}"
+    );
     let [cycle, framework] = [&durations.cycle, &durations.framework].map(|it| it.quantile(0.5));
     assert!(
         cycle >= slow,
@@ -154,6 +161,7 @@ fn the_json_has_the_keys_of_the_contract() {
             "failures",
             "skipped",
             "cycle_us",
+            "lateness_us",
             "wait_us",
             "setup_us",
             "framework_us",
@@ -166,7 +174,7 @@ fn the_json_has_the_keys_of_the_contract() {
         ]
     );
     assert_eq!(keys(&instance["cycle_us"]), ["p50", "p99", "max"]);
-    for part in ["wait_us", "setup_us", "framework_us"] {
+    for part in ["lateness_us", "wait_us", "setup_us", "framework_us"] {
         assert_eq!(keys(&instance[part]), ["p50", "p99"]);
     }
     assert_eq!(

@@ -96,8 +96,12 @@ impl Stopwatch {
         }
     }
 
+    /// `late`: how old the data of the cycle is.
     #[inline]
-    pub(super) fn begin(&mut self, timed: bool) {
+    pub(super) fn begin(&mut self, timed: bool, late: Duration) {
+        if timed {
+            self.durations.lateness.record(late);
+        }
         if timed || self.deadline.is_some() {
             self.in_nodes = Duration::ZERO;
             self.allocations_in_nodes = 0;
