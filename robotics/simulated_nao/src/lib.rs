@@ -17,6 +17,7 @@ pub mod settings;
 
 mod hardware;
 mod network;
+mod noise;
 pub mod posture;
 mod safety;
 mod server;

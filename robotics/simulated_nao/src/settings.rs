@@ -6,6 +6,7 @@
 //! |---|---|
 //! | `--socket PATH` | serves LoLA there instead of in a fresh folder |
 //! | `--physics NAME` | `dynamic` (masses, torques and contacts) or `kinematic` (cheap; robots never fall) |
+//! | `--imperfect SEED` | gives the body the play, the late commands and the noise of a real one |
 //! | `--pose X,Y,HEADING` | puts the robot there (m, m, rad) |
 //! | `--ball X,Y` | puts the ball there (m) |
 //! | `--no-ball` | takes the ball away |
@@ -19,6 +20,7 @@
 
 mod buttons;
 mod game;
+mod imperfections;
 mod network;
 mod options;
 
@@ -33,6 +35,7 @@ use types::sensor_data::RobotConfiguration;
 pub use self::buttons::{Button, Press};
 pub(crate) use self::game::PLAYERS_PER_TEAM;
 pub use self::game::{Announcement, GameSettings};
+pub use self::imperfections::{Imperfections, SensorErrors};
 pub use self::network::NetworkSettings;
 use crate::scene::{self, ImageSettings, RobotSettings};
 pub use crate::sound::SoundSettings;
@@ -45,6 +48,8 @@ pub struct Settings {
     pub socket: Option<PathBuf>,
     /// What moves robots and ball.
     pub physics: PhysicsChoice,
+    /// What is wrong with the robot's body.
+    pub imperfections: Imperfections,
     /// Where the robot starts in the field frame: x and y in m, heading in rad.
     pub robot_pose: [f64; 3],
     /// The ball.
@@ -111,6 +116,7 @@ impl Default for Settings {
         Self {
             socket: None,
             physics: PhysicsChoice::default(),
+            imperfections: Imperfections::default(),
             robot_pose: [2.0, 0.0, 0.0],
             ball: BallSettings::default(),
             robots: Vec::new(),
@@ -156,6 +162,7 @@ impl Settings {
                 "hardware.simulated: {number} is no place on the field"
             )));
         }
+        self.imperfections.check()?;
         self.network.check()?;
         self.game.check()?;
         self.sound.check()?;
@@ -216,6 +223,10 @@ mod tests {
             (&["--ball"], "`--ball` of the simulated NAO needs a value"),
             (&["--ball", "1"], "2 numbers"),
             (&["--pose", "1,2,north"], "`1,2,north`"),
+            (
+                &["--imperfect", "very"],
+                "`--imperfect` needs a seed, a whole number, not `very`",
+            ),
         ] {
             let message = apply(options).unwrap_err().to_string();
             assert!(message.contains(expected), "{message}");
@@ -283,6 +294,14 @@ mod tests {
             (
                 "[game]\nteam = 3\nopponent = 3",
                 "game.opponent: both teams have number 3",
+            ),
+            (
+                "[imperfections.noise]\ngyroscope = [0, -1, 0]",
+                "imperfections.noise.gyroscope: -1 is no deviation",
+            ),
+            (
+                "[imperfections]\ncommand_delay = 84",
+                "imperfections.command_delay: 84 cycles are more than 83",
             ),
             ("[game]\nteam = 255", "game.team: no team has number 255"),
             (

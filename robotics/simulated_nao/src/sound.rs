@@ -7,7 +7,6 @@
 //! any number of times, fit together without a step, and are the same on every run.
 
 mod crowd;
-mod noise;
 mod settings;
 mod voices;
 mod whistle;
@@ -19,7 +18,7 @@ use types::audio::{AudioBlock, MICROPHONE_COUNT};
 
 pub use self::settings::{SoundSettings, WhistleTruth};
 
-use self::noise::{SENSORS, hash, signed_parts};
+use crate::noise::{SENSORS, hash, signed_parts};
 
 /// Samples per second and channel, as the NAO's microphones are usually read.
 pub(crate) const SAMPLE_RATE: u32 = 44_100;

@@ -1,5 +1,6 @@
 //! The simulated world at one moment: the robot's body, its motors and cameras, and the ball.
 
+mod imperfections;
 mod inertial;
 mod motor_boards;
 mod power;
@@ -21,6 +22,7 @@ use types::camera::{CameraPosition, Intrinsics};
 use types::motor_commands::MotorCommands;
 use types::sensor_data::{RobotConfiguration, SensorData, Touch};
 
+use self::imperfections::Imperfections;
 use self::inertial::InertialUnit;
 use self::motor_boards::MotorBoards;
 use self::power::Power;
@@ -43,6 +45,7 @@ pub(crate) struct World {
     /// When the last step of the physics was.
     stepped: Timestamp,
     inertial: InertialUnit,
+    imperfections: Imperfections,
     motors: MotorBoards,
     power: Power,
     presses: Vec<Press>,
@@ -66,6 +69,7 @@ impl World {
             now: Timestamp::ZERO,
             stepped: Timestamp::ZERO,
             inertial: InertialUnit::default(),
+            imperfections: Imperfections::new(&settings.imperfections),
             motors: MotorBoards::new(&joints),
             power: Power::new(),
             presses: settings.buttons.clone(),
@@ -111,7 +115,10 @@ impl World {
         // On a grid of its own, so that the body does not depend on who looks at it when.
         while self.stepped + STEP <= time {
             self.stepped = self.stepped + STEP;
-            self.physics.step(&[self.motors.at(self.stepped)]);
+            let mut commands = self.motors.at(self.stepped);
+            self.imperfections
+                .push(&mut commands, &self.physics.bodies()[0].joints);
+            self.physics.step(&[commands]);
             self.inertial.measure(&self.physics.bodies()[0]);
         }
         if has_moved(&self.robots, self.physics.bystanders()) {
@@ -135,8 +142,10 @@ impl World {
 
     /// Tells the motors what to do from now on.
     pub(crate) fn command(&mut self, commands: MotorCommands) {
-        self.motors
-            .command(commands, &self.physics.bodies()[0].joints, self.now);
+        if let Some(commands) = self.imperfections.delay(commands) {
+            self.motors
+                .command(commands, &self.physics.bodies()[0].joints, self.now);
+        }
     }
 
     /// Reads all sensors of the body.
@@ -144,7 +153,7 @@ impl World {
         let inertial = self.inertial.take(&self.physics.bodies()[0]);
         let (body, commands) = (self.body(), self.commands());
         let stiffnesses = commands.stiffnesses;
-        SensorData {
+        let mut sensors = SensorData {
             currents: power::currents(&body.joints, commands),
             temperatures: self.power.temperatures(),
             status: self.power.status(),
@@ -152,7 +161,9 @@ impl World {
             sonar: sonar::echoes(&body.torso_to_field, self.obstacles()),
             battery: self.power.battery(&stiffnesses),
             ..sensors::sample(body, inertial, stiffnesses, self.configuration)
-        }
+        };
+        self.imperfections.spoil(&mut sensors);
+        sensors
     }
 
     /// Everything that is pressed now.
@@ -255,6 +266,72 @@ mod tests {
             (NO_ECHO, NO_ECHO)
         );
         assert!(!sensors.touch.chest_button);
+    }
+
+    #[test]
+    fn a_late_command_is_obeyed_late_and_a_joint_with_play_stops_short() {
+        let turned = |imperfections: crate::settings::Imperfections| {
+            let mut world = World::new(&Settings {
+                physics: PhysicsChoice::Kinematic,
+                imperfections,
+                ..Settings::default()
+            });
+            let start = f64::from(world.sample().positions.left_hip_roll);
+            let mut commands = *world.commands();
+            commands.stiffnesses = types::joints::Joints::filled(1.0);
+            commands.positions.left_hip_roll += 0.03;
+            let states = (1..=4).map(|tick| {
+                world.advance_to(Timestamp::ZERO + Duration::from_millis(12 * tick));
+                let position = f64::from(world.sample().positions.left_hip_roll);
+                world.command(commands);
+                position - start
+            });
+            states.collect::<Vec<_>>()
+        };
+        let ideal = turned(crate::settings::Imperfections::default());
+        assert!(
+            ideal[0].abs() < 1e-6 && (ideal[1] - 0.03).abs() < 1e-4,
+            "{ideal:?}"
+        );
+        let late = turned(crate::settings::Imperfections {
+            command_delay: 1,
+            ..Default::default()
+        });
+        assert!(
+            late[1].abs() < 1e-6 && (late[2] - 0.03).abs() < 1e-4,
+            "{late:?}"
+        );
+        let loose = turned(crate::settings::Imperfections {
+            backlash: 0.02,
+            ..Default::default()
+        });
+        assert!((loose[3] - 0.02).abs() < 1e-4, "{loose:?}");
+    }
+
+    #[test]
+    fn sensors_are_as_wrong_as_their_seed_says() {
+        let readings = |seed: Option<u64>| {
+            let imperfections = seed.map(crate::settings::Imperfections::of_a_nao);
+            let mut world = World::new(&Settings {
+                physics: PhysicsChoice::Kinematic,
+                imperfections: imperfections.unwrap_or_default(),
+                ..Settings::default()
+            });
+            let samples = (1..=400).map(|tick| {
+                world.advance_to(Timestamp::ZERO + Duration::from_millis(12 * tick));
+                world.sample().inertial.gyroscope.y
+            });
+            samples.collect::<Vec<_>>()
+        };
+        assert!(readings(None).iter().all(|turn| turn.abs() < 1e-6));
+        let noisy = readings(Some(1));
+        assert_eq!(noisy, readings(Some(1)));
+        assert_ne!(noisy, readings(Some(2)));
+        let mean = noisy.iter().sum::<f32>() / 400.0;
+        let deviation = noisy.iter().map(|turn| (turn - mean).powi(2)).sum::<f32>() / 400.0;
+        // One standard deviation of the gyroscope's y axis, and its bias.
+        assert!((deviation.sqrt() - 0.0055).abs() < 0.001, "{deviation}");
+        assert!(mean.abs() > 1e-3 && mean.abs() < 0.035, "{mean}");
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use framework::{Error, Result};
 
-use super::{BallSettings, Settings};
+use super::{BallSettings, Imperfections, Settings};
 
 impl Settings {
     /// Obeys the command line.
@@ -23,6 +23,15 @@ impl Settings {
             match option.as_str() {
                 "--socket" => self.socket = Some(value()?.into()),
                 "--physics" => self.physics = value()?.parse()?,
+                "--imperfect" => {
+                    let seed = value()?;
+                    let seed = seed.parse().map_err(|_| {
+                        Error::new(format!(
+                            "option `{option}` needs a seed, a whole number, not `{seed}`"
+                        ))
+                    })?;
+                    self.imperfections = Imperfections::of_a_nao(seed);
+                }
                 "--pose" => self.robot_pose = numbers(option, value()?)?,
                 "--ball" => {
                     self.ball = BallSettings {
@@ -47,7 +56,7 @@ impl Settings {
 
 fn unknown(option: &str) -> Error {
     Error::new(format!(
-        "unknown option `{option}` of the simulated NAO; it knows --socket PATH, --physics NAME, --pose X,Y,HEADING, \
+        "unknown option `{option}` of the simulated NAO; it knows --socket PATH, --physics NAME, --imperfect SEED, --pose X,Y,HEADING, \
          --ball X,Y, --no-ball, --game STATE, --no-referee, --no-mate, --free-ports, --no-buttons, \
          --no-cameras, --no-sound"
     ))

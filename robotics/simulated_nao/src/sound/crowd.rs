@@ -1,8 +1,8 @@
 //! The audience as a whole: rumble, babble that swells and ebbs, and claps.
 
-use super::noise::{CLAP_NOISE, CLAPS, Draw, for_each_line, hash, signed};
 use super::voices::events;
 use super::{HEARD_LENGTH, Passage};
+use crate::noise::{CLAP_NOISE, CLAPS, Draw, for_each_line, hash, signed};
 
 /// Amplitudes of noise that changes every 2^shift samples: most power lies below 700 Hz, as with
 /// many voices and steps, and falls by about 10 dB per octave above.

@@ -4,7 +4,7 @@
 use std::f64::consts::TAU;
 
 use super::Passage;
-use super::noise::{ANNOUNCEMENTS, CHANTS, Draw, SHOUTS, SQUEAKS};
+use crate::noise::{ANNOUNCEMENTS, CHANTS, Draw, SHOUTS, SQUEAKS};
 
 /// How many overtones of a voice are heard, with the fundamental.
 const OVERTONES: usize = 14;

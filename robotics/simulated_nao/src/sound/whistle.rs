@@ -6,9 +6,9 @@
 use std::f64::consts::TAU;
 
 use super::Passage;
-use super::noise::{BREATH, Draw, WHISTLES, hash, signed};
 use super::settings::WhistleTruth;
 use super::voices::envelope;
+use crate::noise::{BREATH, Draw, WHISTLES, hash, signed};
 
 /// The tone begins lower by this share ...
 const ONSET_DEPTH: f64 = 0.06;

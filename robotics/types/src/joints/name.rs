@@ -75,6 +75,12 @@ pub enum JointName {
 }
 
 impl JointName {
+    /// Whether it moves a leg.
+    pub const fn is_of_leg(self) -> bool {
+        let joint = self as usize;
+        Self::HipYawPitch as usize <= joint && joint <= Self::RightAnkleRoll as usize
+    }
+
     /// All joints in LoLA's order.
     pub const ALL: [Self; JOINT_COUNT] = [
         Self::HeadYaw,

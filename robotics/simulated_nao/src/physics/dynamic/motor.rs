@@ -32,7 +32,7 @@ impl Servo {
     /// published them. Other simulators of the NAO have gains from 20 to 80 N m/rad; with the friction of
     /// the legs a limp robot keeps sitting, as a real one does, and does not keep standing.
     pub(crate) const fn of(joint: JointName) -> Self {
-        let (proportional, derivative, rotor, friction) = if is_of_leg(joint) {
+        let (proportional, derivative, rotor, friction) = if joint.is_of_leg() {
             (100.0, 2.0, LEG_ROTOR, 0.5)
         } else {
             match joint {
@@ -64,11 +64,6 @@ impl Servo {
     }
 }
 
-const fn is_of_leg(joint: JointName) -> bool {
-    let joint = joint as usize;
-    JointName::HipYawPitch as usize <= joint && joint <= JointName::RightAnkleRoll as usize
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -85,7 +80,7 @@ mod tests {
 
     #[test]
     fn legs_are_driven_as_legs() {
-        let legs = JointName::ALL.into_iter().filter(|joint| is_of_leg(*joint));
+        let legs = JointName::ALL.into_iter().filter(|joint| joint.is_of_leg());
         assert_eq!(legs.count(), 11);
         // The rotor of the hip: 4 g cm² through a gear of 201.3.
         let hip = Servo::of(JointName::LeftHipRoll);

@@ -6,20 +6,22 @@
 use std::ops::Range;
 
 /// What the random numbers are for: no two purposes share any. Lattices have the first 64.
-pub(super) const SENSORS: u64 = 64;
-pub(super) const CLAPS: u64 = 65;
-pub(super) const CLAP_NOISE: u64 = 66;
-pub(super) const SHOUTS: u64 = 67;
-pub(super) const CHANTS: u64 = 68;
-pub(super) const SQUEAKS: u64 = 69;
-pub(super) const ANNOUNCEMENTS: u64 = 70;
-pub(super) const WHISTLES: u64 = 71;
-pub(super) const BREATH: u64 = 72;
+pub(crate) const SENSORS: u64 = 64;
+pub(crate) const CLAPS: u64 = 65;
+pub(crate) const CLAP_NOISE: u64 = 66;
+pub(crate) const SHOUTS: u64 = 67;
+pub(crate) const CHANTS: u64 = 68;
+pub(crate) const SQUEAKS: u64 = 69;
+pub(crate) const ANNOUNCEMENTS: u64 = 70;
+pub(crate) const WHISTLES: u64 = 71;
+pub(crate) const BREATH: u64 = 72;
+pub(crate) const SENSOR_NOISE: u64 = 73;
+pub(crate) const SENSOR_BIAS: u64 = 74;
 
 const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
 
 /// 64 random bits for each counter of each purpose.
-pub(super) fn hash(seed: u64, purpose: u64, counter: u64) -> u64 {
+pub(crate) fn hash(seed: u64, purpose: u64, counter: u64) -> u64 {
     let key = seed.wrapping_add(purpose.wrapping_mul(0xd1b5_4a32_d192_ed03));
     finalize(finalize(key).wrapping_add(counter.wrapping_mul(GOLDEN)))
 }
@@ -31,29 +33,35 @@ fn finalize(mut bits: u64) -> u64 {
 }
 
 /// Four random numbers from -1 to 1.
-pub(super) fn signed_parts(bits: u64) -> [f32; 4] {
+pub(crate) fn signed_parts(bits: u64) -> [f32; 4] {
     [0, 16, 32, 48].map(|shift| f32::from((bits >> shift) as i16) / 32_768.0)
 }
 
 /// One random number from -1 to 1.
-pub(super) fn signed(bits: u64) -> f32 {
+pub(crate) fn signed(bits: u64) -> f32 {
     f32::from(bits as i16) / 32_768.0
 }
 
+/// About normal, with mean 0 and standard deviation 1: the sum of four even ones, up to 3.5.
+pub(crate) fn normal(bits: u64) -> f32 {
+    // The variance of a number that is even from -1 to 1 is a third.
+    signed_parts(bits).iter().sum::<f32>() * (0.75_f32).sqrt()
+}
+
 /// Draws a few random numbers about one event.
-pub(super) struct Draw {
+pub(crate) struct Draw {
     state: u64,
 }
 
 impl Draw {
-    pub(super) fn new(seed: u64, purpose: u64, counter: u64) -> Self {
+    pub(crate) fn new(seed: u64, purpose: u64, counter: u64) -> Self {
         Self {
             state: hash(seed, purpose, counter),
         }
     }
 
     /// Evenly from `range`.
-    pub(super) fn from(&mut self, range: Range<f64>) -> f64 {
+    pub(crate) fn from(&mut self, range: Range<f64>) -> f64 {
         self.state = self.state.wrapping_add(GOLDEN);
         let share = (finalize(self.state) >> 11) as f64 / (1_u64 << 53) as f64;
         range.start + (range.end - range.start) * share
@@ -64,7 +72,7 @@ impl Draw {
 ///
 /// Calls `line` for each piece with its part of 0..`length`, the value at its first sample and the
 /// slope per sample.
-pub(super) fn for_each_line(
+pub(crate) fn for_each_line(
     seed: u64,
     shift: u32,
     start: u64,
@@ -119,6 +127,19 @@ mod tests {
         }
         let largest = whole.windows(2).map(|pair| (pair[1] - pair[0]).abs());
         assert!(largest.fold(0.0, f32::max) <= 2.0 / 32.0 + 1e-6);
+    }
+
+    #[test]
+    fn normal_numbers_have_mean_0_and_deviation_1() {
+        let numbers: Vec<f32> = (0..10_000)
+            .map(|it| normal(hash(3, SENSOR_NOISE, it)))
+            .collect();
+        let mean = numbers.iter().sum::<f32>() / 10_000.0;
+        let variance = numbers.iter().map(|it| it * it).sum::<f32>() / 10_000.0;
+        assert!(
+            mean.abs() < 0.04 && (variance - 1.0).abs() < 0.05,
+            "{mean} {variance}"
+        );
     }
 
     #[test]
