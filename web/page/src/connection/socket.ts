@@ -1,0 +1,143 @@
+// Owns the WebSocket: requests with their answers, messages of the robot, and coming back after it was lost.
+import type { Ask, Failure, Good, Message, Welcome } from "../protocol";
+import { readFrame, type Frame } from "./binary";
+
+/** `waiting`: there is no connection, and one is tried again and again. */
+export type State = "connecting" | "open" | "waiting";
+
+export interface Listener {
+  state(state: State): void;
+  /** Before anything else of a connection. */
+  welcome(welcome: Welcome): void;
+  message(message: Message): void;
+  frame(frame: Frame): void;
+}
+
+/** What the robot refused, or what was in the way of an answer. */
+export class Refused extends Error {
+  constructor(readonly failure: Failure) {
+    super([failure.message, ...(failure.refusals ?? []).map((one) => `${one.path}: ${one.message}`)].join("\n"));
+  }
+}
+
+type Name<T> = T extends unknown ? keyof T : never;
+type Content<T, N extends Name<T>> = Extract<T, Record<N, unknown>>[N];
+
+/** The part of an answer that was expected. */
+export function expect<N extends Name<Good>>(good: Good, name: N): Content<Good, N> {
+  if (!(name in good)) throw new Error(`the robot answered something else than \`${name}\``);
+  return (good as unknown as Record<N, Content<Good, N>>)[name];
+}
+
+interface Pending {
+  resolve(good: Good): void;
+  reject(error: Error): void;
+}
+
+/** Short enough that a robot that restarts is there again at once, long enough for a phone's battery. */
+const RETRY_MILLISECONDS = 1000;
+
+/** A robot that says nothing for so long while it is asked is gone, also where its network does not say so. */
+const SILENCE_MILLISECONDS = 6000;
+
+export class Socket {
+  private socket: WebSocket | null = null;
+  private readonly pending = new Map<number, Pending>();
+  private nextId = 1;
+  private heard = 0;
+
+  constructor(
+    private readonly address: string,
+    private readonly listener: Listener,
+  ) {
+    window.setInterval(() => this.watch(), SILENCE_MILLISECONDS / 3);
+    this.connect();
+  }
+
+  /** Asks the robot; without a connection the answer is an error. */
+  ask(ask: Ask): Promise<Good> {
+    const socket = this.socket;
+    if (socket === null || socket.readyState !== WebSocket.OPEN) {
+      return Promise.reject(new Error("there is no connection to the robot"));
+    }
+    const id = this.nextId++;
+    return new Promise((resolve, reject) => {
+      this.pending.set(id, { resolve, reject });
+      socket.send(JSON.stringify({ id, ask }));
+    });
+  }
+
+  private connect(): void {
+    this.listener.state("connecting");
+    const socket = new WebSocket(this.address);
+    socket.binaryType = "arraybuffer";
+    socket.onmessage = (event) => {
+      if (this.socket === socket) this.hear(event.data);
+    };
+    socket.onclose = () => {
+      if (this.socket === socket) this.lose();
+    };
+    this.socket = socket;
+    this.heard = Date.now();
+  }
+
+  private lose(): void {
+    this.socket = null;
+    for (const pending of this.pending.values()) pending.reject(new Error("the connection to the robot was lost"));
+    this.pending.clear();
+    this.listener.state("waiting");
+    window.setTimeout(() => this.connect(), RETRY_MILLISECONDS);
+  }
+
+  private watch(): void {
+    const socket = this.socket;
+    if (socket === null) return;
+    if (Date.now() - this.heard > SILENCE_MILLISECONDS) {
+      // `onclose` may take minutes where the network is silent.
+      this.lose();
+      socket.close();
+    } else if (socket.readyState === WebSocket.OPEN && this.pending.size === 0) {
+      // Anything that is answered shows that the robot is there.
+      this.ask({ paths: { below: "parameters", depth: 0 } }).catch(() => undefined);
+    }
+  }
+
+  private hear(data: unknown): void {
+    this.heard = Date.now();
+    if (data instanceof ArrayBuffer) {
+      const frame = readFrame(data);
+      if (frame !== null) this.listener.frame(frame);
+      return;
+    }
+    const message = parse(data);
+    if (message === null) return;
+    if ("welcome" in message) {
+      this.listener.welcome(message.welcome);
+      this.listener.state("open");
+    } else if ("answer" in message) {
+      this.answer(message);
+    } else {
+      this.listener.message(message);
+    }
+  }
+
+  private answer({ answer }: Extract<Message, { answer: unknown }>): void {
+    const pending = typeof answer.id === "number" ? this.pending.get(answer.id) : undefined;
+    if (pending === undefined || typeof answer.id !== "number") return;
+    this.pending.delete(answer.id);
+    if ("ok" in answer) pending.resolve(answer.ok);
+    else pending.reject(new Refused(answer.error));
+  }
+}
+
+/** What is no message is left alone: a robot of a later version may say more. */
+function parse(data: unknown): Message | null {
+  if (typeof data !== "string") return null;
+  try {
+    const message: unknown = JSON.parse(data);
+    return typeof message === "object" && message !== null ? (message as Message) : null;
+  } catch {
+    console.warn("the robot sent something that is not JSON");
+    return null;
+  }
+}

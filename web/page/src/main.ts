@@ -1,0 +1,20 @@
+// Begins: connection → store → panels, in this one direction.
+import { Arrangement } from "./store/layout";
+import { Robot } from "./store/robot";
+import "./style/base.css";
+import "./style/frame.css";
+import "./style/panels.css";
+import { header } from "./view/header";
+import { Sidebar } from "./view/sidebar";
+import { Workspace } from "./view/workspace";
+
+const address = new URL("socket", location.href);
+address.protocol = address.protocol === "https:" ? "wss:" : "ws:";
+address.search = "";
+address.hash = "";
+
+const robot = new Robot(address.href);
+const arrangement = new Arrangement();
+const sidebar = new Sidebar(robot, arrangement);
+const workspace = new Workspace(robot, arrangement);
+document.body.replaceChildren(header(robot, arrangement), sidebar.element, workspace.element);

@@ -1,0 +1,80 @@
+// A panel with what the robot says: newest last, filtered by severity and words.
+import type { Level, Log } from "../protocol";
+import { button, complain, eachFrame, make, select } from "../view/dom";
+import { seconds } from "../view/format";
+import { textSetting, type Context, type Panel, type PanelKind } from "./panel";
+
+const LEVELS: readonly Level[] = ["trace", "debug", "info", "warn", "error"];
+/** More lines are slower to draw than anybody reads. */
+const SHOWN = 500;
+
+function open(context: Context): Panel {
+  let level = textSetting(context.settings, "level", "info") as Level;
+  let words = textSetting(context.settings, "words");
+  let isFollowing = true;
+  let isDrawing = false;
+  const list = make("div", { class: "log", role: "log" });
+  const failure = make("p", { class: "failure", hidden: true });
+  const search = make("input", { type: "search", value: words, placeholder: "filter: words, instance, node", "aria-label": "filter" });
+  const save = (): void => context.save({ level, words });
+
+  const draw = eachFrame(() => {
+    const least = LEVELS.indexOf(level);
+    const wanted = words.toLowerCase().split(/\s+/).filter((word) => word !== "");
+    const isWanted = (log: Log): boolean => LEVELS.indexOf(log.level) >= least && wanted.every((word) => textOf(log).includes(word));
+    const shown = context.robot.logs.value.filter(isWanted).slice(-SHOWN);
+    isDrawing = true;
+    list.replaceChildren(...shown.map(row));
+    if (isFollowing) list.scrollTop = list.scrollHeight;
+    isDrawing = false;
+  });
+  list.addEventListener("scroll", () => {
+    if (!isDrawing) isFollowing = list.scrollTop + list.clientHeight >= list.scrollHeight - 8;
+  });
+  search.addEventListener("input", () => {
+    words = search.value;
+    save();
+    draw();
+  });
+  const most = select(LEVELS, "info", "what the robot keeps: less severe messages are not made", (choice) => {
+    context.robot
+      .ask({ set_log_level: { level: choice as Level } })
+      .then(() => complain(failure, null))
+      .catch((error: unknown) => complain(failure, error));
+  });
+  const tools = [
+    select(LEVELS, level, "at least this severe", (choice) => {
+      level = choice as Level;
+      save();
+      draw();
+    }),
+    button("Newest", "follow the newest message", () => {
+      isFollowing = true;
+      draw();
+    }),
+  ];
+  context.robot.wantLogs();
+  const stop = context.robot.logs.watch(draw);
+  const bar = make("div", { class: "bar" }, search, make("label", { class: "muted" }, "robot makes ", most));
+  return { content: make("div", { class: "logs" }, bar, failure, list), tools, close: stop };
+}
+
+function textOf(log: Log): string {
+  return `${log.message} ${log.instance ?? ""} ${log.node ?? ""} ${JSON.stringify(log.fields ?? {})}`.toLowerCase();
+}
+
+function row(log: Log): HTMLElement {
+  const from = [log.instance, log.node].filter((part) => part != null).join(" ");
+  const fields = Object.entries(log.fields ?? {}).map(([name, value]) => `${name}=${typeof value === "string" ? value : JSON.stringify(value)}`);
+  const cycle = log.cycle == null ? "" : ` #${log.cycle}`;
+  return make(
+    "div",
+    { class: `entry ${log.level}` },
+    make("time", {}, seconds(log.time)),
+    make("b", {}, log.level),
+    make("span", { class: "muted" }, `${from}${cycle}`),
+    make("span", {}, [log.message, ...fields].join(" ")),
+  );
+}
+
+export const logs: PanelKind = { kind: "logs", name: "Logs", open };

@@ -1,0 +1,53 @@
+// Owns what a panel is: one element, fed by the robot's store, with settings that the layout keeps.
+import type { Arrangement, Settings } from "../store/layout";
+import type { Robot } from "../store/robot";
+
+export interface Context {
+  readonly robot: Robot;
+  readonly arrangement: Arrangement;
+  readonly settings: Settings;
+  /** Keeps settings for the next time. */
+  save(settings: Settings): void;
+  /** Names what is shown. */
+  title(text: string): void;
+}
+
+export interface Panel {
+  readonly content: HTMLElement;
+  /** Stand in the panel's head. */
+  readonly tools?: readonly HTMLElement[];
+  /** Ends subscriptions and timers. */
+  close(): void;
+  /** A path was dropped on it. */
+  accept?(path: string): void;
+  /** Its place is larger or smaller now. */
+  resized?(): void;
+}
+
+export interface PanelKind {
+  /** In layouts: never changes. */
+  readonly kind: string;
+  readonly name: string;
+  open(context: Context): Panel;
+}
+
+/** What the browser hands from where a drag began to where it ends. */
+export const DRAGGED_PATH = "application/x-hulk-path";
+
+/** A setting that is a text. */
+export function textSetting(settings: Settings, name: string, otherwise = ""): string {
+  const value = settings[name];
+  return typeof value === "string" ? value : otherwise;
+}
+
+/** A setting that is a number. */
+export function numberSetting(settings: Settings, name: string, otherwise: number): number {
+  const value = settings[name];
+  return typeof value === "number" ? value : otherwise;
+}
+
+/** A setting that is a list of texts. */
+export function listSetting(settings: Settings, name: string): string[] {
+  const value = settings[name];
+  return Array.isArray(value) ? value.filter((item): item is string => typeof item === "string") : [];
+}

@@ -1,0 +1,159 @@
+// A panel to read and change the robot's parameters: several at once, with where they come from, and back into a file.
+import type { Json } from "../protocol";
+import { Tuning, type Parameter, type Tuned } from "../store/tuning";
+import { button, complain, make, select } from "../view/dom";
+import { plural } from "../view/format";
+import { textSetting, type Context, type Panel, type PanelKind } from "./panel";
+import { ParameterRow } from "./parameter_row";
+
+class Parameters implements Panel {
+  readonly content: HTMLElement;
+  readonly tools: HTMLElement[];
+  private readonly tuning: Tuning;
+  private readonly list = make("div", { class: "parameters" });
+  private readonly failure = make("p", { class: "failure", hidden: true });
+  private readonly said = make("p", { class: "said", hidden: true });
+  private readonly search: HTMLInputElement;
+  private readonly writing = make("div", { class: "bar writing", hidden: true });
+  private readonly storing = make("div", { class: "bar storing", hidden: true });
+  private readonly undo: HTMLButtonElement;
+  private readonly rows = new Map<string, ParameterRow>();
+  private readonly stops: (() => void)[];
+  private layer: string;
+
+  constructor(private readonly context: Context) {
+    this.layer = textSetting(context.settings, "layer");
+    this.tuning = new Tuning(context.robot);
+    this.search = make("input", { type: "search", value: textSetting(context.settings, "words"), placeholder: "search a parameter", "aria-label": "search a parameter" });
+    this.search.addEventListener("input", () => {
+      this.save();
+      this.filter();
+    });
+    this.undo = button("Undo", "take the last write from here back", () => this.attempt(() => this.tuning.undo()));
+    this.tools = [
+      this.undo,
+      button("Reload", "take what the files say: changes that were not stored are gone", () => this.attempt(() => this.tuning.reload())),
+    ];
+    this.content = make("div", { class: "scroll" }, make("div", { class: "bar" }, this.search), this.writing, this.storing, this.failure, this.said, this.list);
+    this.stops = [
+      context.robot.parameters.watch(() => void this.load()),
+      context.robot.canWrite.watch((can) => this.content.classList.toggle("read-only", !can)),
+      this.tuning.tuned.watch((tuned) => this.draw(tuned)),
+      this.tuning.pending.watch((pending) => this.drawPending(pending)),
+    ];
+  }
+
+  close(): void {
+    for (const stop of this.stops) stop();
+  }
+
+  accept(path: string): void {
+    this.search.value = path.replace(/^parameters\./, "");
+    this.filter();
+  }
+
+  private async load(): Promise<void> {
+    if (this.context.robot.state.value !== "open" && this.context.robot.welcome.value === null) return;
+    try {
+      await this.tuning.load();
+      complain(this.failure, null);
+    } catch (error) {
+      complain(this.failure, error);
+    }
+  }
+
+  private attempt(deed: () => Promise<string | void>): void {
+    complain(this.failure, null);
+    deed().then(
+      (said) => complain(this.said, said ?? null),
+      (error: unknown) => complain(this.failure, error),
+    );
+  }
+
+  private save(): void {
+    this.context.save({ words: this.search.value, layer: this.layer });
+  }
+
+  private draw(tuned: Tuned | null): void {
+    this.undo.disabled = !this.tuning.canUndo;
+    if (tuned === null) return;
+    const paths = new Set(tuned.parameters.map((parameter) => parameter.path));
+    const isSame = paths.size === this.rows.size && [...paths].every((path) => this.rows.has(path));
+    if (!isSame) {
+      this.rows.clear();
+      const root = group("", tuned.parameters, (parameter) => this.row(parameter));
+      this.list.replaceChildren(...root);
+    }
+    for (const parameter of tuned.parameters) this.rows.get(parameter.path)?.show(parameter);
+    this.filter();
+    this.drawStoring(tuned);
+  }
+
+  private row(parameter: Parameter): HTMLElement {
+    const row = new ParameterRow(parameter, {
+      note: (shown, value: Json) => this.tuning.note(shown, value),
+      write: () => this.attempt(() => this.tuning.write()),
+    });
+    this.rows.set(parameter.path, row);
+    return row.element;
+  }
+
+  private drawPending(pending: ReadonlyMap<string, Json>): void {
+    for (const [path, row] of this.rows) row.mark(pending.has(path));
+    if (pending.size === 0) {
+      for (const row of this.rows.values()) row.reset();
+    }
+    this.undo.disabled = !this.tuning.canUndo;
+    this.writing.hidden = pending.size === 0;
+    this.writing.replaceChildren(
+      make("span", {}, `${plural(pending.size, "change")} not sent`),
+      button("Write", "all of them at once, or none", () => this.attempt(() => this.tuning.write()), "deed"),
+      button("Discard", "forget them", () => this.tuning.discard()),
+    );
+  }
+
+  private drawStoring(tuned: Tuned): void {
+    const unstored = tuned.parameters.filter((parameter) => parameter.isUnstored);
+    this.storing.hidden = unstored.length === 0;
+    const last = tuned.layers[tuned.layers.length - 1] ?? "";
+    if (!tuned.layers.includes(this.layer)) this.layer = last;
+    const layers = select(tuned.layers, this.layer, "layer", (layer) => {
+      this.layer = layer;
+      this.save();
+    });
+    this.storing.replaceChildren(
+      make("span", {}, `${plural(unstored.length, "parameter")} in no file`),
+      layers,
+      button("Store", "write them into the file of this layer", () => this.attempt(() => this.tuning.store(this.layer)), "deed"),
+    );
+  }
+
+  private filter(): void {
+    const words = this.search.value.toLowerCase().split(/\s+/).filter((word) => word !== "");
+    for (const [path, row] of this.rows) row.element.hidden = !words.every((word) => path.toLowerCase().includes(word));
+    const groups = [...this.list.querySelectorAll<HTMLDetailsElement>("details")].reverse();
+    for (const one of groups) {
+      one.hidden = one.querySelector(".parameter:not([hidden])") === null;
+      if (words.length > 0) one.open = !one.hidden;
+    }
+  }
+}
+
+/** Parameters below a path: those that stand there, and groups of those further down. */
+function group(above: string, parameters: readonly Parameter[], row: (parameter: Parameter) => HTMLElement): HTMLElement[] {
+  const groups = new Map<string, Parameter[]>();
+  for (const parameter of parameters) {
+    const rest = parameter.path.slice(above.length);
+    const end = rest.indexOf(".");
+    const name = end < 0 ? rest : rest.slice(0, end + 1);
+    groups.set(name, [...(groups.get(name) ?? []), parameter]);
+  }
+  return [...groups].flatMap(([name, below]) => {
+    if (!name.endsWith(".")) return below.map(row);
+    const content = make("div", { class: "group" }, ...group(above + name, below, row));
+    const count = make("span", { class: "muted" }, String(below.length));
+    return [make("details", {}, make("summary", {}, name.slice(0, -1), " ", count), content)];
+  });
+}
+
+export const parameters: PanelKind = { kind: "parameters", name: "Parameters", open: (context) => new Parameters(context) };

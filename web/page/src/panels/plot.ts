@@ -1,0 +1,204 @@
+// A panel with curves of any numbers of the robot, at the rate of its cycles.
+import uPlot from "uplot";
+import "uplot/dist/uPlot.min.css";
+import { button, complain, download, eachFrame, make, select } from "../view/dom";
+import { number } from "../view/format";
+import { nameOf } from "../store/paths";
+import { listSetting, numberSetting, type Context, type Panel, type PanelKind } from "./panel";
+import { align, COLORS, height, Series } from "./series";
+
+const WINDOWS = ["5 s", "10 s", "20 s", "60 s", "300 s"];
+
+interface Curve {
+  path: string;
+  series: Series;
+  stop(): void;
+}
+
+class Plot implements Panel {
+  readonly content = make("div", { class: "plot" });
+  readonly tools: HTMLElement[];
+  private readonly curves: Curve[] = [];
+  private readonly chart = make("div", { class: "chart" });
+  private readonly chips = make("div", { class: "bar chips" });
+  private readonly failure = make("p", { class: "failure", hidden: true });
+  private readonly pause: HTMLButtonElement;
+  private readonly input = make("input", { type: "text", placeholder: "add a path", "aria-label": "add a path", spellcheck: "false" });
+  private readonly draw = eachFrame(() => this.update());
+  private window: number;
+  /** While paused: what is shown, in seconds. */
+  private held: [number, number] | null = null;
+  private drawn: uPlot | null = null;
+
+  constructor(private readonly context: Context) {
+    this.window = numberSetting(context.settings, "window", 20);
+    this.pause = button("Pause", "hold the picture; drag in it to see a part, double click to go on", () => this.hold());
+    this.tools = [
+      select(WINDOWS, `${this.window} s`, "how much is shown", (choice) => {
+        this.window = Number.parseFloat(choice);
+        this.go();
+        this.save();
+      }),
+      this.pause,
+      button("CSV", "save what is shown", () => this.export()),
+    ];
+    this.input.addEventListener("change", () => {
+      if (this.input.value.trim() !== "") this.accept(this.input.value.trim());
+      this.input.value = "";
+    });
+    this.content.append(this.chips, this.failure, this.chart);
+    this.chart.addEventListener("dblclick", () => this.go());
+    for (const path of listSetting(context.settings, "paths")) this.add(path);
+    this.rebuild();
+  }
+
+  accept(path: string): void {
+    if (this.curves.some((curve) => curve.path === path)) return;
+    this.add(path);
+    this.rebuild();
+    this.save();
+  }
+
+  resized(): void {
+    const { clientWidth, clientHeight } = this.chart;
+    this.drawn?.setSize({ width: clientWidth, height: Math.max(clientHeight - legendHeight(this.chart), 60) });
+  }
+
+  close(): void {
+    for (const curve of this.curves) curve.stop();
+    this.drawn?.destroy();
+  }
+
+  private add(path: string): void {
+    const series = new Series();
+    const stop = this.context.robot.subscriptions.watch(
+      { path },
+      {
+        sample: ({ time, value }) => {
+          series.add(time / 1e9, height(value));
+          this.draw();
+        },
+        refused: (reason) => complain(this.failure, reason === null ? null : `${path}: ${reason}`),
+      },
+    );
+    this.curves.push({ path, series, stop });
+  }
+
+  private drop(curve: Curve): void {
+    curve.stop();
+    this.curves.splice(this.curves.indexOf(curve), 1);
+    complain(this.failure, null);
+    this.rebuild();
+    this.save();
+  }
+
+  private save(): void {
+    this.context.save({ paths: this.curves.map((curve) => curve.path), window: this.window });
+  }
+
+  private rebuild(): void {
+    this.context.title(this.curves.map((curve) => nameOf(curve.path)).join(", "));
+    this.chips.replaceChildren(
+      ...this.curves.map((curve, at) => {
+        const swatch = make("span", { class: "swatch" });
+        swatch.style.background = color(at);
+        const gone = button("×", `remove ${curve.path}`, () => this.drop(curve), "plain");
+        return make("span", { class: "chip", title: curve.path }, swatch, curve.path, gone);
+      }),
+      this.input,
+    );
+    this.drawn?.destroy();
+    const ink = getComputedStyle(document.body).getPropertyValue("--faint");
+    const line = getComputedStyle(document.body).getPropertyValue("--rule");
+    const axis = { stroke: ink, grid: { stroke: line, width: 1 }, ticks: { stroke: line, width: 1 } };
+    const options: uPlot.Options = {
+      width: Math.max(this.chart.clientWidth, 100),
+      height: Math.max(this.chart.clientHeight - 30, 60),
+      scales: { x: { time: false } },
+      axes: [{ ...axis, values: (_, ticks) => ticks.map((tick) => `${number(tick)} s`) }, { ...axis, size: 60 }],
+      cursor: { drag: { x: true, y: false, setScale: false } },
+      series: [
+        { label: "time", value: (_, time) => (time === null ? "–" : `${time.toFixed(3)} s`) },
+        ...this.curves.map((curve, at) => ({
+          label: nameOf(curve.path),
+          stroke: color(at),
+          width: 1.5,
+          spanGaps: false,
+          points: { show: false },
+          value: (_: uPlot, value: number | null) => (value === null || value === undefined ? "–" : number(value)),
+        })),
+      ],
+      hooks: { setSelect: [(chart) => this.zoom(chart)] },
+    };
+    this.drawn = new uPlot(options, this.shown() as uPlot.AlignedData, this.chart);
+    requestAnimationFrame(() => this.resized());
+  }
+
+  /** The newest time of all curves: instances without a value for a while do not hold the others back. */
+  private newest(): number {
+    return Math.max(0, ...this.curves.map(({ series }) => series.times[series.times.length - 1] ?? 0));
+  }
+
+  private range(): [number, number] {
+    return this.held ?? [this.newest() - this.window, this.newest()];
+  }
+
+  private shown(): ReturnType<typeof align> {
+    return align(this.curves.map((curve) => curve.series), ...this.range());
+  }
+
+  private update(): void {
+    const chart = this.drawn;
+    if (chart === null || this.held !== null) return;
+    const [min, max] = this.range();
+    chart.batch(() => {
+      chart.setData(this.shown() as uPlot.AlignedData, false);
+      chart.setScale("x", { min, max });
+    });
+  }
+
+  private hold(): void {
+    if (this.held !== null) this.go();
+    else this.show(this.range());
+  }
+
+  private zoom(chart: uPlot): void {
+    const { left, width } = chart.select;
+    if (width < 5) return;
+    const range: [number, number] = [chart.posToVal(left, "x"), chart.posToVal(left + width, "x")];
+    chart.setSelect({ left: 0, width: 0, top: 0, height: 0 }, false);
+    this.show(range);
+  }
+
+  private show(range: [number, number]): void {
+    this.held = range;
+    this.pause.textContent = "Go on";
+    this.drawn?.batch(() => {
+      this.drawn?.setData(this.shown() as uPlot.AlignedData, false);
+      this.drawn?.setScale("x", { min: range[0], max: range[1] });
+    });
+  }
+
+  private go(): void {
+    this.held = null;
+    this.pause.textContent = "Pause";
+    this.update();
+  }
+
+  private export(): void {
+    const [times, ...columns] = this.shown();
+    const head = ["time", ...this.curves.map((curve) => curve.path)].join(",");
+    const rows = times.map((time, row) => [time, ...columns.map((column) => column[row] ?? "")].join(","));
+    download("plot.csv", `${[head, ...rows].join("\n")}\n`, "text/csv");
+  }
+}
+
+function color(at: number): string {
+  return COLORS[at % COLORS.length] as string;
+}
+
+function legendHeight(chart: HTMLElement): number {
+  return chart.querySelector<HTMLElement>(".u-legend")?.offsetHeight ?? 0;
+}
+
+export const plot: PanelKind = { kind: "plot", name: "Plot", open: (context) => new Plot(context) };

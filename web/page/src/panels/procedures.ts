@@ -1,0 +1,57 @@
+// A panel with the robot's procedures: call them with an argument in JSON and read what their nodes say.
+import { expect } from "../connection/socket";
+import type { Entry, Json } from "../protocol";
+import { button, complain, make } from "../view/dom";
+import type { Context, Panel, PanelKind } from "./panel";
+
+function open(context: Context): Panel {
+  const list = make("div", { class: "procedures" });
+  const failure = make("p", { class: "failure", hidden: true });
+  const kept = new Map<string, HTMLElement>();
+
+  const load = async (): Promise<void> => {
+    if (context.robot.state.value !== "open") return;
+    try {
+      const all = await context.robot.paths.everything();
+      const found = all.filter((entry) => entry.kind === "procedure");
+      list.replaceChildren(...found.map((entry) => {
+        const card = kept.get(entry.path) ?? procedure(context, entry);
+        kept.set(entry.path, card);
+        return card;
+      }));
+      if (found.length === 0) list.append(make("p", { class: "muted" }, "this robot has no procedures"));
+      complain(failure, null);
+    } catch (error) {
+      complain(failure, error);
+    }
+  };
+  const stop = context.robot.state.watch(() => void load());
+  return { content: make("div", { class: "scroll" }, failure, list), close: stop };
+}
+
+function procedure(context: Context, entry: Entry): HTMLElement {
+  const argument = make("input", { type: "text", placeholder: "argument in JSON", "aria-label": `argument of ${entry.path}`, spellcheck: "false" });
+  const said = make("pre", { class: "value-text", hidden: true });
+  const failure = make("p", { class: "failure", hidden: true });
+  const call = async (): Promise<void> => {
+    complain(failure, null);
+    said.hidden = true;
+    try {
+      const text = argument.value.trim();
+      const value = text === "" ? null : (JSON.parse(text) as Json);
+      const good = await context.robot.ask({ call: { path: entry.path, argument: value } });
+      said.textContent = JSON.stringify(expect(good, "called"), null, 2);
+      said.hidden = false;
+    } catch (error) {
+      complain(failure, error);
+    }
+  };
+  const deed = button("Call", `call ${entry.path}`, () => void call());
+  argument.addEventListener("keydown", (event) => {
+    if (event.key === "Enter") void call();
+  });
+  const about = [entry.type, entry.documentation].filter((text) => text != null).join(" · ");
+  return make("section", { class: "card" }, make("h3", {}, entry.path), make("p", { class: "muted" }, about), make("div", { class: "bar" }, argument, deed), failure, said);
+}
+
+export const procedures: PanelKind = { kind: "procedures", name: "Procedures", open };

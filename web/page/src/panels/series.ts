@@ -1,0 +1,69 @@
+// Owns the points of one curve, and how curves with times of their own come to lie on one axis.
+
+/** Six minutes at 83 Hz. */
+const POINTS = 30000;
+
+export class Series {
+  /** In seconds of the robot's clock, rising. */
+  times: number[] = [];
+  values: (number | null)[] = [];
+
+  /** A robot that was restarted begins its time anew: what was before belongs to another run. */
+  add(time: number, value: number | null): void {
+    const last = this.times[this.times.length - 1];
+    if (last !== undefined && time <= last) {
+      if (time === last) return;
+      this.times = [];
+      this.values = [];
+    }
+    this.times.push(time);
+    this.values.push(value);
+    if (this.times.length > POINTS * 1.1) {
+      this.times = this.times.slice(-POINTS);
+      this.values = this.values.slice(-POINTS);
+    }
+  }
+
+  /** The first point that is not before a time. */
+  from(time: number): number {
+    let [low, high] = [0, this.times.length];
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      if ((this.times[middle] ?? 0) < time) low = middle + 1;
+      else high = middle;
+    }
+    return low;
+  }
+}
+
+/** All curves from one time to another over one axis; `undefined` where a curve has no point at that time. */
+export function align(series: readonly Series[], begin: number, end: number): [number[], ...(number | null | undefined)[][]] {
+  const cursors = series.map((one) => one.from(begin));
+  const ends = series.map((one) => one.from(end + 1e-9));
+  const times: number[] = [];
+  const columns: (number | null | undefined)[][] = series.map(() => []);
+  for (;;) {
+    let time = Infinity;
+    series.forEach((one, at) => {
+      const cursor = cursors[at] as number;
+      if (cursor < (ends[at] as number)) time = Math.min(time, one.times[cursor] as number);
+    });
+    if (time === Infinity) return [times, ...columns];
+    times.push(time);
+    series.forEach((one, at) => {
+      const cursor = cursors[at] as number;
+      const isHere = cursor < (ends[at] as number) && one.times[cursor] === time;
+      (columns[at] as (number | null | undefined)[]).push(isHere ? one.values[cursor] : undefined);
+      if (isHere) cursors[at] = cursor + 1;
+    });
+  }
+}
+
+/** What a curve can show of a value: numbers, and flags as 0 and 1. */
+export function height(value: unknown): number | null {
+  if (typeof value === "number") return value;
+  return typeof value === "boolean" ? Number(value) : null;
+}
+
+/** Okabe and Ito's colours: told apart by colour-blind people, on light and on dark paper. */
+export const COLORS = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#d55e00", "#56b4e9", "#8a7b00", "#7a6fd0"];

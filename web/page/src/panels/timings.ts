@@ -1,0 +1,97 @@
+// A panel with how long cycles and nodes take, as a table that follows the robot.
+import { expect } from "../connection/socket";
+import type { Durations, InstanceTimings, NodeTimings, Timings } from "../protocol";
+import { button, complain, download, make } from "../view/dom";
+import { microseconds } from "../view/format";
+import type { Context, Panel, PanelKind } from "./panel";
+
+const PERIOD_MILLISECONDS = 1000;
+/** Of instances p99 as a share of the deadline, of nodes p50 as a share of the cycle's. */
+const HEAD = ["", "rate", "p50", "p99", "max", "share", "runs", "skipped", "failed", "overruns"];
+
+function open(context: Context): Panel {
+  let before: Timings | null = null;
+  const closed = new Set<string>();
+  const failure = make("p", { class: "failure", hidden: true });
+  const body = make("tbody");
+  const head = make("tr", {}, ...HEAD.map((text) => make("th", { scope: "col" }, text)));
+  const table = make("table", { class: "timings" }, make("thead", {}, head), body);
+
+  const ask = async (): Promise<void> => {
+    if (context.robot.state.value !== "open" || document.hidden) return;
+    try {
+      const now = expect(await context.robot.ask({ timings: {} }), "timings");
+      body.replaceChildren(...now.instances.flatMap((instance) => rows(instance, now, before, closed, draw)));
+      before = now;
+      complain(failure, null);
+    } catch (error) {
+      complain(failure, error);
+    }
+  };
+  const draw = (): void => void ask();
+  const trace = button("Trace", "the last seconds as a file for ui.perfetto.dev", () => {
+    context.robot
+      .ask({ trace: { seconds: 10 } })
+      .then((good) => download("trace.json", JSON.stringify(expect(good, "trace"))))
+      .catch((error: unknown) => complain(failure, error));
+  });
+  const timer = window.setInterval(draw, PERIOD_MILLISECONDS);
+  const stop = context.robot.state.watch(draw);
+  const close = (): void => {
+    window.clearInterval(timer);
+    stop();
+  };
+  return { content: make("div", { class: "scroll" }, failure, table), tools: [trace], close };
+}
+
+function rows(instance: InstanceTimings, now: Timings, before: Timings | null, closed: Set<string>, draw: () => void): HTMLElement[] {
+  const last = before?.instances.find((one) => one.name === instance.name);
+  const elapsed = before === null ? 0 : (now.time - before.time) / 1e9;
+  const rate = last === undefined || elapsed <= 0 ? "" : `${((instance.cycles - last.cycles) / elapsed).toFixed(1)} Hz`;
+  const isClosed = closed.has(instance.name);
+  const caret = button("", `nodes of ${instance.name}`, () => {
+    if (!closed.delete(instance.name)) closed.add(instance.name);
+    draw();
+  }, isClosed ? "caret" : "caret open");
+  const title = make("th", { scope: "row" }, caret, instance.name);
+  const deadline = instance.deadline ?? null;
+  const share = deadline === null || instance.cycle == null ? "" : `${((100 * instance.cycle.p99) / deadline).toFixed(0)} %`;
+  const numbers = [rate, ...durations(instance.cycle), share, instance.cycles, "", instance.failures, instance.overruns];
+  const lines = [line(title, numbers, instance.overruns + instance.failures > 0 ? "instance bad" : "instance")];
+  if (isClosed) return lines;
+  const whole = instance.cycle?.p50 ?? 0;
+  for (const node of instance.nodes) lines.push(nodeLine(node, whole));
+  if (instance.framework != null) lines.push(partLine("(framework)", instance.framework, whole));
+  for (const queue of instance.queues) {
+    const text = `from ${queue.from}: ${queue.delivered} delivered, ${queue.late} late, ${queue.dropped} dropped`;
+    lines.push(make("tr", { class: "node" }, make("td", { colspan: HEAD.length, class: "muted" }, text)));
+  }
+  return lines;
+}
+
+function nodeLine(node: NodeTimings, whole: number): HTMLElement {
+  const name = make("td", { title: node.node }, node.node);
+  const numbers = ["", ...durations(node.durations), shareOf(node.durations, whole), node.calls, node.skipped, node.failures, ""];
+  return line(name, numbers, node.failures > 0 ? "node bad" : "node");
+}
+
+function partLine(name: string, part: Durations, whole: number): HTMLElement {
+  return line(make("td", { class: "muted" }, name), ["", ...durations(part), shareOf(part, whole), "", "", "", ""], "node");
+}
+
+function durations(of: Durations | null | undefined): string[] {
+  return of == null ? ["", "", ""] : [of.p50, of.p99, of.max].map(microseconds);
+}
+
+function shareOf(of: Durations | null | undefined, whole: number): HTMLElement | string {
+  if (of == null || whole <= 0) return "";
+  const meter = make("meter", { min: 0, max: 1, value: Math.min(of.p50 / whole, 1), title: `${((100 * of.p50) / whole).toFixed(1)} % of the cycle's p50` });
+  return meter;
+}
+
+function line(title: HTMLElement, cells: (string | number | HTMLElement)[], kind: string): HTMLElement {
+  const content = cells.map((cell) => make("td", {}, cell instanceof HTMLElement ? cell : String(cell)));
+  return make("tr", { class: kind }, title, ...content);
+}
+
+export const timings: PanelKind = { kind: "timings", name: "Timings", open };

@@ -1,0 +1,77 @@
+// A panel with any value of the robot, as a tree or as text.
+import type { Sample } from "../store/subscriptions";
+import { button, complain, eachFrame, make, select } from "../view/dom";
+import { seconds } from "../view/format";
+import { numberSetting, textSetting, type Context, type Panel, type PanelKind } from "./panel";
+import { Branch } from "./tree";
+
+const RATES = ["1 Hz", "5 Hz", "10 Hz", "30 Hz"];
+
+function open(context: Context): Panel {
+  let path = textSetting(context.settings, "path");
+  let rate = numberSetting(context.settings, "rate", 10);
+  let isText = context.settings["text"] === true;
+  let stop = (): void => undefined;
+  let sample: Sample | null = null;
+  let branch = new Branch("", "", true);
+  const input = make("input", { type: "text", value: path, placeholder: "a path, e.g. from the list of paths", "aria-label": "path", spellcheck: "false" });
+  const state = make("output", { class: "muted" });
+  const failure = make("p", { class: "failure", hidden: true });
+  const tree = make("ul", { class: "tree" });
+  const text = make("pre", { class: "value-text" });
+  const content = make("div", { class: "scroll" }, make("div", { class: "bar" }, input, state), failure, tree, text);
+
+  const draw = eachFrame(() => {
+    tree.hidden = isText;
+    text.hidden = !isText;
+    if (sample === null) return;
+    state.textContent = `cycle ${sample.cycle}, ${seconds(sample.time)}`;
+    if (isText) text.textContent = JSON.stringify(sample.value, null, 2);
+    else branch.show(sample.value);
+  });
+
+  const show = (): void => {
+    stop();
+    sample = null;
+    state.textContent = "";
+    text.textContent = "";
+    context.title(path);
+    context.save({ path, rate, text: isText });
+    branch = new Branch(path.slice(path.lastIndexOf(".") + 1), path, true);
+    tree.replaceChildren(branch.element);
+    complain(failure, null);
+    if (path === "") return;
+    stop = context.robot.subscriptions.watch(
+      { path, rate },
+      {
+        sample: (next) => {
+          sample = next;
+          draw();
+        },
+        refused: (reason) => complain(failure, reason),
+      },
+    );
+    draw();
+  };
+  input.addEventListener("change", () => accept(input.value.trim()));
+  const accept = (next: string): void => {
+    path = next;
+    input.value = next;
+    show();
+  };
+  const tools = [
+    select(RATES, `${rate} Hz`, "updates per second", (choice) => {
+      rate = Number.parseFloat(choice);
+      show();
+    }),
+    button("Text", "tree or text", () => {
+      isText = !isText;
+      context.save({ path, rate, text: isText });
+      draw();
+    }),
+  ];
+  show();
+  return { content, tools, accept, close: () => stop() };
+}
+
+export const value: PanelKind = { kind: "value", name: "Value", open };

@@ -1,0 +1,105 @@
+// Owns what the page knows of its robot: connection, paths, subscriptions, logs. Panels read it and ask through it.
+import { expect, Refused, Socket, type State } from "../connection/socket";
+import type { Ask, Good, Log, Message, Welcome } from "../protocol";
+import { Paths } from "./paths";
+import { Signal, type Readable } from "./signal";
+import { Subscriptions } from "./subscriptions";
+
+/** Enough for minutes of a robot that talks, and little for a phone. */
+const LOGS = 2000;
+
+export class Robot {
+  readonly subscriptions = new Subscriptions(() => (this.isWelcome ? this.socket : null));
+  readonly paths = new Paths((ask) => this.ask(ask));
+  private readonly socket: Socket;
+  private readonly states = new Signal<State>("connecting");
+  private readonly welcomes = new Signal<Welcome | null>(null);
+  private readonly writes = new Signal(false);
+  private readonly versions = new Signal(0);
+  private readonly kept = new Signal<readonly Log[]>([]);
+  private isWelcome = false;
+  private areLogsWanted = false;
+
+  constructor(address: string) {
+    this.socket = new Socket(address, {
+      state: (state) => this.enter(state),
+      welcome: (welcome) => this.begin(welcome),
+      message: (message) => this.hear(message),
+      frame: (frame) => this.subscriptions.frame(frame),
+    });
+  }
+
+  get state(): Readable<State> {
+    return this.states;
+  }
+
+  /** What the robot said of itself; stays while the connection is lost. */
+  get welcome(): Readable<Welcome | null> {
+    return this.welcomes;
+  }
+
+  get canWrite(): Readable<boolean> {
+    return this.writes;
+  }
+
+  /** Changes whenever somebody changed parameters. */
+  get parameters(): Readable<number> {
+    return this.versions;
+  }
+
+  /** The newest messages, oldest first. */
+  get logs(): Readable<readonly Log[]> {
+    return this.kept;
+  }
+
+  ask(ask: Ask): Promise<Good> {
+    return this.socket.ask(ask);
+  }
+
+  /** Proves that this page may write. */
+  async authenticate(token: string): Promise<void> {
+    expect(await this.ask({ authenticate: { token } }), "done");
+    sessionStorage.setItem("token", token);
+    this.writes.set(true);
+  }
+
+  /** From now on logs are kept here. */
+  wantLogs(): void {
+    if (this.areLogsWanted) return;
+    this.areLogsWanted = true;
+    if (this.isWelcome) this.askForLogs();
+  }
+
+  private enter(state: State): void {
+    if (state === "waiting") this.isWelcome = false;
+    this.states.set(state);
+  }
+
+  private begin(welcome: Welcome): void {
+    this.isWelcome = true;
+    this.paths.forget();
+    this.writes.set(welcome.can_write && !welcome.needs_token);
+    this.welcomes.set(welcome);
+    this.subscriptions.renew();
+    this.versions.set(this.versions.value + 1);
+    if (this.areLogsWanted) this.askForLogs();
+    const token = sessionStorage.getItem("token");
+    if (welcome.needs_token && token !== null) {
+      this.authenticate(token).catch((error: unknown) => {
+        if (error instanceof Refused) sessionStorage.removeItem("token");
+      });
+    }
+  }
+
+  private askForLogs(): void {
+    this.kept.set([]);
+    this.ask({ logs: { level: "trace" } }).catch((error: unknown) => console.warn("no logs:", error));
+  }
+
+  private hear(message: Message): void {
+    if ("update" in message) this.subscriptions.update(message.update);
+    else if ("lost" in message) this.subscriptions.lost(message.lost);
+    else if ("log" in message) this.kept.set([...this.kept.value.slice(1 - LOGS), message.log]);
+    else if ("parameters_changed" in message) this.versions.set(this.versions.value + 1);
+  }
+}

@@ -1,0 +1,28 @@
+// Owns the one kind of state that panels watch.
+
+export interface Readable<T> {
+  readonly value: T;
+  /** Calls now and at every change, until what it returns is called. */
+  watch(listener: (value: T) => void): () => void;
+}
+
+export class Signal<T> implements Readable<T> {
+  private readonly listeners = new Set<(value: T) => void>();
+
+  constructor(private current: T) {}
+
+  get value(): T {
+    return this.current;
+  }
+
+  set(value: T): void {
+    this.current = value;
+    for (const listener of [...this.listeners]) listener(value);
+  }
+
+  watch(listener: (value: T) => void): () => void {
+    this.listeners.add(listener);
+    listener(this.current);
+    return () => this.listeners.delete(listener);
+  }
+}

@@ -1,0 +1,58 @@
+// Owns how elements are made.
+
+type Child = Node | string | null;
+type Attributes = Record<string, string | number | boolean | null | ((event: never) => void)>;
+
+/** An element; attributes that are functions are listeners, `null` and `false` are left out. */
+export function make<N extends keyof HTMLElementTagNameMap>(
+  name: N,
+  attributes: Attributes = {},
+  ...children: Child[]
+): HTMLElementTagNameMap[N] {
+  const element = document.createElement(name);
+  for (const [key, value] of Object.entries(attributes)) {
+    if (typeof value === "function") element.addEventListener(key, value as EventListener);
+    else if (value === true) element.setAttribute(key, "");
+    else if (value !== null && value !== false) element.setAttribute(key, String(value));
+  }
+  element.append(...children.filter((child): child is Node | string => child !== null));
+  return element;
+}
+
+export function button(text: string, title: string, deed: () => void, name = ""): HTMLButtonElement {
+  return make("button", { type: "button", title, class: name, "aria-label": title, click: deed }, text);
+}
+
+/** A list to choose from; `deed` gets what was chosen. */
+export function select(choices: readonly string[], chosen: string, title: string, deed: (choice: string) => void): HTMLSelectElement {
+  const element = make("select", { title, "aria-label": title, change: () => deed(element.value) });
+  element.append(...choices.map((choice) => make("option", { value: choice, selected: choice === chosen }, choice)));
+  return element;
+}
+
+/** A line where something failed; empty: nothing did. */
+export function complain(element: HTMLElement, reason: unknown): void {
+  const text = reason === null ? "" : reason instanceof Error ? reason.message : String(reason);
+  if (element.textContent !== text) element.textContent = text;
+  element.hidden = text === "";
+}
+
+/** Calls at most once per drawn frame, and not while nobody sees the page. */
+export function eachFrame(deed: () => void): () => void {
+  let isAsked = false;
+  return () => {
+    if (isAsked) return;
+    isAsked = true;
+    requestAnimationFrame(() => {
+      isAsked = false;
+      deed();
+    });
+  };
+}
+
+/** Hands a text to the user as a file. */
+export function download(name: string, text: string, type = "application/json"): void {
+  const address = URL.createObjectURL(new Blob([text], { type }));
+  make("a", { href: address, download: name }).click();
+  URL.revokeObjectURL(address);
+}

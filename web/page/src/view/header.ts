@@ -1,0 +1,87 @@
+// The line above everything: which robot, whether it is there, panels to add, layouts, and the token where one is asked for.
+import { KINDS } from "../panels/kinds";
+import { PRESETS, read, type Arrangement } from "../store/layout";
+import type { Robot } from "../store/robot";
+import { button, complain, download, make } from "./dom";
+
+export function header(robot: Robot, arrangement: Arrangement): HTMLElement {
+  const name = make("h1", {}, "hulkgen");
+  const state = make("output", { class: "state", "aria-live": "polite", "data-state": "connecting" });
+  const paths = button("Paths", "show or hide the paths of the robot", () => {
+    document.body.classList.toggle(matchMedia("(max-width: 720px)").matches ? "with-paths" : "without-paths");
+  });
+  const showState = (): void => {
+    const welcome = robot.welcome.value;
+    const isOpen = robot.state.value === "open";
+    state.dataset["state"] = isOpen ? "open" : "lost";
+    const target = welcome === null ? "" : ` · ${welcome.target}`;
+    state.textContent = isOpen ? `connected${target}` : welcome === null ? "looking for the robot …" : "connection lost, trying again …";
+    document.body.classList.toggle("is-lost", !isOpen);
+    if (welcome !== null) {
+      name.textContent = welcome.robot;
+      document.title = isOpen ? welcome.robot : `${welcome.robot} (lost)`;
+    }
+  };
+  robot.state.watch(showState);
+  robot.welcome.watch(showState);
+  return make("header", {}, paths, name, state, token(robot), make("span", { class: "space" }), panels(arrangement), layouts(arrangement));
+}
+
+function panels(arrangement: Arrangement): HTMLElement {
+  const items = KINDS.map((kind) => button(kind.name, `add a panel: ${kind.name}`, () => arrangement.add(kind.kind), "item"));
+  return menu("Add", items);
+}
+
+function layouts(arrangement: Arrangement): HTMLElement {
+  const file = make("input", { type: "file", accept: ".json,application/json", hidden: true, "aria-label": "layout file" });
+  file.addEventListener("change", () => {
+    void file.files?.[0]?.text().then((text) => {
+      const layout = read(text);
+      if (layout === null) alert("this file is no layout of this page");
+      else arrangement.use(layout);
+      file.value = "";
+    });
+  });
+  const presets = Object.entries(PRESETS).map(([name, preset]) => button(name, `begin with ${name}`, () => arrangement.use(preset()), "item"));
+  return menu("Layout", [
+    ...presets,
+    make("hr"),
+    button("Save as file", "for others, or for another browser", () => download("layout.json", arrangement.text()), "item"),
+    button("Open file …", "a layout that was saved", () => file.click(), "item"),
+    file,
+  ]);
+}
+
+function menu(name: string, items: readonly HTMLElement[]): HTMLElement {
+  const list = make("div", { class: "items" }, ...items);
+  const element = make("details", { class: "menu" }, make("summary", {}, name), list);
+  list.addEventListener("click", () => (element.open = false));
+  document.addEventListener("pointerdown", (event) => {
+    if (!element.contains(event.target as Node)) element.open = false;
+  });
+  return element;
+}
+
+/** Asks for the token where the robot wants one before it lets anybody write. */
+function token(robot: Robot): HTMLElement {
+  const input = make("input", { type: "password", placeholder: "token", "aria-label": "token", autocomplete: "off" });
+  const failure = make("span", { class: "failure", hidden: true });
+  const form = make("form", { class: "token", hidden: true }, input, make("button", { type: "submit" }, "Unlock"), failure);
+  form.addEventListener("submit", (event) => {
+    event.preventDefault();
+    robot.authenticate(input.value).then(
+      () => complain(failure, null),
+      (error: unknown) => complain(failure, error),
+    );
+    input.value = "";
+  });
+  const readOnly = make("span", { class: "muted", hidden: true }, "read only");
+  const show = (): void => {
+    const welcome = robot.welcome.value;
+    form.hidden = robot.canWrite.value || welcome === null || !welcome.needs_token;
+    readOnly.hidden = robot.canWrite.value || welcome === null || welcome.needs_token;
+  };
+  robot.canWrite.watch(show);
+  robot.welcome.watch(show);
+  return make("span", { class: "access" }, form, readOnly);
+}

@@ -1,0 +1,145 @@
+// The panels of the layout, in columns: moved by their heads, resized at the lines between them.
+import { KINDS } from "../panels/kinds";
+import { DRAGGED_PATH, type Panel } from "../panels/panel";
+import type { Arrangement, Layout, PanelPlace, Spot } from "../store/layout";
+import type { Robot } from "../store/robot";
+import { button, make } from "./dom";
+
+const DRAGGED_PANEL = "application/x-hulk-panel";
+
+interface Opened {
+  frame: HTMLElement;
+  panel: Panel | null;
+  watch: ResizeObserver;
+}
+
+export class Workspace {
+  readonly element = make("main", { class: "workspace" });
+  private readonly opened = new Map<string, Opened>();
+
+  constructor(
+    private readonly robot: Robot,
+    private readonly arrangement: Arrangement,
+  ) {
+    arrangement.layout.watch((layout) => this.draw(layout));
+  }
+
+  private draw(layout: Layout): void {
+    const wanted = new Set(layout.columns.flatMap((column) => column.panels.map((panel) => panel.id)));
+    for (const [id, opened] of this.opened) {
+      if (wanted.has(id)) continue;
+      opened.watch.disconnect();
+      opened.panel?.close();
+      this.opened.delete(id);
+    }
+    const columns = layout.columns.flatMap((column, at) => {
+      const frames = column.panels.flatMap((place, row) => {
+        const { frame } = this.opened.get(place.id) ?? this.open(place);
+        frame.style.flexGrow = String(place.size);
+        frame.dataset["column"] = String(at);
+        frame.dataset["row"] = String(row);
+        return row === 0 ? [frame] : [this.line({ column: at, row: row - 1 }), frame];
+      });
+      const element = make("div", { class: "column" }, ...frames);
+      element.style.flexGrow = String(column.size);
+      return at === 0 ? [element] : [this.line({ column: at - 1, row: null }), element];
+    });
+    const end = this.edge(layout.columns.length);
+    this.element.replaceChildren(...columns, end);
+    if (layout.columns.length === 0) this.element.append(make("p", { class: "muted empty" }, "Nothing is shown: add a panel, or choose a path."));
+  }
+
+  private open(place: PanelPlace): Opened {
+    const kind = KINDS.find((one) => one.kind === place.kind);
+    const title = make("span", { class: "muted subject" });
+    const head = make("div", { class: "head", draggable: "true" }, make("h2", {}, kind?.name ?? place.kind), title);
+    const frame = make("section", { class: "panel", "data-kind": place.kind, "aria-label": kind?.name ?? place.kind }, head);
+    const panel = kind?.open({
+      robot: this.robot,
+      arrangement: this.arrangement,
+      settings: place.settings,
+      save: (settings) => this.arrangement.configure(place.id, settings),
+      title: (text) => {
+        title.textContent = text;
+        title.title = text;
+      },
+    }) ?? null;
+    const close = button("×", "close this panel", () => this.arrangement.remove(place.id), "plain");
+    head.append(make("span", { class: "space" }), ...(panel?.tools ?? []), close);
+    frame.append(panel?.content ?? make("p", { class: "muted" }, "this page does not have this panel"));
+    head.addEventListener("dragstart", (event) => event.dataTransfer?.setData(DRAGGED_PANEL, place.id));
+    this.receive(frame, panel);
+    const watch = new ResizeObserver(() => panel?.resized?.());
+    watch.observe(frame);
+    const opened = { frame, panel, watch };
+    this.opened.set(place.id, opened);
+    return opened;
+  }
+
+  /** Takes paths for the panel, and panels for the places around it. */
+  private receive(frame: HTMLElement, panel: Panel | null): void {
+    frame.addEventListener("dragover", (event) => {
+      const types = event.dataTransfer?.types ?? [];
+      if (types.includes(DRAGGED_PANEL) || (types.includes(DRAGGED_PATH) && panel?.accept !== undefined)) {
+        event.preventDefault();
+        frame.classList.add("target");
+      }
+    });
+    frame.addEventListener("dragleave", () => frame.classList.remove("target"));
+    frame.addEventListener("drop", (event) => {
+      event.preventDefault();
+      frame.classList.remove("target");
+      const path = event.dataTransfer?.getData(DRAGGED_PATH);
+      if (path) panel?.accept?.(path);
+      const id = event.dataTransfer?.getData(DRAGGED_PANEL);
+      if (!id) return;
+      const box = frame.getBoundingClientRect();
+      const column = Number(frame.dataset["column"]);
+      const below = event.clientY > box.top + box.height / 2 ? 1 : 0;
+      this.arrangement.move(id, { column, row: Number(frame.dataset["row"]) + below });
+    });
+  }
+
+  /** The right border: a panel that is dropped there gets a column of its own. */
+  private edge(column: number): HTMLElement {
+    const edge = make("div", { class: "edge" });
+    edge.addEventListener("dragover", (event) => {
+      if (event.dataTransfer?.types.includes(DRAGGED_PANEL)) event.preventDefault();
+    });
+    edge.addEventListener("drop", (event) => {
+      const id = event.dataTransfer?.getData(DRAGGED_PANEL);
+      if (id) this.arrangement.move(id, { column, row: null });
+    });
+    return edge;
+  }
+
+  /** Between two neighbours: drag it to give one of them more place. */
+  private line(spot: Spot): HTMLElement {
+    const isBetweenColumns = spot.row === null;
+    const line = make("div", { class: isBetweenColumns ? "divider upright" : "divider", role: "separator" });
+    line.addEventListener("pointerdown", (event) => {
+      const [one, other] = [line.previousElementSibling, line.nextElementSibling];
+      if (!(one instanceof HTMLElement) || !(other instanceof HTMLElement)) return;
+      event.preventDefault();
+      line.setPointerCapture(event.pointerId);
+      const sum = Number(one.style.flexGrow) + Number(other.style.flexGrow);
+      const [first, second] = [one.getBoundingClientRect(), other.getBoundingClientRect()];
+      const begin = isBetweenColumns ? first.left : first.top;
+      const end = isBetweenColumns ? second.right : second.bottom;
+      const drag = (moved: PointerEvent): void => {
+        const at = ((isBetweenColumns ? moved.clientX : moved.clientY) - begin) / (end - begin);
+        const share = Math.min(Math.max(at, 0.08), 0.92);
+        one.style.flexGrow = String(sum * share);
+        other.style.flexGrow = String(sum * (1 - share));
+      };
+      const drop = (): void => {
+        line.removeEventListener("pointermove", drag);
+        this.arrangement.resize(spot, [Number(one.style.flexGrow), Number(other.style.flexGrow)]);
+      };
+      line.addEventListener("pointermove", drag);
+      line.addEventListener("pointerup", drop, { once: true });
+      line.addEventListener("pointercancel", drop, { once: true });
+    });
+    return line;
+  }
+}
