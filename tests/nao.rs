@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use framework::driver::lockstep::{Lockstep, Paused};
 use framework::parameters::Layers;
+use framework::procedure::PendingAny;
 use framework::robot::{Robot, Start};
 use framework::{Clock, Hardware as _, HardwareContext, Instance, Stop, Timestamp};
 use nao_runtime::parameters::Parameters;
@@ -29,8 +30,20 @@ pub struct Nao {
 }
 
 impl Nao {
-    /// With these options of the simulated hardware and these settings of parameters (`a.b`, `value`).
+    /// With these options of the simulated hardware and these settings of parameters (`a.b`, `value`), on kinematic physics: tests
+    /// of what the robot knows are not about its balance.
     pub fn new(options: &[&str], settings: &[(&str, &str)]) -> Self {
+        let options: Vec<_> = options.iter().chain(&["--physics", "kinematic"]).collect();
+        Self::with_physics_of(&options, settings)
+    }
+
+    /// The same with masses, torques and contacts: the robot can fall.
+    pub fn dynamic(options: &[&str], settings: &[(&str, &str)]) -> Self {
+        let options: Vec<_> = options.iter().chain(&["--physics", "dynamic"]).collect();
+        Self::with_physics_of(&options, settings)
+    }
+
+    fn with_physics_of(options: &[&&str], settings: &[(&str, &str)]) -> Self {
         let parameters = Layers {
             directory: root().join("robotics/parameters"),
             location: Some("simulated".to_owned()),
@@ -44,12 +57,11 @@ impl Nao {
         .expect("the parameters of the repository are complete");
         let (clock, stop) = (Clock::stepped(), Stop::default());
         let hardware = Hardware::new(HardwareContext {
-            // Tests run side by side, so none may take the ports of a real game. They are about what the robot knows, not about
-            // its balance, which has tests of its own.
+            // Tests run side by side, so none may take the ports of a real game.
             options: options
                 .iter()
-                .chain(&["--free-ports", "--physics", "kinematic"])
-                .map(|option| (*option).to_owned())
+                .chain(&[&"--free-ports"])
+                .map(|option| (**option).to_owned())
                 .collect(),
             table: parameters
                 .hardware("simulated")
@@ -126,6 +138,23 @@ impl Nao {
             }
         }
     }
+}
+
+/// Calls a procedure of Control, which sees it in its next cycle.
+pub fn call(
+    robot: &mut Robot<Parameters>,
+    procedure: &str,
+    request: serde_json::Value,
+) -> Box<dyn PendingAny> {
+    let access = robot.access("Control").expect("the robot has Control");
+    let mut procedures = access.procedures.iter();
+    let (_, caller) = procedures
+        .find(|(name, _)| *name == procedure)
+        .unwrap_or_else(|| panic!("Control has no procedure `{procedure}`"));
+    let mut request = <dyn erased_serde::Deserializer>::erase(request);
+    caller
+        .call_any(&mut request)
+        .expect("it is a request of this procedure")
 }
 
 /// A main output of the instance's last finished cycle.

@@ -4,6 +4,7 @@
 
 use audio::whistle_detection::WhistleDetectionParameters;
 use control::ball_filter::BallFilterParameters;
+use control::behavior::Approach;
 use control::fall_state_filter::Sitting;
 use control::fall_state_filter::TiltLimits;
 use control::obstacle_filter::ObstacleFilterParameters;
@@ -36,8 +37,10 @@ pub struct Parameters {
     pub ball_detection: BallDetectionParameters,
     /// control::ball_filter
     pub ball_filter: BallFilterParameters,
+    pub behavior: Behavior,
     pub button_filter: ButtonFilter,
     pub cameras: Cameras,
+    pub client_wishes: ClientWishes,
     pub fall_state_filter: FallStateFilter,
     /// vision::ball_detection, vision::image_segmenter, vision::line_detection,
     /// vision::penalty_mark_detection
@@ -78,9 +81,18 @@ pub struct Parameters {
     pub tone_selector: ToneSelector,
     pub vision_bottom: VisionInstance,
     pub vision_top: VisionInstance,
+    /// control::client_wishes, control::motion_dispatcher, control::walking_engine
+    pub walking_engine: walking::Parameters,
     /// audio::whistle_detection, control::tone_selector
     pub whistle_detection: WhistleDetectionParameters,
     pub whistle_filter: WhistleFilter,
+}
+
+#[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Behavior {
+    /// control::behavior
+    pub approach: Approach,
 }
 
 #[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
@@ -101,6 +113,15 @@ pub struct Cameras {
     pub bottom: CameraCalibration,
     /// control::camera_matrices, vision::limb_projector
     pub top: CameraCalibration,
+}
+
+#[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct ClientWishes {
+    /// control::client_wishes
+    pub motion_duration: f32,
+    /// control::client_wishes
+    pub walk_duration: f32,
 }
 
 #[derive(Clone, Debug, Deserialize, Reflect, Serialize)]

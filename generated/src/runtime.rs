@@ -78,6 +78,8 @@ where
     let (control_injections, [control_injected], []) = buffer([]);
     let control_subscriptions = Subscriptions::new(control::ADDITIONAL_OUTPUTS);
     let (control_look_at, control_look_at_answerer) = procedure();
+    let (control_motion, control_motion_answerer) = procedure();
+    let (control_walk, control_walk_answerer) = procedure();
 
     let vision_top = Cycler::new(
         vision::VISION_TOP,
@@ -184,6 +186,8 @@ where
             },
             procedures: databases::control::Procedures {
                 look_at: control_look_at_answerer,
+                motion: control_motion_answerer,
+                walk: control_walk_answerer,
             },
             subscribed: databases::control::Subscribed::default(),
             subscriptions: control_subscriptions.clone(),
@@ -231,7 +235,11 @@ where
                 instance: "Control",
                 subscriptions: control_subscriptions,
                 injector: Box::new(Injector::new(control_injections)),
-                procedures: vec![("look_at", Box::new(control_look_at))],
+                procedures: vec![
+                    ("look_at", Box::new(control_look_at)),
+                    ("motion", Box::new(control_motion)),
+                    ("walk", Box::new(control_walk)),
+                ],
             },
         ],
         left_out: &[],

@@ -7,6 +7,7 @@ use control::behavior;
 use control::button_filter;
 use control::camera_matrices;
 use control::center_of_mass;
+use control::client_wishes;
 use control::command_sender;
 use control::fall_state_filter;
 use control::foot_pressure_filter;
@@ -37,6 +38,7 @@ use control::team_message_filter;
 use control::team_message_sender;
 use control::tone_player;
 use control::tone_selector;
+use control::walking_engine;
 use control::whistle_filter;
 use control::world_state_composer;
 use framework::AdditionalOutput;
@@ -62,6 +64,7 @@ pub struct Nodes {
     pub button_filter: Guarded<button_filter::ButtonFilter>,
     pub camera_matrices: Guarded<camera_matrices::CameraMatricesProvider>,
     pub center_of_mass: Guarded<center_of_mass::CenterOfMass>,
+    pub client_wishes: Guarded<client_wishes::ClientWishes>,
     pub command_sender: Guarded<command_sender::CommandSender>,
     pub fall_state_filter: Guarded<fall_state_filter::FallStateFilter>,
     pub foot_pressure_filter: Guarded<foot_pressure_filter::FootPressureFilter>,
@@ -96,6 +99,7 @@ pub struct Nodes {
     pub team_message_sender: Guarded<team_message_sender::TeamMessageSender>,
     pub tone_player: Guarded<tone_player::TonePlayer>,
     pub tone_selector: Guarded<tone_selector::ToneSelector>,
+    pub walking_engine: Guarded<walking_engine::WalkingEngine>,
     pub whistle_filter: Guarded<whistle_filter::WhistleFilter>,
     pub world_state_composer: Guarded<world_state_composer::WorldStateComposer>,
 }
@@ -198,6 +202,11 @@ impl Nodes {
                 OnFailure::Stop,
                 Self::create_world_state_composer()?,
             ),
+            client_wishes: Guarded::new(
+                "control::client_wishes",
+                OnFailure::Stop,
+                Self::create_client_wishes()?,
+            ),
             behavior: Guarded::new(
                 "control::behavior",
                 OnFailure::Stop,
@@ -232,6 +241,11 @@ impl Nodes {
                 "control::sit_down",
                 OnFailure::Stop,
                 Self::create_sit_down()?,
+            ),
+            walking_engine: Guarded::new(
+                "control::walking_engine",
+                OnFailure::Stop,
+                Self::create_walking_engine()?,
             ),
             look_around: Guarded::new(
                 "control::look_around",
@@ -332,6 +346,7 @@ impl Nodes {
         self.ball_filter(frame)?;
         self.obstacle_filter(frame)?;
         self.world_state_composer(frame)?;
+        self.client_wishes(frame)?;
         self.behavior(frame)?;
         self.recording_switch(frame)?;
         self.motion_selector(frame)?;
@@ -339,6 +354,7 @@ impl Nodes {
         self.stand(frame)?;
         self.penalized_pose(frame)?;
         self.sit_down(frame)?;
+        self.walking_engine(frame)?;
         self.look_around(frame)?;
         self.look_at(frame)?;
         self.head_motion(frame)?;
@@ -411,11 +427,13 @@ impl Nodes {
         Ok(())
     }
 
-    /// world_state -> motion_command
+    /// world_state, client_wish -> motion_command
     #[inline(always)]
     fn behavior<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
         let context = behavior::CycleContext {
             world_state: &frame.own.world_state,
+            client_wish: frame.own.client_wish.as_ref(),
+            approach: &frame.parameters.behavior.approach,
         };
         let outputs = self.behavior.call(&frame.cycle, |node| node.cycle(context))?;
         frame.own.motion_command = outputs.motion_command.value;
@@ -489,6 +507,30 @@ impl Nodes {
         frame.own.center_of_mass = outputs.center_of_mass.value;
         if let Some(injections) = frame.injections {
             injections.center_of_mass.replace(&mut frame.own.center_of_mass);
+        }
+        Ok(())
+    }
+
+    /// primary_state, fall_state, procedure walk, procedure motion -> client_wish
+    #[inline(always)]
+    fn client_wishes<Hardware>(
+        &mut self,
+        frame: &mut Frame<'_, Hardware>,
+    ) -> Result<()> {
+        let context = client_wishes::CycleContext {
+            primary_state: &frame.own.primary_state,
+            fall_state: &frame.own.fall_state,
+            cycle_time: frame.cycle.time,
+            limits: &frame.parameters.walking_engine.limits,
+            walk_duration: &frame.parameters.client_wishes.walk_duration,
+            motion_duration: &frame.parameters.client_wishes.motion_duration,
+            walk: frame.procedures.walk.call(),
+            motion: frame.procedures.motion.call(),
+        };
+        let outputs = self.client_wishes.call(&frame.cycle, |node| node.cycle(context))?;
+        frame.own.client_wish = outputs.client_wish.value;
+        if let Some(injections) = frame.injections {
+            injections.client_wish.replace(&mut frame.own.client_wish);
         }
         Ok(())
     }
@@ -794,6 +836,7 @@ impl Nodes {
             stand: &frame.parameters.stand.positions,
             penalized_pose: &frame.parameters.penalized_pose.positions,
             crouch: &frame.parameters.sit_down.crouch,
+            walk: &frame.parameters.walking_engine,
             stiffness: &frame.parameters.motion_dispatcher.stiffness,
             velocity_share: &frame.parameters.motion_dispatcher.velocity_share,
             minimum_duration: &frame.parameters.motion_dispatcher.minimum_duration,
@@ -829,8 +872,8 @@ impl Nodes {
     }
 
     /// motion_selection, dispatch_commands, stand_commands, penalized_commands,
-    /// sit_down_commands, head_command, previous motor_commands, sensor_data.positions ->
-    /// motor_commands
+    /// sit_down_commands, walk_commands, head_command, previous motor_commands,
+    /// sensor_data.positions -> motor_commands
     #[inline(always)]
     fn motor_commands_collector<Hardware>(
         &mut self,
@@ -842,6 +885,7 @@ impl Nodes {
             stand_commands: frame.own.stand_commands.as_ref(),
             penalized_commands: frame.own.penalized_commands.as_ref(),
             sit_down_commands: frame.own.sit_down_commands.as_ref(),
+            walk_commands: frame.own.walk_commands.as_ref(),
             head_command: frame.own.head_command.as_ref(),
             previous: frame.previous.own.motor_commands.as_ref(),
             positions: &frame.own.sensor_data.positions,
@@ -1202,6 +1246,32 @@ impl Nodes {
         Ok(())
     }
 
+    /// motion_command, motion_selection, sensor_data.inertial.gyroscope,
+    /// sensor_data.force_sensitive_resistors, state safe_exits.walk -> walk_commands
+    #[inline(always)]
+    fn walking_engine<Hardware>(
+        &mut self,
+        frame: &mut Frame<'_, Hardware>,
+    ) -> Result<()> {
+        let context = walking_engine::CycleContext {
+            motion_command: &frame.own.motion_command,
+            motion_selection: &frame.own.motion_selection,
+            gyroscope: &frame.own.sensor_data.inertial.gyroscope,
+            resistors: &frame.own.sensor_data.force_sensitive_resistors,
+            cycle_time: frame.cycle.time,
+            safe_exit: &mut frame.cycler_state.safe_exits.walk,
+            parameters: &frame.parameters.walking_engine,
+        };
+        let outputs = self
+            .walking_engine
+            .call(&frame.cycle, |node| node.cycle(context))?;
+        frame.own.walk_commands = outputs.walk_commands.value;
+        if let Some(injections) = frame.injections {
+            injections.walk_commands.replace(&mut frame.own.walk_commands);
+        }
+        Ok(())
+    }
+
     /// perception Audio.whistle_evidence -> whistle; when subscribed: whistle_filter.votes
     #[inline(always)]
     fn whistle_filter<Hardware>(
@@ -1283,6 +1353,11 @@ impl Nodes {
     fn create_center_of_mass() -> Result<center_of_mass::CenterOfMass> {
         let context = center_of_mass::CreationContext {};
         center_of_mass::CenterOfMass::new(context).in_node("control::center_of_mass")
+    }
+
+    fn create_client_wishes() -> Result<client_wishes::ClientWishes> {
+        let context = client_wishes::CreationContext {};
+        client_wishes::ClientWishes::new(context).in_node("control::client_wishes")
     }
 
     fn create_command_sender() -> Result<command_sender::CommandSender> {
@@ -1460,6 +1535,11 @@ impl Nodes {
     fn create_tone_selector() -> Result<tone_selector::ToneSelector> {
         let context = tone_selector::CreationContext {};
         tone_selector::ToneSelector::new(context).in_node("control::tone_selector")
+    }
+
+    fn create_walking_engine() -> Result<walking_engine::WalkingEngine> {
+        let context = walking_engine::CreationContext {};
+        walking_engine::WalkingEngine::new(context).in_node("control::walking_engine")
     }
 
     fn create_whistle_filter() -> Result<whistle_filter::WhistleFilter> {

@@ -36,9 +36,12 @@ use types::head::HeadAngles;
 use types::head::HeadCommand;
 use types::head::HeadRequest;
 use types::leds::Leds;
+use types::motion::ClientWish;
 use types::motion::MotionCommand;
+use types::motion::MotionRequest;
 use types::motion::MotionSelection;
 use types::motion::SafeExits;
+use types::motion::Step;
 use types::motor_commands::MotorCommands;
 use types::obstacles::Obstacle;
 use types::odometry::Odometry;
@@ -63,6 +66,8 @@ pub struct OwnOutputs {
     pub buttons: Buttons,
     /// control::center_of_mass
     pub center_of_mass: Point3<f32>,
+    /// control::client_wishes
+    pub client_wish: Option<ClientWish>,
     /// control::motion_dispatcher
     pub dispatch_commands: Option<MotorCommands>,
     /// control::fall_state_filter
@@ -117,6 +122,8 @@ pub struct OwnOutputs {
     pub teammates: Vec<Teammate>,
     /// control::tone_selector
     pub tone: Option<Tone>,
+    /// control::walking_engine
+    pub walk_commands: Option<MotorCommands>,
     /// control::whistle_filter
     pub whistle: Whistle,
     /// control::world_state_composer
@@ -187,6 +194,7 @@ pub struct Injections {
     pub buttons: Injection<Buttons>,
     pub camera_matrices: Injection<Option<CameraMatrices>>,
     pub center_of_mass: Injection<Point3<f32>>,
+    pub client_wish: Injection<Option<ClientWish>>,
     pub dispatch_commands: Injection<Option<MotorCommands>>,
     pub fall_state: Injection<FallState>,
     pub game_controller_state: Injection<Option<GameControllerState>>,
@@ -215,6 +223,7 @@ pub struct Injections {
     pub team_report: Injection<Option<TeamMessage>>,
     pub teammates: Injection<Vec<Teammate>>,
     pub tone: Injection<Option<Tone>>,
+    pub walk_commands: Injection<Option<MotorCommands>>,
     pub whistle: Injection<Whistle>,
     pub world_state: Injection<WorldState>,
 }
@@ -226,6 +235,7 @@ impl InjectionTable for Injections {
             "buttons" => Some(&mut self.buttons),
             "camera_matrices" => Some(&mut self.camera_matrices),
             "center_of_mass" => Some(&mut self.center_of_mass),
+            "client_wish" => Some(&mut self.client_wish),
             "dispatch_commands" => Some(&mut self.dispatch_commands),
             "fall_state" => Some(&mut self.fall_state),
             "game_controller_state" => Some(&mut self.game_controller_state),
@@ -254,6 +264,7 @@ impl InjectionTable for Injections {
             "team_report" => Some(&mut self.team_report),
             "teammates" => Some(&mut self.teammates),
             "tone" => Some(&mut self.tone),
+            "walk_commands" => Some(&mut self.walk_commands),
             "whistle" => Some(&mut self.whistle),
             "world_state" => Some(&mut self.world_state),
             _ => None,
@@ -264,7 +275,8 @@ impl InjectionTable for Injections {
 /// Shared by the nodes of one instance, kept between cycles.
 #[derive(Clone, Debug, Default, Deserialize, Reflect, Serialize)]
 pub struct CyclerState {
-    /// control::motion_dispatcher, control::motion_selector, control::sit_down
+    /// control::motion_dispatcher, control::motion_selector, control::sit_down,
+    /// control::walking_engine
     pub safe_exits: SafeExits,
 }
 
@@ -272,6 +284,10 @@ pub struct CyclerState {
 pub struct Procedures {
     /// control::head_motion
     pub look_at: Answerer<HeadRequest, HeadAngles>,
+    /// control::client_wishes
+    pub motion: Answerer<MotionRequest, f32>,
+    /// control::client_wishes
+    pub walk: Answerer<Step, Step>,
 }
 
 /// Main outputs that are read by time.

@@ -167,6 +167,8 @@ impl<
             };
         }
         self.procedures.look_at.take();
+        self.procedures.motion.take();
+        self.procedures.walk.take();
         let (_, mut frame) = self.frame(slots, cycle);
         Nodes::inject(&mut frame);
     }
@@ -184,10 +186,14 @@ impl<
         self.historic.odometry.push(cycle.time.start, &self.own.current().odometry);
         self.own.swap();
         self.procedures.look_at.close();
+        self.procedures.motion.close();
+        self.procedures.walk.close();
     }
 
     fn abandon(&mut self) {
         self.procedures.look_at.close();
+        self.procedures.motion.close();
+        self.procedures.walk.close();
     }
 
     fn restore(&mut self) -> Result<()> {
@@ -224,6 +230,7 @@ impl<
             "ball",
             "obstacles",
             "world_state",
+            "client_wish",
             "motion_command",
             "is_recording_wanted",
             "motion_selection",
@@ -231,6 +238,7 @@ impl<
             "stand_commands",
             "penalized_commands",
             "sit_down_commands",
+            "walk_commands",
             "look_around",
             "look_at",
             "head_command",
@@ -267,6 +275,7 @@ impl<
             "ball" => Some(&self.own.previous().ball),
             "obstacles" => Some(&self.own.previous().obstacles),
             "world_state" => Some(&self.own.previous().world_state),
+            "client_wish" => Some(&self.own.previous().client_wish),
             "motion_command" => Some(&self.own.previous().motion_command),
             "is_recording_wanted" => Some(&self.own.previous().is_recording_wanted),
             "motion_selection" => Some(&self.own.previous().motion_selection),
@@ -274,6 +283,7 @@ impl<
             "stand_commands" => Some(&self.own.previous().stand_commands),
             "penalized_commands" => Some(&self.own.previous().penalized_commands),
             "sit_down_commands" => Some(&self.own.previous().sit_down_commands),
+            "walk_commands" => Some(&self.own.previous().walk_commands),
             "look_around" => Some(&self.own.previous().look_around),
             "look_at" => Some(&self.own.previous().look_at),
             "head_command" => Some(&self.own.previous().head_command),
@@ -336,6 +346,7 @@ impl<
         visit(self.nodes.ball_filter.report());
         visit(self.nodes.obstacle_filter.report());
         visit(self.nodes.world_state_composer.report());
+        visit(self.nodes.client_wishes.report());
         visit(self.nodes.behavior.report());
         visit(self.nodes.recording_switch.report());
         visit(self.nodes.motion_selector.report());
@@ -343,6 +354,7 @@ impl<
         visit(self.nodes.stand.report());
         visit(self.nodes.penalized_pose.report());
         visit(self.nodes.sit_down.report());
+        visit(self.nodes.walking_engine.report());
         visit(self.nodes.look_around.report());
         visit(self.nodes.look_at.report());
         visit(self.nodes.head_motion.report());
@@ -395,6 +407,7 @@ impl<
         visit("control::ball_filter", &mut self.nodes.ball_filter);
         visit("control::obstacle_filter", &mut self.nodes.obstacle_filter);
         visit("control::world_state_composer", &mut self.nodes.world_state_composer);
+        visit("control::client_wishes", &mut self.nodes.client_wishes);
         visit("control::behavior", &mut self.nodes.behavior);
         visit("control::recording_switch", &mut self.nodes.recording_switch);
         visit("control::motion_selector", &mut self.nodes.motion_selector);
@@ -402,6 +415,7 @@ impl<
         visit("control::stand", &mut self.nodes.stand);
         visit("control::penalized_pose", &mut self.nodes.penalized_pose);
         visit("control::sit_down", &mut self.nodes.sit_down);
+        visit("control::walking_engine", &mut self.nodes.walking_engine);
         visit("control::look_around", &mut self.nodes.look_around);
         visit("control::look_at", &mut self.nodes.look_at);
         visit("control::head_motion", &mut self.nodes.head_motion);

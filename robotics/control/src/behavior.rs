@@ -1,18 +1,27 @@
 //! Decides what body and head do, from what the robot knows about the game and the world.
 //!
 //! Limp where the robot falls or lies, still where the rules want it still, else on its feet with an
-//! eye on the ball.
+//! eye on the ball, which it walks to while the game is on. A client may drive the body instead.
 
-use framework::{Input, MainOutput, Result, context};
+use framework::{Input, MainOutput, Parameter, Result, context};
+use nalgebra::Point2;
 use serde::{Deserialize, Serialize};
 use types::fall_state::FallState;
 use types::game::PrimaryState;
-use types::motion::{BodyMotion, HeadMotion, MotionCommand};
+use types::motion::{BodyMotion, ClientWish, HeadMotion, MotionCommand, Step};
 use types::world_state::WorldState;
 
-/// Keeps nothing between cycles.
+pub use self::approach::Approach;
+use self::approach::step_towards;
+
+mod approach;
+
+/// What was decided before.
 #[derive(Debug, Deserialize, Serialize)]
-pub struct Behavior {}
+pub struct Behavior {
+    /// Whether the robot walks to the ball.
+    is_on_its_way: bool,
+}
 
 #[context]
 pub struct CreationContext {}
@@ -20,6 +29,10 @@ pub struct CreationContext {}
 #[context]
 pub struct CycleContext {
     world_state: Input<WorldState, "world_state">,
+    client_wish: Input<Option<ClientWish>, "client_wish?">,
+
+    /// How to walk to the ball.
+    approach: Parameter<Approach, "behavior.approach">,
 }
 
 #[context]
@@ -29,20 +42,53 @@ pub struct MainOutputs {
 }
 
 impl Behavior {
-    /// Nothing to prepare.
+    /// The ball has not been seen yet.
     pub fn new(_context: CreationContext) -> Result<Self> {
-        Ok(Self {})
+        Ok(Self {
+            is_on_its_way: false,
+        })
     }
 
     /// What the state of the game allows, unless the robot falls or lies.
     pub fn cycle(&mut self, context: CycleContext) -> Result<MainOutputs> {
+        let decided = decide(context.world_state);
+        let step = self.step_to_ball(context.world_state, context.approach);
+        let motion_command = match (context.client_wish, step) {
+            (Some(wish), _) if decided.body == BodyMotion::Stand => MotionCommand {
+                body: wish.body,
+                step: wish.step,
+                ..decided
+            },
+            (None, Some(step)) => MotionCommand {
+                body: BodyMotion::Walk,
+                step,
+                ..decided
+            },
+            _ => decided,
+        };
         Ok(MainOutputs {
-            motion_command: decide(context.world_state).into(),
+            motion_command: motion_command.into(),
         })
+    }
+
+    /// `None` where the robot shall not walk, or has nowhere to go.
+    fn step_to_ball(&mut self, world_state: &WorldState, approach: &Approach) -> Option<Step> {
+        let ball = ball_to_walk_to(world_state);
+        let step = ball.and_then(|ball| step_towards(ball, self.is_on_its_way, approach));
+        self.is_on_its_way = step.is_some();
+        step
     }
 }
 
-/// What robots may do in each state is as in the RoboCup SPL rules 2025.
+/// In the ground frame, m; `None` where the robot is not to walk to it.
+fn ball_to_walk_to(world_state: &WorldState) -> Option<Point2<f32>> {
+    let may_walk = world_state.primary_state == PrimaryState::Playing
+        && world_state.fall_state == FallState::Upright;
+    let ball = world_state.ball.filter(|_| may_walk)?;
+    Some(ball.position)
+}
+
+/// Without a client and without walking. What robots may do in each state is as in the RoboCup SPL rules 2025.
 fn decide(world_state: &WorldState) -> MotionCommand {
     if let FallState::Falling(_) | FallState::Lying(_) = world_state.fall_state {
         return command(BodyMotion::Unstiff, HeadMotion::WithBody);
@@ -64,7 +110,11 @@ fn decide(world_state: &WorldState) -> MotionCommand {
 }
 
 const fn command(body: BodyMotion, head: HeadMotion) -> MotionCommand {
-    MotionCommand { body, head }
+    MotionCommand {
+        body,
+        head,
+        step: Step::ZERO,
+    }
 }
 
 #[cfg(test)]
@@ -75,10 +125,26 @@ mod tests {
 
     use super::*;
 
+    const APPROACH: Approach = Approach {
+        arrived: 0.2,
+        depart: 0.3,
+        ahead: 0.5,
+        forward: 0.06,
+        turn: 0.4,
+    };
+
     fn decision(world_state: &WorldState) -> MotionCommand {
+        decision_with(world_state, None)
+    }
+
+    fn decision_with(world_state: &WorldState, client_wish: Option<&ClientWish>) -> MotionCommand {
         let mut node = Behavior::new(CreationContext {}).unwrap();
-        let outputs = node.cycle(CycleContext { world_state }).unwrap();
-        outputs.motion_command.value
+        let context = CycleContext {
+            world_state,
+            client_wish,
+            approach: &APPROACH,
+        };
+        node.cycle(context).unwrap().motion_command.value
     }
 
     fn upright(primary_state: PrimaryState, ball: Option<Ball>) -> MotionCommand {
@@ -121,10 +187,79 @@ mod tests {
             PrimaryState::Set,
             PrimaryState::Playing,
         ] {
-            let follows = command(BodyMotion::Stand, HeadMotion::LookAt(ball.position));
-            assert_eq!(upright(state, Some(ball)), follows);
+            let follows = HeadMotion::LookAt(ball.position);
+            assert_eq!(upright(state, Some(ball)).head, follows);
             let looks_around = command(BodyMotion::Stand, HeadMotion::LookAround);
             assert_eq!(upright(state, None), looks_around);
+        }
+    }
+
+    #[test]
+    fn the_robot_walks_to_the_ball_while_the_game_is_on_and_at_no_other_time() {
+        use PrimaryState::{Finished, Initial, Penalized, Playing, Ready, Set, Standby, Unstiff};
+        let far = Ball {
+            position: Point2::new(1.5, -0.2),
+            ..Ball::default()
+        };
+        let near = Ball {
+            position: Point2::new(0.19, 0.0),
+            ..Ball::default()
+        };
+        let decision = upright(Playing, Some(far));
+        assert_eq!(decision.body, BodyMotion::Walk);
+        assert!(decision.step.forward > 0.05 && decision.step.turn < 0.0);
+        assert_eq!(upright(Playing, Some(near)).body, BodyMotion::Stand);
+        for state in [Unstiff, Initial, Standby, Ready, Set, Penalized, Finished] {
+            assert_ne!(
+                upright(state, Some(far)).body,
+                BodyMotion::Walk,
+                "{state:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_client_drives_a_robot_that_stands_or_walks_and_no_other() {
+        let step = Step {
+            left: 0.02,
+            ..Step::ZERO
+        };
+        let wish = ClientWish {
+            body: BodyMotion::Walk,
+            step,
+        };
+        let with_ball = |primary_state, fall_state| WorldState {
+            primary_state,
+            fall_state,
+            ball: Some(Ball {
+                position: Point2::new(1.0, 0.0),
+                ..Ball::default()
+            }),
+            ..WorldState::default()
+        };
+        for (primary_state, fall_state, body) in [
+            (PrimaryState::Initial, FallState::Upright, BodyMotion::Walk),
+            (PrimaryState::Playing, FallState::Upright, BodyMotion::Walk),
+            (
+                PrimaryState::Penalized,
+                FallState::Upright,
+                BodyMotion::Penalized,
+            ),
+            (
+                PrimaryState::Unstiff,
+                FallState::Upright,
+                BodyMotion::SitDown,
+            ),
+            (
+                PrimaryState::Playing,
+                FallState::Lying(Facing::Up),
+                BodyMotion::Unstiff,
+            ),
+        ] {
+            let world_state = with_ball(primary_state, fall_state);
+            let decision = decision_with(&world_state, Some(&wish));
+            assert_eq!(decision.body, body, "{primary_state:?}");
+            assert_eq!(decision.step == step, body == BodyMotion::Walk);
         }
     }
 

@@ -92,7 +92,9 @@ impl HeadMotion {
 impl CycleContext<'_> {
     fn goes_with_body(&self) -> bool {
         let selection = self.motion_selection;
-        let is_up = selection.is_at(BodyMotion::Stand) || selection.is_at(BodyMotion::Penalized);
+        let is_up = [BodyMotion::Stand, BodyMotion::Penalized, BodyMotion::Walk]
+            .into_iter()
+            .any(|motion| selection.is_at(motion));
         !is_up || self.motion_command.head == Wanted::WithBody
     }
 
@@ -156,6 +158,7 @@ mod tests {
                 motion_command: MotionCommand {
                     body: BodyMotion::Stand,
                     head,
+                    ..MotionCommand::default()
                 },
                 motion_selection: MotionSelection {
                     current: BodyMotion::Stand,

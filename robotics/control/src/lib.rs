@@ -29,6 +29,7 @@ pub mod obstacle_filter;
 pub mod world_state_composer;
 
 pub mod behavior;
+pub mod client_wishes;
 pub mod motion_selector;
 pub mod recording_switch;
 
@@ -37,6 +38,7 @@ pub mod penalized_pose;
 pub mod sit_down;
 pub mod stand;
 mod transition;
+pub mod walking_engine;
 
 pub mod head_motion;
 pub mod look_around;

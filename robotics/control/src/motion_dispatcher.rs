@@ -43,6 +43,8 @@ pub struct CycleContext {
     penalized_pose: Parameter<Joints<f32>, "penalized_pose.positions">,
     /// Where sitting down begins, in rad.
     crouch: Parameter<Joints<f32>, "sit_down.crouch">,
+    /// Walking begins with both feet side by side.
+    walk: Parameter<walking::Parameters, "walking_engine">,
     /// Stiffness of every joint, 0 (limp) to 1.
     stiffness: Parameter<f32, "motion_dispatcher.stiffness">,
     /// Share of every joint's greatest speed that the way may take.
@@ -66,7 +68,7 @@ impl MotionDispatcher {
     /// The next pose on the way.
     pub fn cycle(&mut self, context: CycleContext) -> Result<MainOutputs> {
         let motion = context.motion_selection.current;
-        let Some(target) = context.target() else {
+        let Some(target) = &context.target() else {
             self.way = None;
             *context.safe_exit = false;
             return Ok(MainOutputs {
@@ -102,14 +104,15 @@ impl MotionDispatcher {
     }
 }
 
-impl<'context> CycleContext<'context> {
+impl CycleContext<'_> {
     /// Where the selected motion begins; `None` where the body is not on its way to one.
-    fn target(&self) -> Option<&'context Joints<f32>> {
+    fn target(&self) -> Option<Joints<f32>> {
         let begin = match self.motion_selection.current {
             BodyMotion::Unstiff => None,
-            BodyMotion::SitDown => Some(self.crouch),
-            BodyMotion::Stand => Some(self.stand),
-            BodyMotion::Penalized => Some(self.penalized_pose),
+            BodyMotion::SitDown => Some(*self.crouch),
+            BodyMotion::Stand => Some(*self.stand),
+            BodyMotion::Penalized => Some(*self.penalized_pose),
+            BodyMotion::Walk => Some(walking::standing_pose(self.walk)),
         };
         begin.filter(|_| self.motion_selection.is_dispatching)
     }
@@ -117,7 +120,7 @@ impl<'context> CycleContext<'context> {
 
 #[cfg(test)]
 mod tests {
-    use framework::testing;
+    use framework::testing::{self, ParameterFile};
     use kinematics::limits;
 
     use super::*;
@@ -150,6 +153,8 @@ mod tests {
             stand: &stand(),
             penalized_pose: &Joints::filled(0.1),
             crouch: &Joints::filled(0.2),
+            walk: &ParameterFile::new(include_str!("../../parameters/default.toml"))
+                .get("walking_engine"),
             stiffness: &0.8,
             velocity_share: &0.25,
             minimum_duration: &1.0,

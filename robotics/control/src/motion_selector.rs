@@ -69,6 +69,7 @@ fn next(selection: MotionSelection, wanted: BodyMotion, exits: SafeExits) -> Mot
         (BodyMotion::SitDown, _) if !exits.sit_down => stay,
         (BodyMotion::SitDown, BodyMotion::SitDown) => go(BodyMotion::Unstiff),
         (current, _) if current == wanted => stay,
+        (BodyMotion::Walk, _) if !exits.walk => stay,
         _ => go(wanted),
     }
 }
@@ -80,10 +81,12 @@ mod tests {
     const NOWHERE: SafeExits = SafeExits {
         sit_down: false,
         dispatch: false,
+        walk: false,
     };
     const EVERYWHERE: SafeExits = SafeExits {
         sit_down: true,
         dispatch: true,
+        walk: true,
     };
 
     fn select(
@@ -163,6 +166,15 @@ mod tests {
     }
 
     #[test]
+    fn a_walk_is_left_only_with_both_feet_side_by_side() {
+        let mut node = node_in(BodyMotion::Walk);
+        let (walk, stand) = (BodyMotion::Walk, BodyMotion::Stand);
+        assert_eq!(select(&mut node, stand, NOWHERE), (walk, false));
+        assert_eq!(select(&mut node, walk, EVERYWHERE), (walk, false));
+        assert_eq!(select(&mut node, stand, EVERYWHERE), (stand, true));
+    }
+
+    #[test]
     fn after_sitting_down_the_body_is_limp_and_stays_so() {
         let mut node = node_in(BodyMotion::SitDown);
         let limp = (BodyMotion::Unstiff, false);
@@ -176,6 +188,7 @@ mod tests {
             BodyMotion::SitDown,
             BodyMotion::Stand,
             BodyMotion::Penalized,
+            BodyMotion::Walk,
         ] {
             for is_dispatching in [false, true] {
                 let mut node = node_in(current);

@@ -30,6 +30,7 @@ pub struct CycleContext {
     stand_commands: Input<Option<MotorCommands>, "stand_commands?">,
     penalized_commands: Input<Option<MotorCommands>, "penalized_commands?">,
     sit_down_commands: Input<Option<MotorCommands>, "sit_down_commands?">,
+    walk_commands: Input<Option<MotorCommands>, "walk_commands?">,
     head_command: Input<Option<HeadCommand>, "head_command?">,
     previous: PreviousInput<Option<MotorCommands>, "motor_commands?">,
     positions: Input<Joints<f32>, "sensor_data.positions">,
@@ -94,6 +95,7 @@ impl<'context> CycleContext<'context> {
             BodyMotion::SitDown => self.sit_down_commands,
             BodyMotion::Stand => self.stand_commands,
             BodyMotion::Penalized => self.penalized_commands,
+            BodyMotion::Walk => self.walk_commands,
         }
     }
 }
@@ -176,6 +178,7 @@ mod tests {
             stand_commands: None,
             penalized_commands: None,
             sit_down_commands: None,
+            walk_commands: None,
             head_command: None,
             previous: None,
             positions,
@@ -204,8 +207,8 @@ mod tests {
 
     #[test]
     fn the_body_obeys_the_motion_that_has_it() {
-        let [dispatch, stand, penalized, sit_down] =
-            [0.11, 0.12, 0.13, 0.14].map(|stiffness| MotorCommands {
+        let [dispatch, stand, penalized, sit_down, walk] =
+            [0.11, 0.12, 0.13, 0.14, 0.15].map(|stiffness| MotorCommands {
                 positions: start(),
                 stiffnesses: Joints::filled(stiffness),
             });
@@ -219,6 +222,7 @@ mod tests {
                 stand_commands: Some(&stand),
                 penalized_commands: Some(&penalized),
                 sit_down_commands: Some(&sit_down),
+                walk_commands: Some(&walk),
                 ..nobody(&selection, &start())
             });
             commands.stiffnesses.left_knee_pitch
@@ -227,6 +231,7 @@ mod tests {
         assert_eq!(stiffness(BodyMotion::Stand, false), 0.12);
         assert_eq!(stiffness(BodyMotion::Penalized, false), 0.13);
         assert_eq!(stiffness(BodyMotion::SitDown, false), 0.14);
+        assert_eq!(stiffness(BodyMotion::Walk, false), 0.15);
         assert_eq!(stiffness(BodyMotion::Unstiff, false), 0.0);
     }
 

@@ -141,6 +141,8 @@ impl Robot {
         self.cycles += 1;
         let context = behavior::CycleContext {
             world_state: &self.world_state,
+            client_wish: None,
+            approach: &self.parameters.get("behavior.approach"),
         };
         let command = self.behavior.cycle(context).unwrap().motion_command.value;
         let context = motion_selector::CycleContext {
@@ -197,6 +199,7 @@ impl Robot {
             stand: &self.stand_pose,
             penalized_pose: &self.penalized,
             crouch: &self.crouch,
+            walk: &self.parameters.get("walking_engine"),
             stiffness: &self.parameters.get("motion_dispatcher.stiffness"),
             velocity_share: &self.parameters.get("motion_dispatcher.velocity_share"),
             minimum_duration: &self.parameters.get("motion_dispatcher.minimum_duration"),
@@ -250,6 +253,8 @@ impl Robot {
             stand_commands: wanted.stand.as_ref(),
             penalized_commands: wanted.penalized.as_ref(),
             sit_down_commands: wanted.sit_down.as_ref(),
+            // Walking has tests of its own, on the physics.
+            walk_commands: None,
             head_command: self.head_command.as_ref(),
             previous: self.motor_commands.as_ref(),
             positions: &self.body,
@@ -287,7 +292,7 @@ impl Robot {
                 BodyMotion::SitDown => &self.crouch,
                 BodyMotion::Stand => &self.stand_pose,
                 BodyMotion::Penalized => &self.penalized,
-                BodyMotion::Unstiff => body,
+                BodyMotion::Unstiff | BodyMotion::Walk => body,
             };
             assert_eq!(begin, body);
         } else if before.current == BodyMotion::SitDown {
@@ -394,7 +399,7 @@ fn a_known_ball_is_looked_at_until_it_is_in_the_middle_of_an_image() {
             position: Point2::new(x, y),
             ..Ball::default()
         });
-        robot.live(PrimaryState::Playing, 12.0);
+        robot.live(PrimaryState::Set, 12.0);
         let matrices = robot.camera_matrices();
         let off = [matrices.top, matrices.bottom].map(|matrix| {
             let pixel = matrix.ground_to_pixel(Point3::new(x, y, 0.0));

@@ -6,7 +6,8 @@ mod parameters;
 use simulated_nao::physics::{Body, Dynamic, Physics, Situation, Start, weight};
 use simulated_nao::posture;
 use types::feet::Feet;
-use walking::{Engine, Senses, Step};
+use types::motion::Step;
+use walking::{Engine, Senses};
 
 use parameters::parameters;
 

@@ -1,4 +1,4 @@
-//! Owns what the behaviour wants body and head to do, which motion has the body, and when it can be left.
+//! Owns what behaviour and clients want body and head to do, which motion has the body, and when it can be left.
 
 use framework::{Clear, Reflect};
 use nalgebra::Point2;
@@ -11,6 +11,8 @@ pub struct MotionCommand {
     pub body: BodyMotion,
     /// With the head.
     pub head: HeadMotion,
+    /// Where to, of a body that walks.
+    pub step: Step,
 }
 
 /// A motion of arms and legs.
@@ -25,6 +27,29 @@ pub enum BodyMotion {
     Stand,
     /// Tall and still, as a penalised robot must.
     Penalized,
+    /// Step by step, as [`MotionCommand::step`] says.
+    Walk,
+}
+
+/// How far the swing foot comes to stand from where it would stand beside the support foot; the body goes as far.
+#[derive(Clear, Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Step {
+    /// In m.
+    pub forward: f32,
+    /// In m.
+    pub left: f32,
+    /// In rad, positive to the left.
+    pub turn: f32,
+}
+
+impl Step {
+    /// Both feet side by side.
+    pub const ZERO: Self = Self {
+        forward: 0.0,
+        left: 0.0,
+        turn: 0.0,
+    };
 }
 
 /// A motion of the head.
@@ -66,4 +91,27 @@ pub struct SafeExits {
     pub sit_down: bool,
     /// Dispatching: only in the pose where a motion begins.
     pub dispatch: bool,
+    /// Walking: only with both feet side by side.
+    pub walk: bool,
+}
+
+/// What a client asks the body to do.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, PartialEq, Reflect, Serialize)]
+pub enum MotionRequest {
+    /// What the behaviour says.
+    #[default]
+    Release,
+    /// Ready to play.
+    Stand,
+    /// Down to the ground, then limp.
+    SitDown,
+}
+
+/// What a client wants of the body as long as its wish holds.
+#[derive(Clear, Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
+pub struct ClientWish {
+    /// With arms and legs.
+    pub body: BodyMotion,
+    /// Where to, of a body that walks.
+    pub step: Step,
 }

@@ -7,13 +7,13 @@ use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 use serde::{Deserialize, Serialize};
 use types::feet::{Feet, Side};
 use types::joints::{JointName, Joints};
+use types::motion::Step;
 use types::motor_commands::MotorCommands;
 
 use crate::arms;
 use crate::balance::Balance;
 use crate::parameters::Parameters;
-use crate::step::Step;
-use crate::stride::{Stride, other, standing};
+use crate::stride::{Sole, Stride, other, standing};
 
 /// From the torso's origin down to the axis of the hips, in m (NAO V6 URDF).
 const HIPS_BELOW_TORSO: f32 = -LinkName::LeftPelvis.origin()[2] as f32;
@@ -134,11 +134,7 @@ impl Engine {
             Some(stride) => stride.soles(self.elapsed),
             None => standing(parameters),
         };
-        let mut positions = Joints::default();
-        arms::write(&soles, &parameters.arms, &mut positions);
-        let torso_to_walk = torso_to_walk(parameters);
-        let soles_to_torso = soles.map(|sole| torso_to_walk.inverse() * sole.to_walk());
-        leg_angles(&soles_to_torso, 0.5).write_to(&mut positions);
+        let mut positions = pose(&soles, parameters);
         self.balance_ankles(&mut positions);
         let stiffnesses = Joints::from_fn(|joint| match joint {
             _ if is_leg(joint) => parameters.leg_stiffness,
@@ -161,6 +157,20 @@ impl Engine {
             positions.right_ankle_roll += roll;
         }
     }
+}
+
+/// The pose in which a walk begins and ends, in rad.
+pub fn standing_pose(parameters: &Parameters) -> Joints<f32> {
+    pose(&standing(parameters), parameters)
+}
+
+fn pose(soles: &Feet<Sole>, parameters: &Parameters) -> Joints<f32> {
+    let mut positions = Joints::default();
+    arms::write(soles, &parameters.arms, &mut positions);
+    let walk_to_torso = torso_to_walk(parameters).inverse();
+    let soles_to_torso = soles.map(|sole| walk_to_torso * sole.to_walk());
+    leg_angles(&soles_to_torso, 0.5).write_to(&mut positions);
+    positions
 }
 
 /// Whether the swing foot carries, or should have long ago.

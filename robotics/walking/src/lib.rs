@@ -19,7 +19,7 @@ mod step;
 mod stride;
 
 pub use balance::Balance;
-pub use engine::{Engine, Senses};
+pub use engine::{Engine, Senses, standing_pose};
 pub use parameters::{ArmParameters, BalanceParameters, Parameters, StrideParameters};
-pub use step::{Limits, Step};
+pub use step::Limits;
 pub use stride::{Sole, Stride};

@@ -1,20 +1,9 @@
 //! What one step does, and how large it may be.
 
-use framework::{Clear, Reflect};
+use framework::Reflect;
 use serde::{Deserialize, Serialize};
 use types::feet::Side;
-
-/// How far the swing foot comes to stand from where it would stand beside the support foot.
-#[derive(Clear, Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
-#[serde(deny_unknown_fields)]
-pub struct Step {
-    /// In m.
-    pub forward: f32,
-    /// In m.
-    pub left: f32,
-    /// In rad, positive to the left.
-    pub turn: f32,
-}
+use types::motion::Step;
 
 /// The largest steps.
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
@@ -34,29 +23,10 @@ pub struct Limits {
     pub turn_acceleration: f32,
 }
 
-impl Step {
-    /// Both feet side by side.
-    pub const ZERO: Self = Self {
-        forward: 0.0,
-        left: 0.0,
-        turn: 0.0,
-    };
-
-    /// What is no number is no wish.
-    fn finite(self) -> Self {
-        let finite = |value: f32| if value.is_finite() { value } else { 0.0 };
-        Self {
-            forward: finite(self.forward),
-            left: finite(self.left),
-            turn: finite(self.turn),
-        }
-    }
-}
-
 impl Limits {
     /// The step nearest to `wanted` that the legs can do after `last` while this foot carries.
     pub fn apply(&self, wanted: Step, last: Step, support: Side) -> Step {
-        let step = self.in_volume(wanted.finite());
+        let step = self.in_volume(wanted);
         let forward = accelerated(step.forward, last.forward, self.acceleration);
         let turn = accelerated(step.turn, last.turn, self.turn_acceleration);
         let (left, turn) = self.outwards(step.left, turn, support);
@@ -67,8 +37,11 @@ impl Limits {
         }
     }
 
+    /// The largest step in the direction of `wanted` that is not larger; what is no number is no wish.
+    ///
     /// Turning has precedence; what is left of the volume goes to the direction.
-    fn in_volume(&self, wanted: Step) -> Step {
+    pub fn in_volume(&self, wanted: Step) -> Step {
+        let wanted = finite(wanted);
         let forward_limit = if wanted.forward < 0.0 {
             self.backward
         } else {
@@ -95,6 +68,15 @@ impl Limits {
             Side::Right => (left.max(0.0), turn.max(0.0)),
             Side::Left => (left.min(0.0), turn.min(0.0)),
         }
+    }
+}
+
+fn finite(step: Step) -> Step {
+    let finite = |value: f32| if value.is_finite() { value } else { 0.0 };
+    Step {
+        forward: finite(step.forward),
+        left: finite(step.left),
+        turn: finite(step.turn),
     }
 }
 

@@ -4,9 +4,9 @@ use framework::Reflect;
 use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 use serde::{Deserialize, Serialize};
 use types::feet::{Feet, Side};
+use types::motion::Step;
 
 use crate::parameters::{Parameters, StrideParameters};
-use crate::step::Step;
 
 /// A sole in the walk frame; it is level.
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]

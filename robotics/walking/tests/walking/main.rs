@@ -6,7 +6,8 @@ use kinematics::limits;
 use proptest::prelude::*;
 use types::feet::{Feet, Side};
 use types::joints::{JointName, Joints};
-use walking::{Engine, Senses, Step};
+use types::motion::Step;
+use walking::{Engine, Senses};
 
 use parameters::parameters;
 

@@ -1,0 +1,243 @@
+//! The NAO moves, in lockstep, on legs with masses: what it does is judged by the truth, not by its own belief.
+
+use kinematics::limits;
+use nalgebra::{Isometry2, Vector2, Vector3};
+use serde_json::json;
+use simulated_nao::GroundTruth;
+use support::nao::{Nao, call, output};
+use types::motion::{BodyMotion, MotionSelection};
+use types::motor_commands::MotorCommands;
+use types::odometry::Odometry;
+
+/// Until then the robot has got up from sitting and stands.
+const STANDS: f64 = 5.0;
+
+/// How far a robot that walks may lean, rad.
+const UPRIGHT: f32 = 0.4;
+
+/// Commands reach LoLA as 32-bit floats; between two of them lie 12 ms.
+const ROUNDING: f32 = 1e-5;
+
+/// A robot, and what was seen of it so far.
+struct Robot {
+    nao: Nao,
+    now: f64,
+    /// The last of LoLA's commands that was judged.
+    last: Option<(u64, MotorCommands)>,
+    /// How far it leant at most since the last question, rad.
+    lean: f32,
+}
+
+impl Robot {
+    fn new(options: &[&str], settings: &[(&str, &str)]) -> Self {
+        Self {
+            nao: Nao::dynamic(options, settings),
+            now: 0.0,
+            last: None,
+            lean: 0.0,
+        }
+    }
+
+    /// Without cameras, in a game that does not begin, at x, y and heading.
+    fn driven(pose: &str) -> Self {
+        let options = [
+            "--no-cameras",
+            "--no-sound",
+            "--game",
+            "Initial",
+            "--pose",
+            pose,
+        ];
+        let mut robot = Self::new(&options, &[]);
+        robot.live(STANDS, |_| {});
+        robot
+    }
+
+    /// Lives on for so many seconds; every command on the way is one that harms no joint.
+    fn live(&mut self, seconds: f64, mut before_each: impl FnMut(&mut Nao)) {
+        let end = self.now + seconds;
+        while self.now < end - 1e-9 {
+            before_each(&mut self.nao);
+            self.now = (self.now + 0.5).min(end);
+            let lean = &mut self.lean;
+            self.nao.run(self.now, |hardware, instance| {
+                if instance.description().name == "Control" {
+                    *lean = lean.max(tilt(&hardware.ground_truth()));
+                }
+            });
+            self.judge_commands();
+        }
+    }
+
+    /// Lives on under a client that asks for these steps twice a second.
+    fn walk(&mut self, seconds: f64, forward: f32, left: f32, turn: f32) {
+        self.live(seconds, |nao| {
+            let step = json!({ "forward": forward, "left": left, "turn": turn });
+            let _answer = call(&mut nao.robot, "walk", step);
+        });
+    }
+
+    fn judge_commands(&mut self) {
+        for (number, commands) in self.nao.hardware.received_commands() {
+            match &self.last {
+                Some((last, _)) if number <= *last => continue,
+                Some((last, before)) => {
+                    assert_eq!(number, last + 1, "a command that nobody has seen");
+                    assert_harmless(Some(before), &commands);
+                }
+                None => assert_harmless(None, &commands),
+            }
+            self.last = Some((number, commands));
+        }
+    }
+
+    fn truth(&self) -> GroundTruth {
+        self.nao.hardware.ground_truth()
+    }
+
+    /// On the field: x, y in m, heading in rad.
+    fn pose(&self) -> Isometry2<f32> {
+        let ground = self.truth().ground_to_field;
+        let ahead = ground.rotation * Vector3::x();
+        let place = ground.translation.vector.xy();
+        Isometry2::new(place, ahead.y.atan2(ahead.x))
+    }
+
+    /// Where it believes to be, seen from where it was first.
+    fn odometry(&self) -> Isometry2<f32> {
+        let control = self.nao.robot.instance("Control").expect("it runs");
+        output::<Odometry>(control, "odometry").ground_to_start
+    }
+
+    fn selection(&self) -> MotionSelection {
+        let control = self.nao.robot.instance("Control").expect("it runs");
+        output(control, "motion_selection")
+    }
+
+    fn greatest_lean(&mut self) -> f32 {
+        std::mem::take(&mut self.lean)
+    }
+}
+
+/// Between the torso's z axis and the vertical, rad.
+fn tilt(truth: &GroundTruth) -> f32 {
+    let up = truth.torso_to_field.rotation * Vector3::z();
+    up.z.clamp(-1.0, 1.0).acos()
+}
+
+/// Within the limits of every joint, and no faster than any of them can be.
+fn assert_harmless(before: Option<&MotorCommands>, commands: &MotorCommands) {
+    for (joint, angle) in commands.positions.iter() {
+        let stiffness = commands.stiffnesses[joint];
+        assert!((0.0..=1.0).contains(&stiffness), "{joint:?}: {stiffness}");
+        let nearest = limits::clamp(joint, *angle);
+        assert!(
+            (angle - nearest).abs() < ROUNDING,
+            "{joint:?} at {angle} rad"
+        );
+        // What is limp only says where it is.
+        let Some(before) = before.filter(|before| before.stiffnesses[joint] > 0.0) else {
+            continue;
+        };
+        let speed = (angle - before.positions[joint]).abs() / 0.012;
+        let most = limits::of(joint).velocity as f32;
+        let is_slow = stiffness == 0.0 || speed <= most * 1.001 + ROUNDING / 0.012;
+        assert!(is_slow, "{joint:?} shall move with {speed} of {most} rad/s");
+    }
+}
+
+/// How wrong the odometry was about a way: m, and rad.
+fn error(truth: [Isometry2<f32>; 2], belief: [Isometry2<f32>; 2]) -> (f32, f32) {
+    let way = |[from, to]: [Isometry2<f32>; 2]| from.inverse() * to;
+    let (truth, belief) = (way(truth), way(belief));
+    let place: Vector2<f32> = truth.translation.vector - belief.translation.vector;
+    (
+        place.norm(),
+        truth.rotation.angle_to(&belief.rotation).abs(),
+    )
+}
+
+#[test]
+fn a_client_walks_the_robot_and_its_odometry_says_where() {
+    for (pose, [forward, left, turn]) in [
+        ("-3.0,0.0,0.0", [0.06, 0.0, 0.0]),
+        ("0.0,-2.0,1.3", [0.065, 0.0, 0.0]),
+        ("1.0,1.0,3.0", [-0.04, 0.0, 0.0]),
+        ("0.0,0.0,0.5", [0.0, 0.06, 0.0]),
+        ("0.0,0.0,-2.0", [0.0, -0.06, 0.0]),
+        ("0.0,1.0,2.0", [0.0, 0.0, 0.4]),
+        ("0.5,1.0,-1.0", [0.05, 0.0, -0.2]),
+    ] {
+        let mut robot = Robot::driven(pose);
+        let before = [robot.pose(), robot.odometry()];
+        robot.greatest_lean();
+        robot.walk(10.0, forward, left, turn);
+        let (lean, after) = (robot.greatest_lean(), [robot.pose(), robot.odometry()]);
+        let way = before[0].inverse() * after[0];
+        let (place, heading) = error([before[0], after[0]], [before[1], after[1]]);
+        println!(
+            "{forward} {left} {turn}: {:.2} m {:.2} m {:.2} rad in 10 s, lean {lean:.2} rad, odometry off by {place:.3} m {heading:.3} rad",
+            way.translation.x,
+            way.translation.y,
+            way.rotation.angle()
+        );
+        assert!(lean < UPRIGHT, "it leant by {lean} rad");
+        let distance = way.translation.vector.norm();
+        let along = Vector2::new(forward, left);
+        if along.norm() > 0.0 && turn == 0.0 {
+            assert!(
+                way.translation.vector.dot(&along.normalize()) > 0.6,
+                "{way}"
+            );
+            assert!(way.rotation.angle().abs() < 0.5, "{way}");
+        }
+        // 10 % of the way, 10 degrees of a turn.
+        assert!(place < 0.1 * distance + 0.05, "{place} of {distance} m");
+        assert!(heading < 0.18, "{heading} rad");
+    }
+}
+
+#[test]
+fn a_robot_that_nobody_drives_any_more_stands() {
+    let mut robot = Robot::driven("0.0,0.0,0.0");
+    robot.walk(3.0, 0.05, 0.0, 0.0);
+    assert!(robot.selection().is_at(BodyMotion::Walk));
+    robot.live(5.0, |_| {});
+    assert!(robot.selection().is_at(BodyMotion::Stand));
+    let stood = robot.pose();
+    robot.live(1.0, |_| {});
+    let moved = (robot.pose().translation.vector - stood.translation.vector).norm();
+    assert!(moved < 0.01, "{moved} m");
+
+    robot.walk(3.0, 0.05, 0.0, 0.0);
+    call(&mut robot.nao.robot, "motion", json!("Release"));
+    robot.live(3.0, |_| {});
+    assert!(robot.selection().is_at(BodyMotion::Stand));
+    assert!(robot.greatest_lean() < UPRIGHT);
+}
+
+#[test]
+fn in_the_game_the_robot_walks_to_the_ball() {
+    for (pose, ball) in [("2.0,0.0,0.0", "3.4,0.4"), ("-1.0,0.5,1.0", "0.0,1.5")] {
+        let options = [
+            "--no-sound",
+            "--game",
+            "Playing",
+            "--pose",
+            pose,
+            "--ball",
+            ball,
+        ];
+        let mut robot = Robot::new(&options, &[]);
+        robot.live(25.0, |_| {});
+        let truth = robot.truth();
+        let ball = truth.ground_to_field.inverse() * truth.ball.expect("there is one");
+        println!(
+            "after 25 s the ball is at {ball}, lean {}",
+            robot.greatest_lean()
+        );
+        assert!(tilt(&truth) < UPRIGHT);
+        assert!(ball.coords.xy().norm() < 0.4, "{ball}");
+        assert!(ball.y.abs() < 0.3 && ball.x > 0.0, "{ball}");
+    }
+}
