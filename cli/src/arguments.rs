@@ -2,6 +2,7 @@
 
 mod answers;
 mod scaffold;
+mod simulate;
 
 use std::ffi::OsString;
 
@@ -12,6 +13,8 @@ pub use answers::{Completions, Diff, Doctor, Explain, Man, Show, Stage};
 pub use scaffold::{
     AddCycler, AddNode, CyclerKind, MergeDriver, New, RemoveNode, RenameOutput, Template,
 };
+
+pub use simulate::Simulate;
 
 /// Heading of the options of every command.
 const GLOBAL: &str = "Global options";
@@ -68,6 +71,7 @@ pub enum Command {
     Diff(Diff),
     Show(Show),
     Run(Run),
+    Simulate(Simulate),
     New(New),
     AddNode(AddNode),
     AddCycler(AddCycler),

@@ -18,6 +18,7 @@ mod scaffold;
 mod schema;
 mod session;
 pub mod show;
+mod simulate;
 mod terminal;
 mod watch;
 
@@ -86,6 +87,7 @@ fn with_session(
         Command::Diff(diff) => return diff::run(&mut session, diff),
         Command::Show(show) => show::run(&mut session, show),
         Command::Run(run) => run::run(&mut session, run),
+        Command::Simulate(simulate) => simulate::run(&mut session, simulate),
         Command::AddNode(add) => scaffold::add_node(&mut session, add),
         Command::AddCycler(add) => scaffold::add_cycler(&mut session, add),
         Command::RemoveNode(remove) => scaffold::remove_node(&mut session, remove),

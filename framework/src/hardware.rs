@@ -45,6 +45,19 @@ pub trait Hardware: Send + Sync {
         false
     }
 
+    /// A simulated world: what is really the case now, by name, for the assertions of scenarios.
+    fn truth(&self) -> serde_json::Value {
+        serde_json::Value::Null
+    }
+
+    /// A simulated world: something happens to it, in the hardware's own words; see [`crate::scenario`].
+    ///
+    /// # Errors
+    /// Says what was not understood.
+    fn disturb(&self, _deed: &toml::Table) -> Result<()> {
+        Err(Error::new("nothing can happen to this hardware"))
+    }
+
     /// Lockstep: advances the world until the data of one instance is ready, equal times in manifest order; `None` at the
     /// end of the world.
     ///

@@ -7,6 +7,7 @@
 
 mod check;
 mod options;
+mod scenario;
 mod signals;
 mod status;
 
@@ -55,7 +56,7 @@ const INTERRUPTED: u8 = 130;
 /// Runs a robot with the process's arguments until it is told to stop.
 pub fn main<H, P>(
     target: Target,
-    create: impl FnOnce(&Arc<H>, Start<P>) -> Result<Robot<P>>,
+    create: impl FnMut(&Arc<H>, Start<P>) -> Result<Robot<P>>,
 ) -> ExitCode
 where
     H: Hardware,
@@ -70,7 +71,7 @@ pub fn run<H, P>(
     target: Target,
     arguments: impl IntoIterator<Item = OsString>,
     output: &mut dyn Write,
-    create: impl FnOnce(&Arc<H>, Start<P>) -> Result<Robot<P>>,
+    mut create: impl FnMut(&Arc<H>, Start<P>) -> Result<Robot<P>>,
 ) -> u8
 where
     H: Hardware,
@@ -91,19 +92,23 @@ where
     let stop = Stop::new();
     let result = signals.and_then(|signals| {
         let supervisor = Supervisor::start(signals.clone(), stop.clone())?;
-        let result = start_and_run(&target, &options, &stop, &supervisor, output, create);
+        let result = match &options.scenario {
+            Some(file) => scenario::run(&target, &options, file, &stop, output, &mut create),
+            None => start_and_run(&target, &options, &stop, &supervisor, output, &mut create),
+        };
         stop.request();
         // The robot's own error comes first: the supervisor's may be its consequence.
-        let result = result.and(supervisor.join());
+        let joined = supervisor.join();
+        let result = result.and_then(|status| joined.map(|()| status));
         // What fails while the user interrupts is mostly the interruption.
         if signals.interrupted() && result.as_ref().is_err_and(Error::is_stopped) {
             return Ok(INTERRUPTED);
         }
-        result.map(|()| {
+        result.map(|status| {
             if signals.interrupted() {
                 INTERRUPTED
             } else {
-                DONE
+                status
             }
         })
     });
@@ -119,8 +124,8 @@ fn start_and_run<H, P>(
     stop: &Stop,
     supervisor: &Supervisor,
     output: &mut dyn Write,
-    create: impl FnOnce(&Arc<H>, Start<P>) -> Result<Robot<P>>,
-) -> Result<()>
+    create: &mut impl FnMut(&Arc<H>, Start<P>) -> Result<Robot<P>>,
+) -> Result<u8>
 where
     H: Hardware,
     P: ParameterData,
@@ -162,7 +167,8 @@ where
     };
     // Why the robot failed matters more than a reader who left.
     result?;
-    written.map_err(|error| Error::from(error).context("cannot write the report"))
+    written.map_err(|error| Error::from(error).context("cannot write the report"))?;
+    Ok(DONE)
 }
 
 fn connect<H: Hardware>(
@@ -175,10 +181,7 @@ fn connect<H: Hardware>(
     let hardware = H::new(HardwareContext {
         options: options.hardware.clone(),
         table: parameters.hardware(target.name)?,
-        run_folder: options
-            .run_folder
-            .clone()
-            .unwrap_or_else(default_run_folder),
+        run_folder: run_folder(options),
         clock: clock.clone(),
         stop: stop.clone(),
     });
@@ -218,6 +221,13 @@ fn known_identities(target: &Target, reported: Vec<(String, String)>) -> Vec<(St
             .cloned()
     };
     target.identities.iter().filter_map(of_name).collect()
+}
+
+fn run_folder(options: &Options) -> PathBuf {
+    options
+        .run_folder
+        .clone()
+        .unwrap_or_else(default_run_folder)
 }
 
 fn default_run_folder() -> PathBuf {

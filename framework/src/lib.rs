@@ -8,6 +8,7 @@
 //! | [`launch`], [`parameters`], [`hardware`] | from the command line and the parameter layers to a running robot |
 //! | [`robot`], [`driver`], [`rearm`] | the instances put together, and the two ways to turn them: threads and lockstep |
 //! | [`cycler`] | one instance: the four calls around its generated body |
+//! | [`scenario`] | a simulated robot lives through what a file says, and is judged by what it asserts |
 //! | [`scheduling`] | what its thread asks of the operating system, and what it got |
 //! | [`guarded`], [`error`] | one node: failures and panics end here |
 //! | [`mod@context`], [`mod@procedure`] | what a node sees: the kinds of the context fields |
@@ -46,6 +47,7 @@ pub mod recorded;
 pub mod reflect;
 pub mod report;
 pub mod robot;
+pub mod scenario;
 pub mod scheduling;
 pub mod stop;
 pub mod stub;

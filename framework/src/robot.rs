@@ -80,33 +80,40 @@ impl<P> Robot<P> {
 
     /// A value of the last finished cycle: `VisionTop.main_outputs.balls`, `Control.additional_outputs.filter.residual`.
     pub fn read(&self, path: &str) -> Result<serde_json::Value> {
-        let unknown = || {
-            Error::new(format!(
-                "no `{path}`: expected `Instance.main_outputs.name` or `Instance.additional_outputs.name`"
-            ))
-        };
-        let (instance, rest) = path.split_once('.').ok_or_else(unknown)?;
-        let (part, rest) = rest.split_once('.').ok_or_else(unknown)?;
-        let instance = self.instance(instance)?;
-        // Names of outputs may have dots themselves, so the longest that is known is the output.
-        let mut end = rest.len();
-        loop {
-            let name = &rest[..end];
-            let output = match part {
-                "main_outputs" => instance.main_output(name),
-                "additional_outputs" => instance.additional_output(name),
-                _ => return Err(unknown()),
-            };
-            if let Some(output) = output {
-                let below = rest[end..].trim_start_matches('.');
-                return read_below(output, below)
-                    .map_err(|error| error.context(format!("`{path}`")));
-            }
-            end = name
-                .rfind('.')
-                .ok_or_else(|| absent(instance, part, rest))?;
-        }
+        let (instance, _) = path.split_once('.').ok_or_else(|| unknown(path))?;
+        read_output(self.instance(instance)?, path)
     }
+}
+
+/// As [`Robot::read`], of the instance that the path begins with.
+pub(crate) fn read_output(instance: &dyn Instance, path: &str) -> Result<serde_json::Value> {
+    let mut parts = path.splitn(3, '.').skip(1);
+    let (Some(part), Some(rest)) = (parts.next(), parts.next()) else {
+        return Err(unknown(path));
+    };
+    // Names of outputs may have dots themselves, so the longest that is known is the output.
+    let mut end = rest.len();
+    loop {
+        let name = &rest[..end];
+        let output = match part {
+            "main_outputs" => instance.main_output(name),
+            "additional_outputs" => instance.additional_output(name),
+            _ => return Err(unknown(path)),
+        };
+        if let Some(output) = output {
+            let below = rest[end..].trim_start_matches('.');
+            return read_below(output, below).map_err(|error| error.context(format!("`{path}`")));
+        }
+        end = name
+            .rfind('.')
+            .ok_or_else(|| absent(instance, part, rest))?;
+    }
+}
+
+fn unknown(path: &str) -> Error {
+    Error::new(format!(
+        "no `{path}`: expected `Instance.main_outputs.name` or `Instance.additional_outputs.name`"
+    ))
 }
 
 fn read_below(output: &dyn reflect::Reflect, path: &str) -> Result<serde_json::Value> {

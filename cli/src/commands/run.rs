@@ -2,6 +2,10 @@
 
 mod program;
 
+use camino::{Utf8Path, Utf8PathBuf};
+
+pub(super) use program::absolute;
+
 use super::cargo::{OWN_PROFILE, Request};
 use super::session::Session;
 use super::{Failure, generate};
@@ -11,28 +15,52 @@ use crate::outcome::{Outcome, Refusal};
 use crate::resolve::robot::{Robot, Target};
 
 pub(super) fn run(session: &mut Session<'_>, run: &arguments::Run) -> Result<Outcome, Failure> {
+    let wanted = Wanted {
+        target: run.target.as_deref(),
+        profile: run.profile.as_deref(),
+        target_dir: run.target_dir.as_deref(),
+    };
+    let Some(executable) = build(session, &wanted)? else {
+        return Ok(Outcome::Bad);
+    };
+    let root = session.workspace.root();
+    Err(program::become_robot(&executable, run, root).into())
+}
+
+/// Which program.
+pub(super) struct Wanted<'a> {
+    /// `None`: the first.
+    pub(super) target: Option<&'a str>,
+    pub(super) profile: Option<&'a str>,
+    pub(super) target_dir: Option<&'a Utf8Path>,
+}
+
+/// Generates the robot's crate and builds a program that this machine can start; `None`: what is wrong was said.
+pub(super) fn build(
+    session: &mut Session<'_>,
+    wanted: &Wanted<'_>,
+) -> Result<Option<Utf8PathBuf>, Failure> {
     let understood = session.understand()?;
-    let target = choose_target(&understood.robot, run.target.as_deref())?;
+    let target = choose_target(&understood.robot, wanted.target)?;
     refuse_other_machines(target)?;
     session.note_diagnostics();
     if session.diagnostics.has_errors() {
-        return Ok(Outcome::Bad);
+        return Ok(None);
     }
     generate::write(session, &understood)?;
-    let profile = profile(run.profile.as_deref(), target).unwrap_or(OWN_PROFILE);
-    let target_dir = run.target_dir.as_deref().map(program::absolute);
+    let profile = profile(wanted.profile, target).unwrap_or(OWN_PROFILE);
+    let target_dir = wanted.target_dir.map(program::absolute);
     let request = Request::build(&understood.robot, target, profile, target_dir.transpose()?);
     let said = request.said(session, session.terminal.colors_notes())?;
     session.diagnostics = said.diagnostics(session, &understood)?;
     session.note_diagnostics();
     if !said.success {
-        return Ok(Outcome::Bad);
+        return Ok(None);
     }
-    let Some(executable) = said.executable else {
-        return Err(Refusal::bad("cargo did not say where the program is").into());
-    };
-    let root = session.workspace.root();
-    Err(program::become_robot(&executable, run, root).into())
+    let executable = said.executable;
+    executable
+        .map(Some)
+        .ok_or_else(|| Refusal::bad("cargo did not say where the program is").into())
 }
 
 /// The target of this name, or the first.

@@ -5,6 +5,7 @@
 
 use std::time::Duration;
 
+use super::SplitMix;
 use crate::cycler::{InstanceDescription, Kind};
 
 /// How much later than its data an instance of a perception cycler begins at most: what a busy computer takes to wake a thread.
@@ -17,12 +18,14 @@ const LONGEST_WITHOUT_DEADLINE: Duration = Duration::from_millis(20);
 /// Draws delays from a seed.
 #[derive(Clone, Debug)]
 pub(super) struct Chaos {
-    state: u64,
+    numbers: SplitMix,
 }
 
 impl Chaos {
     pub(super) fn new(seed: u64) -> Self {
-        Self { state: seed }
+        Self {
+            numbers: SplitMix::new(seed),
+        }
     }
 
     /// From the arrival of data to `begin`.
@@ -46,14 +49,6 @@ impl Chaos {
 
     fn up_to(&mut self, greatest: Duration) -> Duration {
         let nanoseconds = u64::try_from(greatest.as_nanos()).unwrap_or(u64::MAX);
-        Duration::from_nanos(self.next() % nanoseconds.saturating_add(1).max(1))
-    }
-
-    /// SplitMix64 (Steele, Lea and Flood, 2014).
-    fn next(&mut self) -> u64 {
-        self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mixed = (self.state ^ (self.state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        mixed ^ (mixed >> 31)
+        Duration::from_nanos(self.numbers.next() % nanoseconds.saturating_add(1).max(1))
     }
 }

@@ -17,7 +17,7 @@ pub(super) enum Command {
 }
 
 /// How to run.
-#[derive(Debug, Default, PartialEq, Eq)]
+#[derive(Debug, PartialEq, Eq)]
 pub(super) struct Options {
     /// Until a signal if left out.
     pub(super) duration: Option<Duration>,
@@ -31,8 +31,33 @@ pub(super) struct Options {
     pub(super) run_folder: Option<PathBuf>,
     /// Also on a simulated target, threads ask for their `scheduling`.
     pub(super) is_real_time: bool,
+    /// Instead of running.
+    pub(super) scenario: Option<PathBuf>,
+    /// The first seed of a scenario.
+    pub(super) seed: u64,
+    /// With how many seeds a scenario is played.
+    pub(super) repeat: u64,
     /// Everything after `--`.
     pub(super) hardware: Vec<String>,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            duration: None,
+            format: Format::default(),
+            check_parameters: false,
+            parameters: None,
+            location: None,
+            settings: Vec::new(),
+            run_folder: None,
+            is_real_time: false,
+            scenario: None,
+            seed: 1,
+            repeat: 1,
+            hardware: Vec::new(),
+        }
+    }
 }
 
 /// How the run is reported at its end.
@@ -59,6 +84,9 @@ Usage: {name} [OPTIONS] [-- HARDWARE OPTIONS]
   --set PATH=VALUE    a parameter, above all layers; may be repeated
   --check-parameters  load the parameters for every identity that a file names, report mistakes and end
   --run-folder DIR    for files of this run, instead of runs/<start>-<process>
+  --scenario FILE     play it in lockstep in place of running; the exit status says whether it passed
+  --seed NUMBER       what a scenario draws its random numbers from; 1 without it
+  --repeat COUNT      play a scenario with so many seeds, one after the other
   --real-time         apply the manifest's `scheduling` on a simulated target, too
   --help              this text
 ",
@@ -91,6 +119,9 @@ pub(super) fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Com
             Arg::Long("location") => options.location = Some(parser.value()?.string()?),
             Arg::Long("set") => options.settings.push(setting(&parser.value()?.string()?)?),
             Arg::Long("run-folder") => options.run_folder = Some(parser.value()?.into()),
+            Arg::Long("scenario") => options.scenario = Some(parser.value()?.into()),
+            Arg::Long("seed") => options.seed = parser.value()?.parse()?,
+            Arg::Long("repeat") => options.repeat = parser.value()?.parse()?,
             Arg::Long("real-time") => options.is_real_time = true,
             Arg::Long("help") | Arg::Short('h') => return Ok(Command::Help),
             unexpected => return Err(unexpected.unexpected().into()),
@@ -180,6 +211,11 @@ mod tests {
             "--run-folder",
             "there",
             "--real-time",
+            "--scenario",
+            "s.toml",
+            "--seed=7",
+            "--repeat",
+            "3",
             "--",
             "--for",
             "lamp",
@@ -196,6 +232,9 @@ mod tests {
             ],
             run_folder: Some("there".into()),
             is_real_time: true,
+            scenario: Some("s.toml".into()),
+            seed: 7,
+            repeat: 3,
             hardware: vec!["--for".to_owned(), "lamp".to_owned()],
         };
         assert_eq!(options.expect("all options are valid"), expected);

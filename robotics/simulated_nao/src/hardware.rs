@@ -5,6 +5,7 @@
 //! through LoLA's socket with the client that the real robot uses, and messages through UDP sockets.
 
 mod network;
+mod scenario;
 mod sound;
 mod truth;
 
@@ -128,6 +129,14 @@ impl framework::Hardware for Hardware {
 
     fn is_simulated(&self) -> bool {
         true
+    }
+
+    fn truth(&self) -> serde_json::Value {
+        scenario::truth(&self.ground_truth())
+    }
+
+    fn disturb(&self, deed: &toml::Table) -> Result<()> {
+        scenario::Deed::read(deed)?.happen(&mut self.shared.lock())
     }
 
     fn next_event(&self) -> Result<Option<Event>> {

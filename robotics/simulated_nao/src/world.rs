@@ -140,6 +140,11 @@ impl World {
         self.physics.disturb(disturbance);
     }
 
+    /// Somebody presses a button.
+    pub(crate) fn press(&mut self, press: Press) {
+        self.presses.push(press);
+    }
+
     /// Tells the motors what to do from now on.
     pub(crate) fn command(&mut self, commands: MotorCommands) {
         if let Some(commands) = self.imperfections.delay(commands) {

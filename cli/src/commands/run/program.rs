@@ -63,7 +63,7 @@ fn arguments(run: &Run) -> Result<Vec<OsString>, Refusal> {
 }
 
 /// The folder seen from anywhere: it was written for the current folder, the program runs in another.
-pub(super) fn absolute(folder: &Utf8Path) -> Result<OsString, Refusal> {
+pub(in crate::commands) fn absolute(folder: &Utf8Path) -> Result<OsString, Refusal> {
     std::path::absolute(folder)
         .map(PathBuf::into_os_string)
         .map_err(|error| Refusal::bad(format!("cannot use the folder `{folder}`: {error}")))

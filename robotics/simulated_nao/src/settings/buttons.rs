@@ -45,7 +45,7 @@ impl Press {
         (self.at..self.at + self.lasts).contains(&seconds)
     }
 
-    pub(super) fn check(&self) -> Result<()> {
+    pub(crate) fn check(&self) -> Result<()> {
         let is_possible = self.at.is_finite() && self.lasts.is_finite();
         if is_possible && self.at >= 0.0 && self.lasts > 0.0 {
             return Ok(());

@@ -1,0 +1,92 @@
+//! `simulate`: generate, build, and let the robot's program play scenarios, one after the other.
+
+use std::ffi::OsString;
+use std::process::Command;
+
+use camino::Utf8Path;
+
+use super::Failure;
+use super::run::{Wanted, absolute, build};
+use super::session::Session;
+use crate::arguments::{Simulate, TextOrJson};
+use crate::outcome::{Outcome, Refusal};
+
+pub(super) fn run(session: &mut Session<'_>, simulate: &Simulate) -> Result<Outcome, Failure> {
+    // Before anything is built.
+    if let Some(missing) = simulate.scenarios.iter().find(|file| !file.is_file()) {
+        let refusal = Refusal::wrong_usage(format!("there is no scenario `{missing}`"));
+        return Err(refusal.into());
+    }
+    let wanted = Wanted {
+        target: simulate.target.as_deref(),
+        profile: simulate.profile.as_deref(),
+        target_dir: simulate.target_dir.as_deref(),
+    };
+    let Some(executable) = build(session, &wanted)? else {
+        return Ok(Outcome::Bad);
+    };
+    let mut outcome = Outcome::Good;
+    for scenario in &simulate.scenarios {
+        let status = Command::new(&executable)
+            .args(arguments(simulate, scenario)?)
+            .current_dir(session.workspace.root())
+            .status()
+            .map_err(|error| Refusal::bad(format!("cannot start `{executable}`: {error}")))?;
+        match status.code() {
+            Some(0) => {}
+            // Ctrl-C is meant for all of them, and ends hulkgen itself as well.
+            Some(130) => return Ok(Outcome::Bad),
+            _ => outcome = Outcome::Bad,
+        }
+    }
+    Ok(outcome)
+}
+
+/// The options of the robot's program.
+fn arguments(simulate: &Simulate, scenario: &Utf8Path) -> Result<Vec<OsString>, Refusal> {
+    let mut arguments = vec!["--scenario".into(), absolute(scenario)?];
+    let mut add = |name: &str, value: &str| arguments.extend([name.into(), value.into()]);
+    add("--seed", &simulate.seed.to_string());
+    add("--repeat", &simulate.repeat.to_string());
+    for assignment in &simulate.set {
+        add("--set", assignment);
+    }
+    if simulate.format == TextOrJson::Json {
+        add("--format", "json");
+    }
+    if !simulate.options.is_empty() {
+        arguments.push("--".into());
+        arguments.extend(simulate.options.iter().cloned());
+    }
+    Ok(arguments)
+}
+
+#[cfg(test)]
+mod tests {
+    use camino::Utf8Path;
+    use clap::Parser as _;
+
+    use super::arguments;
+    use crate::arguments::{Arguments, Command};
+
+    #[test]
+    fn the_program_plays_the_file_wherever_it_runs() {
+        let line = "hulkgen simulate a.toml b.toml --seed 3 --repeat 4 --headless --set c=1 --format json -- --imperfect 2";
+        let parsed = Arguments::try_parse_from(line.split(' ')).expect("it is right usage");
+        let Command::Simulate(simulate) = parsed.command else {
+            panic!("it is `simulate`")
+        };
+        assert_eq!(simulate.scenarios, ["a.toml", "b.toml"]);
+        let folder = std::env::current_dir().expect("tests run somewhere");
+        let words =
+            arguments(&simulate, Utf8Path::new("a.toml")).expect("the current folder is known");
+        let words: Vec<_> = words.iter().map(|word| word.to_string_lossy()).collect();
+        assert_eq!(
+            words.join(" "),
+            format!(
+                "--scenario {} --seed 3 --repeat 4 --set c=1 --format json -- --imperfect 2",
+                folder.join("a.toml").display()
+            )
+        );
+    }
+}

@@ -1,0 +1,41 @@
+//! Scenarios: a simulated robot lives through what a file says, in lockstep, and is judged by what the file asserts.
+//!
+//! ```toml
+//! about = "A robot that is pushed while it walks stays upright."
+//! ends = 20.0                                # s
+//! passes = 0.8                               # of the seeds; all of them where it is left out
+//! parameters = { filter.gain = 0.5 }         # above all layers
+//! world = { robot_pose = [0.0, 0.0, 0.0] }   # over the parameters' [hardware.<target>]
+//! random = { robot_pose = [0.1, 0.1, 0.5] }  # drawn from the seed, up to so much more or less
+//!
+//! [[event]]
+//! at = 5.0                                   # s
+//! push = [0.0, 0.5, 0.0]                     # what the hardware understands
+//!
+//! [[call]]                                   # what a client asks, every 0.5 s unless `every` says otherwise
+//! path = "Control.procedures.walk"
+//! argument = { forward = 0.05 }
+//! from = 4.0                                 # s
+//! until = 20.0
+//!
+//! [[assertion]]
+//! what = "it stays upright"
+//! value = "truth.tilt"                       # `truth.…` of the hardware, or an output: `Control.main_outputs.…`
+//! below = 0.5                                # or `above`, `equals`, `is_not`
+//! from = 1.0                                 # s; always from there on, unless `before = 9.0` or `at_end = true`
+//! ```
+//! What the robot's world is, what can happen to it and what is true in it is the hardware's:
+//! [`Hardware::disturb`](crate::Hardware::disturb) and [`Hardware::truth`](crate::Hardware::truth).
+
+mod assertion;
+mod draw;
+mod file;
+mod judge;
+mod play;
+mod report;
+
+pub use assertion::{Assertion, Condition, Window};
+pub use file::{Call, Event, Scenario};
+pub use judge::{Judge, Verdict};
+pub(crate) use play::play;
+pub use report::{Outcome, Played};

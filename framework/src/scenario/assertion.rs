@@ -1,0 +1,167 @@
+//! What has to be so, and when.
+
+use std::time::Duration;
+
+use serde::Deserialize;
+use serde_json::Value;
+
+use super::file::seconds;
+use crate::error::{Error, Result};
+use crate::reflect::Path;
+use crate::time::Timestamp;
+
+/// One `[[assertion]]`.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct Assertion {
+    /// For people.
+    pub what: String,
+    /// `truth.…`, or an output: `Control.main_outputs.ball.position.x`.
+    pub value: String,
+    equals: Option<Value>,
+    is_not: Option<Value>,
+    below: Option<f64>,
+    above: Option<f64>,
+    from: Option<f64>,
+    until: Option<f64>,
+    before: Option<f64>,
+    #[serde(default)]
+    at_end: bool,
+}
+
+/// What a value has to be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Condition<'a> {
+    /// Exactly this.
+    Equals(&'a Value),
+    /// Anything else.
+    IsNot(&'a Value),
+    /// A number between these.
+    Between {
+        /// It is more.
+        above: Option<f64>,
+        /// It is less.
+        below: Option<f64>,
+    },
+}
+
+/// When it has to be so.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Window {
+    /// Whenever it is looked at between these, at least once.
+    Always {
+        /// Not before.
+        from: Timestamp,
+        /// Not after.
+        until: Timestamp,
+    },
+    /// Once between these.
+    Once {
+        /// Not before.
+        from: Timestamp,
+        /// Not after.
+        until: Timestamp,
+    },
+    /// When it is looked at for the last time.
+    AtEnd,
+}
+
+impl Assertion {
+    /// What the value has to be.
+    pub fn condition(&self) -> Condition<'_> {
+        match (&self.equals, &self.is_not) {
+            (Some(value), _) => Condition::Equals(value),
+            (None, Some(value)) => Condition::IsNot(value),
+            (None, None) => Condition::Between {
+                above: self.above,
+                below: self.below,
+            },
+        }
+    }
+
+    /// When.
+    pub fn window(&self) -> Window {
+        let time = |seconds: f64| {
+            let since_start = Duration::try_from_secs_f64(seconds).unwrap_or_default();
+            Timestamp::ZERO + since_start
+        };
+        let from = self.from.map_or(Timestamp::ZERO, time);
+        match (self.at_end, self.before) {
+            (true, _) => Window::AtEnd,
+            (false, Some(before)) => Window::Once {
+                from,
+                until: time(before),
+            },
+            (false, None) => Window::Always {
+                from,
+                until: self.until.map_or(Timestamp::NEVER, time),
+            },
+        }
+    }
+
+    /// The instance whose output it is; `None`: a truth.
+    pub fn instance(&self) -> Option<&str> {
+        self.value
+            .split_once('.')
+            .map(|(first, _)| first)
+            .filter(|first| *first != TRUTH)
+    }
+
+    pub(super) fn check(&self, ends: Duration) -> Result<()> {
+        let wrong = |message: String| {
+            Err(Error::new(message).context(format!("assertion `{}`", self.what)))
+        };
+        let ranges = self.below.is_some() || self.above.is_some();
+        let conditions = [self.equals.is_some(), self.is_not.is_some(), ranges];
+        if conditions.iter().filter(|it| **it).count() != 1 {
+            return wrong(
+                "expected one of `equals`, `is_not`, `below` and `above` (these two may stand together)".to_owned(),
+            );
+        }
+        let windows = [self.at_end, self.before.is_some(), self.until.is_some()];
+        if windows.iter().filter(|it| **it).count() > 1 || (self.at_end && self.from.is_some()) {
+            return wrong("`before`, `until` and `at_end` exclude each other".to_owned());
+        }
+        for (key, number) in [
+            ("from", self.from),
+            ("until", self.until),
+            ("before", self.before),
+        ] {
+            let Some(number) = number else { continue };
+            if seconds(key, number)? > ends {
+                return wrong(format!("`{key} = {number}` comes after the end"));
+            }
+        }
+        if self.value.parse::<Path>().is_err() || !self.value.contains('.') {
+            return wrong(format!(
+                "`{}` is no value: expected `truth.NAME` or an output like `Control.main_outputs.NAME`",
+                self.value
+            ));
+        }
+        Ok(())
+    }
+}
+
+/// What paths of the hardware's truths begin with.
+pub(super) const TRUTH: &str = "truth";
+
+impl Condition<'_> {
+    /// Whether a value is so; no value is never so.
+    pub fn holds(&self, value: &Value) -> bool {
+        match self {
+            Self::Equals(wanted) => is_same(value, wanted),
+            Self::IsNot(unwanted) => !is_same(value, unwanted),
+            Self::Between { above, below } => value.as_f64().is_some_and(|number| {
+                above.is_none_or(|above| number > above) && below.is_none_or(|below| number < below)
+            }),
+        }
+    }
+}
+
+/// `1` and `1.0` are the same number.
+fn is_same(value: &Value, other: &Value) -> bool {
+    match (value.as_f64(), other.as_f64()) {
+        (Some(value), Some(other)) => value == other,
+        _ => value == other,
+    }
+}

@@ -1,0 +1,320 @@
+//! What a scenario's file may say.
+
+use std::path::Path;
+use std::time::Duration;
+
+use serde::Deserialize;
+
+use super::assertion::Assertion;
+use super::draw::Draw;
+use crate::error::{Error, Result};
+use crate::time::Timestamp;
+
+/// A scenario as it was written.
+#[derive(Clone, Debug)]
+pub struct Scenario {
+    /// For people.
+    pub about: String,
+    /// How long it lasts.
+    pub ends: Duration,
+    /// Share of the seeds that have to pass, 0 to 1.
+    pub passes: f64,
+    /// Parameters above all layers: path and value, as on a command line.
+    pub settings: Vec<(String, String)>,
+    /// What stands over the parameters' `[hardware.<target>]`.
+    pub world: toml::Table,
+    /// Numbers of the world that a seed changes, with how far.
+    pub random: toml::Table,
+    /// By time.
+    pub events: Vec<Event>,
+    /// What a client asks of the robot.
+    pub calls: Vec<Call>,
+    /// At least one.
+    pub assertions: Vec<Assertion>,
+}
+
+/// Something that happens to the world.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Event {
+    /// When.
+    pub at: Timestamp,
+    /// In the words of the hardware.
+    pub deed: toml::Table,
+}
+
+/// A procedure that a client calls again and again, as one does that drives a robot.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct Call {
+    /// `Control.procedures.walk`
+    pub path: String,
+    /// What is asked.
+    #[serde(default)]
+    pub argument: serde_json::Value,
+    /// First, in s.
+    pub from: f64,
+    /// Not after, in s; absent: once.
+    pub until: Option<f64>,
+    /// How often, in s.
+    #[serde(default = "twice_a_second")]
+    pub every: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Written {
+    #[serde(default)]
+    about: String,
+    ends: f64,
+    #[serde(default = "all")]
+    passes: f64,
+    #[serde(default)]
+    parameters: toml::Table,
+    #[serde(default)]
+    world: toml::Table,
+    #[serde(default)]
+    random: toml::Table,
+    #[serde(default, rename = "event")]
+    events: Vec<toml::Table>,
+    #[serde(default, rename = "call")]
+    calls: Vec<Call>,
+    #[serde(default, rename = "assertion")]
+    assertions: Vec<Assertion>,
+}
+
+fn twice_a_second() -> f64 {
+    0.5
+}
+
+fn all() -> f64 {
+    1.0
+}
+
+impl Scenario {
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// Names the file, and the line and column where that is known.
+    pub fn load(file: &Path) -> Result<Self> {
+        let text = std::fs::read_to_string(file).map_err(Error::from);
+        text.and_then(|text| Self::parse(&text))
+            .map_err(|error| error.context(format!("scenario {}", file.display())))
+    }
+
+    /// Reads a text.
+    ///
+    /// # Errors
+    /// Says what is wrong, and at which line and column where that is known.
+    pub fn parse(text: &str) -> Result<Self> {
+        let written: Written = toml::from_str(text)?;
+        if written.assertions.is_empty() {
+            return Err(Error::new(
+                "there is no `[[assertion]]`: nothing could fail",
+            ));
+        }
+        if !(0.0..=1.0).contains(&written.passes) || written.passes == 0.0 {
+            return Err(Error::new(format!(
+                "`passes = {}` is no share of the seeds: expected more than 0, up to 1",
+                written.passes
+            )));
+        }
+        let ends = seconds("ends", written.ends)?;
+        for call in &written.calls {
+            let _times = call
+                .times()
+                .map_err(|error| error.context(format!("call of `{}`", call.path)))?;
+        }
+        for assertion in &written.assertions {
+            assertion.check(ends)?;
+        }
+        let events: Result<Vec<Event>> = written.events.into_iter().map(Event::read).collect();
+        let mut events = events?;
+        if let Some(late) = events
+            .iter()
+            .find(|event| event.at > Timestamp::ZERO + ends)
+        {
+            return Err(Error::new(format!(
+                "the event at {} s comes after the end",
+                (late.at - Timestamp::ZERO).as_secs_f64()
+            )));
+        }
+        events.sort_by_key(|event| event.at);
+        let mut settings = Vec::new();
+        flatten(&written.parameters, "", &mut settings);
+        Ok(Self {
+            about: written.about,
+            ends,
+            passes: written.passes,
+            settings,
+            world: written.world,
+            random: written.random,
+            events,
+            calls: written.calls,
+            assertions: written.assertions,
+        })
+    }
+
+    /// The hardware's table for a seed, made of the one that the parameters give.
+    ///
+    /// # Errors
+    /// Names what is drawn and not there.
+    pub fn world(&self, mut table: toml::Table, seed: u64) -> Result<toml::Table> {
+        overlay(&mut table, &self.world);
+        Draw::new(seed)
+            .change(&mut table, &self.random)
+            .map_err(|error| error.context("`random`"))?;
+        Ok(table)
+    }
+}
+
+impl Call {
+    /// When it is made.
+    pub(super) fn times(&self) -> Result<impl Iterator<Item = Timestamp> + use<>> {
+        let from = Timestamp::ZERO + seconds("from", self.from)?;
+        let until = match self.until {
+            Some(until) => Timestamp::ZERO + seconds("until", until)?,
+            None => from,
+        };
+        let every = seconds("every", self.every)?;
+        if every.is_zero() {
+            return Err(Error::new("`every = 0` never ends"));
+        }
+        let times = std::iter::successors(Some(from), move |at| Some(*at + every));
+        Ok(times.take_while(move |at| *at <= until))
+    }
+}
+
+impl Event {
+    fn read(mut table: toml::Table) -> Result<Self> {
+        let at = match table.remove("at") {
+            Some(toml::Value::Float(at)) => at,
+            #[expect(clippy::cast_precision_loss, reason = "seconds of a scenario are few")]
+            Some(toml::Value::Integer(at)) => at as f64,
+            _ => return Err(Error::new("an `[[event]]` needs `at = SECONDS`")),
+        };
+        Ok(Self {
+            at: Timestamp::ZERO + seconds("at", at)?,
+            deed: table,
+        })
+    }
+}
+
+pub(super) fn seconds(key: &str, number: f64) -> Result<Duration> {
+    Duration::try_from_secs_f64(number)
+        .map_err(|_| Error::new(format!("`{key} = {number}` is no number of seconds")))
+}
+
+/// Puts a later table over an earlier one: tables merge, everything else is replaced.
+fn overlay(table: &mut toml::Table, later: &toml::Table) {
+    for (key, value) in later {
+        match (table.get_mut(key), value) {
+            (Some(toml::Value::Table(table)), toml::Value::Table(later)) => overlay(table, later),
+            _ => {
+                table.insert(key.clone(), value.clone());
+            }
+        }
+    }
+}
+
+/// Values by their paths, as `--set` takes them.
+fn flatten(table: &toml::Table, prefix: &str, settings: &mut Vec<(String, String)>) {
+    for (key, value) in table {
+        let path = format!("{prefix}{key}");
+        match value {
+            toml::Value::Table(table) => flatten(table, &format!("{path}."), settings),
+            value => settings.push((path, value.to_string())),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ASSERTION: &str = "[[assertion]]\nwhat = 'a'\nvalue = 'truth.a'\nbelow = 1\n";
+
+    fn message(text: &str) -> String {
+        Scenario::parse(text)
+            .expect_err("it has a mistake")
+            .to_string()
+    }
+
+    #[test]
+    fn everything_that_can_be_said_is_read() {
+        let text = format!(
+            "about = 'x'\nends = 2\npasses = 0.9\nparameters = {{ a.b = [1, 2], 'c.d' = 'e' }}\n\
+             world = {{ pose = [1.0, 2], ball = {{ there = false }} }}\nrandom = {{ pose = [0.5, 0] }}\n\
+             [[event]]\nat = 1.5\npush = [1]\n[[event]]\nat = 1\nkick = true\n{ASSERTION}"
+        );
+        let scenario = Scenario::parse(&text).expect("it is right");
+        assert_eq!(scenario.ends, Duration::from_secs(2));
+        let settings: Vec<_> = scenario
+            .settings
+            .iter()
+            .map(|(path, value)| format!("{path}={value}"))
+            .collect();
+        assert_eq!(settings, ["a.b=[1, 2]", "c.d=\"e\""]);
+        let times: Vec<_> = scenario
+            .events
+            .iter()
+            .map(|event| event.at.as_nanos() / 1_000_000)
+            .collect();
+        assert_eq!(times, [1000, 1500]);
+        let given =
+            toml::from_str("pose = [0, 0]\nball = { there = true, size = 3 }").expect("it is TOML");
+        let one = scenario.world(given, 1).expect("everything is there");
+        assert_eq!(one["ball"].to_string(), "{ there = false, size = 3 }");
+        let x = one["pose"][0].as_float().expect("it is a number");
+        assert!((0.5..=1.5).contains(&x) && x != 1.0, "{x}");
+        assert_eq!(one["pose"][1].as_float(), Some(2.0));
+        let given = || toml::from_str("ball = {}").expect("it is TOML");
+        let again = scenario.world(given(), 1).expect("everything is there");
+        assert_eq!(again["pose"], one["pose"], "the same seed");
+        let other = scenario.world(given(), 2).expect("everything is there");
+        assert_ne!(other["pose"], one["pose"], "another seed");
+    }
+
+    #[test]
+    fn mistakes_are_told_with_their_place() {
+        for (text, expected) in [
+            (
+                format!("ends = 1\nbeginns = 2\n{ASSERTION}"),
+                "line 2, column 1",
+            ),
+            (
+                format!("ends = 1\nbeginns = 2\n{ASSERTION}"),
+                "unknown field `beginns`, expected one of",
+            ),
+            ("ends = 1".to_owned(), "there is no `[[assertion]]`"),
+            (
+                format!("ends = -1\n{ASSERTION}"),
+                "`ends = -1` is no number of seconds",
+            ),
+            (
+                format!("ends = 1\npasses = 2\n{ASSERTION}"),
+                "`passes = 2` is no share",
+            ),
+            (
+                format!("ends = 1\n[[event]]\npush = 1\n{ASSERTION}"),
+                "an `[[event]]` needs `at = SECONDS`",
+            ),
+            (
+                format!("ends = 1\n[[event]]\nat = 1.5\n{ASSERTION}"),
+                "the event at 1.5 s comes after the end",
+            ),
+        ] {
+            let message = message(&text);
+            assert!(message.contains(expected), "{message}");
+        }
+    }
+
+    #[test]
+    fn what_is_drawn_must_be_there() {
+        let text = format!("ends = 1\nrandom = {{ pos = 1.0 }}\n{ASSERTION}");
+        let scenario = Scenario::parse(&text).expect("it can be read");
+        let error = scenario
+            .world(toml::Table::new(), 1)
+            .expect_err("there is no `pos`");
+        assert!(error.to_string().contains("`pos`"), "{error}");
+    }
+}

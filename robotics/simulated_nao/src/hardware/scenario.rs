@@ -1,0 +1,153 @@
+//! What scenarios do to the world, and what they may know of it.
+
+use framework::{Error, Result, Timestamp};
+use nalgebra::{Isometry3, Point3, Vector3};
+use serde::Deserialize;
+use serde_json::{Value, json};
+use types::camera::CameraPosition;
+
+use crate::ground_truth::GroundTruth;
+use crate::physics::{Disturbance, heading};
+use crate::settings::{Button, Press};
+use crate::simulation::Simulation;
+
+/// One `[[event]]`: everything in it happens at once.
+#[derive(Clone, Debug, Default, Deserialize, PartialEq)]
+#[serde(default, deny_unknown_fields)]
+pub(super) struct Deed {
+    /// At the torso: forward, to the left, upwards as the robot faces, in N s.
+    push: Option<[f64; 3]>,
+    /// Where the ball lies from now on, m.
+    ball: Option<[f64; 2]>,
+    /// How fast it rolls, m/s; it stays where it is unless `ball` says otherwise.
+    ball_velocity: Option<[f64; 2]>,
+    /// Where somebody puts the robot: x and y in m, heading in rad.
+    kidnap: Option<[f64; 3]>,
+    /// What somebody presses, as in `buttons`, for so many seconds.
+    press: Option<Pressed>,
+    /// The camera whose next image arrives garbled.
+    garble_image: Option<CameraPosition>,
+    /// The next state that LoLA sends arrives garbled.
+    garble_state: bool,
+}
+
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+struct Pressed {
+    button: Button,
+    lasts: f64,
+}
+
+impl Deed {
+    /// Reads an event.
+    ///
+    /// # Errors
+    /// Names what is not understood.
+    pub(super) fn read(deed: &toml::Table) -> Result<Self> {
+        let read: Self = deed.clone().try_into()?;
+        match read.numbers().find(|number| !number.is_finite()) {
+            Some(number) => Err(Error::new(format!(
+                "{number} is no place, speed or impulse"
+            ))),
+            None => Ok(read),
+        }
+    }
+
+    fn numbers(&self) -> impl Iterator<Item = f64> + use<> {
+        let vectors = [self.push, self.kidnap].into_iter().flatten().flatten();
+        let planar = [self.ball, self.ball_velocity];
+        vectors.chain(planar.into_iter().flatten().flatten())
+    }
+
+    /// Does it.
+    pub(super) fn happen(&self, simulation: &mut Simulation) -> Result<()> {
+        let truth = GroundTruth::new(simulation.world());
+        for disturbance in self.disturbances(&truth)? {
+            simulation.world_mut().disturb(&disturbance);
+        }
+        if let Some(Pressed { button, lasts }) = self.press {
+            let press = Press {
+                at: (truth.now - Timestamp::ZERO).as_secs_f64(),
+                button,
+                lasts,
+            };
+            press.check()?;
+            simulation.world_mut().press(press);
+        }
+        if let Some(camera) = self.garble_image {
+            *simulation.garble_image.of_mut(camera) = true;
+        }
+        simulation.garble_state |= self.garble_state;
+        Ok(())
+    }
+
+    fn disturbances(&self, truth: &GroundTruth) -> Result<Vec<Disturbance>> {
+        let mut all = Vec::new();
+        if let Some(impulse) = self.push {
+            let ground: Isometry3<f64> = truth.ground_to_field.cast();
+            all.push(Disturbance::Push {
+                robot: 0,
+                impulse: ground.rotation * Vector3::from(impulse),
+            });
+        }
+        if self.ball.is_some() || self.ball_velocity.is_some() {
+            let now: Point3<f64> = truth
+                .ball
+                .ok_or_else(|| Error::new("there is no ball on this field"))?
+                .cast();
+            let [x, y] = self.ball.unwrap_or([now.x, now.y]);
+            let [along, across] = self.ball_velocity.unwrap_or_default();
+            all.push(Disturbance::MoveBall {
+                position: Point3::new(x, y, now.z),
+                velocity: Vector3::new(along, across, 0.0),
+            });
+        }
+        if let Some(pose) = self.kidnap {
+            all.push(Disturbance::Kidnap { robot: 0, pose });
+        }
+        Ok(all)
+    }
+}
+
+/// What is really the case: lengths in m, angles in rad, in the field frame unless it says otherwise.
+///
+/// `x`, `y`, `heading` of the robot, `tilt` and `height` of its torso; `ball.x`, `ball.y`, and from the robot
+/// `ball.ahead`, `ball.aside`, `ball.distance`.
+pub(super) fn truth(truth: &GroundTruth) -> Value {
+    let ground: Isometry3<f64> = truth.ground_to_field.cast();
+    let torso: Isometry3<f64> = truth.torso_to_field.cast();
+    let up = torso.rotation * Vector3::z();
+    let ball = truth.ball.map(|ball| {
+        let ball: Point3<f64> = ball.cast();
+        let seen = ground.inverse() * ball;
+        json!({
+            "x": ball.x, "y": ball.y,
+            "ahead": seen.x, "aside": seen.y, "distance": seen.coords.xy().norm(),
+        })
+    });
+    json!({
+        "x": ground.translation.x,
+        "y": ground.translation.y,
+        "heading": heading(&torso),
+        "tilt": up.z.clamp(-1.0, 1.0).acos(),
+        "height": torso.translation.z,
+        "ball": ball,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn message(text: &str) -> String {
+        let deed: toml::Table = toml::from_str(text).expect("it is TOML");
+        Deed::read(&deed).expect_err("it has a mistake").to_string()
+    }
+
+    #[test]
+    fn what_is_not_understood_is_named() {
+        assert!(message("psh = [1, 0, 0]").contains("unknown field `psh`"));
+        assert!(message("push = [1, 0]").contains("push"));
+        assert!(message("ball = [nan, 0]").contains("NaN is no place"));
+    }
+}
