@@ -23,6 +23,7 @@ use crate::error::Result;
 use crate::guarded::State;
 use crate::reflect::Reflect;
 use crate::report::{NodeReport, QueueReport};
+use crate::tap::OutputVisitor;
 pub use crate::temporal::{Reference, ReferenceKind};
 use crate::time::{CycleTime, Timestamp};
 
@@ -60,6 +61,14 @@ pub trait Body: Send {
 
     /// An additional output, if this cycle filled it.
     fn additional_output(&self, name: &str, cycle: u64) -> Option<&dyn Reflect>;
+
+    /// Every output of the last finished cycle.
+    fn outputs<'a>(
+        &'a self,
+        shared: &'a Self::Shared,
+        cycle: u64,
+        visitor: &mut impl OutputVisitor<'a>,
+    );
 
     /// What the nodes did so far, in manifest order.
     fn nodes(&self, visit: &mut dyn FnMut(NodeReport));

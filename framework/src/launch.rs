@@ -8,6 +8,7 @@
 mod check;
 mod options;
 mod scenario;
+mod serving;
 mod signals;
 mod status;
 
@@ -30,6 +31,7 @@ use crate::robot::{Robot, Start};
 use crate::stop::Stop;
 use crate::timing::{self, Timing};
 use options::{Command, Format, Options};
+pub use serving::{Listening, Serve, Served, nobody};
 use signals::Signals;
 use status::Supervisor;
 
@@ -46,6 +48,8 @@ pub struct Target {
     pub location: Option<&'static str>,
     /// Names of the identities that choose layers, in order.
     pub identities: &'static [&'static str],
+    /// The data-flow graph, as `hulkgen graph --format json` prints it; empty where the binary does not have it.
+    pub graph: &'static str,
 }
 
 const DONE: u8 = 0;
@@ -57,13 +61,20 @@ const INTERRUPTED: u8 = 130;
 pub fn main<H, P>(
     target: Target,
     create: impl FnMut(&Arc<H>, Start<P>) -> Result<Robot<P>>,
+    serve: Serve,
 ) -> ExitCode
 where
     H: Hardware,
     P: ParameterData,
 {
     let arguments = std::env::args_os().skip(1);
-    ExitCode::from(run(target, arguments, &mut std::io::stdout(), create))
+    ExitCode::from(run(
+        target,
+        arguments,
+        &mut std::io::stdout(),
+        create,
+        serve,
+    ))
 }
 
 /// As [`main`], with arguments and standard output of the caller's; gives the exit status.
@@ -72,6 +83,7 @@ pub fn run<H, P>(
     arguments: impl IntoIterator<Item = OsString>,
     output: &mut dyn Write,
     mut create: impl FnMut(&Arc<H>, Start<P>) -> Result<Robot<P>>,
+    serve: Serve,
 ) -> u8
 where
     H: Hardware,
@@ -94,7 +106,15 @@ where
         let supervisor = Supervisor::start(signals.clone(), stop.clone())?;
         let result = match &options.scenario {
             Some(file) => scenario::run(&target, &options, file, &stop, output, &mut create),
-            None => start_and_run(&target, &options, &stop, &supervisor, output, &mut create),
+            None => start_and_run(
+                &target,
+                &options,
+                &stop,
+                &supervisor,
+                output,
+                &mut create,
+                serve,
+            ),
         };
         stop.request();
         // The robot's own error comes first: the supervisor's may be its consequence.
@@ -125,6 +145,7 @@ fn start_and_run<H, P>(
     supervisor: &Supervisor,
     output: &mut dyn Write,
     create: &mut impl FnMut(&Arc<H>, Start<P>) -> Result<Robot<P>>,
+    serve: Serve,
 ) -> Result<u8>
 where
     H: Hardware,
@@ -156,10 +177,20 @@ where
     let started = clock.now();
     let is_real_time = options.is_real_time || !hardware.is_simulated();
     let threads = Threads::new(&clock, hardware.as_ref(), stop).real_time(is_real_time);
+    // Dropped with everything that its clients hold when the robot has ended.
+    let served = match options.listening(target) {
+        Some(listening) => start_server(&mut robot, stop, &threads, listening, serve)?,
+        None => None,
+    };
+    let page = served.as_ref().map(|served| page(served.as_ref()));
     let result = threads.run(&mut robot.instances);
     let report = RobotReport::new(target.name, clock.now() - started, &robot);
     let written = match options.format {
-        Format::Json => writeln!(output, "{}", report.to_json()),
+        Format::Json => {
+            let mut json = report.to_json();
+            json["page"] = page.into();
+            writeln!(output, "{json}")
+        }
         Format::Text => {
             tell(format_args!("{}", report.to_string().trim_end()));
             Ok(())
@@ -169,6 +200,26 @@ where
     result?;
     written.map_err(|error| Error::from(error).context("cannot write the report"))?;
     Ok(DONE)
+}
+
+fn start_server<P: ParameterData>(
+    robot: &mut Robot<P>,
+    stop: &Stop,
+    threads: &Threads<'_>,
+    listening: Listening,
+    serve: Serve,
+) -> Result<Option<Box<dyn Served>>> {
+    let link = robot.link(stop, threads.rearming());
+    let served = serve(link, listening).map_err(|error| error.context("cannot serve clients"))?;
+    if let Some(served) = &served {
+        tell(format_args!("page: {}", page(served.as_ref())));
+    }
+    Ok(served)
+}
+
+/// What to open in a browser.
+fn page(served: &dyn Served) -> String {
+    format!("http://{}/", served.address())
 }
 
 fn connect<H: Hardware>(

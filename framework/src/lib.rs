@@ -18,6 +18,7 @@
 //! | [`temporal`], [`history`] | results of perception in order of time; own outputs by time |
 //! | [`recorded`] | what a cycle took, saved and given back |
 //! | [`subscriptions`], [`injection`] | clients: listen to an output, replace one |
+//! | [`tap`], [`link`] | copies of outputs for a communication server, and all else that it may see and change |
 //! | [`time`], [`clock`], [`stop`], [`timing`], [`report`] | when, until when, how long, and how to tell |
 //! | [`reflect`], [`data`], [`clear`], [`digest`] | what values must be able to do |
 //! | [`testing`] | all of it for the test of a single node |
@@ -39,6 +40,7 @@ pub mod hardware;
 pub mod history;
 pub mod injection;
 pub mod launch;
+pub mod link;
 pub mod parameters;
 pub mod pool;
 pub mod procedure;
@@ -52,6 +54,7 @@ pub mod scheduling;
 pub mod stop;
 pub mod stub;
 pub mod subscriptions;
+pub mod tap;
 pub mod temporal;
 pub mod testing;
 pub mod time;
@@ -79,6 +82,7 @@ pub use hardware::{Event, Hardware, HardwareContext};
 pub use history::{HistoricInput, History, Past, Stored};
 pub use injection::{Inject, Injected, Injection, InjectionCell, InjectionTable, Injector};
 pub use launch::Target;
+pub use link::{InstanceLink, Link};
 pub use parameters::LiveParameters;
 pub use pool::{Free, Leased, Pool};
 pub use procedure::{Answerer, Call, CallAny, Caller, Pending, PendingAny, Refused, procedure};
@@ -90,6 +94,7 @@ pub use scheduling::{Granted, Policy, Scheduling};
 pub use stop::Stop;
 pub use stub::Stub;
 pub use subscriptions::Subscriptions;
+pub use tap::{OutputKind, OutputVisitor, Tap, Tapped};
 pub use temporal::{
     Consumer, Horizon, Interleaved, Interleaving, Item, Lane, PerceptionInput, Projection,
     QueueCounts, Reference, ReferenceKind, RollBack, Series, Timeline, interleave,

@@ -43,6 +43,7 @@ fn an_interrupted_run_reports_and_ends_with_130() {
         parameters: "parameters",
         location: None,
         identities: &[],
+        graph: "",
     };
     let arguments = [
         "--parameters".into(),
@@ -62,7 +63,10 @@ fn an_interrupted_run_reports_and_ends_with_130() {
         })
     };
     let mut output = Vec::new();
-    assert_eq!(launch::run(target, arguments, &mut output, create), 130);
+    assert_eq!(
+        launch::run(target, arguments, &mut output, create, launch::nobody),
+        130
+    );
     assert!(
         String::from_utf8(output)
             .expect("text")

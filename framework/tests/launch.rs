@@ -20,6 +20,7 @@ const TARGET: Target = Target {
     parameters: "parameters",
     location: None,
     identities: &["body", "head"],
+    graph: "",
 };
 
 #[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
@@ -108,7 +109,7 @@ fn run(directory: &TempDir, arguments: &[&str]) -> Ran {
             parameters: LiveParameters::new(parameters, start.parameters, start.clock),
         })
     };
-    let status = launch::run(TARGET, all, &mut output, create);
+    let status = launch::run(TARGET, all, &mut output, create, launch::nobody);
     Ran {
         status,
         output: String::from_utf8(output).expect("text"),

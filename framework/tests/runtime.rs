@@ -18,6 +18,8 @@ mod reports;
 mod scheduling;
 #[path = "runtime/scripted.rs"]
 mod scripted;
+#[path = "runtime/tap.rs"]
+mod tap;
 #[path = "runtime/threads.rs"]
 mod threads;
 #[path = "runtime/together.rs"]

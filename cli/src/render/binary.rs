@@ -28,10 +28,15 @@ pub(super) fn render_binary(binary: &Binary) -> String {
             parameters: #parameters,
             location: #location,
             identities: &[#(#identities),*],
+            graph: "",
         };
 
         fn main() -> ::std::process::ExitCode {
-            ::framework::launch::main::<#hardware, _>(TARGET, #library::create)
+            ::framework::launch::main::<#hardware, _>(
+                TARGET,
+                #library::create,
+                ::hulkgen_communication::serve,
+            )
         }
     };
     let title = format!("The robot `{robot}` on target `{name}`.");

@@ -10,12 +10,17 @@ use crate::workspace::Workspace;
 /// Crates that every generated crate names.
 const ALWAYS: &[&str] = &["framework", "serde"];
 
+/// What every target names.
+const SERVER: &str = "hulkgen_communication";
+
 /// Every crate of the generated crate's `[dependencies]`, sorted by name.
 pub(crate) fn dependencies(workspace: &Workspace, robot: &Robot) -> Vec<Dependency> {
     let mut by_name: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
     for target in &robot.targets {
-        let targets = by_name.entry(root_of(&target.hardware)).or_default();
-        targets.insert(target.name.clone());
+        for name in [root_of(&target.hardware), SERVER.to_owned()] {
+            let targets = by_name.entry(name).or_default();
+            targets.insert(target.name.clone());
+        }
     }
     let running = robot.running().flat_map(|(_, cycler)| &cycler.nodes);
     let libraries = running.map(|node| root_of(&node.path));
@@ -56,6 +61,7 @@ fn dependency(
             "framework".to_owned(),
             "{ package = \"hulkgen-framework\", version = \"*\" }".to_owned(),
         ),
+        SERVER => ("hulkgen-communication".to_owned(), "\"*\"".to_owned()),
         "serde" => (
             "serde".to_owned(),
             "{ version = \"1\", features = [\"derive\"] }".to_owned(),

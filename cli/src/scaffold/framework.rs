@@ -9,6 +9,8 @@ use crate::workspace::{Workspace, normalized, relative};
 const FOLDER: &str = "framework";
 /// Name of its package.
 const PACKAGE: &str = "hulkgen-framework";
+/// What serves the clients of the robot, and where it lies in the folder of the framework.
+const COMMUNICATION: (&str, &str) = ("hulkgen-communication", "communication");
 
 /// The framework of a new robot.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -49,14 +51,19 @@ impl Framework {
         })
     }
 
-    /// The right side of its line in `[workspace.dependencies]`.
-    pub fn dependency(&self) -> String {
-        let (key, value) = match self {
-            Self::Checkout { written, .. } => ("path", written),
-            Self::Version(version) => ("version", version),
+    /// Its lines in `[workspace.dependencies]`: keys and right sides.
+    pub fn dependencies(&self) -> [(&'static str, String); 2] {
+        let (package, folder) = COMMUNICATION;
+        let source = |folder: &str| {
+            let (key, value) = match self {
+                Self::Checkout { written, .. } => ("path", format!("{written}{folder}")),
+                Self::Version(version) => ("version", version.clone()),
+            };
+            format!("{key} = {}", toml_edit::Value::from(value))
         };
-        let value = toml_edit::Value::from(value.as_str());
-        format!("{{ package = \"{PACKAGE}\", {key} = {value} }}")
+        let framework = format!("{{ package = \"{PACKAGE}\", {} }}", source(""));
+        let communication = format!("{{ {} }}", source(&format!("/{folder}")));
+        [("framework", framework), (package, communication)]
     }
 }
 
@@ -122,7 +129,7 @@ mod tests {
         let framework =
             Framework::choose(Some("0.1"), nowhere, nowhere, nowhere).expect("it needs no disk");
         assert_eq!(
-            framework.dependency(),
+            framework.dependencies()[0].1,
             "{ package = \"hulkgen-framework\", version = \"0.1\" }"
         );
     }
@@ -149,7 +156,7 @@ mod tests {
             &robot,
         );
         assert_eq!(
-            relative.expect("it stands").dependency(),
+            relative.expect("it stands").dependencies()[0].1,
             format!("{{ package = \"hulkgen-framework\", path = \"../{name}/framework\" }}")
         );
     }

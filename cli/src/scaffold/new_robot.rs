@@ -39,7 +39,7 @@ const DEPENDENCY_TABLES: [&str; 3] = ["dependencies", "dev-dependencies", "build
 #[derive(Serialize)]
 struct Values<'a> {
     name: &'a str,
-    /// The right side of the framework's line in `[workspace.dependencies]`.
+    /// Lines of the framework in `[workspace.dependencies]`.
     framework: String,
     blank: bool,
 }
@@ -48,7 +48,7 @@ struct Values<'a> {
 pub fn new_robot(robot: &NewRobot<'_>) -> Result<Changes, Refusal> {
     let values = Values {
         name: robot.name,
-        framework: robot.framework.dependency(),
+        framework: lines(robot.framework),
         blank: robot.template == Template::Blank,
     };
     let render = |(path, template): &(&str, &str)| {
@@ -132,15 +132,25 @@ fn reduce(
             .get(&key)
             .and_then(|item| item.get("path")?.as_str());
         let stays = path.map_or_else(|| used.contains(&key), is_own);
-        if key != "framework" && !stays {
+        let is_framework = framework.dependencies().iter().any(|(own, _)| *own == key);
+        if !is_framework && !stays {
             dependencies.remove(&key);
         }
     }
-    let dependency = framework.dependency().parse::<toml_edit::Value>();
-    let mut dependency = dependency.map_err(|error| Refusal::bad(error.to_string()))?;
-    dependency.decor_mut().set_prefix(" ");
-    dependencies.insert("framework", Item::Value(dependency));
+    for (key, line) in framework.dependencies() {
+        let mut dependency = line
+            .parse::<toml_edit::Value>()
+            .map_err(|error| Refusal::bad(error.to_string()))?;
+        dependency.decor_mut().set_prefix(" ");
+        dependencies.insert(key, Item::Value(dependency));
+    }
     Ok(())
+}
+
+fn lines(framework: &Framework) -> String {
+    let lines = framework.dependencies();
+    let lines = lines.map(|(key, line)| format!("{key} = {line}"));
+    lines.join("\n")
 }
 
 /// Keys that the packages take from the workspace; generated code needs serde and what its types name.

@@ -8,6 +8,8 @@ use crate::error::Result;
 use crate::guarded::State;
 use crate::reflect::Reflect;
 use crate::report::InstanceReport;
+use crate::subscriptions::Subscriptions;
+use crate::tap::{Reports, Tap};
 use crate::time::Timestamp;
 
 /// How long setup nodes that failed under `skip` or `hold` wait on the wall clock before they start over.
@@ -54,6 +56,9 @@ pub trait Instance: Send {
 
     /// An additional output, if the last finished cycle filled it.
     fn additional_output(&self, name: &str) -> Option<&dyn Reflect>;
+
+    /// Ends for a server: one for each output, and one for reports. Taps that it gave before have nothing any more.
+    fn tap(&mut self, subscriptions: &Subscriptions) -> (Vec<Tap>, Reports);
 
     /// Everything that the cycle read from other instances.
     fn references(&self, visit: &mut dyn FnMut(Reference));

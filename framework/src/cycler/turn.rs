@@ -17,6 +17,8 @@ use crate::error::{Error, Result};
 use crate::guarded::{OnFailure, State, contain};
 use crate::reflect::Reflect;
 use crate::report::{InstanceReport, NodeReport, SlotsReport};
+use crate::subscriptions::Subscriptions;
+use crate::tap::{Reports, Tap, Taps};
 use crate::time::{CycleTime, Timestamp};
 use crate::timing::{self, Tally};
 use failure::Consequence;
@@ -41,6 +43,8 @@ pub struct Cycler<B: Body> {
     restarts: Restarts,
     counters: Arc<Counters>,
     stopwatch: Stopwatch,
+    /// Where a server looks on.
+    taps: Option<Taps>,
     /// Of nodes that were replaced in a restart.
     retired: Vec<NodeReport>,
 }
@@ -81,6 +85,7 @@ impl<B: Body> Cycler<B> {
             failure: None,
             restarts: Restarts::default(),
             counters: Arc::default(),
+            taps: None,
             retired: Vec::new(),
         }
     }
@@ -129,6 +134,13 @@ impl<B: Body> Cycler<B> {
             Finished::Recovered
         } else {
             Finished::Completed
+        }
+    }
+
+    #[cold]
+    fn send_report(&self) {
+        if let Some(taps) = &self.taps {
+            taps.report(self.report());
         }
     }
 
@@ -272,12 +284,22 @@ impl<B: Body> Instance for Cycler<B> {
             body,
             writer,
             cycle,
+            taps,
             ..
         } = self;
+        let mut wants_report = false;
         let result = match self.failure.take() {
             Some(error) => Err(error),
             None => contain(self.description.name, || {
-                body.finish(writer.slots().0, *cycle);
+                let shared = writer.slots().0;
+                body.finish(shared, *cycle);
+                if let Some(taps) = taps {
+                    let look = taps.look();
+                    wants_report = look.wants_report;
+                    if look.is_open {
+                        body.outputs(shared, cycle.number, &mut taps.copying(*cycle));
+                    }
+                }
                 Ok(())
             }),
         };
@@ -285,7 +307,11 @@ impl<B: Body> Instance for Cycler<B> {
             restarted: self.phase.restarted(),
         };
         let Err(error) = result else {
-            return Ok(self.publish());
+            let finished = self.publish();
+            if wants_report {
+                self.send_report();
+            }
+            return Ok(finished);
         };
         let number = self.cycle.number;
         self.give_up();
@@ -363,6 +389,15 @@ impl<B: Body> Instance for Cycler<B> {
 
     fn additional_output(&self, name: &str) -> Option<&dyn Reflect> {
         self.body.additional_output(name, self.finished)
+    }
+
+    fn tap(&mut self, subscriptions: &Subscriptions) -> (Vec<Tap>, Reports) {
+        let (body, shared) = (&self.body, &self.writer.newest().value);
+        let (ends, taps, reports) = Taps::new(body.main_outputs(), subscriptions, |builder| {
+            body.outputs(shared, 0, builder);
+        });
+        self.taps = Some(ends);
+        (taps, reports)
     }
 
     fn references(&self, visit: &mut dyn FnMut(Reference)) {

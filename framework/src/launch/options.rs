@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use lexopt::{Arg, Parser, ValueExt};
 
-use super::Target;
+use super::{Listening, Target};
 use crate::error::{Error, Result};
 
 /// What the command line asks for.
@@ -17,7 +17,7 @@ pub(super) enum Command {
 }
 
 /// How to run.
-#[derive(Debug, PartialEq, Eq)]
+#[derive(Debug, Default, PartialEq, Eq)]
 pub(super) struct Options {
     /// Until a signal if left out.
     pub(super) duration: Option<Duration>,
@@ -34,29 +34,30 @@ pub(super) struct Options {
     /// Instead of running.
     pub(super) scenario: Option<PathBuf>,
     /// The first seed of a scenario.
-    pub(super) seed: u64,
+    pub(super) seed: Option<u64>,
     /// With how many seeds a scenario is played.
-    pub(super) repeat: u64,
+    pub(super) repeat: Option<u64>,
+    /// `--listen`: nobody may come if it is `off`.
+    pub(super) listen: Option<String>,
+    pub(super) token: Option<String>,
+    pub(super) is_read_only: bool,
+    pub(super) web_root: Option<PathBuf>,
     /// Everything after `--`.
     pub(super) hardware: Vec<String>,
 }
 
-impl Default for Options {
-    fn default() -> Self {
-        Self {
-            duration: None,
-            format: Format::default(),
-            check_parameters: false,
-            parameters: None,
-            location: None,
-            settings: Vec::new(),
-            run_folder: None,
-            is_real_time: false,
-            scenario: None,
-            seed: 1,
-            repeat: 1,
-            hardware: Vec::new(),
-        }
+impl Options {
+    /// What a server has to know; `None`: there is none.
+    pub(super) fn listening(&self, target: &Target) -> Option<Listening> {
+        let listening = Listening {
+            target: target.name,
+            graph: target.graph,
+            address: self.listen.clone(),
+            token: self.token.clone(),
+            is_read_only: self.is_read_only,
+            web_root: self.web_root.clone(),
+        };
+        (self.listen.as_deref() != Some("off")).then_some(listening)
     }
 }
 
@@ -87,6 +88,10 @@ Usage: {name} [OPTIONS] [-- HARDWARE OPTIONS]
   --scenario FILE     play it in lockstep in place of running; the exit status says whether it passed
   --seed NUMBER       what a scenario draws its random numbers from; 1 without it
   --repeat COUNT      play a scenario with so many seeds, one after the other
+  --listen ADDRESS    where clients connect, e.g. 0.0.0.0:4857; off: nowhere; default: this machine alone, port 4857 or a free one
+  --token TOKEN       clients have to know it before they may change anything; without it none from other machines may
+  --read-only         no client may change anything
+  --web-root DIR      files of the page from there instead of those in the program
   --real-time         apply the manifest's `scheduling` on a simulated target, too
   --help              this text
 ",
@@ -120,8 +125,12 @@ pub(super) fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Com
             Arg::Long("set") => options.settings.push(setting(&parser.value()?.string()?)?),
             Arg::Long("run-folder") => options.run_folder = Some(parser.value()?.into()),
             Arg::Long("scenario") => options.scenario = Some(parser.value()?.into()),
-            Arg::Long("seed") => options.seed = parser.value()?.parse()?,
-            Arg::Long("repeat") => options.repeat = parser.value()?.parse()?,
+            Arg::Long("seed") => options.seed = Some(parser.value()?.parse()?),
+            Arg::Long("repeat") => options.repeat = Some(parser.value()?.parse()?),
+            Arg::Long("listen") => options.listen = Some(parser.value()?.string()?),
+            Arg::Long("token") => options.token = Some(parser.value()?.string()?),
+            Arg::Long("read-only") => options.is_read_only = true,
+            Arg::Long("web-root") => options.web_root = Some(parser.value()?.into()),
             Arg::Long("real-time") => options.is_real_time = true,
             Arg::Long("help") | Arg::Short('h') => return Ok(Command::Help),
             unexpected => return Err(unexpected.unexpected().into()),
@@ -216,6 +225,11 @@ mod tests {
             "--seed=7",
             "--repeat",
             "3",
+            "--listen",
+            "0.0.0.0:1",
+            "--token=secret",
+            "--read-only",
+            "--web-root=dist",
             "--",
             "--for",
             "lamp",
@@ -233,8 +247,12 @@ mod tests {
             run_folder: Some("there".into()),
             is_real_time: true,
             scenario: Some("s.toml".into()),
-            seed: 7,
-            repeat: 3,
+            seed: Some(7),
+            repeat: Some(3),
+            listen: Some("0.0.0.0:1".to_owned()),
+            token: Some("secret".to_owned()),
+            is_read_only: true,
+            web_root: Some("dist".into()),
             hardware: vec!["--for".to_owned(), "lamp".to_owned()],
         };
         assert_eq!(options.expect("all options are valid"), expected);

@@ -26,7 +26,8 @@ pub(super) fn run<H: Hardware, P: ParameterData>(
 ) -> Result<u8> {
     let scenario = Scenario::load(file)?;
     let mut runs: Vec<Played> = Vec::new();
-    for seed in options.seed..options.seed.saturating_add(options.repeat) {
+    let first = options.seed.unwrap_or(1);
+    for seed in first..first.saturating_add(options.repeat.unwrap_or(1)) {
         stop.check()?;
         let played = play_once(target, options, &scenario, seed, stop, create);
         let played =

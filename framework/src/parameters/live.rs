@@ -85,7 +85,9 @@ impl<P: ParameterData> LiveParameters<P> {
             of: PhantomData,
         }
     }
+}
 
+impl<P> LiveParameters<P> {
     /// A handle without the type.
     pub fn live(&self) -> Live {
         self.live.clone()

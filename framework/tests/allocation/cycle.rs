@@ -6,9 +6,9 @@ use framework::cycler::Reference;
 use framework::report::Allocations;
 use framework::{
     Answerer, Body, Clock, Cycle, Cycler, Finished, Guarded, Injected, Injection, InjectionCell,
-    InjectionTable, Instance, InstanceDescription, Kind, NodeReport, OnFailure, QueueReport,
-    Reader, Reflect, Result, RobotReport, Scheduling, Slots, State, Subscriptions, Timestamp,
-    Waited, buffer, procedure, timing,
+    InjectionTable, Instance, InstanceDescription, Kind, NodeReport, OnFailure, OutputVisitor,
+    QueueReport, Reader, Reflect, Result, RobotReport, Scheduling, Slots, State, Subscriptions,
+    Tap, Timestamp, Waited, buffer, procedure, timing,
 };
 
 use crate::counting::allocations;
@@ -32,6 +32,8 @@ struct Adding {
     injections: Reader<Injected<Injections>>,
     subscriptions: Subscriptions,
     procedure: Answerer<u32, u32>,
+    /// An output with memory of its own.
+    trace: Vec<f32>,
 }
 
 impl Body for Adding {
@@ -75,7 +77,7 @@ impl Body for Adding {
     fn references(&self, _: &mut dyn FnMut(Reference)) {}
 
     fn main_outputs(&self) -> &'static [&'static str] {
-        &[]
+        &["sums", "trace"]
     }
 
     fn main_output<'a>(&'a self, _: &'a Self::Shared, _: &str) -> Option<&'a dyn Reflect> {
@@ -84,6 +86,16 @@ impl Body for Adding {
 
     fn additional_output(&self, _: &str, _: u64) -> Option<&dyn Reflect> {
         None
+    }
+
+    fn outputs<'a>(
+        &'a self,
+        shared: &'a Self::Shared,
+        _: u64,
+        visitor: &mut impl OutputVisitor<'a>,
+    ) {
+        visitor.output(Some(shared));
+        visitor.output(Some(&self.trace));
     }
 
     fn nodes(&self, visit: &mut dyn FnMut(NodeReport)) {
@@ -143,6 +155,7 @@ fn cycler(greed: usize) -> Cycler<Adding> {
         injections,
         subscriptions: Subscriptions::new(&["a"]),
         procedure,
+        trace: vec![0.5; 1000],
     };
     Cycler::new(DESCRIPTION, body, writer, Clock::wall())
 }
@@ -157,6 +170,31 @@ fn a_cycle_allocates_nothing() {
     turn(&mut cycler, 1_000);
     assert_eq!(allocations() - before, 0);
     assert_eq!(cycler.counters().cycles.get(), 11_100);
+}
+
+#[test]
+fn a_cycle_that_is_copied_for_a_server_allocates_nothing() {
+    let mut cycler = cycler(0);
+    let (mut taps, _reports) = cycler.tap(&Subscriptions::new(&[]));
+    assert_eq!(taps.len(), 2);
+    taps.iter_mut().for_each(Tap::open);
+    let mut taken = 0;
+    let mut take_all = |taps: &mut [Tap]| {
+        for tap in taps {
+            while tap.take(|_| taken += 1) {}
+        }
+    };
+    for _ in 0..10 {
+        turn(&mut cycler, 15);
+        take_all(&mut taps);
+    }
+    let before = allocations();
+    for _ in 0..100 {
+        turn(&mut cycler, 15);
+        take_all(&mut taps);
+    }
+    assert_eq!(allocations() - before, 0);
+    assert_eq!(taken, 2 * 110 * 15);
 }
 
 #[test]

@@ -8,9 +8,9 @@ use framework::cycler::{Reference, ReferenceKind};
 use framework::{
     Access, AdditionalOutput, AdditionalSlot, Answerer, Body, Consumer, Cycle, Cycler, Guarded,
     Held, Horizon, InNode, Injected, Injection, InjectionCell, InjectionTable, Injector, Instance,
-    InstanceDescription, Kind, NodeReport, OnFailure, PerceptionInput, QueueReport, Reader,
-    Reflect, Result, Robot, Scheduling, Slots, State, Subscriptions, Swap, Timestamp, buffer,
-    buffer_of, procedure,
+    InstanceDescription, Kind, NodeReport, OnFailure, OutputVisitor, PerceptionInput, QueueReport,
+    Reader, Reflect, Result, Robot, Scheduling, Slots, State, Subscriptions, Swap, Timestamp,
+    buffer, buffer_of, procedure,
 };
 use serde::{Deserialize, Serialize};
 
@@ -309,6 +309,22 @@ impl Body for TestBody {
             "debug.raw" => self.debug.get(cycle).map(|value| value as &dyn Reflect),
             _ => None,
         }
+    }
+
+    fn outputs<'a>(
+        &'a self,
+        shared: &'a SharedOutputs,
+        cycle: u64,
+        visitor: &mut impl OutputVisitor<'a>,
+    ) {
+        visitor.output(Some(&self.own.previous().raw));
+        visitor.output(Some(&shared.value));
+        visitor.output(Some(&shared.persistent));
+        visitor.output(Some(&shared.transient));
+        visitor.output(Some(&shared.clock));
+        visitor.output(Some(&shared.since_last));
+        visitor.output(Some(&shared.gain));
+        visitor.output(self.debug.get(cycle));
     }
 
     fn nodes(&self, visit: &mut dyn FnMut(NodeReport)) {

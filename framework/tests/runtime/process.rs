@@ -42,12 +42,13 @@ fn launch(arguments: &[&str], setting: &Setting) -> ! {
         parameters: "parameters",
         location: None,
         identities: &[],
+        graph: "",
     };
     let mut all = vec![OsString::from("--parameters"), directory.path().into()];
     all.extend(arguments.iter().map(OsString::from));
     let create =
         |hardware: &Arc<ScriptedHardware>, _: Start<Parameters>| Ok(robot(hardware, setting));
-    let status = launch::run(target, all, &mut Closed, create);
+    let status = launch::run(target, all, &mut Closed, create, launch::nobody);
     drop(directory);
     std::process::exit(status.into())
 }

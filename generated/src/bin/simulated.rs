@@ -6,6 +6,7 @@ use std::process::ExitCode;
 
 use framework::Target;
 use framework::launch;
+use hulkgen_communication::serve;
 use nao_runtime::runtime;
 use simulated_nao::Hardware;
 
@@ -15,8 +16,9 @@ const TARGET: Target = Target {
     parameters: "robotics/parameters",
     location: Some("simulated"),
     identities: &["body", "head"],
+    graph: "",
 };
 
 fn main() -> ExitCode {
-    launch::main::<Hardware, _>(TARGET, runtime::create)
+    launch::main::<Hardware, _>(TARGET, runtime::create, serve)
 }

@@ -12,6 +12,7 @@ use framework::InstanceDescription;
 use framework::Kind;
 use framework::NodeReport;
 use framework::OnFailure;
+use framework::OutputVisitor;
 use framework::QueueReport;
 use framework::Reader;
 use framework::Reference;
@@ -168,6 +169,17 @@ impl<Hardware: MicrophoneInterface + Send + Sync> Body for Audio<Hardware> {
             }
             _ => None,
         }
+    }
+
+    fn outputs<'a>(
+        &'a self,
+        shared: &'a SharedOutputs,
+        cycle: u64,
+        visitor: &mut impl OutputVisitor<'a>,
+    ) {
+        visitor.output(Some(&self.own.previous().audio_block));
+        visitor.output(Some(&shared.whistle_evidence));
+        visitor.output(self.additional_outputs.whistle_detection.peaks.get(cycle));
     }
 
     fn nodes(&self, visit: &mut dyn FnMut(NodeReport)) {

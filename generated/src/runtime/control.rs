@@ -12,6 +12,7 @@ use framework::InstanceDescription;
 use framework::Kind;
 use framework::NodeReport;
 use framework::OnFailure;
+use framework::OutputVisitor;
 use framework::QueueReport;
 use framework::Reader;
 use framework::Reference;
@@ -324,6 +325,63 @@ impl<
             }
             _ => None,
         }
+    }
+
+    fn outputs<'a>(
+        &'a self,
+        shared: &'a SharedOutputs,
+        cycle: u64,
+        visitor: &mut impl OutputVisitor<'a>,
+    ) {
+        visitor.output(Some(&self.own.previous().sensor_data));
+        visitor.output(Some(&self.own.previous().buttons));
+        visitor.output(Some(&self.own.previous().sonar_distances));
+        visitor.output(Some(&self.own.previous().orientation));
+        visitor.output(Some(&self.own.previous().sole_pressures));
+        visitor.output(Some(&self.own.previous().has_ground_contact));
+        visitor.output(Some(&self.own.previous().support_side));
+        visitor.output(Some(&shared.robot_kinematics));
+        visitor.output(Some(&self.own.previous().center_of_mass));
+        visitor.output(Some(&self.own.previous().fall_state));
+        visitor.output(Some(&self.own.previous().odometry));
+        visitor.output(Some(&shared.camera_matrices));
+        visitor.output(Some(&self.own.previous().game_controller_state));
+        visitor.output(Some(&self.own.previous().teammates));
+        visitor.output(Some(&self.own.previous().whistle));
+        visitor.output(Some(&self.own.previous().primary_state));
+        visitor.output(Some(&self.own.previous().ball));
+        visitor.output(Some(&self.own.previous().obstacles));
+        visitor.output(Some(&self.own.previous().world_state));
+        visitor.output(Some(&self.own.previous().client_wish));
+        visitor.output(Some(&self.own.previous().motion_command));
+        visitor.output(Some(&self.own.previous().is_recording_wanted));
+        visitor.output(Some(&self.own.previous().motion_selection));
+        visitor.output(Some(&self.own.previous().dispatch_commands));
+        visitor.output(Some(&self.own.previous().stand_commands));
+        visitor.output(Some(&self.own.previous().penalized_commands));
+        visitor.output(Some(&self.own.previous().sit_down_commands));
+        visitor.output(Some(&self.own.previous().walk_commands));
+        visitor.output(Some(&self.own.previous().look_around));
+        visitor.output(Some(&self.own.previous().look_at));
+        visitor.output(Some(&self.own.previous().head_command));
+        visitor.output(Some(&self.own.previous().motor_commands));
+        visitor.output(Some(&self.own.previous().leds));
+        visitor.output(Some(&self.own.previous().tone));
+        visitor.output(Some(&self.own.previous().self_report));
+        visitor.output(Some(&self.own.previous().team_report));
+        visitor.output(self.additional_outputs.ball_filter.delivered.get(cycle));
+        visitor.output(self.additional_outputs.ball_filter.hypotheses.get(cycle));
+        visitor.output(self.additional_outputs.ball_filter.persistent_ball.get(cycle));
+        visitor
+            .output(
+                self
+                    .additional_outputs
+                    .fall_state_filter
+                    .center_of_mass_overhang
+                    .get(cycle),
+            );
+        visitor.output(self.additional_outputs.orientation_filter.innovation.get(cycle));
+        visitor.output(self.additional_outputs.whistle_filter.votes.get(cycle));
     }
 
     fn nodes(&self, visit: &mut dyn FnMut(NodeReport)) {

@@ -12,6 +12,7 @@ use framework::InstanceDescription;
 use framework::Kind;
 use framework::NodeReport;
 use framework::OnFailure;
+use framework::OutputVisitor;
 use framework::QueueReport;
 use framework::Reader;
 use framework::Reference;
@@ -185,6 +186,22 @@ impl<Hardware: NetworkInterface + Send + Sync> Body for SplNetwork<Hardware> {
             }
             _ => None,
         }
+    }
+
+    fn outputs<'a>(
+        &'a self,
+        shared: &'a SharedOutputs,
+        cycle: u64,
+        visitor: &mut impl OutputVisitor<'a>,
+    ) {
+        visitor.output(Some(&self.own.previous().datagram));
+        visitor.output(Some(&self.own.previous().game_controller_counts));
+        visitor.output(Some(&shared.game_controller_packet));
+        visitor.output(Some(&shared.team_message));
+        visitor.output(Some(&self.own.previous().team_message_counts));
+        visitor
+            .output(self.additional_outputs.game_controller_parser.refusal.get(cycle));
+        visitor.output(self.additional_outputs.team_message_parser.refusal.get(cycle));
     }
 
     fn nodes(&self, visit: &mut dyn FnMut(NodeReport)) {

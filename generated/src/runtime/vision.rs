@@ -12,6 +12,7 @@ use framework::InstanceDescription;
 use framework::Kind;
 use framework::NodeReport;
 use framework::OnFailure;
+use framework::OutputVisitor;
 use framework::QueueReport;
 use framework::Reader;
 use framework::Reference;
@@ -232,6 +233,29 @@ impl<Hardware: CameraInterface + Send + Sync> Body for Vision<Hardware> {
             }
             _ => None,
         }
+    }
+
+    fn outputs<'a>(
+        &'a self,
+        shared: &'a SharedOutputs,
+        cycle: u64,
+        visitor: &mut impl OutputVisitor<'a>,
+    ) {
+        visitor.output(Some(&self.own.previous().image));
+        visitor.output(Some(&self.own.previous().camera_matrix));
+        visitor.output(Some(&self.own.previous().limb_mask));
+        visitor.output(Some(&self.own.previous().image_segments));
+        visitor.output(Some(&self.own.previous().field_border));
+        visitor.output(Some(&self.own.previous().lines));
+        visitor.output(Some(&self.own.previous().penalty_mark));
+        visitor.output(Some(&shared.balls));
+        visitor.output(Some(&shared.obstacles));
+        visitor.output(self.additional_outputs.ball_candidates.get(cycle));
+        visitor.output(self.additional_outputs.field_border_points.get(cycle));
+        visitor.output(self.additional_outputs.image_lines.get(cycle));
+        visitor.output(self.additional_outputs.line_points.get(cycle));
+        visitor.output(self.additional_outputs.obstacle_feet.get(cycle));
+        visitor.output(self.additional_outputs.penalty_mark_candidates.get(cycle));
     }
 
     fn nodes(&self, visit: &mut dyn FnMut(NodeReport)) {

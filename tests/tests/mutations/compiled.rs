@@ -23,7 +23,7 @@ use crate::reading::{with_idle_bodies, without_bodies};
 use crate::robot::Robot;
 
 /// What the generated crate is compiled of.
-const FOLDERS: [&str; 3] = ["framework", "generated", "robotics"];
+const FOLDERS: [&str; 4] = ["framework", "generated", "robotics", "web"];
 
 /// A copy of the robot that is compiled again and again.
 ///

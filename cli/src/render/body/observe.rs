@@ -12,6 +12,7 @@ pub(super) fn quote_observe(cycler: &CyclerModel) -> TokenStream {
         quote_references(cycler),
         quote_main_outputs(cycler),
         quote_additional_output(cycler),
+        quote_outputs(cycler),
         quote_nodes(cycler),
         quote_queues(cycler),
         quote_states(cycler),
@@ -94,6 +95,38 @@ fn quote_additional_output(cycler: &CyclerModel) -> TokenStream {
     quote! {
         fn additional_output(&self, #name: &str, #cycle: u64) -> Option<&dyn ::framework::Reflect> {
             #found
+        }
+    }
+}
+
+/// Every output with its type, in the order of the names.
+fn quote_outputs(cycler: &CyclerModel) -> TokenStream {
+    let main = cycler.output_names.iter().map(|output| {
+        let field = ident(output);
+        let known = cycler.outputs.iter().find(|known| known.name == *output);
+        if known.is_some_and(|known| known.shared) {
+            quote!(visitor.output(Some(&shared.#field));)
+        } else {
+            quote!(visitor.output(Some(&self.own.previous().#field));)
+        }
+    });
+    let additional = cycler.additional_outputs.iter().map(|output| {
+        let slot = place(&output.place);
+        quote!(visitor.output(self.additional_outputs.#slot.get(cycle));)
+    });
+    let body = quote!(#(#main)* #(#additional)*);
+    let shared_type = quote_shared(cycler);
+    let shared = argument("shared", cycler.has_shared());
+    let cycle = argument("cycle", !cycler.additional_outputs.is_empty());
+    let visitor = argument("visitor", !body.is_empty());
+    quote! {
+        fn outputs<'a>(
+            &'a self,
+            #shared: &'a #shared_type,
+            #cycle: u64,
+            #visitor: &mut impl ::framework::OutputVisitor<'a>,
+        ) {
+            #body
         }
     }
 }

@@ -12,6 +12,7 @@ use framework::InstanceDescription;
 use framework::Kind;
 use framework::NodeReport;
 use framework::OnFailure;
+use framework::OutputVisitor;
 use framework::QueueReport;
 use framework::Reader;
 use framework::Reference;
@@ -168,6 +169,16 @@ for Reflexes<Hardware> {
 
     fn additional_output(&self, _name: &str, _cycle: u64) -> Option<&dyn Reflect> {
         None
+    }
+
+    fn outputs<'a>(
+        &'a self,
+        _shared: &'a (),
+        _cycle: u64,
+        visitor: &mut impl OutputVisitor<'a>,
+    ) {
+        visitor.output(Some(&self.own.previous().pressed));
+        visitor.output(Some(&self.own.previous().sum));
     }
 
     fn nodes(&self, visit: &mut dyn FnMut(NodeReport)) {

@@ -12,6 +12,7 @@ use framework::InstanceDescription;
 use framework::Kind;
 use framework::NodeReport;
 use framework::OnFailure;
+use framework::OutputVisitor;
 use framework::QueueReport;
 use framework::Reader;
 use framework::Reference;
@@ -229,6 +230,23 @@ impl<Hardware: EyeInterface + Send + Sync> Body for Vision<Hardware> {
             }
             _ => None,
         }
+    }
+
+    fn outputs<'a>(
+        &'a self,
+        shared: &'a SharedOutputs,
+        cycle: u64,
+        visitor: &mut impl OutputVisitor<'a>,
+    ) {
+        visitor.output(Some(&self.own.previous().image));
+        visitor.output(Some(&self.own.previous().exposure));
+        visitor.output(Some(&shared.best));
+        visitor.output(Some(&shared.spots));
+        visitor.output(Some(&self.own.previous().horizon));
+        visitor.output(Some(&self.own.previous().agreement));
+        visitor.output(Some(&self.own.previous().cycles));
+        visitor.output(self.additional_outputs.candidates.get(cycle));
+        visitor.output(self.additional_outputs.cycler_instance.width.get(cycle));
     }
 
     fn nodes(&self, visit: &mut dyn FnMut(NodeReport)) {

@@ -6,6 +6,7 @@ use std::process::ExitCode;
 
 use framework::Target;
 use framework::launch;
+use hulkgen_communication::serve;
 use zoo_hardware::Hardware;
 use zoo_runtime::runtime;
 
@@ -15,8 +16,9 @@ const TARGET: Target = Target {
     parameters: "parameters",
     location: Some("quiet"),
     identities: &["body"],
+    graph: "",
 };
 
 fn main() -> ExitCode {
-    launch::main::<Hardware, _>(TARGET, runtime::create)
+    launch::main::<Hardware, _>(TARGET, runtime::create, serve)
 }

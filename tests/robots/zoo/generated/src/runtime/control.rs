@@ -12,6 +12,7 @@ use framework::InstanceDescription;
 use framework::Kind;
 use framework::NodeReport;
 use framework::OnFailure;
+use framework::OutputVisitor;
 use framework::Policy;
 use framework::QueueReport;
 use framework::Reader;
@@ -240,6 +241,24 @@ impl<Hardware: BodyInterface + LegInterface + Send + Sync> Body for Control<Hard
             }
             _ => None,
         }
+    }
+
+    fn outputs<'a>(
+        &'a self,
+        shared: &'a SharedOutputs,
+        cycle: u64,
+        visitor: &mut impl OutputVisitor<'a>,
+    ) {
+        visitor.output(Some(&self.own.previous().joints));
+        visitor.output(Some(&self.own.previous().seen));
+        visitor.output(Some(&shared.pose));
+        visitor.output(Some(&self.own.previous().report));
+        visitor.output(Some(&shared.target));
+        visitor.output(Some(&self.own.previous().plan));
+        visitor.output(Some(&self.own.previous().speed));
+        visitor.output(Some(&self.own.previous().cycles));
+        visitor.output(self.additional_outputs.debug.certainty.get(cycle));
+        visitor.output(self.additional_outputs.debug.watcher.seen.get(cycle));
     }
 
     fn nodes(&self, visit: &mut dyn FnMut(NodeReport)) {

@@ -12,6 +12,7 @@ use framework::InstanceDescription;
 use framework::Kind;
 use framework::NodeReport;
 use framework::OnFailure;
+use framework::OutputVisitor;
 use framework::QueueReport;
 use framework::Reader;
 use framework::Reference;
@@ -134,6 +135,16 @@ impl<Hardware: EarInterface + Send + Sync> Body for Hearing<Hardware> {
 
     fn additional_output(&self, _name: &str, _cycle: u64) -> Option<&dyn Reflect> {
         None
+    }
+
+    fn outputs<'a>(
+        &'a self,
+        shared: &'a SharedOutputs,
+        _cycle: u64,
+        visitor: &mut impl OutputVisitor<'a>,
+    ) {
+        visitor.output(Some(&shared.loudness));
+        visitor.output(Some(&shared.whistle));
     }
 
     fn nodes(&self, visit: &mut dyn FnMut(NodeReport)) {

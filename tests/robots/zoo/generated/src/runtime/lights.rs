@@ -11,6 +11,7 @@ use framework::InstanceDescription;
 use framework::Kind;
 use framework::NodeReport;
 use framework::OnFailure;
+use framework::OutputVisitor;
 use framework::QueueReport;
 use framework::Reader;
 use framework::Reference;
@@ -129,6 +130,13 @@ for Lights<Hardware> {
     fn additional_output(&self, _name: &str, _cycle: u64) -> Option<&dyn Reflect> {
         None
     }
+
+    fn outputs<'a>(
+        &'a self,
+        _shared: &'a (),
+        _cycle: u64,
+        _visitor: &mut impl OutputVisitor<'a>,
+    ) {}
 
     fn nodes(&self, visit: &mut dyn FnMut(NodeReport)) {
         visit(self.nodes.setup_node.report());

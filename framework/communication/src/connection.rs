@@ -1,0 +1,113 @@
+//! One client's WebSocket, from its first message to its end.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use axum::extract::ws::{Message, WebSocket};
+use futures_util::SinkExt;
+use tokio::sync::Notify;
+use tokio::time::{Instant, MissedTickBehavior, interval, timeout};
+
+use crate::hub::ClientId;
+use crate::server::Shared;
+
+/// A client is asked for a sign of life so many times before it counts as gone.
+const PINGS: u32 = 3;
+
+/// Serves one client until it leaves, says what it may not, or is silent for too long.
+pub(crate) async fn talk(mut socket: WebSocket, shared: Arc<Shared>) {
+    let (client, news) = shared.hub().connect();
+    // Whatever ends this, also the end of the server, releases what the client holds.
+    let _leaving = Leaving {
+        client,
+        shared: &shared,
+    };
+    let mut pings = interval((shared.limits.silence / PINGS).max(Duration::from_millis(1)));
+    pings.set_missed_tick_behavior(MissedTickBehavior::Delay);
+    let mut heard = Instant::now();
+    while send_all(&mut socket, client, &shared).await {
+        let may_ask = shared.hub().may_ask(client);
+        tokio::select! {
+            received = socket.recv(), if may_ask => {
+                heard = Instant::now();
+                let Some(Ok(message)) = received else { break };
+                if !receive(message, client, &shared) {
+                    break;
+                }
+            }
+            () = news.notified() => {}
+            _ = pings.tick() => {
+                if heard.elapsed() > shared.limits.silence
+                    || !send(&mut socket, Message::Ping(Vec::new().into()), &shared).await
+                {
+                    break;
+                }
+            }
+        }
+    }
+    // So that it knows; whether it still listens is its own matter.
+    let _ = timeout(
+        Duration::from_millis(100),
+        socket.send(Message::Close(None)),
+    )
+    .await;
+}
+
+/// Whether the client may go on.
+fn receive(message: Message, client: ClientId, shared: &Shared) -> bool {
+    match message {
+        Message::Text(text) => {
+            let goes_on = shared.hub().receive(client, text.as_str());
+            shared.work.notify_one();
+            goes_on
+        }
+        Message::Binary(_) => {
+            shared.hub().refuse_binary(client);
+            true
+        }
+        Message::Ping(_) | Message::Pong(_) => true,
+        Message::Close(_) => false,
+    }
+}
+
+/// Sends everything that waits for the client; whether it takes it.
+async fn send_all(socket: &mut WebSocket, client: ClientId, shared: &Shared) -> bool {
+    let mut is_empty = true;
+    loop {
+        let next = shared.hub().next(client);
+        match next {
+            Some(message) => {
+                is_empty = false;
+                // Many in one piece: a system call for each would be most of the work.
+                let fed = timeout(shared.limits.taking, socket.feed(message)).await;
+                if !matches!(fed, Ok(Ok(()))) {
+                    return false;
+                }
+            }
+            None if is_empty => return true,
+            None => {
+                let flushed = timeout(shared.limits.taking, socket.flush()).await;
+                return matches!(flushed, Ok(Ok(())));
+            }
+        }
+    }
+}
+
+async fn send(socket: &mut WebSocket, message: Message, shared: &Shared) -> bool {
+    let sent = timeout(shared.limits.taking, socket.send(message)).await;
+    matches!(sent, Ok(Ok(())))
+}
+
+struct Leaving<'shared> {
+    client: ClientId,
+    shared: &'shared Shared,
+}
+
+impl Drop for Leaving<'_> {
+    fn drop(&mut self) {
+        self.shared.hub().disconnect(self.client);
+    }
+}
+
+/// Wakes a connection that has something to send.
+pub(crate) type News = Arc<Notify>;

@@ -1,0 +1,412 @@
+//! All clients and the one robot: who wants what, who may do what, and what waits for a cycle or a node.
+//!
+//! Only the server's thread comes here, so that nothing in it waits for anybody.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::time::{Duration, Instant};
+
+use axum::extract::ws::Message as Frame;
+use framework::link::{InstanceLink, Link};
+use framework::procedure::PendingAny;
+use framework::report::InstanceReport;
+use protocol::{Answer, Failure, Good, Message, Outcome, ParametersChanged, Refusal, Welcome};
+
+use crate::connection::News;
+use crate::limits::Limits;
+use crate::outbox::{Content, Outbox};
+use crate::parameters;
+use crate::requests;
+use crate::sources::{Rate, Source};
+use crate::timings;
+
+/// Files of parameters are looked at so often.
+const FILES_EVERY: Duration = Duration::from_millis(500);
+
+/// A request that is done with the next cycle waits for it so long.
+pub(crate) const PATIENCE: Duration = Duration::from_secs(2);
+
+/// Instances tell what they did within this time, or did not run meanwhile.
+const REPORTING: Duration = Duration::from_millis(500);
+
+/// Names one connection.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct ClientId(u64);
+
+/// What a server was told about itself.
+#[derive(Clone, Debug)]
+pub(crate) struct Rules {
+    pub(crate) target: &'static str,
+    pub(crate) token: Option<String>,
+    pub(crate) is_read_only: bool,
+    pub(crate) graph: &'static str,
+}
+
+/// The robot and its clients.
+pub(crate) struct Hub {
+    pub(crate) link: Link,
+    pub(crate) rules: Rules,
+    pub(crate) limits: Limits,
+    pub(crate) sources: Vec<Source>,
+    pub(crate) clients: BTreeMap<ClientId, Client>,
+    /// Which client replaced which output last: (instance, name).
+    pub(crate) injected: BTreeMap<(usize, &'static str), ClientId>,
+    pub(crate) waiting: Vec<Waiting>,
+    /// The last report of each instance.
+    reports: Vec<Option<Box<InstanceReport>>>,
+    files_looked_at: Instant,
+    next_client: u64,
+}
+
+/// One connection.
+pub(crate) struct Client {
+    pub(crate) outbox: Outbox,
+    pub(crate) news: News,
+    pub(crate) is_trusted: bool,
+    pub(crate) wrong_tokens: u32,
+    /// What it is subscribed to, by number.
+    pub(crate) subscriptions: BTreeMap<u32, Subscription>,
+    pub(crate) next_subscription: u32,
+    /// Requests that wait.
+    pub(crate) waiting: usize,
+}
+
+/// What a client is subscribed to.
+pub(crate) enum Subscription {
+    /// An output, by its place among the sources.
+    Output(usize),
+    Parameters {
+        path: String,
+        rate: Rate,
+    },
+}
+
+/// A request that is answered later.
+pub(crate) struct Waiting {
+    pub(crate) client: ClientId,
+    pub(crate) request: u32,
+    pub(crate) until: Instant,
+    pub(crate) kind: WaitingFor,
+}
+
+pub(crate) enum WaitingFor {
+    /// The next cycle of an output, by its place among the sources.
+    Read(usize),
+    Call(Box<dyn PendingAny>),
+    /// Instances that have not reported yet.
+    Timings(BTreeSet<usize>),
+}
+
+impl Hub {
+    pub(crate) fn new(mut link: Link, rules: Rules, limits: Limits) -> Self {
+        let mut sources = Vec::new();
+        for (index, instance) in link.instances.iter_mut().enumerate() {
+            let name = instance.description.name;
+            let taps = std::mem::take(&mut instance.taps).into_iter();
+            sources.extend(taps.map(|tap| Source::new(index, name, tap)));
+        }
+        Self {
+            reports: link.instances.iter().map(|_| None).collect(),
+            link,
+            rules,
+            limits,
+            sources,
+            clients: BTreeMap::new(),
+            injected: BTreeMap::new(),
+            waiting: Vec::new(),
+            files_looked_at: Instant::now(),
+            next_client: 0,
+        }
+    }
+
+    /// A client has come.
+    pub(crate) fn connect(&mut self) -> (ClientId, News) {
+        let id = ClientId(self.next_client);
+        self.next_client += 1;
+        let needs_token = self.rules.token.is_some() && !self.rules.is_read_only;
+        let news = News::default();
+        let mut client = Client {
+            outbox: Outbox::default(),
+            news: news.clone(),
+            is_trusted: !needs_token,
+            wrong_tokens: 0,
+            subscriptions: BTreeMap::new(),
+            next_subscription: 1,
+            waiting: 0,
+        };
+        let instances = self.link.instances.iter();
+        client.outbox.say(&Message::Welcome(Welcome {
+            version: protocol::VERSION,
+            robot: self.link.robot.to_owned(),
+            target: self.rules.target.to_owned(),
+            instances: instances
+                .map(|instance| instance.description.name.to_owned())
+                .collect(),
+            can_write: !self.rules.is_read_only,
+            needs_token,
+            time: self.link.clock.now().as_nanos(),
+        }));
+        self.clients.insert(id, client);
+        (id, news)
+    }
+
+    /// A client has gone: what it held is free again.
+    pub(crate) fn disconnect(&mut self, id: ClientId) {
+        let Some(client) = self.clients.remove(&id) else {
+            return;
+        };
+        for (number, subscription) in client.subscriptions {
+            self.end(id, number, &subscription);
+        }
+        for source in &mut self.sources {
+            source.stop_reading(id, None);
+        }
+        self.waiting.retain(|waiting| waiting.client != id);
+        let held: Vec<_> = self
+            .injected
+            .iter()
+            .filter(|(_, owner)| **owner == id)
+            .map(|(output, _)| *output)
+            .collect();
+        for (instance, output) in held {
+            self.injected.remove(&(instance, output));
+            if let Some(instance) = self.link.instances.get_mut(instance) {
+                // It was injected by this name, so it can be released by it.
+                let _ = instance.access.injector.release(output);
+            }
+        }
+    }
+
+    /// A client has said something; whether it may go on.
+    pub(crate) fn receive(&mut self, id: ClientId, text: &str) -> bool {
+        requests::receive(self, id, text)
+    }
+
+    /// A client has said something that is no text.
+    pub(crate) fn refuse_binary(&mut self, id: ClientId) {
+        let message = "requests are JSON texts, and this is a binary message".to_owned();
+        self.answer(id, None, Err(Failure::new(message)));
+    }
+
+    /// What to send to a client next.
+    pub(crate) fn next(&mut self, id: ClientId) -> Option<Frame> {
+        self.clients.get_mut(&id)?.outbox.next()
+    }
+
+    /// Whether a client takes what it asked for, and may ask for more.
+    pub(crate) fn may_ask(&self, id: ClientId) -> bool {
+        let client = self.clients.get(&id);
+        client.is_some_and(|client| client.outbox.may_ask(&self.limits))
+    }
+
+    pub(crate) fn answer(
+        &mut self,
+        id: ClientId,
+        request: Option<u32>,
+        result: Result<Good, Failure>,
+    ) {
+        if let Some(client) = self.clients.get_mut(&id) {
+            client.answer(request, result);
+        }
+    }
+
+    /// Looks at everything that may have changed; whether it has to be done again soon.
+    pub(crate) fn look(&mut self) -> bool {
+        for source in self.sources.iter_mut().filter(|source| source.is_open()) {
+            source.hand_out(&mut self.clients, &self.limits);
+        }
+        for (instance, report) in self.link.instances.iter().zip(&mut self.reports) {
+            if let Some(new) = instance.reports.take() {
+                *report = Some(new);
+            }
+        }
+        self.look_after_waiting();
+        self.look_at_files();
+        !self.waiting.is_empty() || self.sources.iter().any(Source::is_open)
+    }
+
+    /// The parameters are not what they were: tells everybody.
+    pub(crate) fn parameters_changed(&mut self) {
+        let version = self.link.parameters.version().0;
+        let time = self.link.clock.now().as_nanos();
+        let changed = Message::ParametersChanged(ParametersChanged { version });
+        for client in self.clients.values_mut() {
+            client.outbox.say(&changed);
+            client.news.notify_one();
+            for (number, subscription) in &mut client.subscriptions {
+                let Subscription::Parameters { path, rate } = subscription else {
+                    continue;
+                };
+                if rate.is_due(time) {
+                    let content = parameters::update(&self.link.parameters, path, time);
+                    client.outbox.update(*number, content, &self.limits);
+                }
+            }
+        }
+    }
+
+    /// Ends a subscription that its client does not have any more.
+    pub(crate) fn end(&mut self, id: ClientId, number: u32, subscription: &Subscription) {
+        if let Subscription::Output(source) = subscription
+            && let Some(source) = self.sources.get_mut(*source)
+        {
+            source.unsubscribe(id, number);
+        }
+    }
+
+    /// Asks all instances what they did.
+    pub(crate) fn ask_for_reports(&mut self) -> WaitingFor {
+        self.reports.iter_mut().for_each(|report| *report = None);
+        self.link
+            .instances
+            .iter()
+            .for_each(|instance| instance.reports.ask());
+        WaitingFor::Timings((0..self.link.instances.len()).collect())
+    }
+
+    /// When a request that waits has to be answered at the latest.
+    pub(crate) fn patience(kind: &WaitingFor) -> Instant {
+        let patience = match kind {
+            WaitingFor::Timings(_) => REPORTING,
+            WaitingFor::Read(_) | WaitingFor::Call(_) => PATIENCE,
+        };
+        Instant::now() + patience
+    }
+
+    fn look_after_waiting(&mut self) {
+        let now = Instant::now();
+        for mut waiting in std::mem::take(&mut self.waiting) {
+            let is_over = now >= waiting.until;
+            match self.outcome(&mut waiting, is_over) {
+                Some(result) => {
+                    if let Some(client) = self.clients.get_mut(&waiting.client) {
+                        client.waiting = client.waiting.saturating_sub(1);
+                        if let Some(result) = result {
+                            client.answer(Some(waiting.request), result);
+                        }
+                    }
+                }
+                None => self.waiting.push(waiting),
+            }
+        }
+    }
+
+    /// What a waiting request ends with: `None` as long as it waits, `Some(None)` if it was answered already.
+    fn outcome(
+        &mut self,
+        waiting: &mut Waiting,
+        is_over: bool,
+    ) -> Option<Option<Result<Good, Failure>>> {
+        match &mut waiting.kind {
+            WaitingFor::Read(source) => {
+                let source = self.sources.get_mut(*source)?;
+                if !source.is_reading(waiting.client, waiting.request) {
+                    return Some(None);
+                }
+                is_over.then(|| {
+                    source.stop_reading(waiting.client, Some(waiting.request));
+                    Some(Err(Failure::new(format!(
+                        "no cycle wrote `{}` within {} s",
+                        source.path,
+                        PATIENCE.as_secs()
+                    ))))
+                })
+            }
+            WaitingFor::Call(pending) => match pending.wait_any(Duration::ZERO) {
+                Some(Ok(response)) => Some(Some(
+                    serde_json::to_value(&*response)
+                        .map(Good::Called)
+                        .map_err(|error| Failure::new(format!("its response is no JSON: {error}"))),
+                )),
+                Some(Err(refused)) => Some(Some(Err(Failure::new(refused.to_string())))),
+                None => is_over.then(|| {
+                    let message =
+                        "the node did not answer in time; it may still do what it was asked";
+                    Some(Err(Failure::new(message.to_owned())))
+                }),
+            },
+            WaitingFor::Timings(missing) => {
+                missing.retain(|instance| self.reports.get(*instance).is_some_and(Option::is_none));
+                (missing.is_empty() || is_over).then(|| {
+                    let instances: Vec<&InstanceLink> = self.link.instances.iter().collect();
+                    let time = self.link.clock.now().as_nanos();
+                    Some(Ok(Good::Timings(timings::describe(
+                        time,
+                        &instances,
+                        &self.reports,
+                    ))))
+                })
+            }
+        }
+    }
+
+    fn look_at_files(&mut self) {
+        if self.files_looked_at.elapsed() < FILES_EVERY {
+            return;
+        }
+        self.files_looked_at = Instant::now();
+        // A mistake in a file is told where the robot was started; the robot goes on with the values it has.
+        match self.link.parameters.poll() {
+            Some(Ok(_)) => self.parameters_changed(),
+            Some(Err(error)) => eprintln!("parameters are as they were: {error}"),
+            None => {}
+        }
+    }
+}
+
+impl Client {
+    pub(crate) fn answer(&mut self, request: Option<u32>, result: Result<Good, Failure>) {
+        self.outbox.say(&Message::Answer(Answer {
+            id: request,
+            outcome: match result {
+                Ok(good) => Outcome::Ok(Box::new(good)),
+                Err(failure) => Outcome::Error(failure),
+            },
+        }));
+        self.news.notify_one();
+    }
+
+    /// The answer to `read`.
+    pub(crate) fn answer_read(
+        &mut self,
+        request: u32,
+        cycle: u64,
+        time: u64,
+        value: serde_json::Value,
+    ) {
+        let value = protocol::Value { cycle, time, value };
+        self.answer(Some(request), Ok(Good::Value(value)));
+    }
+
+    /// An update that was not made by a cycle.
+    pub(crate) fn update(&mut self, subscription: u32, content: Content, limits: &Limits) {
+        self.outbox.update(subscription, content, limits);
+        self.news.notify_one();
+    }
+}
+
+/// A failure that is only a message.
+pub(crate) trait Fail {
+    fn new(message: String) -> Self;
+    /// Of several things at once.
+    fn of(refusals: Vec<Refusal>) -> Self;
+}
+
+impl Fail for Failure {
+    fn new(message: String) -> Self {
+        Self {
+            message,
+            refusals: Vec::new(),
+        }
+    }
+
+    fn of(refusals: Vec<Refusal>) -> Self {
+        let told = refusals.iter().map(|refusal| match refusal.path.as_str() {
+            "" => refusal.message.clone(),
+            path => format!("`{path}`: {}", refusal.message),
+        });
+        Self {
+            message: told.collect::<Vec<_>>().join("; "),
+            refusals,
+        }
+    }
+}

@@ -1,0 +1,47 @@
+//! The server between a running robot and its clients: a WebSocket that says what docs/protocol.md describes, and the page.
+//!
+//! ```text
+//! instances --copies--> Source --text or bytes, once--> Outbox of each client --> Connection --> socket
+//!           <-- injections, calls, parameters -- requests <---------------------- Connection <-- socket
+//! ```
+//! | Module | Owns |
+//! |---|---|
+//! | [`server`] | the one thread, and where it listens |
+//! | `doorman`, `origin` | who may come in |
+//! | `connection`, `outbox` | one client: what it says, and what waits for it |
+//! | `hub`, `requests` | all clients and the robot |
+//! | `sources`, `catalogue`, `parameters`, `timings` | outputs, paths, parameters, durations |
+//! | [`limits`] | how much a client may ask |
+//!
+//! Invariant: instances never wait for it; it fetches what they leave, and they take what it leaves.
+
+#![warn(missing_docs)]
+
+pub mod limits;
+pub mod server;
+
+mod catalogue;
+mod connection;
+mod doorman;
+mod hub;
+mod nesting;
+mod origin;
+mod outbox;
+mod page;
+mod parameters;
+mod requests;
+mod sources;
+mod timings;
+
+use framework::Result;
+use framework::launch::{Listening, Served};
+use framework::link::Link;
+
+pub use limits::Limits;
+pub use server::Server;
+
+/// Serves the clients of a robot until the server is dropped: what `main` of a robot's program hands to the launcher.
+pub fn serve(link: Link, listening: Listening) -> Result<Option<Box<dyn Served>>> {
+    let server = Server::start(link, listening, Limits::default())?;
+    Ok(Some(Box::new(server)))
+}

@@ -1,0 +1,54 @@
+//! How much one client, or all of them, may ask of the server.
+
+use std::time::Duration;
+
+/// Every socket is hostile until it has shown otherwise: what it may take is counted.
+#[derive(Clone, Debug)]
+pub struct Limits {
+    /// Connections at the same time, of pages and files, too.
+    pub connections: usize,
+    /// Until a connection has become a WebSocket; what is none by then is closed.
+    pub head: Duration,
+    /// Until a client that says nothing, not even to a ping, counts as gone.
+    pub silence: Duration,
+    /// Until a client that takes nothing counts as gone.
+    pub taking: Duration,
+    /// Bytes of one message of a client: an image as JSON has a few million.
+    pub message_bytes: usize,
+    /// Lists and objects within each other in one message.
+    pub nesting: usize,
+    /// Bytes of a path.
+    pub path_bytes: usize,
+    /// Subscriptions of one client.
+    pub subscriptions: usize,
+    /// Requests of one client that wait for a cycle or a node.
+    pub waiting: usize,
+    /// Updates of one subscription that wait to be sent: at 83 Hz a third of a second.
+    pub queued_updates: usize,
+    /// Bytes of updates, and of answers, that wait to be sent to one client.
+    pub queued_bytes: usize,
+    /// Wrong tokens of one connection.
+    pub wrong_tokens: u32,
+    /// Entries in one answer to `paths`.
+    pub entries: usize,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self {
+            connections: 64,
+            head: Duration::from_secs(20),
+            silence: Duration::from_secs(60),
+            taking: Duration::from_secs(20),
+            message_bytes: 8 << 20,
+            nesting: 64,
+            path_bytes: 1024,
+            subscriptions: 1024,
+            waiting: 64,
+            queued_updates: 32,
+            queued_bytes: 16 << 20,
+            wrong_tokens: 5,
+            entries: 20_000,
+        }
+    }
+}

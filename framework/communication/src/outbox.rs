@@ -1,0 +1,218 @@
+//! What waits to be sent to one client: answers, which are never lost, and updates, of which the newest count.
+
+use std::collections::{BTreeMap, VecDeque};
+use std::sync::Arc;
+
+use axum::extract::ws::Message;
+use protocol::Lost;
+
+use crate::limits::Limits;
+
+/// Bytes of a value, made once however many clients want it.
+#[derive(Clone, Debug)]
+pub(crate) enum Content {
+    /// The rest of an update behind its subscription.
+    Text(Arc<String>),
+    /// The rest of a binary frame behind its subscription.
+    Bytes(Arc<Vec<u8>>),
+}
+
+/// What waits for one client.
+#[derive(Debug, Default)]
+pub(crate) struct Outbox {
+    answers: VecDeque<String>,
+    answer_bytes: usize,
+    /// Oldest first, by a number of their own.
+    updates: BTreeMap<u64, (u32, Content)>,
+    /// Numbers of each subscription's updates, oldest first.
+    of_subscription: BTreeMap<u32, VecDeque<u64>>,
+    update_bytes: usize,
+    next: u64,
+    /// Told with the next message.
+    lost: BTreeMap<Option<u32>, u64>,
+}
+
+impl Content {
+    fn len(&self) -> usize {
+        match self {
+            Self::Text(text) => text.len(),
+            Self::Bytes(bytes) => bytes.len(),
+        }
+    }
+}
+
+impl Outbox {
+    /// An answer, or anything else that must not be lost.
+    pub(crate) fn say(&mut self, message: &protocol::Message) {
+        // Messages consist of texts and numbers, which JSON can say.
+        let text = serde_json::to_string(message).unwrap_or_default();
+        self.answer_bytes += text.len();
+        self.answers.push_back(text);
+    }
+
+    /// Whether the client took so many of its answers that it may ask for more.
+    pub(crate) fn may_ask(&self, limits: &Limits) -> bool {
+        self.answer_bytes <= limits.queued_bytes
+    }
+
+    /// A value of a subscription; where there is no room, its oldest go.
+    pub(crate) fn update(&mut self, subscription: u32, content: Content, limits: &Limits) {
+        let waiting = |outbox: &Self| {
+            let numbers = outbox.of_subscription.get(&subscription);
+            numbers.map_or(0, VecDeque::len)
+        };
+        while waiting(self) > 0
+            && (waiting(self) >= limits.queued_updates
+                || self.update_bytes + content.len() > limits.queued_bytes)
+        {
+            self.lose_oldest(subscription);
+        }
+        // Its own are gone: now those that wait longest.
+        while self.update_bytes + content.len() > limits.queued_bytes
+            && let Some((_, (oldest, _))) = self.updates.first_key_value()
+        {
+            self.lose_oldest(*oldest);
+        }
+        self.update_bytes += content.len();
+        self.updates.insert(self.next, (subscription, content));
+        let numbers = self.of_subscription.entry(subscription).or_default();
+        numbers.push_back(self.next);
+        self.next += 1;
+    }
+
+    /// Something was lost before it came here.
+    pub(crate) fn count_lost(&mut self, subscription: Option<u32>, updates: u64) {
+        if updates > 0 {
+            *self.lost.entry(subscription).or_default() += updates;
+        }
+    }
+
+    /// There will be no more of it.
+    pub(crate) fn forget(&mut self, subscription: u32) {
+        for number in self
+            .of_subscription
+            .remove(&subscription)
+            .into_iter()
+            .flatten()
+        {
+            self.remove(number);
+        }
+        self.lost.remove(&Some(subscription));
+    }
+
+    /// What to send next: answers, what was lost, updates.
+    pub(crate) fn next(&mut self) -> Option<Message> {
+        if let Some(answer) = self.answers.pop_front() {
+            self.answer_bytes -= answer.len();
+            return Some(Message::text(answer));
+        }
+        if let Some((subscription, updates)) = self.lost.pop_first() {
+            let lost = protocol::Message::Lost(Lost {
+                subscription,
+                updates,
+            });
+            return serde_json::to_string(&lost).ok().map(Message::text);
+        }
+        let (_, (subscription, content)) = self.updates.pop_first()?;
+        self.update_bytes -= content.len();
+        if let Some(numbers) = self.of_subscription.get_mut(&subscription) {
+            numbers.pop_front();
+        }
+        Some(frame(subscription, &content))
+    }
+
+    fn lose_oldest(&mut self, subscription: u32) {
+        let numbers = self.of_subscription.get_mut(&subscription);
+        if let Some(number) = numbers.and_then(VecDeque::pop_front) {
+            self.remove(number);
+            self.count_lost(Some(subscription), 1);
+        }
+    }
+
+    fn remove(&mut self, number: u64) {
+        if let Some((_, content)) = self.updates.remove(&number) {
+            self.update_bytes -= content.len();
+        }
+    }
+}
+
+/// Puts the subscription in front of what is the same for all clients.
+fn frame(subscription: u32, content: &Content) -> Message {
+    match content {
+        Content::Text(rest) => Message::text(format!(
+            r#"{{"update":{{"subscription":{subscription},{rest}"#
+        )),
+        Content::Bytes(rest) => {
+            let mut bytes = Vec::with_capacity(protocol::BINARY_MAGIC.len() + 4 + rest.len());
+            bytes.extend_from_slice(&protocol::BINARY_MAGIC);
+            bytes.extend_from_slice(&subscription.to_le_bytes());
+            bytes.extend_from_slice(rest);
+            Message::binary(bytes)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn text(length: usize) -> Content {
+        Content::Text(Arc::new("x".repeat(length)))
+    }
+
+    fn limits() -> Limits {
+        Limits {
+            queued_updates: 3,
+            queued_bytes: 100,
+            ..Limits::default()
+        }
+    }
+
+    fn sent(outbox: &mut Outbox) -> Vec<String> {
+        std::iter::from_fn(|| outbox.next())
+            .map(|message| message.into_text().expect("text").to_string())
+            .collect()
+    }
+
+    #[test]
+    fn of_one_subscription_the_newest_are_kept_and_the_others_told() {
+        let mut outbox = Outbox::default();
+        for length in 1..=5 {
+            outbox.update(7, text(length), &limits());
+        }
+        outbox.update(8, text(1), &limits());
+        let expected = [
+            r#"{"lost":{"subscription":7,"updates":2}}"#,
+            r#"{"update":{"subscription":7,xxx"#,
+            r#"{"update":{"subscription":7,xxxx"#,
+            r#"{"update":{"subscription":7,xxxxx"#,
+            r#"{"update":{"subscription":8,x"#,
+        ];
+        assert_eq!(sent(&mut outbox), expected);
+        assert_eq!(outbox.update_bytes, 0);
+    }
+
+    #[test]
+    fn bytes_are_limited_and_the_large_pay_first() {
+        let mut outbox = Outbox::default();
+        outbox.update(1, text(10), &limits());
+        outbox.update(2, text(80), &limits());
+        outbox.update(2, text(80), &limits());
+        assert_eq!(outbox.updates.len(), 2);
+        outbox.update(3, text(100), &limits());
+        let lost: Vec<_> = outbox.lost.clone().into_iter().collect();
+        assert_eq!(lost, [(Some(1), 1), (Some(2), 2)]);
+        assert_eq!(outbox.update_bytes, 100);
+    }
+
+    #[test]
+    fn what_is_forgotten_is_neither_sent_nor_told() {
+        let mut outbox = Outbox::default();
+        for _ in 0..5 {
+            outbox.update(1, text(1), &limits());
+        }
+        outbox.forget(1);
+        assert_eq!(sent(&mut outbox), Vec::<String>::new());
+        assert_eq!(outbox.update_bytes, 0);
+    }
+}

@@ -1,0 +1,86 @@
+//! Parameters in the words of the protocol.
+
+use std::sync::Arc;
+
+use framework::parameters::{self, Live, Refusals};
+use protocol::{Failure, Leaf, Provenance, Reading, Refusal, Stored, Unstored, UnstoredChange};
+
+use crate::hub::Fail;
+use crate::outbox::Content;
+
+/// The value of a subscription, in which everything lies that a path names.
+pub(crate) fn update(live: &Live, path: &str, time: u64) -> Content {
+    let (version, value) = match live.read(path) {
+        Ok(reading) => (reading.version.0, reading.value),
+        // Its enum or option has changed: the part is not there now.
+        Err(_) => (live.version().0, serde_json::Value::Null),
+    };
+    Content::Text(Arc::new(format!(
+        r#""cycle":{version},"time":{time},"value":{value}}}}}"#
+    )))
+}
+
+/// What lies at a path, and where it comes from.
+pub(crate) fn read(live: &Live, path: &str) -> Result<Reading, Failure> {
+    let reading = live
+        .read(path)
+        .map_err(|refusal| refusals(refusal.into()))?;
+    let leaves = reading.leaves.into_iter().map(|leaf| Leaf {
+        path: leaf.path,
+        provenance: provenance(leaf.provenance),
+    });
+    Ok(Reading {
+        value: reading.value,
+        version: reading.version.0,
+        leaves: leaves.collect(),
+    })
+}
+
+/// What no file has, and which files could.
+pub(crate) fn unstored(live: &Live) -> Unstored {
+    let changes = live.changed_not_stored().into_iter();
+    Unstored {
+        version: live.version().0,
+        changes: changes
+            .map(|change| UnstoredChange {
+                path: change.path,
+                value: change.value,
+                stored: change.stored,
+                version: change.version.0,
+            })
+            .collect(),
+        layers: live.layers(),
+        creation_only: live.creation_only(),
+    }
+}
+
+pub(crate) fn store(live: &Live, layer: &str, paths: &[String]) -> Result<Stored, Failure> {
+    let stored = live.store(layer, paths).map_err(refusals)?;
+    Ok(Stored {
+        file: stored.file.display().to_string(),
+        paths: stored.paths,
+        warnings: stored.warnings,
+    })
+}
+
+/// Everything that is wrong with a change.
+pub(crate) fn refusals(refusals: Refusals) -> Failure {
+    let all = refusals.0.into_iter().map(|refusal| Refusal {
+        path: refusal.path,
+        message: refusal.message,
+    });
+    Failure::of(all.collect())
+}
+
+fn provenance(provenance: parameters::Provenance) -> Provenance {
+    match provenance {
+        parameters::Provenance::File { file, line } => Provenance::File {
+            file,
+            line: line as u64,
+        },
+        parameters::Provenance::Environment { variable } => Provenance::Environment { variable },
+        parameters::Provenance::Setting { setting } => Provenance::Setting { setting },
+        parameters::Provenance::Live { version } => Provenance::Live { version: version.0 },
+        parameters::Provenance::Nowhere => Provenance::Nowhere,
+    }
+}

@@ -1,0 +1,454 @@
+//! What clients ask, and what becomes of it.
+
+use std::time::{Duration, Instant};
+
+use framework::OutputKind;
+use protocol::{Ask, Change, Encoding, Failure, Good, Request, Subscribed, Value};
+use serde_json::Value as Json;
+
+use crate::catalogue;
+use crate::hub::{ClientId, Fail, Hub, Subscription, Waiting, WaitingFor};
+use crate::nesting;
+use crate::parameters;
+use crate::sources::{Rate, resolve};
+
+/// A call waits so long for its node unless the client says otherwise.
+const CALL: Duration = Duration::from_secs(5);
+
+/// And at most so long.
+const LONGEST_CALL: Duration = Duration::from_secs(600);
+
+/// `None`: the answer comes later.
+type Answered = Result<Option<Good>, Failure>;
+
+/// Reads and answers one message; whether the client may go on.
+pub(crate) fn receive(hub: &mut Hub, client: ClientId, text: &str) -> bool {
+    match read(hub, text) {
+        Ok(request) => {
+            let id = Some(request.id);
+            match answer(hub, client, request) {
+                Ok(Some(good)) => hub.answer(client, id, Ok(good)),
+                Ok(None) => {}
+                Err(failure) => hub.answer(client, id, Err(failure)),
+            }
+        }
+        Err((id, message)) => hub.answer(client, id, Err(Failure::new(message))),
+    }
+    let wrong_tokens = hub.clients.get(&client).map_or(0, |it| it.wrong_tokens);
+    wrong_tokens <= hub.limits.wrong_tokens
+}
+
+/// The request, or why it is none, with its number where that can be read.
+fn read(hub: &Hub, text: &str) -> Result<Request, (Option<u32>, String)> {
+    let depth = nesting::depth(text);
+    if depth > hub.limits.nesting {
+        let most = hub.limits.nesting;
+        return Err((
+            None,
+            format!("lists and objects nest {depth} deep, {most} are allowed"),
+        ));
+    }
+    serde_json::from_str(text).map_err(|error| {
+        #[derive(serde::Deserialize)]
+        struct Numbered {
+            id: u32,
+        }
+        let numbered = serde_json::from_str::<Numbered>(text);
+        (
+            numbered.ok().map(|numbered| numbered.id),
+            format!("no request: {error}"),
+        )
+    })
+}
+
+fn answer(hub: &mut Hub, client: ClientId, request: Request) -> Answered {
+    let id = request.id;
+    if writes(&request.ask) {
+        hub.check_may_write(client)?;
+    }
+    match request.ask {
+        Ask::Authenticate { token } => hub.authenticate(client, &token),
+        Ask::Paths { below, depth } => hub.paths(&below, depth),
+        Ask::Schema { path } => hub.schema(&path),
+        Ask::Read { path } => hub.read(client, id, &path),
+        Ask::Subscribe {
+            path,
+            rate,
+            encoding,
+        } => hub.subscribe(client, &path, rate, encoding),
+        Ask::Unsubscribe { subscription } => hub.unsubscribe(client, subscription),
+        Ask::Write { changes } => hub.write(changes),
+        Ask::Parameters { path } => {
+            hub.check_path(&path)?;
+            parameters::read(&hub.link.parameters, &path).map(|it| Some(Good::Parameters(it)))
+        }
+        Ask::Unstored {} => Ok(Some(Good::Unstored(parameters::unstored(
+            &hub.link.parameters,
+        )))),
+        Ask::Store { layer, paths } => {
+            for path in &paths {
+                hub.check_path(path)?;
+            }
+            let stored = parameters::store(&hub.link.parameters, &layer, &paths)?;
+            Ok(Some(Good::Stored(stored)))
+        }
+        Ask::Reload {} => hub.reload(),
+        Ask::Inject { path, value } => hub.inject(client, &path, &value),
+        Ask::Release { path } => hub.release(&path),
+        Ask::Call {
+            path,
+            argument,
+            timeout,
+        } => hub.call(client, id, &path, &argument, timeout),
+        Ask::Timings {} => {
+            let reports = hub.ask_for_reports();
+            hub.wait(client, id, reports, None)
+        }
+        Ask::Graph {} => hub.graph(),
+        Ask::Logs { .. } | Ask::SetLogLevel { .. } => {
+            Err(Failure::new("this robot keeps no log messages".to_owned()))
+        }
+        Ask::Trace { .. } => Err(Failure::new("this robot keeps no trace".to_owned())),
+    }
+}
+
+/// Whether only those may ask it who may change the robot.
+fn writes(ask: &Ask) -> bool {
+    match ask {
+        Ask::Write { .. }
+        | Ask::Store { .. }
+        | Ask::Reload {}
+        | Ask::Inject { .. }
+        | Ask::Release { .. }
+        | Ask::Call { .. }
+        | Ask::SetLogLevel { .. } => true,
+        Ask::Authenticate { .. }
+        | Ask::Paths { .. }
+        | Ask::Schema { .. }
+        | Ask::Read { .. }
+        | Ask::Subscribe { .. }
+        | Ask::Unsubscribe { .. }
+        | Ask::Parameters { .. }
+        | Ask::Unstored {}
+        | Ask::Logs { .. }
+        | Ask::Timings {}
+        | Ask::Trace { .. }
+        | Ask::Graph {} => false,
+    }
+}
+
+impl Hub {
+    fn check_may_write(&self, client: ClientId) -> Result<(), Failure> {
+        if self.rules.is_read_only {
+            let message = "this robot was started to be read only: start it without `--read-only`, and with `--token` where it listens to other machines";
+            return Err(Failure::new(message.to_owned()));
+        }
+        let is_trusted = self.clients.get(&client).is_some_and(|it| it.is_trusted);
+        if is_trusted {
+            Ok(())
+        } else {
+            let message = "this needs the robot's token: `authenticate` first";
+            Err(Failure::new(message.to_owned()))
+        }
+    }
+
+    fn check_path(&self, path: &str) -> Result<(), Failure> {
+        let most = self.limits.path_bytes;
+        if path.len() > most {
+            let length = path.len();
+            return Err(Failure::new(format!(
+                "a path of {length} bytes, {most} are allowed"
+            )));
+        }
+        Ok(())
+    }
+
+    fn authenticate(&mut self, client: ClientId, token: &str) -> Answered {
+        let is_right = self
+            .rules
+            .token
+            .as_ref()
+            .is_none_or(|expected| is_same(expected, token));
+        if let Some(client) = self.clients.get_mut(&client) {
+            client.is_trusted |= is_right;
+            client.wrong_tokens += u32::from(!is_right);
+        }
+        if is_right {
+            Ok(Some(Good::Done {}))
+        } else {
+            Err(Failure::new("this is not the robot's token".to_owned()))
+        }
+    }
+
+    fn paths(&self, below: &str, depth: Option<u8>) -> Answered {
+        self.check_path(below)?;
+        let depth = usize::from(depth.unwrap_or(1));
+        catalogue::list(self, below, depth)
+            .map(|entries| Some(Good::Paths(entries)))
+            .map_err(Failure::new)
+    }
+
+    fn schema(&self, path: &str) -> Answered {
+        self.check_path(path)?;
+        let shape = match below_parameters(path) {
+            Some(path) => resolve(self.link.parameters.shape(), path),
+            None => {
+                let (source, below) = self.find(path)?;
+                resolve(&self.sources[source].shape, below)
+            }
+        };
+        let part = shape.map_err(|message| Failure::new(format!("`{path}`: {message}")))?;
+        Ok(Some(Good::Schema(part.shape().json_schema())))
+    }
+
+    fn read(&mut self, client: ClientId, request: u32, path: &str) -> Answered {
+        self.check_path(path)?;
+        if let Some(path) = below_parameters(path) {
+            let reading = parameters::read(&self.link.parameters, path)?;
+            return Ok(Some(Good::Value(Value {
+                cycle: reading.version,
+                time: self.link.clock.now().as_nanos(),
+                value: reading.value,
+            })));
+        }
+        let (source, below) = self.find(path)?;
+        let part = resolve(&self.sources[source].shape, below)
+            .map_err(|message| Failure::new(format!("`{path}`: {message}")))?;
+        let answered = self.wait(client, request, WaitingFor::Read(source), None)?;
+        self.sources[source].read(part, client, request);
+        Ok(answered)
+    }
+
+    fn subscribe(
+        &mut self,
+        id: ClientId,
+        path: &str,
+        rate: Option<f64>,
+        encoding: Encoding,
+    ) -> Answered {
+        self.check_path(path)?;
+        if rate.is_some_and(|rate| !(rate.is_finite() && rate > 0.0)) {
+            let message = "a rate is a number of updates per second greater than 0";
+            return Err(Failure::new(message.to_owned()));
+        }
+        if matches!(encoding, Encoding::Jpeg { .. }) {
+            let message = format!("`{path}` is no image that this robot can compress");
+            return Err(Failure::new(message));
+        }
+        let most = self.limits.subscriptions;
+        let client = self.clients.get_mut(&id).ok_or_else(gone)?;
+        if client.subscriptions.len() >= most {
+            return Err(Failure::new(format!(
+                "this client has {most} subscriptions, which is the most: unsubscribe some"
+            )));
+        }
+        let number = client.next_subscription;
+        let subscription;
+        let mut layout = None;
+        let mut first = None;
+        if let Some(path) = below_parameters(path) {
+            if encoding != Encoding::Json {
+                let message = "parameters are told as JSON alone";
+                return Err(Failure::new(message.to_owned()));
+            }
+            parameters::read(&self.link.parameters, path)?;
+            let time = self.link.clock.now().as_nanos();
+            let mut rate = Rate::new(rate);
+            rate.is_due(time);
+            first = Some(parameters::update(&self.link.parameters, path, time));
+            subscription = Subscription::Parameters {
+                path: path.to_owned(),
+                rate,
+            };
+        } else {
+            let (source, below) = self.find(path)?;
+            let source_of = &mut self.sources[source];
+            let part = resolve(&source_of.shape, below)
+                .map_err(|message| Failure::new(format!("`{path}`: {message}")))?;
+            if encoding == Encoding::Binary {
+                layout = serde_json::to_value(part.shape().layout()).ok();
+            }
+            source_of.subscribe(part, encoding, id, number, Rate::new(rate));
+            subscription = Subscription::Output(source);
+        }
+        let client = self.clients.get_mut(&id).ok_or_else(gone)?;
+        client.next_subscription = client.next_subscription.wrapping_add(1);
+        client.subscriptions.insert(number, subscription);
+        if let Some(content) = first {
+            client.update(number, content, &self.limits);
+        }
+        Ok(Some(Good::Subscribed(Subscribed {
+            subscription: number,
+            encoding,
+            layout,
+        })))
+    }
+
+    fn unsubscribe(&mut self, id: ClientId, number: u32) -> Answered {
+        let client = self.clients.get_mut(&id).ok_or_else(gone)?;
+        let Some(subscription) = client.subscriptions.remove(&number) else {
+            return Err(Failure::new(format!("there is no subscription {number}")));
+        };
+        client.outbox.forget(number);
+        self.end(id, number, &subscription);
+        Ok(Some(Good::Done {}))
+    }
+
+    fn write(&mut self, changes: Vec<Change>) -> Answered {
+        for change in &changes {
+            self.check_path(&change.path)?;
+        }
+        let changes: Vec<_> = changes
+            .into_iter()
+            .map(|change| (change.path, change.value))
+            .collect();
+        let version = self
+            .link
+            .parameters
+            .change(&changes)
+            .map_err(parameters::refusals)?;
+        self.parameters_changed();
+        Ok(Some(Good::Written { version: version.0 }))
+    }
+
+    fn reload(&mut self) -> Answered {
+        let version = self
+            .link
+            .parameters
+            .reload()
+            .map_err(|error| Failure::new(error.to_string()))?;
+        self.parameters_changed();
+        Ok(Some(Good::Written { version: version.0 }))
+    }
+
+    fn inject(&mut self, client: ClientId, path: &str, value: &Json) -> Answered {
+        let (instance, output) = self.main_output(path)?;
+        if let Some(link) = self.link.instances.get_mut(instance) {
+            let mut value = <dyn erased_serde::Deserializer<'_>>::erase(value);
+            link.access
+                .injector
+                .inject(output, &mut value)
+                .map_err(|error| Failure::new(error.to_string()))?;
+            self.injected.insert((instance, output), client);
+        }
+        Ok(Some(Good::Done {}))
+    }
+
+    fn release(&mut self, path: &str) -> Answered {
+        let (instance, output) = self.main_output(path)?;
+        if self.injected.remove(&(instance, output)).is_none() {
+            return Err(Failure::new(format!("nobody has replaced `{path}`")));
+        }
+        if let Some(link) = self.link.instances.get_mut(instance) {
+            link.access
+                .injector
+                .release(output)
+                .map_err(|error| Failure::new(error.to_string()))?;
+        }
+        Ok(Some(Good::Done {}))
+    }
+
+    fn call(
+        &mut self,
+        client: ClientId,
+        request: u32,
+        path: &str,
+        argument: &Json,
+        timeout: Option<f64>,
+    ) -> Answered {
+        self.check_path(path)?;
+        let timeout = match timeout {
+            None => CALL,
+            Some(seconds) => Duration::try_from_secs_f64(seconds)
+                .map_err(|_| Failure::new("a time-out is a number of seconds".to_owned()))?
+                .min(LONGEST_CALL),
+        };
+        if path == catalogue::REARM {
+            self.link.rearm.request();
+            return Ok(Some(Good::Called(Json::Null)));
+        }
+        let procedure = catalogue::procedure(self, path).map_err(Failure::new)?;
+        let mut argument = <dyn erased_serde::Deserializer<'_>>::erase(argument);
+        let pending = procedure
+            .call_any(&mut argument)
+            .map_err(|error| Failure::new(format!("`{path}`: {error}")))?;
+        self.wait(client, request, WaitingFor::Call(pending), Some(timeout))
+    }
+
+    fn graph(&self) -> Answered {
+        serde_json::from_str(self.rules.graph)
+            .map(|graph| Some(Good::Graph(graph)))
+            .map_err(|_| Failure::new("this robot was built without its graph".to_owned()))
+    }
+
+    /// The answer comes later.
+    fn wait(
+        &mut self,
+        id: ClientId,
+        request: u32,
+        kind: WaitingFor,
+        timeout: Option<Duration>,
+    ) -> Answered {
+        let most = self.limits.waiting;
+        let client = self.clients.get_mut(&id).ok_or_else(gone)?;
+        if client.waiting >= most {
+            return Err(Failure::new(format!(
+                "{most} requests of this client wait already, which is the most"
+            )));
+        }
+        client.waiting += 1;
+        let until = timeout.map_or_else(|| Self::patience(&kind), |it| Instant::now() + it);
+        self.waiting.push(Waiting {
+            client: id,
+            request,
+            until,
+            kind,
+        });
+        Ok(None)
+    }
+
+    /// The output that a path names, and what follows behind its name.
+    fn find<'path>(&self, path: &'path str) -> Result<(usize, &'path str), Failure> {
+        catalogue::find(&self.sources, path).ok_or_else(|| {
+            Failure::new(format!(
+                "no `{path}`: expected `parameters…`, `INSTANCE.main_outputs.NAME…` or `INSTANCE.additional_outputs.NAME…`; `paths` lists them"
+            ))
+        })
+    }
+
+    /// A whole main output, as instance and name.
+    fn main_output(&self, path: &str) -> Result<(usize, &'static str), Failure> {
+        self.check_path(path)?;
+        let (source, below) = self.find(path)?;
+        let source = &self.sources[source];
+        if !below.is_empty() || source.kind() != OutputKind::Main {
+            return Err(Failure::new(format!(
+                "`{path}` is no whole main output, and only such can be replaced"
+            )));
+        }
+        Ok((source.instance, source.name()))
+    }
+}
+
+/// The path without `parameters` in front, if it leads there.
+fn below_parameters(path: &str) -> Option<&str> {
+    let rest = path.strip_prefix(catalogue::PARAMETERS)?;
+    match rest {
+        "" => Some(""),
+        _ => rest.strip_prefix('.'),
+    }
+}
+
+/// In the same time wherever they differ, so that nobody finds out letter by letter.
+fn is_same(expected: &str, given: &str) -> bool {
+    let differences = expected
+        .bytes()
+        .zip(given.bytes())
+        .fold(0, |differences, (one, other)| differences | (one ^ other));
+    differences == 0 && expected.len() == given.len()
+}
+
+/// Only while it leaves.
+fn gone() -> Failure {
+    Failure::new("the client is gone".to_owned())
+}

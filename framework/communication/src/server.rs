@@ -1,0 +1,187 @@
+//! The server's thread: it listens, hands out the page, and lets clients talk to the robot.
+
+use std::io;
+use std::net::{Ipv4Addr, SocketAddr, TcpListener, ToSocketAddrs};
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::thread::{self, JoinHandle};
+use std::time::Duration;
+
+use axum::Router;
+use axum::extract::ws::WebSocketUpgrade;
+use axum::extract::{ConnectInfo, State};
+use axum::http::{HeaderMap, StatusCode, Uri};
+use axum::response::{IntoResponse, Response};
+use axum::routing::get;
+use framework::launch::{Listening, Served};
+use framework::link::Link;
+use framework::{Error, Result};
+use tokio::sync::{Notify, oneshot};
+use tokio::time::{sleep, timeout};
+
+use crate::connection;
+use crate::doorman::{Doorman, Stays};
+use crate::hub::{Hub, Rules};
+use crate::limits::Limits;
+use crate::origin;
+use crate::page;
+
+/// How often copies of outputs are fetched while somebody wants any.
+const LOOK_EVERY: Duration = Duration::from_millis(4);
+
+/// How long nothing is looked at while nobody wants anything.
+const REST: Duration = Duration::from_millis(250);
+
+/// The communication server of one robot. Dropping it disconnects everybody.
+pub struct Server {
+    address: SocketAddr,
+    end: Option<oneshot::Sender<()>>,
+    thread: Option<JoinHandle<()>>,
+}
+
+/// What everything on the server's thread has in common.
+pub(crate) struct Shared {
+    hub: Mutex<Hub>,
+    pub(crate) limits: Limits,
+    /// Something is to be looked at.
+    pub(crate) work: Notify,
+    address: SocketAddr,
+    web_root: Option<PathBuf>,
+}
+
+impl Server {
+    /// Listens and serves from now on.
+    pub fn start(link: Link, listening: Listening, limits: Limits) -> Result<Self> {
+        let listener = listen(listening.address.as_deref())?;
+        listener.set_nonblocking(true)?;
+        let address = listener.local_addr()?;
+        let runtime = tokio::runtime::Builder::new_current_thread()
+            .enable_all()
+            .build()?;
+        let rules = Rules {
+            target: listening.target,
+            // Whoever reaches the robot over the network may look; to change it takes a token.
+            is_read_only: listening.is_read_only
+                || (!address.ip().is_loopback() && listening.token.is_none()),
+            token: listening.token,
+            graph: listening.graph,
+        };
+        let shared = Arc::new(Shared {
+            hub: Mutex::new(Hub::new(link, rules, limits.clone())),
+            limits,
+            work: Notify::new(),
+            address,
+            web_root: listening.web_root,
+        });
+        let (end, is_over) = oneshot::channel();
+        let thread = thread::Builder::new()
+            .name("communication".to_owned())
+            .spawn(move || {
+                runtime.block_on(run(listener, shared, is_over));
+                // Whatever still talks is cut off here.
+                runtime.shutdown_background();
+            })?;
+        Ok(Self {
+            address,
+            end: Some(end),
+            thread: Some(thread),
+        })
+    }
+}
+
+impl Served for Server {
+    fn address(&self) -> SocketAddr {
+        self.address
+    }
+}
+
+impl Drop for Server {
+    fn drop(&mut self) {
+        drop(self.end.take());
+        if let Some(thread) = self.thread.take() {
+            // Its panic was told already; the robot goes on without clients.
+            let _ = thread.join();
+        }
+    }
+}
+
+impl Shared {
+    /// Only this thread comes here, and never while it waits for something.
+    pub(crate) fn hub(&self) -> MutexGuard<'_, Hub> {
+        self.hub.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// By default this machine alone can connect, and a port that is taken is replaced by a free one.
+fn listen(address: Option<&str>) -> Result<TcpListener> {
+    let Some(address) = address else {
+        return TcpListener::bind((Ipv4Addr::LOCALHOST, protocol::PORT))
+            .or_else(|_| TcpListener::bind((Ipv4Addr::LOCALHOST, 0)))
+            .map_err(Error::from);
+    };
+    let failed = |error: io::Error| {
+        Error::from(error).context(format!(
+            "--listen {address}: expected an address of this machine with a free port, as 0.0.0.0:{}, or off",
+            protocol::PORT
+        ))
+    };
+    let addresses: Vec<_> = address.to_socket_addrs().map_err(failed)?.collect();
+    TcpListener::bind(&addresses[..]).map_err(failed)
+}
+
+async fn run(listener: TcpListener, shared: Arc<Shared>, is_over: oneshot::Receiver<()>) {
+    let Ok(listener) = tokio::net::TcpListener::from_std(listener) else {
+        return;
+    };
+    let doorman = Doorman::new(listener, &shared.limits);
+    let routes = Router::new()
+        .route(protocol::SOCKET, get(socket))
+        .fallback(get(file))
+        .with_state(shared.clone())
+        .into_make_service_with_connect_info::<Stays>();
+    tokio::select! {
+        _ = axum::serve(doorman, routes) => {}
+        () = look(&shared) => {}
+        // The sender is dropped with the server.
+        _ = is_over => {}
+    }
+}
+
+/// Fetches what instances leave, as long as the server lives.
+async fn look(shared: &Shared) {
+    loop {
+        let is_busy = shared.hub().look();
+        if is_busy {
+            sleep(LOOK_EVERY).await;
+        } else {
+            // Over or not, there is something to look at.
+            let _ = timeout(REST, shared.work.notified()).await;
+        }
+    }
+}
+
+async fn socket(
+    State(shared): State<Arc<Shared>>,
+    ConnectInfo(stays): ConnectInfo<Stays>,
+    headers: HeaderMap,
+    upgrade: WebSocketUpgrade,
+) -> Response {
+    if let Err(message) = origin::check(&headers, shared.address) {
+        return (StatusCode::FORBIDDEN, message).into_response();
+    }
+    let bytes = shared.limits.message_bytes;
+    upgrade
+        .max_message_size(bytes)
+        .max_frame_size(bytes)
+        .on_upgrade(move |socket| {
+            stays.stay();
+            connection::talk(socket, shared)
+        })
+}
+
+async fn file(State(shared): State<Arc<Shared>>, headers: HeaderMap, uri: Uri) -> Response {
+    if let Err(message) = origin::check(&headers, shared.address) {
+        return (StatusCode::FORBIDDEN, message).into_response();
+    }
+    page::file(uri.path(), shared.web_root.as_deref())
+}

@@ -1,0 +1,310 @@
+//! One output of one instance, and everything that clients want of it.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use framework::reflect::{Path, Reflect, ResolvedPath, Shape, binary};
+use framework::{OutputKind, Tap, Tapped};
+use protocol::Encoding;
+
+use crate::hub::{Client, ClientId};
+use crate::limits::Limits;
+use crate::outbox::Content;
+
+/// An output with its tap.
+pub(crate) struct Source {
+    /// `VisionTop.main_outputs.balls`.
+    pub(crate) path: String,
+    pub(crate) instance: usize,
+    pub(crate) shape: Shape,
+    tap: Tap,
+    streams: Vec<Stream>,
+    /// Copies that came too late, so far.
+    dropped: u64,
+}
+
+/// One part of an output in one encoding.
+struct Stream {
+    part: ResolvedPath,
+    encoding: Encoding,
+    subscribers: Vec<Subscriber>,
+    readers: Vec<Reader>,
+}
+
+/// Who wants it again and again.
+struct Subscriber {
+    client: ClientId,
+    subscription: u32,
+    rate: Rate,
+}
+
+/// Who wants it once.
+struct Reader {
+    client: ClientId,
+    request: u32,
+}
+
+/// The greatest rate of a subscription, by the timestamps of cycles.
+pub(crate) struct Rate {
+    /// Nanoseconds.
+    period: u64,
+    due: u64,
+}
+
+impl Rate {
+    /// At most so many per second; every cycle without.
+    pub(crate) fn new(per_second: Option<f64>) -> Self {
+        let period = per_second.map_or(0.0, |rate| 1e9 / rate);
+        Self {
+            // Saturates: slower than once in centuries is never.
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "it saturates"
+            )]
+            period: period as u64,
+            due: 0,
+        }
+    }
+
+    /// Whether a value of this time is to be sent.
+    pub(crate) fn is_due(&mut self, time: u64) -> bool {
+        if time < self.due {
+            return false;
+        }
+        // In step where it can be, so that 83 Hz at a rate of 40 gives 40 and not 27.
+        let next = self.due.saturating_add(self.period);
+        self.due = if next > time {
+            next
+        } else {
+            time.saturating_add(self.period)
+        };
+        true
+    }
+}
+
+impl Source {
+    pub(crate) fn new(instance: usize, instance_name: &str, tap: Tap) -> Self {
+        let part = match tap.kind() {
+            OutputKind::Main => "main_outputs",
+            OutputKind::Additional => "additional_outputs",
+        };
+        Self {
+            path: format!("{instance_name}.{part}.{}", tap.name()),
+            instance,
+            shape: tap.shape(),
+            tap,
+            streams: Vec::new(),
+            dropped: 0,
+        }
+    }
+
+    pub(crate) fn kind(&self) -> OutputKind {
+        self.tap.kind()
+    }
+
+    pub(crate) fn name(&self) -> &'static str {
+        self.tap.name()
+    }
+
+    pub(crate) fn is_open(&self) -> bool {
+        self.tap.is_open()
+    }
+
+    /// From now on the client gets the part.
+    pub(crate) fn subscribe(
+        &mut self,
+        part: ResolvedPath,
+        encoding: Encoding,
+        client: ClientId,
+        subscription: u32,
+        rate: Rate,
+    ) {
+        self.stream(part, encoding).subscribers.push(Subscriber {
+            client,
+            subscription,
+            rate,
+        });
+        self.tap.open();
+    }
+
+    pub(crate) fn unsubscribe(&mut self, client: ClientId, subscription: u32) {
+        for stream in &mut self.streams {
+            let before = stream.subscribers.len();
+            stream.subscribers.retain(|subscriber| {
+                (subscriber.client, subscriber.subscription) != (client, subscription)
+            });
+            (stream.subscribers.len()..before).for_each(|_| self.tap.close());
+        }
+        self.forget_unused();
+    }
+
+    /// The client gets the part of the next cycle that has one.
+    pub(crate) fn read(&mut self, part: ResolvedPath, client: ClientId, request: u32) {
+        let stream = self.stream(part, Encoding::Json);
+        stream.readers.push(Reader { client, request });
+        self.tap.open();
+    }
+
+    /// Whether the client waits for this one still.
+    pub(crate) fn is_reading(&self, client: ClientId, request: u32) -> bool {
+        let mut readers = self.streams.iter().flat_map(|stream| &stream.readers);
+        readers.any(|reader| (reader.client, reader.request) == (client, request))
+    }
+
+    /// The client does not wait for this one any more; without a number, for none.
+    pub(crate) fn stop_reading(&mut self, client: ClientId, request: Option<u32>) {
+        for stream in &mut self.streams {
+            let before = stream.readers.len();
+            stream.readers.retain(|reader| {
+                reader.client != client || request.is_some_and(|it| it != reader.request)
+            });
+            (stream.readers.len()..before).for_each(|_| self.tap.close());
+        }
+        self.forget_unused();
+    }
+
+    /// Hands out every copy that the instance left.
+    pub(crate) fn hand_out(&mut self, clients: &mut BTreeMap<ClientId, Client>, limits: &Limits) {
+        let Self { tap, streams, .. } = self;
+        let mut read = 0;
+        while tap.take(|tapped| {
+            for stream in streams.iter_mut() {
+                read += stream.hand_out(tapped, clients, limits);
+            }
+        }) {}
+        (0..read).for_each(|_| tap.close());
+        let lost = tap.dropped() - self.dropped;
+        self.dropped += lost;
+        if lost > 0 {
+            for subscriber in streams.iter().flat_map(|stream| &stream.subscribers) {
+                if let Some(client) = clients.get_mut(&subscriber.client) {
+                    client
+                        .outbox
+                        .count_lost(Some(subscriber.subscription), lost);
+                }
+            }
+        }
+        if read > 0 {
+            self.forget_unused();
+        }
+    }
+
+    fn stream(&mut self, part: ResolvedPath, encoding: Encoding) -> &mut Stream {
+        let known = self
+            .streams
+            .iter()
+            .position(|stream| stream.part.path() == part.path() && stream.encoding == encoding);
+        let position = known.unwrap_or_else(|| {
+            self.streams.push(Stream {
+                part,
+                encoding,
+                subscribers: Vec::new(),
+                readers: Vec::new(),
+            });
+            self.streams.len() - 1
+        });
+        &mut self.streams[position]
+    }
+
+    fn forget_unused(&mut self) {
+        self.streams
+            .retain(|stream| !stream.subscribers.is_empty() || !stream.readers.is_empty());
+    }
+}
+
+impl Stream {
+    /// Makes the text or the bytes at most once; gives how many readers have what they wanted.
+    fn hand_out(
+        &mut self,
+        tapped: Tapped<'_>,
+        clients: &mut BTreeMap<ClientId, Client>,
+        limits: &Limits,
+    ) -> usize {
+        let (cycle, time) = (tapped.cycle, tapped.timestamp.as_nanos());
+        let part = self.part.find(tapped.value);
+        let mut content = None;
+        for subscriber in &mut self.subscribers {
+            if !subscriber.rate.is_due(time) {
+                continue;
+            }
+            if let Some(client) = clients.get_mut(&subscriber.client) {
+                let content = content.get_or_insert_with(|| match self.encoding {
+                    Encoding::Binary => encode(&self.part, part, cycle, time),
+                    Encoding::Json | Encoding::Jpeg { .. } => write(part, cycle, time),
+                });
+                client
+                    .outbox
+                    .update(subscriber.subscription, content.clone(), limits);
+                client.news.notify_one();
+            }
+        }
+        let readers = std::mem::take(&mut self.readers);
+        for reader in &readers {
+            if let Some(client) = clients.get_mut(&reader.client) {
+                let value = part.and_then(|part| serde_json::to_value(part.as_serialize()).ok());
+                client.answer_read(reader.request, cycle, time, value.unwrap_or_default());
+            }
+        }
+        readers.len()
+    }
+}
+
+/// The rest of an update: what is the same for all clients.
+fn write(part: Option<&dyn Reflect>, cycle: u64, time: u64) -> Content {
+    let mut text = format!(r#""cycle":{cycle},"time":{time},"value":"#).into_bytes();
+    let start = text.len();
+    let written =
+        part.is_some_and(|part| serde_json::to_writer(&mut text, part.as_serialize()).is_ok());
+    if !written {
+        text.truncate(start);
+        text.extend_from_slice(b"null");
+    }
+    text.extend_from_slice(b"}}");
+    // What serde_json writes is UTF-8.
+    Content::Text(Arc::new(String::from_utf8(text).unwrap_or_default()))
+}
+
+/// The rest of a binary frame; without a value where the part is not there.
+fn encode(path: &ResolvedPath, part: Option<&dyn Reflect>, cycle: u64, time: u64) -> Content {
+    let mut bytes = Vec::with_capacity(64);
+    bytes.extend_from_slice(&cycle.to_le_bytes());
+    bytes.extend_from_slice(&time.to_le_bytes());
+    if let Some(part) = part {
+        // On an error nothing is appended, which is as good as absent.
+        let _ = binary::encode_as(path.shape(), part, &mut bytes);
+    }
+    Content::Bytes(Arc::new(bytes))
+}
+
+/// A path below an output, looked up in its type.
+pub(crate) fn resolve(shape: &Shape, below: &str) -> Result<ResolvedPath, String> {
+    let path: Path = below.parse().map_err(|error| format!("{error}"))?;
+    ResolvedPath::new(shape, &path).map_err(|unknown| unknown.to_string())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Rate;
+
+    fn sent(rate: Option<f64>, period: u64) -> usize {
+        let mut rate = Rate::new(rate);
+        let times = (0..1_000_000_000).step_by(usize::try_from(period).expect("small"));
+        times.filter(|time| rate.is_due(*time)).count()
+    }
+
+    #[test]
+    fn rates_are_met_and_never_exceeded() {
+        // 83.3 Hz for a second.
+        for (rate, expected) in [
+            (None, 84),
+            (Some(1e9), 84),
+            (Some(40.0), 40),
+            (Some(10.0), 10),
+            (Some(1.0), 1),
+            (Some(1e-30), 1),
+        ] {
+            assert_eq!(sent(rate, 12_000_000), expected, "{rate:?}");
+        }
+    }
+}

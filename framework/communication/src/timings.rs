@@ -1,0 +1,68 @@
+//! Reports of instances in the words of the protocol.
+
+use std::time::Duration;
+
+use framework::link::InstanceLink;
+use framework::report::{InstanceReport, NodeReport, QueueReport};
+use framework::timing::Histogram;
+use protocol::{Durations, InstanceTimings, NodeTimings, QueueTimings, Timings};
+
+/// What all instances did; of one that did not report there are counts alone.
+pub(crate) fn describe(
+    time: u64,
+    instances: &[&InstanceLink],
+    reports: &[Option<Box<InstanceReport>>],
+) -> Timings {
+    let described = instances.iter().zip(reports).map(|(instance, report)| {
+        let counts = instance.counters.read();
+        let report = report.as_deref();
+        let nodes = report.map(|report| &report.nodes[..]).unwrap_or_default();
+        let queues = report.map(|report| &report.queues[..]).unwrap_or_default();
+        InstanceTimings {
+            name: instance.description.name.to_owned(),
+            cycles: counts.cycles,
+            overruns: counts.overruns,
+            failures: counts.failures,
+            deadline: instance.description.deadline.map(micros),
+            cycle: report.and_then(|report| durations(&report.durations.cycle)),
+            framework: report.and_then(|report| durations(&report.durations.framework)),
+            nodes: nodes.iter().map(node).collect(),
+            queues: queues.iter().map(queue).collect(),
+        }
+    });
+    Timings {
+        time,
+        instances: described.collect(),
+    }
+}
+
+fn node(report: &NodeReport) -> NodeTimings {
+    NodeTimings {
+        node: report.node.to_owned(),
+        calls: report.calls,
+        skipped: report.skipped,
+        failures: report.failures,
+        durations: durations(&report.histogram),
+    }
+}
+
+fn queue(report: &QueueReport) -> QueueTimings {
+    QueueTimings {
+        from: report.from.to_owned(),
+        delivered: report.counts.delivered,
+        late: report.counts.late,
+        dropped: report.counts.dropped,
+    }
+}
+
+fn durations(histogram: &Histogram) -> Option<Durations> {
+    (histogram.count() > 0).then(|| Durations {
+        p50: micros(histogram.quantile(0.5)),
+        p99: micros(histogram.quantile(0.99)),
+        max: micros(histogram.longest()),
+    })
+}
+
+fn micros(duration: Duration) -> f64 {
+    duration.as_nanos() as f64 / 1000.0
+}

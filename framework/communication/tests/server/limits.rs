@@ -1,0 +1,303 @@
+//! Each limit holds, and it is the limit that holds: without it the same goes through.
+
+use std::io::{Read, Write};
+use std::net::TcpStream;
+use std::time::Duration;
+
+use framework::launch::Listening;
+use hulkgen_communication::Limits;
+use serde_json::{Value, json};
+
+use crate::zoo::{Client, Zoo, eventually, stream};
+
+const CYCLES: &str = "Control.main_outputs.cycles";
+
+fn zoo(limits: Limits) -> Zoo {
+    Zoo::with(Listening::default(), limits)
+}
+
+/// Whether what the limit forbids goes through, with the limit and without it.
+fn with_and_without(limited: Limits, goes_through: impl Fn(&Zoo) -> bool) {
+    assert!(!goes_through(&zoo(limited)), "the limit does not hold");
+    assert!(goes_through(&zoo(unlimited())), "something else forbids it");
+}
+
+fn unlimited() -> Limits {
+    Limits {
+        connections: usize::MAX,
+        head: Duration::from_secs(1000),
+        silence: Duration::from_secs(1000),
+        taking: Duration::from_secs(1000),
+        message_bytes: usize::MAX,
+        nesting: usize::MAX,
+        path_bytes: usize::MAX,
+        subscriptions: usize::MAX,
+        waiting: usize::MAX,
+        queued_updates: usize::MAX,
+        queued_bytes: usize::MAX,
+        wrong_tokens: u32::MAX,
+        entries: usize::MAX,
+    }
+}
+
+/// Whether the robot does it.
+fn is_ok(client: &mut Client, ask: Value) -> bool {
+    client.ask(ask).get("ok").is_some()
+}
+
+#[test]
+fn messages_have_a_greatest_length() {
+    let limited = Limits {
+        message_bytes: 1000,
+        ..Limits::default()
+    };
+    with_and_without(limited, |zoo| {
+        let mut client = zoo.client();
+        let long = format!(
+            "{{\"id\":1,\"ask\":{{\"timings\":{}{{}}}}}}",
+            " ".repeat(2000)
+        );
+        client.send(&long);
+        client.try_receive().is_ok()
+    });
+}
+
+#[test]
+fn messages_nest_only_so_deep() {
+    let limited = Limits {
+        nesting: 20,
+        ..Limits::default()
+    };
+    with_and_without(limited, |zoo| {
+        let deep = format!("{}{}", "[".repeat(40), "]".repeat(40));
+        let deep: Value = serde_json::from_str(&deep).expect("JSON");
+        let ask = json!({ "call": { "path": "framework.procedures.rearm", "argument": deep } });
+        let mut client = zoo.client();
+        client.ask_later(&ask);
+        let answer = client.receive();
+        answer["answer"].get("ok").is_some()
+    });
+}
+
+#[test]
+fn paths_have_a_greatest_length() {
+    let limited = Limits {
+        path_bytes: 10,
+        ..Limits::default()
+    };
+    with_and_without(limited, |zoo| {
+        is_ok(&mut zoo.client(), json!({ "read": { "path": CYCLES } }))
+    });
+}
+
+#[test]
+fn subscriptions_of_a_client_are_counted() {
+    let limited = Limits {
+        subscriptions: 3,
+        ..Limits::default()
+    };
+    with_and_without(limited, |zoo| {
+        let mut client = zoo.client();
+        let subscribe = json!({ "subscribe": { "path": CYCLES } });
+        let first = client.subscribe(CYCLES);
+        let all = (0..4).all(|_| is_ok(&mut client, subscribe.clone()));
+        // What is given back can be had again.
+        assert!(is_ok(
+            &mut client,
+            json!({ "unsubscribe": { "subscription": first } })
+        ));
+        assert!(is_ok(&mut client, subscribe));
+        all
+    });
+}
+
+#[test]
+fn connections_are_counted() {
+    let limited = Limits {
+        connections: 2,
+        ..Limits::default()
+    };
+    with_and_without(limited, |zoo| {
+        let mut first = zoo.client();
+        let _second = zoo.client();
+        let third = Client::connect(zoo.address()).is_ok();
+        first.ok(json!({ "read": { "path": CYCLES } }));
+        drop(first);
+        eventually("there is a place again", || {
+            Client::connect(zoo.address()).is_ok()
+        });
+        third
+    });
+}
+
+#[test]
+fn requests_that_wait_are_counted() {
+    let limited = Limits {
+        waiting: 2,
+        ..Limits::default()
+    };
+    with_and_without(limited, |zoo| {
+        let mut client = zoo.client();
+        // Lights have no outputs, and nobody hears a whistle within these milliseconds.
+        let ids: Vec<_> = (0..20)
+            .map(|_| client.ask_later(&json!({ "read": { "path": CYCLES } })))
+            .collect();
+        let answers: Vec<_> = ids.iter().map(|_| client.receive()).collect();
+        answers
+            .iter()
+            .all(|answer| answer["answer"].get("ok").is_some())
+    });
+}
+
+#[test]
+fn lists_of_paths_have_a_greatest_length() {
+    let limited = Limits {
+        entries: 5,
+        ..Limits::default()
+    };
+    with_and_without(limited, |zoo| {
+        is_ok(
+            &mut zoo.client(),
+            json!({ "paths": { "below": "", "depth": 5 } }),
+        )
+    });
+}
+
+#[test]
+fn who_guesses_tokens_has_to_connect_again() {
+    let goes_on = |limits: Limits| {
+        let listening = Listening {
+            token: Some("secret".to_owned()),
+            ..Listening::default()
+        };
+        let zoo = Zoo::with(listening, limits);
+        let mut client = zoo.client();
+        (0..10).all(|guess| {
+            client.ask_later(&json!({ "authenticate": { "token": guess.to_string() } }));
+            client.try_receive().is_ok()
+        })
+    };
+    assert!(!goes_on(Limits::default()));
+    assert!(goes_on(unlimited()));
+}
+
+/// Whether the server still has the connection after a second.
+fn is_kept(mut stream: TcpStream) -> bool {
+    let timeout = Some(Duration::from_secs(1));
+    stream.set_read_timeout(timeout).expect("a time-out");
+    let mut byte = [0];
+    match stream.read(&mut byte) {
+        Ok(read) => read > 0,
+        Err(error) => matches!(
+            error.kind(),
+            std::io::ErrorKind::WouldBlock | std::io::ErrorKind::TimedOut
+        ),
+    }
+}
+
+#[test]
+fn a_connection_says_soon_what_it_wants() {
+    let limited = Limits {
+        head: Duration::from_millis(100),
+        ..Limits::default()
+    };
+    with_and_without(limited, |zoo| {
+        let silent = stream(zoo.address());
+        let mut half = stream(zoo.address());
+        half.write_all(b"GET / HTTP/1.1\r\nHost:")
+            .expect("it listens");
+        let kept = (is_kept(silent), is_kept(half));
+        assert_eq!(kept.0, kept.1);
+        kept.0
+    });
+}
+
+#[test]
+fn a_client_gives_signs_of_life() {
+    let limited = Limits {
+        silence: Duration::from_millis(200),
+        ..Limits::default()
+    };
+    with_and_without(limited, |zoo| {
+        let mut client = zoo.client();
+        // It reads nothing, so it answers no ping.
+        std::thread::sleep(Duration::from_millis(600));
+        client.ask_later(&json!({ "timings": {} }));
+        client.try_receive().is_ok()
+    });
+}
+
+#[test]
+fn a_client_that_takes_nothing_is_let_go() {
+    let limited = Limits {
+        taking: Duration::from_millis(200),
+        ..Limits::default()
+    };
+    with_and_without(limited, |zoo| {
+        let mut greedy = zoo.client();
+        let all = json!({ "paths": { "below": "", "depth": 9 } });
+        for _ in 0..400 {
+            let text = json!({ "id": 1, "ask": all }).to_string();
+            let sent = greedy.socket().send(tungstenite::Message::text(text));
+            if sent.is_err() {
+                return false;
+            }
+        }
+        std::thread::sleep(Duration::from_millis(800));
+        // What is in the buffers of the system comes still.
+        (0..400).all(|_| greedy.try_receive().is_ok())
+    });
+}
+
+#[test]
+fn updates_that_nobody_takes_are_lost_and_told() {
+    let lost = |limits: Limits| {
+        let zoo = zoo(limits);
+        let mut slow = zoo.client();
+        // Megabytes, so that the buffers of the system are full soon.
+        let pixels = vec![0_u8; 300_000];
+        let image = json!({ "width": 300_000, "pixels": pixels });
+        slow.ok(json!({ "inject": { "path": "VisionTop.main_outputs.image", "value": image } }));
+        let answer = slow.ok(json!({ "subscribe": {
+            "path": "VisionTop.main_outputs.image", "encoding": "binary",
+        } }));
+        let images = &answer["subscribed"]["subscription"];
+        let mut good = zoo.client();
+        let cycles = good.subscribe(CYCLES);
+        let first = good.update(cycles)["cycle"].as_u64().expect("a number");
+        for cycle in first + 1..first + 250 {
+            assert_eq!(good.update(cycles)["cycle"], json!(cycle));
+        }
+        let (mut lost, mut seen) = (0, 0);
+        let mut before: Option<u64> = None;
+        let mut gaps = 0;
+        while seen < 60 {
+            let message = slow.receive();
+            if let Some(told) = message.get("lost") {
+                assert_eq!(told["subscription"], *images);
+                lost += told["updates"].as_u64().expect("a number");
+            }
+            if message.get("bytes").is_some() {
+                let cycle = crate::zoo::cycle_of_frame(&message);
+                gaps += before.map_or(0, |before| cycle - before - 1);
+                before = Some(cycle);
+                seen += 1;
+            }
+        }
+        assert_eq!(gaps, lost, "what is missing was told");
+        lost
+    };
+    assert!(
+        lost(Limits {
+            queued_updates: 3,
+            ..Limits::default()
+        }) > 0
+    );
+    assert!(
+        lost(Limits {
+            queued_bytes: 2 << 20,
+            ..Limits::default()
+        }) > 0
+    );
+    assert_eq!(lost(unlimited()), 0);
+}

@@ -1,0 +1,8 @@
+//! The server with a robot that runs, over real sockets.
+
+mod files;
+mod hostile;
+mod limits;
+mod requests;
+mod subscriptions;
+mod zoo;

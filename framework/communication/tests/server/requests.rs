@@ -1,0 +1,312 @@
+//! Everything that is asked once.
+
+use framework::launch::Listening;
+use hulkgen_communication::Limits;
+use serde_json::{Value, json};
+
+use crate::zoo::{Client, Zoo, eventually};
+
+const CYCLES: &str = "Control.main_outputs.cycles";
+/// Where its counter starts.
+const COUNTS_FROM: u64 = 100;
+
+fn paths(client: &mut Client, below: &str, depth: u32) -> Vec<Value> {
+    let ok = client.ok(json!({ "paths": { "below": below, "depth": depth } }));
+    ok["paths"].as_array().expect("a list").clone()
+}
+
+fn names(entries: &[Value]) -> Vec<&str> {
+    let paths = entries.iter().map(|entry| entry["path"].as_str());
+    paths.map(|path| path.expect("a text")).collect()
+}
+
+#[test]
+fn the_robot_says_who_it_is() {
+    let zoo = Zoo::new();
+    let client = zoo.client();
+    let expected = json!({
+        "version": 1, "robot": "zoo", "target": "loud", "can_write": true, "needs_token": false,
+        "instances": ["VisionTop", "VisionBottom", "Hearing", "Control", "Reflexes", "Lights"],
+    });
+    for (key, value) in expected.as_object().expect("an object") {
+        assert_eq!(client.welcome[key], *value, "{key}");
+    }
+}
+
+#[test]
+fn everything_has_a_path() {
+    let zoo = Zoo::new();
+    let mut client = zoo.client();
+    let root = paths(&mut client, "", 1);
+    assert_eq!(names(&root).last(), Some(&"framework"));
+    assert!(names(&root).contains(&"Control") && names(&root).contains(&"parameters"));
+    let control = paths(&mut client, "Control", 1);
+    let expected = [
+        "Control.main_outputs",
+        "Control.additional_outputs",
+        "Control.procedures",
+    ];
+    assert_eq!(names(&control), expected);
+    let pose = paths(&mut client, "Control.main_outputs.pose", 2);
+    let expected = ["position", "position.x", "position.y", "heading"]
+        .map(|name| format!("Control.main_outputs.pose.{name}"));
+    assert_eq!(names(&pose), expected);
+    assert_eq!(pose[1]["type"], "f32");
+    assert_eq!(pose[1]["kind"], "main_output");
+    assert_eq!(
+        (&pose[0]["has_children"], &pose[1]["has_children"]),
+        (&json!(true), &json!(false))
+    );
+    // Names with dots are folders.
+    let debug = paths(&mut client, "Control.additional_outputs", 3);
+    let additional = |name| format!("Control.additional_outputs.{name}");
+    let expected = [
+        "debug",
+        "debug.certainty",
+        "debug.watcher",
+        "debug.watcher.seen",
+    ]
+    .map(additional);
+    assert_eq!(names(&debug), expected);
+    let kinds: Vec<_> = debug.iter().map(|entry| &entry["kind"]).collect();
+    let additional = "additional_output";
+    assert_eq!(kinds, ["folder", additional, "folder", additional]);
+    assert_eq!(
+        names(&paths(&mut client, "parameters.gait", 1)),
+        ["parameters.gait.period"]
+    );
+    let all = paths(&mut client, "", 255);
+    let read: Vec<_> = all
+        .iter()
+        .filter(|entry| entry["type"].is_string())
+        .collect();
+    for entry in read.iter().take(300) {
+        let path = entry["path"].as_str().expect("a text");
+        client.ok(json!({ "schema": { "path": path } }));
+    }
+    for (below, expected) in [
+        ("Cotnrol", "Control"),
+        ("Control.main_outputs.pose.z", "heading"),
+    ] {
+        let error = client.error(json!({ "paths": { "below": below } }));
+        assert!(error.contains(expected), "{error}");
+    }
+}
+
+#[test]
+fn values_are_read_once() {
+    let zoo = Zoo::new();
+    let mut client = zoo.client();
+    let value = client.ok(json!({ "read": { "path": CYCLES } }));
+    let again = client.ok(json!({ "read": { "path": CYCLES } }));
+    let counted = value["value"]["cycle"]
+        .as_u64()
+        .map(|cycle| cycle + COUNTS_FROM);
+    assert_eq!(counted, value["value"]["value"].as_u64());
+    assert!(again["value"]["cycle"].as_u64() > value["value"]["cycle"].as_u64());
+    let joint = client.ok(json!({ "read": { "path": "Control.main_outputs.joints.0" } }));
+    assert!(joint["value"]["value"].is_f64());
+    let seen = "Control.additional_outputs.debug.watcher.seen";
+    let seen = client.ok(json!({ "read": { "path": seen } }));
+    assert!(seen["value"]["value"].is_array(), "{seen}");
+    let period = client.ok(json!({ "read": { "path": "parameters.gait.period" } }));
+    assert_eq!(period["value"]["value"], json!(0.5));
+    let schema = client.ok(json!({ "schema": { "path": "Control.main_outputs.pose" } }));
+    assert_eq!(schema["schema"]["type"], "object");
+}
+
+#[test]
+fn parameters_change_together_and_can_be_stored() {
+    let zoo = Zoo::new();
+    let mut client = zoo.client();
+    let write = |client: &mut Client, changes: Value| {
+        client.ask(json!({ "write": { "changes": changes } }))
+    };
+    let refused = write(
+        &mut client,
+        json!([{ "path": "gait.period", "value": 2.0 }, { "path": "gait.perid", "value": 1 }]),
+    );
+    let refusals = refused["error"]["refusals"].as_array().expect("a list");
+    assert_eq!(refusals.len(), 1);
+    assert_eq!(refusals[0]["path"], "gait.perid");
+    let reading = client.ok(json!({ "parameters": { "path": "gait" } }));
+    let reading = &reading["parameters"];
+    assert_eq!(
+        reading["value"],
+        json!({ "period": 0.5 }),
+        "nothing of it was done"
+    );
+    assert_eq!(reading["leaves"][0]["provenance"]["from"], "file");
+    let written = write(
+        &mut client,
+        json!([{ "path": "gait.period", "value": 2.0 }, { "path": "walking_speed", "value": 0.25 }]),
+    );
+    assert_eq!(written["ok"]["written"]["version"], json!(1));
+    let unstored = client.ok(json!({ "unstored": {} }));
+    assert_eq!(
+        unstored["unstored"]["changes"].as_array().map(Vec::len),
+        Some(2)
+    );
+    assert_eq!(unstored["unstored"]["layers"][0], "default");
+    let stored = client.ok(json!({ "store": { "layer": "default", "paths": ["gait.period"] } }));
+    assert_eq!(stored["stored"]["paths"], json!(["gait.period"]));
+    let file = std::fs::read_to_string(zoo.folder.path().join("default.toml")).expect("there");
+    assert!(file.contains("period = 2.0"), "{file}");
+    client.ok(json!({ "reload": {} }));
+    let speed = client.ok(json!({ "read": { "path": "parameters.walking_speed" } }));
+    assert_eq!(
+        speed["value"]["value"],
+        json!(0.2),
+        "what was not stored is gone"
+    );
+}
+
+#[test]
+fn an_output_is_replaced_until_it_is_released_or_its_client_leaves() {
+    let zoo = Zoo::new();
+    let mut watching = zoo.client();
+    let speed = watching.subscribe("Control.main_outputs.speed");
+    let inject = json!({ "inject": { "path": "Control.main_outputs.speed", "value": 7.5 } });
+    let mut injecting = zoo.client();
+    injecting.ok(inject.clone());
+    eventually("it is replaced", || {
+        watching.update(speed)["value"] == json!(7.5)
+    });
+    injecting.ok(json!({ "release": { "path": "Control.main_outputs.speed" } }));
+    eventually("it is released", || {
+        watching.update(speed)["value"] == json!(0.0)
+    });
+    injecting.ok(inject);
+    eventually("it is replaced", || {
+        watching.update(speed)["value"] == json!(7.5)
+    });
+    drop(injecting);
+    eventually("it is released", || {
+        watching.update(speed)["value"] == json!(0.0)
+    });
+    // What a setup node wrote is replaced before any node reads it.
+    let image = json!({ "width": 3, "pixels": [1, 2, 3] });
+    watching.ok(json!({ "inject": { "path": "VisionTop.main_outputs.image", "value": image } }));
+    eventually("the image is replaced", || {
+        let image = watching.ok(json!({ "read": { "path": "VisionTop.main_outputs.image" } }));
+        image["value"]["value"]["width"] == json!(3)
+    });
+    for (path, value, expected) in [
+        ("Control.main_outputs.speed", json!("fast"), "speed"),
+        ("Control.main_outputs.pose.heading", json!(1.0), "whole"),
+        (
+            "Control.additional_outputs.debug.certainty",
+            json!(1.0),
+            "whole",
+        ),
+        ("Control.main_outputs.none", json!(1.0), "none"),
+    ] {
+        let error = watching.error(json!({ "inject": { "path": path, "value": value } }));
+        assert!(error.contains(expected), "{error}");
+    }
+    let error = watching.error(json!({ "release": { "path": "Control.main_outputs.plan" } }));
+    assert!(error.contains("nobody"), "{error}");
+}
+
+#[test]
+fn procedures_answer_refuse_and_take_their_time() {
+    let zoo = Zoo::new();
+    let mut client = zoo.client();
+    let call = |name: &str, argument: Value| json!({ "call": { "path": format!("Control.procedures.{name}"), "argument": argument } });
+    let called = client.ok(call("walk", json!({ "speed": 0.75 })));
+    assert_eq!(called["called"], json!(0.75));
+    let refused = client.error(call("stop", Value::Null));
+    assert!(refused.contains("it never stops"), "{refused}");
+    let wrong = client.error(call("walk", json!({ "sped": 1 })));
+    assert!(wrong.contains("speed"), "{wrong}");
+    let unknown = client.error(call("fly", Value::Null));
+    assert!(unknown.contains("no procedure"), "{unknown}");
+    let late = json!({ "call": {
+        "path": "Control.procedures.walk", "argument": { "speed": 0.5 }, "timeout": 0.0,
+    } });
+    // Whether a cycle came in between or not, there is one answer.
+    client.ask(late);
+    let rearmed = client.ok(json!({ "call": { "path": "framework.procedures.rearm" } }));
+    assert_eq!(rearmed["called"], Value::Null);
+}
+
+#[test]
+fn timings_tell_what_nodes_did() {
+    let zoo = Zoo::new();
+    let mut client = zoo.client();
+    client.ok(json!({ "read": { "path": CYCLES } }));
+    let timings = client.ok(json!({ "timings": {} }));
+    let control = &timings["timings"]["instances"][3];
+    assert_eq!(control["name"], "Control");
+    assert!(control["cycles"].as_u64() > Some(0));
+    let nodes = control["nodes"].as_array().expect("a list");
+    assert!(
+        nodes
+            .iter()
+            .any(|node| node["node"] == "zoo_nodes::control::gait")
+    );
+    assert_eq!(control["deadline"], json!(12_000.0));
+}
+
+#[test]
+fn who_has_no_token_may_only_look() {
+    let listening = Listening {
+        token: Some("secret".to_owned()),
+        ..Listening::default()
+    };
+    let zoo = Zoo::with(listening, Limits::default());
+    let mut client = zoo.client();
+    assert_eq!(client.welcome["needs_token"], json!(true));
+    let writes = [
+        json!({ "write": { "changes": [{ "path": "walking_speed", "value": 1.0 }] } }),
+        json!({ "store": { "layer": "default" } }),
+        json!({ "reload": {} }),
+        json!({ "inject": { "path": "Control.main_outputs.speed", "value": 1.0 } }),
+        json!({ "release": { "path": "Control.main_outputs.speed" } }),
+        json!({ "call": { "path": "framework.procedures.rearm" } }),
+        json!({ "set_log_level": { "level": "trace" } }),
+    ];
+    for ask in &writes {
+        let error = client.error(ask.clone());
+        assert!(error.contains("authenticate"), "{error}");
+    }
+    client.ok(json!({ "read": { "path": CYCLES } }));
+    let error = client.error(json!({ "authenticate": { "token": "secreT" } }));
+    assert!(error.contains("token"), "{error}");
+    client.ok(json!({ "authenticate": { "token": "secret" } }));
+    client.ok(writes[0].clone());
+
+    let read_only = Listening {
+        is_read_only: true,
+        ..Listening::default()
+    };
+    let zoo = Zoo::with(read_only, Limits::default());
+    let mut client = zoo.client();
+    assert_eq!(client.welcome["can_write"], json!(false));
+    for ask in writes {
+        let error = client.error(ask);
+        assert!(error.contains("read only"), "{error}");
+    }
+}
+
+#[test]
+fn what_is_no_request_is_answered() {
+    let zoo = Zoo::new();
+    let mut client = zoo.client();
+    for (text, id) in [
+        ("", None),
+        ("nonsense", None),
+        ("[]", None),
+        (r#"{"id":7}"#, Some(7)),
+        (r#"{"id":8,"ask":{"fly":{}}}"#, Some(8)),
+        (r#"{"id":-1,"ask":{"timings":{}}}"#, None),
+    ] {
+        client.send(text);
+        let answer = client.answer(id);
+        assert!(answer["error"]["message"].is_string(), "{text}: {answer}");
+    }
+    let bytes = tungstenite::Message::binary(vec![1, 2, 3]);
+    client.socket().send(bytes).expect("it is a message");
+    assert!(client.answer(None)["error"]["message"].is_string());
+    client.ok(json!({ "timings": {} }));
+}

@@ -1,0 +1,195 @@
+//! Values again and again.
+
+use std::thread;
+use std::time::Duration;
+
+use serde_json::{Value, json};
+
+use crate::zoo::{Zoo, eventually, number};
+
+#[test]
+fn every_cycle_comes_once_in_order() {
+    let zoo = Zoo::new();
+    let mut client = zoo.client();
+    let cycles = client.subscribe("Control.main_outputs.cycles");
+    let heading = client.subscribe("Control.main_outputs.pose.heading");
+    let first = client.update(cycles);
+    let (mut cycle, mut time) = (first["cycle"].as_u64(), first["time"].as_u64());
+    for _ in 0..100 {
+        let update = client.update(cycles);
+        assert_eq!(update["cycle"].as_u64(), cycle.map(|cycle| cycle + 1));
+        assert!(update["time"].as_u64() > time, "{update}");
+        // It counts its own cycles, from 100.
+        let counted = update["cycle"].as_u64().map(|cycle| cycle + 100);
+        assert_eq!(update["value"].as_u64(), counted);
+        (cycle, time) = (update["cycle"].as_u64(), update["time"].as_u64());
+    }
+    assert!(client.update(heading)["value"].is_f64());
+}
+
+#[test]
+fn a_client_that_stops_reading_for_a_while_has_no_gap() {
+    let zoo = Zoo::new();
+    let mut client = zoo.client();
+    let cycles = client.subscribe("Control.main_outputs.cycles");
+    let mut expected = client.update(cycles)["cycle"].as_u64().expect("a number");
+    for pause in [0, 200, 0, 100, 0] {
+        thread::sleep(Duration::from_millis(pause));
+        for _ in 0..20 {
+            expected += 1;
+            assert_eq!(client.update(cycles)["cycle"], json!(expected));
+        }
+    }
+}
+
+#[test]
+fn a_rate_is_not_exceeded() {
+    let zoo = Zoo::new();
+    let mut client = zoo.client();
+    let ask = json!({ "subscribe": { "path": "Control.main_outputs.cycles", "rate": 20 } });
+    let slow = number(&client.ok(ask)["subscribed"]["subscription"]);
+    let times: Vec<u64> = (0..10)
+        .map(|_| client.update(slow)["time"].as_u64().expect("a number"))
+        .collect();
+    // In step with 20 Hz: an update may be a cycle late and the next in time.
+    let shortest = times.windows(2).map(|pair| pair[1] - pair[0]).min();
+    assert!(shortest >= Some(50_000_000 - 13_000_000), "{times:?}");
+    assert!(
+        times[9] - times[0] >= 9 * 50_000_000 - 13_000_000,
+        "{times:?}"
+    );
+}
+
+#[test]
+fn wrong_rates_and_paths_are_refused_with_what_would_be_right() {
+    let zoo = Zoo::new();
+    let mut client = zoo.client();
+    for rate in [json!(0), json!(-1), json!(-1e300)] {
+        let error = client
+            .error(json!({ "subscribe": { "path": "Control.main_outputs.cycles", "rate": rate } }));
+        assert!(error.contains("rate"), "{error}");
+    }
+    let wrong = |client: &mut crate::zoo::Client, path: &str| {
+        client.error(json!({ "subscribe": { "path": path } }))
+    };
+    let error = wrong(&mut client, "Control.main_outputs.pose.haeding");
+    assert!(error.contains("heading"), "{error}");
+    let error = wrong(&mut client, "Control.main_outputs.none");
+    assert!(error.contains("paths"), "{error}");
+    assert!(wrong(&mut client, "Control.main_outputs.pose..x").contains("path"));
+    assert!(wrong(&mut client, "").contains("no ``"));
+}
+
+#[test]
+fn an_additional_output_is_computed_while_somebody_wants_it() {
+    let zoo = Zoo::new();
+    let (mut one, mut other) = (zoo.client(), zoo.client());
+    let path = "Control.additional_outputs.debug.watcher.seen";
+    let first = one.subscribe(path);
+    assert_eq!(one.update(first)["value"].as_array().map(Vec::len), Some(3));
+    let second = other.subscribe(path);
+    other.update(second);
+    one.ok(json!({ "unsubscribe": { "subscription": first } }));
+    // The other one still has it.
+    other.update(second);
+    drop(one);
+    other.update(second);
+    let width = other.subscribe("VisionTop.additional_outputs.vision_top.width");
+    assert_eq!(other.update(width)["value"], json!(16));
+}
+
+#[test]
+fn a_part_that_is_not_there_is_null() {
+    let zoo = Zoo::new();
+    let mut client = zoo.client();
+    let x = client.subscribe("VisionTop.main_outputs.best.x");
+    let values: Vec<Value> = (0..40).map(|_| client.update(x)["value"].clone()).collect();
+    // Every tenth image is dark.
+    assert!(values.iter().any(Value::is_null), "{values:?}");
+    assert!(values.iter().any(Value::is_f64), "{values:?}");
+}
+
+#[test]
+fn binary_values_are_laid_out_as_the_answer_says() {
+    let zoo = Zoo::new();
+    let mut client = zoo.client();
+    let answer = client.ok(json!({ "subscribe": {
+        "path": "Control.main_outputs.joints", "encoding": "binary",
+    } }));
+    let subscribed = &answer["subscribed"];
+    let subscription = number(&subscribed["subscription"]);
+    let layout = serde_json::from_value(subscribed["layout"].clone()).expect("a layout");
+    for _ in 0..5 {
+        let message = client.receive();
+        let bytes: Vec<u8> = message["bytes"]
+            .as_array()
+            .unwrap_or_else(|| panic!("{message}"))
+            .iter()
+            .map(|byte| u8::try_from(byte.as_u64().expect("a byte")).expect("a byte"))
+            .collect();
+        let (header, value) = bytes.split_at(protocol::BINARY_HEADER);
+        assert_eq!(header[..4], protocol::BINARY_MAGIC);
+        assert_eq!(header[4..8], subscription.to_le_bytes());
+        let cycle = u64::from_le_bytes(header[8..16].try_into().expect("eight bytes"));
+        assert!(cycle > 0);
+        let value = framework::reflect::binary::decode(&layout, value).expect("as laid out");
+        assert_eq!(value.as_array().map(Vec::len), Some(3), "{value}");
+    }
+}
+
+#[test]
+fn what_nobody_wants_any_more_does_not_come() {
+    let zoo = Zoo::new();
+    let mut client = zoo.client();
+    let cycles = client.subscribe("Control.main_outputs.cycles");
+    client.update(cycles);
+    client.ok(json!({ "unsubscribe": { "subscription": cycles } }));
+    client.waiting.clear();
+    thread::sleep(Duration::from_millis(100));
+    client.ok(json!({ "timings": {} }));
+    assert_eq!(client.waiting, Vec::<Value>::new());
+    let error = client.error(json!({ "unsubscribe": { "subscription": cycles } }));
+    assert!(error.contains("no subscription"), "{error}");
+}
+
+#[test]
+fn parameters_are_told_with_each_change() {
+    let zoo = Zoo::new();
+    let (mut one, mut other) = (zoo.client(), zoo.client());
+    let speed = one.subscribe("parameters.walking_speed");
+    assert_eq!(one.update(speed)["value"], json!(0.2));
+    let changes = json!([{ "path": "walking_speed", "value": 0.5 }]);
+    let written = other.ok(json!({ "write": { "changes": changes } }));
+    let update = one.update(speed);
+    assert_eq!(
+        (&update["value"], &update["cycle"]),
+        (&json!(0.5), &written["written"]["version"])
+    );
+    let told = |client: &mut crate::zoo::Client| {
+        let is_told = |message: &Value| message.get("parameters_changed").is_some();
+        while !client.waiting.iter().any(is_told) {
+            let message = client.receive();
+            client.waiting.push(message);
+        }
+    };
+    told(&mut one);
+    told(&mut other);
+    // Somebody edits the file.
+    let file = zoo.folder.path().join("default.toml");
+    let text = std::fs::read_to_string(&file).expect("it is there");
+    let text = text.replace("threshold = 100", "threshold = 101");
+    let threshold = one.subscribe("parameters.spot_finder.threshold");
+    assert_eq!(one.update(threshold)["value"], json!(100));
+    std::fs::write(&file, text).expect("it is ours");
+    assert_eq!(one.update(threshold)["value"], json!(101));
+}
+
+#[test]
+fn a_server_that_ends_leaves_the_robot_alone() {
+    let mut zoo = Zoo::new();
+    let mut client = zoo.client();
+    let cycles = client.subscribe("Control.main_outputs.cycles");
+    client.update(cycles);
+    zoo.stop_serving();
+    eventually("the connection ends", || client.try_receive().is_err());
+}

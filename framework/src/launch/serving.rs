@@ -1,0 +1,40 @@
+//! What a binary and its communication server know of each other.
+//!
+//! The server is a crate of its own, which needs the framework; the generated `main` brings them together.
+
+use std::net::SocketAddr;
+use std::path::PathBuf;
+
+use crate::error::Result;
+use crate::link::Link;
+
+/// Starts to serve the clients of a robot, on a thread of its own; `None`: nobody is served.
+pub type Serve = fn(Link, Listening) -> Result<Option<Box<dyn Served>>>;
+
+/// What the command line says about clients.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Listening {
+    /// The target that runs.
+    pub target: &'static str,
+    /// The data-flow graph as JSON; empty where the binary does not have it.
+    pub graph: &'static str,
+    /// `ADDRESS:PORT`; by default this machine alone may connect.
+    pub address: Option<String>,
+    /// What clients have to know before they may change anything.
+    pub token: Option<String>,
+    /// Nobody may change anything.
+    pub is_read_only: bool,
+    /// Files of the page from here instead of those in the program.
+    pub web_root: Option<PathBuf>,
+}
+
+/// A server that runs until it is dropped.
+pub trait Served {
+    /// Where clients find it.
+    fn address(&self) -> SocketAddr;
+}
+
+/// Serves nobody, for binaries without a server.
+pub fn nobody(_: Link, _: Listening) -> Result<Option<Box<dyn Served>>> {
+    Ok(None)
+}

@@ -1,0 +1,67 @@
+//! What a communication server holds of a running robot: everything it may see and change, and nothing that a cycle waits for.
+
+use std::sync::Arc;
+
+use crate::clock::Clock;
+use crate::cycler::{Counters, InstanceDescription};
+use crate::parameters::Live;
+use crate::rearm::Rearm;
+use crate::robot::{Access, Robot};
+use crate::stop::Stop;
+use crate::tap::{Reports, Tap};
+
+/// A running robot, for its clients. Dropping it closes all taps.
+pub struct Link {
+    /// As in the manifest.
+    pub robot: &'static str,
+    /// The clock of the robot.
+    pub clock: Clock,
+    /// Requested when the robot ends.
+    pub stop: Stop,
+    /// Gives the nodes the actuators back after a safe state that lasts.
+    pub rearm: Rearm,
+    /// Read, change, store, reload.
+    pub parameters: Live,
+    /// In manifest order.
+    pub instances: Vec<InstanceLink>,
+}
+
+/// One instance, for clients.
+pub struct InstanceLink {
+    /// What the manifest says about it.
+    pub description: InstanceDescription,
+    /// Its counts, to be read while it runs.
+    pub counters: Arc<Counters>,
+    /// Its main outputs, then its additional outputs.
+    pub taps: Vec<Tap>,
+    /// What it did so far.
+    pub reports: Reports,
+    /// Replaces outputs, calls procedures.
+    pub access: Access,
+}
+
+impl<P> Robot<P> {
+    /// What a server needs of this robot, before a driver turns it. [`Robot::access`] is empty afterwards: there is one server.
+    pub fn link(&mut self, stop: &Stop, rearm: Rearm) -> Link {
+        let access = std::mem::take(&mut self.access);
+        let instances = self.instances.iter_mut().zip(access);
+        let instances = instances.map(|(instance, access)| {
+            let (taps, reports) = instance.tap(&access.subscriptions);
+            InstanceLink {
+                description: *instance.description(),
+                counters: instance.counters().clone(),
+                taps,
+                reports,
+                access,
+            }
+        });
+        Link {
+            robot: self.name,
+            clock: self.clock.clone(),
+            stop: stop.clone(),
+            rearm,
+            parameters: self.parameters.live(),
+            instances: instances.collect(),
+        }
+    }
+}
