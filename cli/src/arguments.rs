@@ -1,6 +1,7 @@
 //! What may stand on the command line: types for clap, no behaviour.
 
 mod answers;
+mod running;
 mod scaffold;
 mod simulate;
 
@@ -10,6 +11,7 @@ use camino::Utf8PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 pub use answers::{Completions, Diff, Doctor, Explain, Man, Show, Stage};
+pub use running::{Call, Log, LogLevel, Param, ParamCommand, Running, Top, Topic, TopicCommand};
 pub use scaffold::{
     AddCycler, AddNode, CyclerKind, MergeDriver, New, RemoveNode, RenameOutput, Template,
 };
@@ -72,6 +74,11 @@ pub enum Command {
     Show(Show),
     Run(Run),
     Simulate(Simulate),
+    Topic(Topic),
+    Param(Param),
+    Call(Call),
+    Log(Log),
+    Top(Top),
     New(New),
     AddNode(AddNode),
     AddCycler(AddCycler),

@@ -14,6 +14,7 @@ mod man;
 mod merge_driver;
 mod new;
 mod run;
+mod running;
 mod scaffold;
 mod schema;
 mod session;
@@ -46,6 +47,11 @@ pub fn run(arguments: &Arguments) -> Outcome {
             completions::run(&terminal, completions).map_err(Failure::Refused)
         }
         Command::Man(man) => man::run(&terminal, man).map_err(Failure::Refused),
+        Command::Topic(topic) => running::topic(&terminal, topic).map_err(Failure::Refused),
+        Command::Param(param) => running::param(&terminal, param).map_err(Failure::Refused),
+        Command::Call(call) => running::call(&terminal, call).map_err(Failure::Refused),
+        Command::Log(log) => running::log(&terminal, log).map_err(Failure::Refused),
+        Command::Top(top) => running::top(&terminal, top).map_err(Failure::Refused),
         Command::Doctor(doctor) => doctor::run(&arguments.global, &terminal, doctor),
         command => with_session(arguments, command, &terminal),
     };
@@ -97,6 +103,11 @@ fn with_session(
         | Command::MergeDriver(_)
         | Command::Completions(_)
         | Command::Man(_)
+        | Command::Topic(_)
+        | Command::Param(_)
+        | Command::Call(_)
+        | Command::Log(_)
+        | Command::Top(_)
         | Command::Doctor(_) => unreachable!("needs no session"),
     };
     if matches!(answer, Err(Failure::Reported)) {

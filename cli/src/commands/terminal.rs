@@ -17,16 +17,25 @@ impl Terminal {
 
     /// Prints the answer. A reader that went away (`| head`) has what it wanted.
     pub(super) fn data(&self, text: &str) -> Result<(), Refusal> {
+        self.more_data(text).map(|_| ())
+    }
+
+    /// Prints a part of an answer that goes on and on; false: the reader went away and wants no more.
+    pub(super) fn more_data(&self, text: &str) -> Result<bool, Refusal> {
         let mut stdout = io::stdout().lock();
         match stdout
             .write_all(text.as_bytes())
             .and_then(|()| stdout.flush())
         {
-            Err(error) if error.kind() != ErrorKind::BrokenPipe => {
-                Err(Refusal::bad(format!("cannot write to stdout: {error}")))
-            }
-            _ => Ok(()),
+            Ok(()) => Ok(true),
+            Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(false),
+            Err(error) => Err(Refusal::bad(format!("cannot write to stdout: {error}"))),
         }
+    }
+
+    /// Whether somebody sees the answers as they come.
+    pub(super) fn is_watched(&self) -> bool {
+        io::stdout().is_terminal()
     }
 
     /// Prints what is not the answer. Nobody can be told if stderr is closed.

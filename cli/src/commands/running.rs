@@ -1,0 +1,87 @@
+//! `topic`, `param`, `call`, `log` and `top`: what a running robot is asked for.
+//!
+//! Invariant: these commands read no manifest and need no robot on this machine.
+
+mod connection;
+mod log;
+mod param;
+mod text;
+mod top;
+mod topic;
+
+use std::thread;
+use std::time::Duration;
+
+use protocol::{Ask, EntryKind, Good};
+use serde_json::Value;
+
+use super::terminal::Terminal;
+use crate::arguments::{Call, TextOrJson};
+use crate::outcome::{Outcome, Refusal};
+use connection::Connection;
+
+pub(super) use log::log;
+pub(super) use param::param;
+pub(super) use top::top;
+pub(super) use topic::topic;
+
+/// Levels below the root where outputs, procedures and the groups of parameters are: `INSTANCE.KIND.NAME`.
+const NAMED: u8 = 3;
+
+pub(super) fn call(terminal: &Terminal, call: &Call) -> Result<Outcome, Refusal> {
+    let argument = match &call.argument {
+        None => Value::Null,
+        Some(text) => serde_json::from_str(text).map_err(|error| {
+            Refusal::wrong_usage(format!("the argument is not JSON: {error}"))
+                .help("texts stand in quotes: '\"forward\"'")
+        })?,
+    };
+    let mut connection = Connection::open(&call.running)?;
+    let Some(path) = &call.path else {
+        return topic::list_kinds(
+            terminal,
+            &mut connection,
+            call.running.format,
+            &[EntryKind::Procedure],
+        );
+    };
+    let good = connection.ask_for(
+        Ask::Call {
+            path: path.clone(),
+            argument,
+            timeout: call.timeout,
+        },
+        // The robot says itself when the call has failed.
+        Duration::from_secs_f64(call.timeout.unwrap_or(5.0)),
+    )?;
+    let Good::Called(response) = good else {
+        return Err(connection.confused());
+    };
+    let said = match call.running.format {
+        TextOrJson::Text => text::tree(&response),
+        TextOrJson::Json => format!("{response}\n"),
+    };
+    terminal.data(&said)?;
+    Ok(Outcome::Good)
+}
+
+/// Does something again and again, `count` times if that is given, until it says false: nobody wants more.
+fn again(
+    count: Option<u64>,
+    every: Option<f64>,
+    mut deed: impl FnMut() -> Result<bool, Refusal>,
+) -> Result<Outcome, Refusal> {
+    let mut done = 0;
+    while count.is_none_or(|count| done < count) {
+        if done > 0
+            && let Some(seconds) = every
+        {
+            thread::sleep(Duration::from_secs_f64(seconds));
+        }
+        if !deed()? {
+            break;
+        }
+        done += 1;
+    }
+    Ok(Outcome::Good)
+}

@@ -1,0 +1,117 @@
+//! `top`: how long cycles and nodes of a running robot take.
+
+use protocol::{Ask, Durations, Good, InstanceTimings, NodeTimings, Timings};
+use serde_json::json;
+
+use super::connection::Connection;
+use super::{again, text};
+use crate::arguments::{TextOrJson, Top};
+use crate::commands::terminal::Terminal;
+use crate::outcome::{Outcome, Refusal};
+
+/// Makes a terminal empty and begins at its top.
+const CLEAR: &str = "\x1b[H\x1b[2J";
+
+pub(in crate::commands) fn top(terminal: &Terminal, top: &Top) -> Result<Outcome, Refusal> {
+    let mut connection = Connection::open(&top.running)?;
+    let mut before: Option<Timings> = None;
+    again(top.count, Some(top.every), || {
+        let Good::Timings(timings) = connection.ask(Ask::Timings {})? else {
+            return Err(connection.confused());
+        };
+        let said = match top.running.format {
+            TextOrJson::Json => format!("{}\n", json!(timings)),
+            TextOrJson::Text => {
+                let welcome = &connection.welcome;
+                let time = text::seconds(timings.time);
+                let head = format!(
+                    "{} ({}), {time}, times in µs",
+                    welcome.robot, welcome.target
+                );
+                let clear = if terminal.is_watched() { CLEAR } else { "" };
+                format!("{clear}{head}\n{}", table(&timings, before.as_ref()))
+            }
+        };
+        before = Some(timings);
+        terminal.more_data(&said)
+    })
+}
+
+fn table(timings: &Timings, before: Option<&Timings>) -> String {
+    let head = [
+        "", "rate", "p50", "p99", "max", "runs", "skipped", "failed", "overruns",
+    ];
+    let mut rows = vec![head.map(str::to_owned).to_vec()];
+    for instance in &timings.instances {
+        rows.push(instance_row(instance, rate(instance, timings, before)));
+        rows.extend(instance.nodes.iter().map(node_row));
+        if let Some(framework) = &instance.framework {
+            let mut row = vec!["  (framework)".to_owned(), String::new()];
+            row.extend(durations(Some(framework)));
+            rows.push(row);
+        }
+    }
+    text::columns(&rows, true)
+}
+
+/// Cycles per second of the robot's clock since the look before, else since its start.
+fn rate(instance: &InstanceTimings, now: &Timings, before: Option<&Timings>) -> Option<f64> {
+    let (cycles, time) = match before {
+        None => (0, 0),
+        Some(before) => {
+            let same = |other: &&InstanceTimings| other.name == instance.name;
+            (before.instances.iter().find(same)?.cycles, before.time)
+        }
+    };
+    let elapsed = now.time.checked_sub(time)? as f64 / 1e9;
+    (elapsed > 0.0).then(|| instance.cycles.saturating_sub(cycles) as f64 / elapsed)
+}
+
+fn instance_row(instance: &InstanceTimings, rate: Option<f64>) -> Vec<String> {
+    let mut row = vec![instance.name.clone()];
+    row.push(rate.map(|rate| format!("{rate:.1} Hz")).unwrap_or_default());
+    row.extend(durations(instance.cycle.as_ref()));
+    row.push(instance.cycles.to_string());
+    row.push(String::new());
+    row.extend([instance.failures, instance.overruns].map(|number| number.to_string()));
+    row
+}
+
+fn node_row(node: &NodeTimings) -> Vec<String> {
+    let mut row = vec![format!("  {}", node.node), String::new()];
+    row.extend(durations(node.durations.as_ref()));
+    row.extend([node.calls, node.skipped, node.failures].map(|number| number.to_string()));
+    row
+}
+
+fn durations(durations: Option<&Durations>) -> [String; 3] {
+    match durations {
+        None => Default::default(),
+        Some(Durations { p50, p99, max }) => [p50, p99, max].map(|time| format!("{time:.1}")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::table;
+
+    #[test]
+    fn the_table_has_instances_and_their_nodes() {
+        let at = |time: u64, cycles: u64| {
+            let timings = json!({ "time": time, "instances": [{
+                "name": "Control", "cycles": cycles, "overruns": 1, "failures": 0, "deadline": 12000.0,
+                "cycle": { "p50": 900.0, "p99": 1500.25, "max": 2000.0 },
+                "nodes": [{ "node": "control::walk", "calls": cycles, "skipped": 2, "failures": 3 }],
+                "queues": [],
+            }] });
+            serde_json::from_value(timings).expect("these are timings")
+        };
+        let shown = table(&at(2_000_000_000, 183), Some(&at(1_000_000_000, 100)));
+        let expected = "                    rate    p50     p99     max  runs  skipped  failed  overruns\n\
+                        Control          83.0 Hz  900.0  1500.2  2000.0   183                0         1\n  \
+                        control::walk                                    183        2       3\n";
+        assert_eq!(shown, expected);
+    }
+}
