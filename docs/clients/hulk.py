@@ -129,10 +129,10 @@ class Reader:
         raise Malformed(f"a layout of an unknown kind: {kind}")
 
     def character(self):
-        try:
-            return chr(self.count())
-        except (ValueError, OverflowError) as error:
-            raise Malformed("a number is no character") from error
+        number = self.count()
+        if number > 0x10FFFF or 0xD800 <= number < 0xE000:
+            raise Malformed("a number is no character")
+        return chr(number)
 
     def items(self, item, length, depth):
         # Images: at once, and only if the bytes are there.
@@ -191,18 +191,19 @@ class Robot:
 
     def __init__(self, host="127.0.0.1", token=None):
         address = host if ":" in host else f"{host}:{PORT}"
-        self.socket = connect(f"ws://{address}/socket", max_size=LARGEST_MESSAGE, proxy=None)
+        self.connecting = connect(f"ws://{address}/socket", max_size=LARGEST_MESSAGE, proxy=None)
+        self.token = token
         self.next_id = 1
-        self.layouts = {}
         # What came while an answer was awaited.
         self.waiting = deque()
+
+    def __enter__(self):
+        self.socket = self.connecting.__enter__()
         self.welcome = self.hear()["welcome"]
         if self.welcome["version"] != VERSION:
             raise Refused(f"the robot speaks version {self.welcome['version']}, this program {VERSION}")
-        if token:
-            self.ask("authenticate", token=token)
-
-    def __enter__(self):
+        if self.token:
+            self.ask("authenticate", token=self.token)
         return self
 
     def __exit__(self, *_):
