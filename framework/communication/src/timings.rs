@@ -25,6 +25,7 @@ pub(crate) fn describe(
             failures: counts.failures,
             deadline: instance.description.deadline.map(micros),
             cycle: report.and_then(|report| durations(&report.durations.cycle)),
+            lateness: report.and_then(|report| durations(&report.durations.lateness)),
             framework: report.and_then(|report| durations(&report.durations.framework)),
             nodes: nodes.iter().map(node).collect(),
             queues: queues.iter().map(queue).collect(),
