@@ -14,6 +14,8 @@ mod observer;
 mod process;
 #[path = "runtime/reports.rs"]
 mod reports;
+#[path = "runtime/scenario.rs"]
+mod scenario;
 #[path = "runtime/scheduling.rs"]
 mod scheduling;
 #[path = "runtime/scripted.rs"]

@@ -33,7 +33,7 @@ pub(super) fn run<H: Hardware, P: ParameterData>(
         let played =
             played.map_err(|error| error.context(format!("scenario {}", file.display())))?;
         if options.format == Format::Text {
-            tell(format_args!("{}", played.to_string().trim_end()));
+            tell(format_args!("{}", played.headline()));
         }
         runs.push(played);
     }

@@ -158,6 +158,21 @@ impl Condition<'_> {
     }
 }
 
+impl Condition<'_> {
+    /// Whether one number lies nearer to an end of the range than another; both lie within.
+    pub(super) fn is_nearer(&self, one: &Value, other: &Value) -> bool {
+        let Self::Between { above, below } = self else {
+            return false;
+        };
+        let room = |value: &Value| {
+            let number = value.as_f64().unwrap_or_default();
+            let above = above.map_or(f64::INFINITY, |above| number - above);
+            above.min(below.map_or(f64::INFINITY, |below| below - number))
+        };
+        room(one) <= room(other)
+    }
+}
+
 /// `1` and `1.0` are the same number.
 fn is_same(value: &Value, other: &Value) -> bool {
     match (value.as_f64(), other.as_f64()) {

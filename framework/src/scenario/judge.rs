@@ -32,8 +32,9 @@ pub struct Judge<'a> {
 struct Looked<'a> {
     assertion: &'a Assertion,
     window: Window,
-    /// What was seen last within the window, and when.
-    last: Option<(Timestamp, Value)>,
+    /// What was seen within the window and counts, and when: what decided; else of numbers that always have to be in a
+    /// range the one next to its end, of everything else the last.
+    seen: Option<(Timestamp, Value)>,
     /// Decided before the end.
     decided: Option<bool>,
 }
@@ -44,7 +45,7 @@ impl<'a> Judge<'a> {
         let assertions = assertions.iter().map(|assertion| Looked {
             assertion,
             window: assertion.window(),
-            last: None,
+            seen: None,
             decided: None,
         });
         Self {
@@ -98,17 +99,24 @@ impl Looked<'_> {
     }
 
     fn judge(&mut self, now: Timestamp, value: Value) {
-        let holds = self.assertion.condition().holds(&value);
+        let condition = self.assertion.condition();
+        let holds = condition.holds(&value);
         match self.window {
             Window::Always { .. } if !holds => self.decided = Some(false),
             Window::Once { .. } if holds => self.decided = Some(true),
-            _ => {}
+            Window::Always { .. } => {
+                let seen = self.seen.as_ref();
+                if seen.is_some_and(|(_, seen)| condition.is_nearer(seen, &value)) {
+                    return;
+                }
+            }
+            Window::Once { .. } | Window::AtEnd => {}
         }
-        self.last = Some((now, value));
+        self.seen = Some((now, value));
     }
 
     fn verdict(self) -> Verdict {
-        let holds_at_last = match (&self.last, self.window) {
+        let holds_at_last = match (&self.seen, self.window) {
             (None, _) | (_, Window::Once { .. }) => false,
             (Some(_), Window::Always { .. }) => true,
             (Some((_, value)), Window::AtEnd) => self.assertion.condition().holds(value),
@@ -118,10 +126,10 @@ impl Looked<'_> {
             what: self.assertion.what.clone(),
             passed: self.decided.unwrap_or(holds_at_last),
             at: self
-                .last
+                .seen
                 .as_ref()
                 .map(|(at, _)| (*at - Timestamp::ZERO).as_secs_f64()),
-            seen: self.last.map_or_else(never, |(_, value)| value),
+            seen: self.seen.map_or_else(never, |(_, value)| value),
         }
     }
 }

@@ -61,14 +61,20 @@ impl fmt::Display for Outcome {
     }
 }
 
+impl Played {
+    /// One line about the whole run.
+    pub fn headline(&self) -> String {
+        let word = if self.passed { "passed" } else { "FAILED" };
+        format!(
+            "seed {}: {word} ({:.1} s, {:.1} times real time)",
+            self.seed, self.lasted, self.real_time_factor
+        )
+    }
+}
+
 impl fmt::Display for Played {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let word = if self.passed { "passed" } else { "FAILED" };
-        writeln!(
-            formatter,
-            "  seed {}: {word} ({:.1} s, {:.1} times real time)",
-            self.seed, self.lasted, self.real_time_factor
-        )?;
+        writeln!(formatter, "  {}", self.headline())?;
         if let Some(why) = &self.stopped {
             writeln!(formatter, "    FAILED  the robot stopped: {why}")?;
         }

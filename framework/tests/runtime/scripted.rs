@@ -91,6 +91,9 @@ pub(crate) struct ScriptedHardware {
     /// Counts the events of all hardwares that share it, if there is one; what is read is the count at the last own event.
     pub(crate) world: Option<Arc<AtomicU64>>,
     told: AtomicU64,
+    /// What scenarios ask about.
+    happened: AtomicU64,
+    step: f64,
     /// Somebody presses the button that gives the nodes the actuators back.
     pub(crate) button: AtomicBool,
 }
@@ -122,6 +125,8 @@ impl ScriptedHardware {
             reads: AtomicU64::new(0),
             world: None,
             told: AtomicU64::new(0),
+            happened: AtomicU64::new(0),
+            step: 0.0,
             button: AtomicBool::new(false),
         }
     }
@@ -146,8 +151,16 @@ impl ScriptedHardware {
 
 impl Hardware for ScriptedHardware {
     fn new(context: HardwareContext) -> Result<Self> {
-        let mut hardware = Self::with(context.clock.clone(), VecDeque::new());
+        let step = context.table.get("step").and_then(toml::Value::as_float);
+        // A scenario's robot moves for a second.
+        let events = (1..=100).filter(|_| context.table.contains_key("step"));
+        let events = events.map(|number| Event {
+            at: millis(number * 10),
+            instance: "Legs",
+        });
+        let mut hardware = Self::with(context.clock.clone(), events.collect());
         hardware.stop = context.stop.clone();
+        hardware.step = step.unwrap_or_default();
         Ok(hardware)
     }
 
@@ -173,6 +186,24 @@ impl Hardware for ScriptedHardware {
             let count = world.fetch_add(1, Ordering::Relaxed);
             self.told.store(count, Ordering::Relaxed);
         }
-        Ok(self.events.lock().expect("not poisoned").pop_front())
+        let event = self.events.lock().expect("not poisoned").pop_front();
+        self.happened
+            .fetch_add(u64::from(event.is_some()), Ordering::Relaxed);
+        Ok(event)
+    }
+
+    fn truth(&self) -> serde_json::Value {
+        // The driver asks for one event more before a cycle ends.
+        let until = (self.clock.now() - Timestamp::ZERO).as_millis() as u64 / 10;
+        let jumped = self.happened.load(Ordering::Relaxed) / 1000 * 1000;
+        serde_json::json!({ "events": jumped + until, "step": self.step })
+    }
+
+    fn disturb(&self, deed: &toml::Table) -> Result<()> {
+        let jump = deed.get("jump").and_then(toml::Value::as_integer);
+        let jump = jump.ok_or_else(|| Error::new("expected `jump = NUMBER`"))?;
+        self.happened
+            .fetch_add(jump.unsigned_abs(), Ordering::Relaxed);
+        Ok(())
     }
 }

@@ -1,0 +1,201 @@
+//! A scenario from its file to the exit status of the program that plays it.
+
+use std::ffi::OsString;
+use std::sync::Arc;
+
+use framework::launch::{self, Target};
+use framework::{Result, Robot, Start};
+use serde_json::Value;
+
+use crate::body::{Parameters, Setting, robot};
+use crate::scripted::ScriptedHardware;
+
+const TARGET: Target = Target {
+    robot: "test",
+    name: "simulated",
+    parameters: "parameters",
+    location: None,
+    identities: &[],
+    graph: "",
+};
+
+/// Status and outcome of a scenario of one second, in which `Legs` has data every 10 ms and the world counts the events.
+fn play(scenario: &str, arguments: &[&str]) -> (u8, Value) {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let write = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).expect("it can be written");
+        OsString::from(path)
+    };
+    write("default.toml", "gain = 1\n[hardware.simulated]\nstep = 1\n");
+    let scenario = write("scenario.toml", &format!("ends = 1.0\n{scenario}"));
+    let mut all = vec![
+        "--parameters".into(),
+        folder.path().into(),
+        "--scenario".into(),
+        scenario,
+    ];
+    all.extend(
+        ["--format", "json"]
+            .iter()
+            .chain(arguments)
+            .map(OsString::from),
+    );
+    let create =
+        |hardware: &Arc<ScriptedHardware>, start: Start<Parameters>| -> Result<Robot<Parameters>> {
+            assert_eq!(
+                start.parameters.gain, 7,
+                "the scenario's parameters are the robot's"
+            );
+            Ok(robot(hardware, &Setting::default()))
+        };
+    let mut output = Vec::new();
+    let status = launch::run(TARGET, all, &mut output, create, launch::nobody);
+    (status, serde_json::from_slice(&output).unwrap_or_default())
+}
+
+const PARAMETERS: &str = "parameters = { gain = 7 }\n";
+
+fn assertion(what: &str) -> String {
+    format!("{PARAMETERS}[[assertion]]\nwhat = 'it'\n{what}\n")
+}
+
+#[test]
+fn assertions_are_judged_over_outputs_and_truth() {
+    for (what, passed, at, seen) in [
+        // The world has counted every event when its cycle ends.
+        ("value = 'truth.events'\nabove = 0", true, Some(0.01), "1"),
+        ("value = 'truth.events'\nbelow = 50", false, Some(0.5), "50"),
+        (
+            "value = 'truth.events'\nbelow = 50\nuntil = 0.4",
+            true,
+            Some(0.4),
+            "40",
+        ),
+        (
+            "value = 'truth.events'\nequals = 30\nbefore = 0.5",
+            true,
+            Some(0.3),
+            "30",
+        ),
+        (
+            "value = 'truth.events'\nequals = 30\nfrom = 0.35\nbefore = 0.5",
+            false,
+            Some(0.5),
+            "50",
+        ),
+        (
+            "value = 'truth.events'\nequals = 100\nat_end = true",
+            true,
+            Some(1.0),
+            "100",
+        ),
+        (
+            "value = 'truth.events'\nis_not = 12",
+            false,
+            Some(0.12),
+            "12",
+        ),
+        (
+            "value = 'truth.nothing'\nis_not = 0\nat_end = true",
+            true,
+            Some(1.0),
+            "\"there is no `truth.nothing`\"",
+        ),
+        (
+            "value = 'Nobody.main_outputs.raw'\nabove = 0",
+            false,
+            None,
+            "\"nothing: no cycle ended in that time\"",
+        ),
+        (
+            "value = 'Legs.main_outputs.raw'\nabove = -1",
+            true,
+            None,
+            "",
+        ),
+        (
+            "value = 'Legs.main_outputs.rwa'\nabove = -1",
+            false,
+            Some(0.01),
+            "\"`Legs` has no main output",
+        ),
+    ] {
+        let (status, outcome) = play(&assertion(what), &[]);
+        let verdict = &outcome["runs"][0]["assertions"][0];
+        assert_eq!(verdict["passed"], passed, "{what}: {outcome:#}");
+        assert_eq!(
+            (status == 0, outcome["passed"].as_bool()),
+            (passed, Some(passed)),
+            "{what}"
+        );
+        assert!(
+            verdict["seen"].to_string().starts_with(seen),
+            "{what}: {verdict}"
+        );
+        if at.is_some() {
+            assert_eq!(verdict["at"].as_f64(), at, "{what}");
+        }
+    }
+}
+
+#[test]
+fn events_happen_and_clients_call_when_the_file_says() {
+    let scenario = format!(
+        "{PARAMETERS}[[event]]\nat = 0.5\njump = 1000\n\
+         [[call]]\npath = 'Legs.procedures.double'\nargument = 4\nfrom = 0.2\nuntil = 0.4\nevery = 0.1\n\
+         [[assertion]]\nwhat = 'not before'\nvalue = 'truth.events'\nbelow = 51\nuntil = 0.5\n\
+         [[assertion]]\nwhat = 'then'\nvalue = 'truth.events'\nabove = 1050\nfrom = 0.51\n"
+    );
+    let (status, outcome) = play(&scenario, &[]);
+    assert_eq!(status, 0, "{outcome:#}");
+    for (wrong, expected) in [
+        ("[[event]]\nat = 0.5\njmp = 1\n", 1),
+        ("[[call]]\npath = 'Legs.procedures.tripel'\nfrom = 0.1\n", 1),
+        (
+            "[[call]]\npath = 'Legs.procedures.double'\nargument = 'x'\nfrom = 0.1\n",
+            1,
+        ),
+    ] {
+        let (status, outcome) = play(
+            &format!("{}{wrong}", assertion("value = 'truth.events'\nabove = 0")),
+            &[],
+        );
+        assert_eq!((status, outcome), (expected, Value::Null), "{wrong}");
+    }
+}
+
+#[test]
+fn every_seed_is_a_run_and_enough_of_them_must_pass() {
+    let scenario = |passes: f64| {
+        format!(
+            "passes = {passes}\nworld = {{ step = 1.0 }}\nrandom = {{ step = 1.0 }}\n{}",
+            assertion("value = 'truth.step'\nbelow = 1")
+        )
+    };
+    let (status, outcome) = play(&scenario(1.0), &["--repeat", "20", "--seed", "5"]);
+    let runs = outcome["runs"].as_array().expect("there are runs").clone();
+    let seeds: Vec<_> = runs
+        .iter()
+        .map(|run| run["seed"].as_u64().unwrap_or_default())
+        .collect();
+    assert_eq!(seeds, (5..25).collect::<Vec<_>>());
+    let passes = runs.iter().filter(|run| run["passed"] == true).count();
+    assert!(
+        (4..17).contains(&passes),
+        "half of the numbers lie below the middle: {passes}"
+    );
+    assert_eq!(
+        (status, outcome["passes"].as_u64()),
+        (1, Some(passes as u64))
+    );
+    assert_eq!(
+        play(&scenario(0.1), &["--repeat", "20", "--seed", "5"]).0,
+        0
+    );
+    let again = play(&scenario(1.0), &["--repeat", "20", "--seed", "5"]).1;
+    assert_eq!(
+        again["passes"], outcome["passes"],
+        "the same seeds, the same runs"
+    );
+}
