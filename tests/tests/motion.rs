@@ -1,10 +1,12 @@
 //! The NAO moves, in lockstep, on legs with masses: what it does is judged by the truth, not by its own belief.
 
+use erased_serde::Deserializer;
 use kinematics::limits;
 use nalgebra::{Isometry2, Vector2, Vector3};
 use serde_json::json;
 use simulated_nao::GroundTruth;
 use support::nao::{Nao, call, output};
+use types::joints::Joints;
 use types::motion::{BodyMotion, MotionSelection};
 use types::motor_commands::MotorCommands;
 use types::odometry::Odometry;
@@ -239,5 +241,26 @@ fn in_the_game_the_robot_walks_to_the_ball() {
         assert!(tilt(&truth) < UPRIGHT);
         assert!(ball.coords.xy().norm() < 0.4, "{ball}");
         assert!(ball.y.abs() < 0.3 && ball.x > 0.0, "{ball}");
+    }
+}
+
+#[test]
+fn whatever_a_client_puts_in_place_of_commands_no_joint_is_harmed() {
+    for output in ["stand_commands", "motor_commands"] {
+        let mut robot = Robot::driven("0.0,0.0,0.0");
+        for absurd in [1e30_f32, -1e30] {
+            let commands = MotorCommands::holding(Joints::filled(absurd), absurd);
+            let commands = serde_json::to_value(commands).expect("it is data");
+            let access = robot.nao.robot.access("Control").expect("it runs");
+            access
+                .injector
+                .inject(output, &mut <dyn Deserializer>::erase(commands))
+                .expect("it is a value of that output");
+            // Every command that the body gets is judged.
+            robot.live(1.0, |_| {});
+        }
+        let access = robot.nao.robot.access("Control").expect("it runs");
+        access.injector.release_all();
+        robot.live(1.0, |_| {});
     }
 }

@@ -535,7 +535,7 @@ impl Nodes {
         Ok(())
     }
 
-    /// motor_commands (required), leds -> hardware
+    /// motor_commands (required), leds, sensor_data.positions -> hardware
     #[inline(always)]
     fn command_sender(
         &mut self,
@@ -546,6 +546,8 @@ impl Nodes {
                 hardware_interface: frame.hardware_interface,
                 motor_commands,
                 leds: frame.own.leds.as_ref(),
+                positions: &frame.own.sensor_data.positions,
+                cycle_time: frame.cycle.time,
             };
             self.command_sender.call(&frame.cycle, |node| node.cycle(context))?;
         } else {

@@ -45,6 +45,7 @@ pub mod look_around;
 pub mod look_at;
 
 pub mod motor_commands_collector;
+mod motor_limits;
 
 pub mod led_status;
 pub mod tone_player;

@@ -4,17 +4,13 @@
 //! whatever anybody asks. What nobody commands is limp.
 
 use framework::{CycleTime, Input, MainOutput, Parameter, PreviousInput, Result, context};
-use kinematics::limits;
 use serde::{Deserialize, Serialize};
-use types::head::{HeadAngles, HeadCommand};
-use types::joints::{JointName, Joints};
+use types::head::HeadCommand;
+use types::joints::Joints;
 use types::motion::{BodyMotion, MotionSelection};
 use types::motor_commands::MotorCommands;
 
-use crate::transition;
-
-/// A longer cycle does not allow a longer step, in s.
-const LONGEST_STEP: f32 = 0.1;
+use crate::motor_limits::harmless;
 
 /// Keeps nothing between cycles: the previous command is an input.
 #[derive(Debug, Deserialize, Serialize)]
@@ -52,32 +48,19 @@ impl MotorCommandsCollector {
         Ok(Self {})
     }
 
-    /// Merges, then limits speed, then limits angles.
+    /// Merges, then limits.
     pub fn cycle(&mut self, context: CycleContext) -> Result<MainOutputs> {
         let wanted = context.body_commands().map_or_else(
             || MotorCommands::holding(*context.positions, 0.0),
             |body| merge(body, context.head_command),
         );
-        let step = context
-            .cycle_time
-            .since_last
-            .as_secs_f32()
-            .min(LONGEST_STEP);
-        let reach = zero_to_one(*context.velocity_share) * step;
-        let current = transition::current_pose(context.previous, context.positions);
-        let stiffnesses = wanted.stiffnesses.map(zero_to_one);
-        let positions = Joints::from_fn(|joint| {
-            if stiffnesses[joint] > 0.0 {
-                let reach = limits::of(joint).velocity as f32 * reach;
-                approach(joint, current[joint], wanted.positions[joint], reach)
-            } else {
-                limp_angle(joint, context.positions[joint], current[joint])
-            }
-        });
-        let commands = MotorCommands {
-            positions: limit_head(positions),
-            stiffnesses,
-        };
+        let commands = harmless(
+            &wanted,
+            context.previous,
+            context.positions,
+            context.cycle_time.since_last.as_secs_f32(),
+            *context.velocity_share,
+        );
         Ok(MainOutputs {
             motor_commands: Some(commands).into(),
         })
@@ -111,42 +94,12 @@ fn merge(body: &MotorCommands, head: Option<&HeadCommand>) -> MotorCommands {
     commands
 }
 
-/// A limp joint goes wherever it is pushed; commands follow it, so that it starts from there.
-fn limp_angle(joint: JointName, measured: f32, current: f32) -> f32 {
-    limits::clamp(joint, if measured.is_nan() { current } else { measured })
-}
-
-/// The angle nearest to `wanted` that is within `reach` of `last`, and within the joint's limits.
-fn approach(joint: JointName, last: f32, wanted: f32, reach: f32) -> f32 {
-    // What is no number is no reason to move; `clamp` would panic on it.
-    let last = limits::clamp(joint, last);
-    let wanted = if wanted.is_nan() { last } else { wanted };
-    limits::clamp(joint, wanted.clamp(last - reach, last + reach))
-}
-
-/// The shell limits the pitch by the yaw.
-fn limit_head(mut positions: Joints<f32>) -> Joints<f32> {
-    let HeadAngles { yaw, pitch } = limits::clamp_head(HeadAngles {
-        yaw: positions.head_yaw,
-        pitch: positions.head_pitch,
-    });
-    positions.head_yaw = yaw;
-    positions.head_pitch = pitch;
-    positions
-}
-
-/// What is no number counts as nothing: no movement, no stiffness.
-fn zero_to_one(share: f32) -> f32 {
-    if share.is_nan() {
-        0.0
-    } else {
-        share.clamp(0.0, 1.0)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use framework::testing;
+    use kinematics::limits;
+    use types::head::HeadAngles;
+    use types::joints::JointName;
 
     use super::*;
 
@@ -272,8 +225,6 @@ mod tests {
             });
             assert_eq!(commands.positions.left_knee_pitch, last);
         }
-        assert!(approach(JointName::HeadYaw, f32::NAN, 0.1, 0.01).is_finite());
-        assert!(limp_angle(JointName::HeadYaw, f32::NAN, f32::NAN).is_finite());
     }
 
     #[test]
