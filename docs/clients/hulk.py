@@ -367,6 +367,9 @@ def main():
             run(robot, arguments)
     except (Refused, Malformed) as error:
         raise SystemExit(f"error: {error}") from error
+    except BrokenPipeError:
+        # Whoever reads our output (`| head`) has what it wanted.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     except (OSError, WebSocketException) as error:
         raise SystemExit(f"error: no robot answers at {arguments.host}: {error}") from error
     except KeyboardInterrupt:

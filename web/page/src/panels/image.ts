@@ -1,5 +1,6 @@
 // A panel with an image of the robot: as JPEG where the robot makes one, else as the camera's own bytes.
 import type { Decoded } from "../connection/binary";
+import type { Encoding } from "../protocol";
 import { isImage } from "../store/paths";
 import type { Sample } from "../store/subscriptions";
 import { complain, eachFrame, make, select } from "../view/dom";
@@ -69,8 +70,13 @@ class ImagePanel implements Panel {
     this.context.save({ path: this.path, rate: this.rate, quality: this.quality });
     complain(this.failure, null);
     if (this.path === "") return;
-    const isRaw = this.quality === "raw";
-    const encoding = isRaw ? "binary" as const : { jpeg: { quality: Number.parseInt(this.quality.slice(8), 10) } };
+    if (this.quality === "raw") this.watch("binary");
+    else this.watch({ jpeg: { quality: Number.parseInt(this.quality.slice("quality ".length), 10) } });
+  }
+
+  /** Where the robot makes no JPEG of it, its bytes may still be an image. */
+  private watch(encoding: Encoding): void {
+    this.stop();
     this.stop = this.context.robot.subscriptions.watch(
       { path: this.path, rate: this.rate, encoding },
       {
@@ -78,7 +84,10 @@ class ImagePanel implements Panel {
           this.sample = sample;
           this.draw();
         },
-        refused: (reason) => complain(this.failure, reason),
+        refused: (reason) => {
+          if (reason !== null && encoding !== "binary" && this.context.robot.state.value === "open") this.watch("binary");
+          else complain(this.failure, reason);
+        },
       },
     );
   }

@@ -71,6 +71,7 @@ export class Branch {
     const text = hasParts && this.isOpen ? "" : brief(this.value);
     if (this.text.textContent !== text) this.text.textContent = text;
     this.text.classList.toggle("none", this.value === null);
+    this.text.classList.toggle("parts", hasParts);
     this.list.hidden = !hasParts || !this.isOpen;
     if (this.list.hidden || parts === null) return;
     this.drawParts(parts);

@@ -93,7 +93,7 @@ export class Sidebar {
     const isValue = entry.kind !== "folder" && entry.kind !== "procedure";
     const name = make("button", { type: "button", class: "name", title: [entry.path, entry.type, entry.documentation].filter((part) => part != null).join("\n") }, text);
     const type = make("span", { class: "muted type" }, [entry.type ?? "", entry.unit ?? ""].filter((part) => part !== "").join(" "));
-    const line = make("div", { class: "line" }, caret ?? make("span", { class: "caret leaf" }), name, type);
+    const line = make("div", { class: "line", "data-path": entry.path }, caret ?? make("span", { class: "caret leaf" }), name, type);
     name.addEventListener("click", () => {
       if (!isValue) toggle?.();
       else for (const one of this.list.querySelectorAll(".line.selected")) if (one !== line) one.classList.remove("selected");
