@@ -151,6 +151,22 @@ async function parametersComeBack(page, other) {
   step("a parameter comes back from the robot, also to others, and is undone");
 }
 
+async function injectionsReplaceOutputs(page) {
+  const value = panel(page, "value");
+  await value.locator("summary", { hasText: "Inject" }).click();
+  await value.getByRole("button", { name: "begin with the newest value" }).click();
+  const text = value.getByLabel("value to inject");
+  const injected = JSON.parse(await text.inputValue());
+  injected.positions.head_pitch = 0.123;
+  await text.fill(JSON.stringify(injected));
+  await value.getByRole("button", { name: /^every reader gets/ }).click();
+  const reading = value.locator('.line:has(> .name[title$=".positions.head_pitch"]) > .reading');
+  await reading.filter({ hasText: /^0\.123/ }).waitFor({ timeout: PATIENCE });
+  await value.getByRole("button", { name: /^give the output back/ }).click();
+  await reading.filter({ hasNotText: /^0\.123/ }).waitFor({ timeout: PATIENCE });
+  step("an injected value takes the place of an output, until it is released");
+}
+
 async function restartsAreSurvived(page, robot) {
   await stop(robot);
   await page.locator('.state[data-state="lost"]').waitFor({ timeout: PATIENCE });
@@ -200,6 +216,7 @@ try {
   await curvesAndImagesMove(page);
   const others = await browser.newContext();
   await parametersComeBack(page, await others.newPage());
+  await injectionsReplaceOutputs(page);
   robot = await restartsAreSurvived(page, robot);
   await layoutsStay(page);
   await everyPresetIsShown(page);

@@ -2,6 +2,7 @@
 import type { Sample } from "../store/subscriptions";
 import { button, complain, eachFrame, make, select } from "../view/dom";
 import { seconds } from "../view/format";
+import { injection } from "./injection";
 import { numberSetting, textSetting, type Context, type Panel, type PanelKind } from "./panel";
 import { Branch } from "./tree";
 
@@ -19,7 +20,8 @@ function open(context: Context): Panel {
   const failure = make("p", { class: "failure", hidden: true });
   const tree = make("ul", { class: "tree" });
   const text = make("pre", { class: "value-text" });
-  const content = make("div", { class: "scroll" }, make("div", { class: "bar" }, input, state), failure, tree, text);
+  const injecting = injection(context.robot, () => ({ path, value: sample?.value ?? null }));
+  const content = make("div", { class: "scroll" }, make("div", { class: "bar" }, input, state), failure, injecting.element, tree, text);
 
   const draw = eachFrame(() => {
     tree.hidden = isText;
@@ -37,6 +39,7 @@ function open(context: Context): Panel {
     text.textContent = "";
     context.title(path);
     context.save({ path, rate, text: isText });
+    injecting.moved();
     branch = new Branch(path.slice(path.lastIndexOf(".") + 1), path, true);
     tree.replaceChildren(branch.element);
     complain(failure, null);
@@ -71,7 +74,11 @@ function open(context: Context): Panel {
     }),
   ];
   show();
-  return { content, tools, accept, close: () => stop() };
+  const close = (): void => {
+    stop();
+    injecting.close();
+  };
+  return { content, tools, accept, close };
 }
 
 export const value: PanelKind = { kind: "value", name: "Value", open };

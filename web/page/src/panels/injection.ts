@@ -1,0 +1,58 @@
+// A value in place of an output, until it is released or this page goes away.
+import type { Decoded } from "../connection/binary";
+import { expect } from "../connection/socket";
+import type { Json } from "../protocol";
+import type { Robot } from "../store/robot";
+import { button, complain, make } from "../view/dom";
+
+/** `shown`: the path that the panel shows, and its newest value to begin with. */
+export function injection(robot: Robot, shown: () => { path: string; value: Decoded }): { element: HTMLElement; close(): void; moved(): void } {
+  let injected: string | null = null;
+  const text = make("textarea", { rows: 4, spellcheck: "false", "aria-label": "value to inject" });
+  const failure = make("p", { class: "failure", hidden: true });
+  const state = make("span", { class: "muted" });
+  const attempt = async (deed: () => Promise<void>): Promise<void> => {
+    try {
+      await deed();
+      complain(failure, null);
+    } catch (error) {
+      complain(failure, error);
+    }
+    state.textContent = injected === null ? "" : `${injected} is injected`;
+    element.classList.toggle("injected", injected !== null);
+  };
+  const release = async (): Promise<void> => {
+    if (injected === null) return;
+    expect(await robot.ask({ release: { path: injected } }), "done");
+    injected = null;
+  };
+  const inject = async (): Promise<void> => {
+    const { path } = shown();
+    const value = JSON.parse(text.value) as Json;
+    if (injected !== path) await release();
+    expect(await robot.ask({ inject: { path, value } }), "done");
+    injected = path;
+  };
+  const bar = make(
+    "div",
+    { class: "bar" },
+    button("Inject", "every reader gets this value in place of the node's", () => void attempt(inject), "deed"),
+    button("Release", "give the output back to its node", () => void attempt(release)),
+    button("Take current", "begin with the newest value", () => (text.value = JSON.stringify(shown().value, null, 1))),
+    state,
+  );
+  const element = make("details", { class: "injection" }, make("summary", {}, "Inject"), text, bar, failure);
+  // Only whole main outputs can be replaced.
+  const moved = (): void => void (element.hidden = !/^[^.]+\.main_outputs\.[^.]+$/.test(shown().path));
+  // The robot releases what a lost connection had injected.
+  const stop = robot.state.watch((now) => {
+    if (now !== "waiting" || injected === null) return;
+    injected = null;
+    void attempt(() => Promise.reject(new Error("the connection was lost: nothing is injected any more")));
+  });
+  const close = (): void => {
+    stop();
+    release().catch(() => undefined);
+  };
+  return { element, close, moved };
+}
