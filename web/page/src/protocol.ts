@@ -225,7 +225,9 @@ export type InstanceTimings = {
   deadline?: number | null;
   /** From the capture point to the end; absent where nothing was timed. */
   cycle?: Durations | null;
-  /** Of it, what was not spent in nodes. */
+  /** From the capture time of the data to the begin of the cycle; absent where nothing was timed. */
+  lateness?: Durations | null;
+  /** Of `cycle`, what was not spent in nodes. */
   framework?: Durations | null;
   /** In the order in which they run. */
   nodes: Array<NodeTimings>;

@@ -44,12 +44,9 @@ fn table(timings: &Timings, before: Option<&Timings>) -> String {
     let mut rows = vec![head.map(str::to_owned).to_vec()];
     for instance in &timings.instances {
         rows.push(instance_row(instance, rate(instance, timings, before)));
+        rows.extend(part_row("  (late)", instance.lateness.as_ref()));
         rows.extend(instance.nodes.iter().map(node_row));
-        if let Some(framework) = &instance.framework {
-            let mut row = vec!["  (framework)".to_owned(), String::new()];
-            row.extend(durations(Some(framework)));
-            rows.push(row);
-        }
+        rows.extend(part_row("  (framework)", instance.framework.as_ref()));
     }
     text::columns(&rows, true)
 }
@@ -75,6 +72,13 @@ fn instance_row(instance: &InstanceTimings, rate: Option<f64>) -> Vec<String> {
     row.push(String::new());
     row.extend([instance.failures, instance.overruns].map(|number| number.to_string()));
     row
+}
+
+/// What is neither a cycle nor a node, if it was timed.
+fn part_row(name: &str, part: Option<&Durations>) -> Option<Vec<String>> {
+    let mut row = vec![name.to_owned(), String::new()];
+    row.extend(durations(Some(part?)));
+    Some(row)
 }
 
 fn node_row(node: &NodeTimings) -> Vec<String> {
@@ -111,7 +115,7 @@ mod tests {
         let shown = table(&at(2_000_000_000, 183), Some(&at(1_000_000_000, 100)));
         let expected = "                    rate    p50     p99     max  runs  skipped  failed  overruns\n\
                         Control          83.0 Hz  900.0  1500.2  2000.0   183                0         1\n  \
-                        control::walk                                    183        2       3\n";
+                        control::walk                                   183        2       3\n";
         assert_eq!(shown, expected);
     }
 }

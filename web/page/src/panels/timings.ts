@@ -60,6 +60,7 @@ function rows(instance: InstanceTimings, now: Timings, before: Timings | null, c
   const lines = [line(title, numbers, instance.overruns + instance.failures > 0 ? "instance bad" : "instance")];
   if (isClosed) return lines;
   const whole = instance.cycle?.p50 ?? 0;
+  if (instance.lateness != null) lines.push(partLine("(late: from capture to begin)", instance.lateness, 0));
   for (const node of instance.nodes) lines.push(nodeLine(node, whole));
   if (instance.framework != null) lines.push(partLine("(framework)", instance.framework, whole));
   for (const queue of instance.queues) {
