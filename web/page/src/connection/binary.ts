@@ -67,7 +67,7 @@ class Reader {
   position = 0;
   private parts: number;
   private readonly view: DataView;
-  private readonly text = new TextDecoder("utf-8", { fatal: true });
+  private readonly text = new TextDecoder("utf-8", { fatal: true, ignoreBOM: true });
 
   constructor(
     private readonly bytes: Uint8Array,
@@ -87,7 +87,7 @@ class Reader {
       case "bool":
         return this.flag();
       case "character":
-        return String.fromCodePoint(this.count());
+        return this.character();
       case "float":
         return this.float(layout.bits);
       case "signed":
@@ -160,7 +160,17 @@ class Reader {
   private string(): string {
     const length = this.count();
     const start = this.take(length);
-    return this.text.decode(this.bytes.subarray(start, start + length));
+    try {
+      return this.text.decode(this.bytes.subarray(start, start + length));
+    } catch {
+      throw new Malformed("a text is not UTF-8");
+    }
+  }
+
+  private character(): string {
+    const number = this.count();
+    if (number > 0x10ffff || (number >= 0xd800 && number < 0xe000)) throw new Malformed("a number is no character");
+    return String.fromCodePoint(number);
   }
 
   private items(item: Layout, length: number, depth: number): Decoded {

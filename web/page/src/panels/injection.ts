@@ -4,6 +4,7 @@ import { expect } from "../connection/socket";
 import type { Json } from "../protocol";
 import type { Robot } from "../store/robot";
 import { button, complain, make } from "../view/dom";
+import { json } from "../view/format";
 
 /** `shown`: the path that the panel shows, and its newest value to begin with. */
 export function injection(robot: Robot, shown: () => { path: string; value: Decoded }): { element: HTMLElement; close(): void; moved(): void } {
@@ -38,7 +39,7 @@ export function injection(robot: Robot, shown: () => { path: string; value: Deco
     { class: "bar" },
     button("Inject", "every reader gets this value in place of the node's", () => void attempt(inject), "deed"),
     button("Release", "give the output back to its node", () => void attempt(release)),
-    button("Take current", "begin with the newest value", () => (text.value = JSON.stringify(shown().value, null, 1))),
+    button("Take current", "begin with the newest value", () => (text.value = json(shown().value))),
     state,
   );
   const element = make("details", { class: "injection" }, make("summary", {}, "Inject"), text, bar, failure);

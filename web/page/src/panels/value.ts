@@ -1,7 +1,7 @@
 // A panel with any value of the robot, as a tree or as text.
 import type { Sample } from "../store/subscriptions";
 import { button, complain, eachFrame, make, select } from "../view/dom";
-import { seconds } from "../view/format";
+import { json, seconds } from "../view/format";
 import { injection } from "./injection";
 import { numberSetting, textSetting, type Context, type Panel, type PanelKind } from "./panel";
 import { Branch } from "./tree";
@@ -28,7 +28,7 @@ function open(context: Context): Panel {
     text.hidden = !isText;
     if (sample === null) return;
     state.textContent = `cycle ${sample.cycle}, ${seconds(sample.time)}`;
-    if (isText) text.textContent = JSON.stringify(sample.value, null, 2);
+    if (isText) text.textContent = json(sample.value);
     else branch.show(sample.value);
   });
 
@@ -45,7 +45,8 @@ function open(context: Context): Panel {
     complain(failure, null);
     if (path === "") return;
     stop = context.robot.subscriptions.watch(
-      { path, rate },
+      // As bytes: an image as JSON would take seconds.
+      { path, rate, encoding: "binary" },
       {
         sample: (next) => {
           sample = next;

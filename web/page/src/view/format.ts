@@ -22,3 +22,8 @@ export function seconds(nanoseconds: number): string {
 export function plural(count: number, noun: string): string {
   return `${count} ${noun}${count === 1 ? "" : "s"}`;
 }
+
+/** A value as JSON; bytes become numbers again. */
+export function json(value: unknown): string {
+  return JSON.stringify(value, (_, part: unknown) => (part instanceof Uint8Array ? [...part] : part), 2);
+}
