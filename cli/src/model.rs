@@ -21,6 +21,7 @@ pub mod structs;
 use camino::Utf8PathBuf;
 use serde::Serialize;
 
+use crate::graph::{self, json};
 use crate::resolve::robot::{Partial, Robot};
 use crate::schedule::Schedule;
 
@@ -61,6 +62,8 @@ pub struct RuntimeModel {
     pub runtime: Runtime,
     /// `src/bin/…`, in manifest order.
     pub binaries: Vec<Binary>,
+    /// `graph.json`, which the binaries show their clients.
+    pub graph: String,
 }
 
 /// Decides what the generated crate of a robot says.
@@ -78,6 +81,7 @@ pub fn describe(robot: &Robot, schedule: &Schedule) -> RuntimeModel {
         dataflow: dataflow::describe(robot, schedule),
         runtime: runtime::describe(robot, &cyclers),
         binaries: binary::describe(robot),
+        graph: json::render_for_clients(&graph::describe(robot, schedule)),
         outside: outside::describe(robot),
         parameters,
         cyclers,

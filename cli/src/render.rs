@@ -88,6 +88,9 @@ pub fn render(model: &RuntimeModel) -> GeneratedFiles {
             database::render_outside(cycler),
         );
     }
+    if !model.binaries.is_empty() {
+        files.insert("graph.json".to_owned(), model.graph.clone());
+    }
     for binary in &model.binaries {
         files.insert(
             format!("src/bin/{}.rs", binary.name),

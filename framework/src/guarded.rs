@@ -313,6 +313,7 @@ impl Ledger {
         if self.failures.is_power_of_two() {
             let failures = self.failures;
             let failed = format_args!("{error} (failure {failures} of this node)");
+            crate::logs::record(crate::logs::Level::ERROR, self.name, failed);
             match panics::inside() {
                 Some(instance) => tell(format_args!("{instance}: {failed}")),
                 None => tell(failed),

@@ -18,6 +18,7 @@
 //! | [`temporal`], [`history`] | results of perception in order of time; own outputs by time |
 //! | [`recorded`] | what a cycle took, saved and given back |
 //! | [`subscriptions`], [`injection`] | clients: listen to an output, replace one |
+//! | [`logs`] | what nodes say, with instance and cycle, for whoever collects it |
 //! | [`tap`], [`link`] | copies of outputs for a communication server, and all else that it may see and change |
 //! | [`time`], [`clock`], [`stop`], [`timing`], [`report`] | when, until when, how long, and how to tell |
 //! | [`reflect`], [`data`], [`clear`], [`digest`] | what values must be able to do |
@@ -41,6 +42,7 @@ pub mod history;
 pub mod injection;
 pub mod launch;
 pub mod link;
+pub mod logs;
 pub mod parameters;
 pub mod pool;
 pub mod procedure;

@@ -30,6 +30,8 @@ pub struct Link {
 pub struct InstanceLink {
     /// What the manifest says about it.
     pub description: InstanceDescription,
+    /// Paths of its nodes, in manifest order.
+    pub nodes: Vec<&'static str>,
     /// Its counts, to be read while it runs.
     pub counters: Arc<Counters>,
     /// Its main outputs, then its additional outputs.
@@ -49,6 +51,7 @@ impl<P> Robot<P> {
             let (taps, reports) = instance.tap(&access.subscriptions);
             InstanceLink {
                 description: *instance.description(),
+                nodes: instance.report().nodes.iter().map(|node| node.node).collect(),
                 counters: instance.counters().clone(),
                 taps,
                 reports,

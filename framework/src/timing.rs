@@ -90,6 +90,17 @@ pub fn set(timing: Timing) {
     TIMING.store(timing as u8, Ordering::Relaxed);
 }
 
+/// Which cycles are timed now.
+pub fn current() -> Timing {
+    const OFF: u8 = Timing::Off as u8;
+    const SAMPLED: u8 = Timing::Sampled as u8;
+    match TIMING.load(Ordering::Relaxed) {
+        OFF => Timing::Off,
+        SAMPLED => Timing::Sampled,
+        _ => Timing::Complete,
+    }
+}
+
 /// Whether the cycle with this number is timed.
 #[inline]
 pub(crate) fn is_timed(cycle: u64) -> bool {

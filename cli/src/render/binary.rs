@@ -28,7 +28,7 @@ pub(super) fn render_binary(binary: &Binary) -> String {
             parameters: #parameters,
             location: #location,
             identities: &[#(#identities),*],
-            graph: "",
+            graph: include_str!("../../graph.json"),
         };
 
         fn main() -> ::std::process::ExitCode {

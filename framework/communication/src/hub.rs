@@ -9,10 +9,12 @@ use axum::extract::ws::Message as Frame;
 use framework::link::{InstanceLink, Link};
 use framework::procedure::PendingAny;
 use framework::report::InstanceReport;
-use protocol::{Answer, Failure, Good, Message, Outcome, ParametersChanged, Refusal, Welcome};
+use framework::timing::{self, Timing};
+use protocol::{Answer, Failure, Good, Level, Message, Outcome, ParametersChanged, Refusal, Welcome};
 
 use crate::connection::News;
 use crate::limits::Limits;
+use crate::logs::Logs;
 use crate::outbox::{Content, Outbox};
 use crate::parameters;
 use crate::requests;
@@ -24,6 +26,9 @@ const FILES_EVERY: Duration = Duration::from_millis(500);
 
 /// A request that is done with the next cycle waits for it so long.
 pub(crate) const PATIENCE: Duration = Duration::from_secs(2);
+
+/// Whoever asked for timings listens so long: every cycle is timed meanwhile.
+const LISTENING: Duration = Duration::from_secs(10);
 
 /// Instances tell what they did within this time, or did not run meanwhile.
 const REPORTING: Duration = Duration::from_millis(500);
@@ -51,9 +56,14 @@ pub(crate) struct Hub {
     /// Which client replaced which output last: (instance, name).
     pub(crate) injected: BTreeMap<(usize, &'static str), ClientId>,
     pub(crate) waiting: Vec<Waiting>,
+    pub(crate) logs: Logs,
+    /// Paths of all nodes.
+    pub(crate) nodes: Vec<&'static str>,
     /// The last report of each instance.
     reports: Vec<Option<Box<InstanceReport>>>,
     files_looked_at: Instant,
+    /// When timings were asked for last, and what was timed before.
+    timed: Option<(Instant, Timing)>,
     next_client: u64,
 }
 
@@ -68,6 +78,8 @@ pub(crate) struct Client {
     pub(crate) next_subscription: u32,
     /// Requests that wait.
     pub(crate) waiting: usize,
+    /// Log messages that it wants.
+    pub(crate) logs: Option<Level>,
 }
 
 /// What a client is subscribed to.
@@ -106,6 +118,12 @@ impl Hub {
         }
         Self {
             reports: link.instances.iter().map(|_| None).collect(),
+            logs: Logs::new(link.clock.clone()),
+            nodes: link
+                .instances
+                .iter()
+                .flat_map(|instance| instance.nodes.iter().copied())
+                .collect(),
             link,
             rules,
             limits,
@@ -114,6 +132,7 @@ impl Hub {
             injected: BTreeMap::new(),
             waiting: Vec::new(),
             files_looked_at: Instant::now(),
+            timed: None,
             next_client: 0,
         }
     }
@@ -132,6 +151,7 @@ impl Hub {
             subscriptions: BTreeMap::new(),
             next_subscription: 1,
             waiting: 0,
+            logs: None,
         };
         let instances = self.link.instances.iter();
         client.outbox.say(&Message::Welcome(Welcome {
@@ -168,11 +188,31 @@ impl Hub {
             .map(|(output, _)| *output)
             .collect();
         for (instance, output) in held {
-            self.injected.remove(&(instance, output));
-            if let Some(instance) = self.link.instances.get_mut(instance) {
-                // It was injected by this name, so it can be released by it.
-                let _ = instance.access.injector.release(output);
-            }
+            // It was injected by this name, so it can be released by it.
+            let _ = self.release_output(instance, output);
+        }
+    }
+
+    /// The output is its node's again.
+    pub(crate) fn release_output(
+        &mut self,
+        instance: usize,
+        output: &'static str,
+    ) -> framework::Result<()> {
+        self.injected.remove(&(instance, output));
+        self.mark(instance, output, false);
+        match self.link.instances.get_mut(instance) {
+            Some(instance) => instance.access.injector.release(output),
+            None => Ok(()),
+        }
+    }
+
+    /// Remembers whether a client has replaced an output.
+    pub(crate) fn mark(&mut self, instance: usize, output: &str, is_injected: bool) {
+        let mut sources = self.sources.iter_mut();
+        let found = sources.find(|it| (it.instance, it.name()) == (instance, output));
+        if let Some(source) = found {
+            source.is_injected = is_injected;
         }
     }
 
@@ -219,7 +259,14 @@ impl Hub {
                 *report = Some(new);
             }
         }
+        self.look_at_logs();
         self.look_after_waiting();
+        if let Some((asked, before)) = self.timed
+            && asked.elapsed() > LISTENING
+        {
+            timing::set(before);
+            self.timed = None;
+        }
         self.look_at_files();
         !self.waiting.is_empty() || self.sources.iter().any(Source::is_open)
     }
@@ -255,6 +302,9 @@ impl Hub {
 
     /// Asks all instances what they did.
     pub(crate) fn ask_for_reports(&mut self) -> WaitingFor {
+        let before = self.timed.map_or_else(timing::current, |(_, before)| before);
+        self.timed = Some((Instant::now(), before));
+        timing::set(Timing::Complete);
         self.reports.iter_mut().for_each(|report| *report = None);
         self.link
             .instances
@@ -270,6 +320,16 @@ impl Hub {
             WaitingFor::Read(_) | WaitingFor::Call(_) => PATIENCE,
         };
         Instant::now() + patience
+    }
+
+    fn look_at_logs(&mut self) {
+        for log in self.logs.fetch(&self.nodes, &self.limits) {
+            let wants = |client: &&mut Client| client.logs.is_some_and(|least| log.level >= least);
+            for client in self.clients.values_mut().filter(wants) {
+                client.outbox.log(log.clone(), &self.limits);
+                client.news.notify_one();
+            }
+        }
     }
 
     fn look_after_waiting(&mut self) {
@@ -347,7 +407,7 @@ impl Hub {
         // A mistake in a file is told where the robot was started; the robot goes on with the values it has.
         match self.link.parameters.poll() {
             Some(Ok(_)) => self.parameters_changed(),
-            Some(Err(error)) => eprintln!("parameters are as they were: {error}"),
+            Some(Err(error)) => framework::logs::tell_warning(module_path!(), &error),
             None => {}
         }
     }
@@ -363,18 +423,6 @@ impl Client {
             },
         }));
         self.news.notify_one();
-    }
-
-    /// The answer to `read`.
-    pub(crate) fn answer_read(
-        &mut self,
-        request: u32,
-        cycle: u64,
-        time: u64,
-        value: serde_json::Value,
-    ) {
-        let value = protocol::Value { cycle, time, value };
-        self.answer(Some(request), Ok(Good::Value(value)));
     }
 
     /// An update that was not made by a cycle.

@@ -10,7 +10,7 @@
 //! | `doorman`, `origin` | who may come in |
 //! | `connection`, `outbox` | one client: what it says, and what waits for it |
 //! | `hub`, `requests` | all clients and the robot |
-//! | `sources`, `catalogue`, `parameters`, `timings` | outputs, paths, parameters, durations |
+//! | `sources`, `catalogue`, `parameters`, `timings`, `logs` | outputs, paths, parameters, durations, log messages |
 //! | [`limits`] | how much a client may ask |
 //!
 //! Invariant: instances never wait for it; it fetches what they leave, and they take what it leaves.
@@ -24,6 +24,7 @@ mod catalogue;
 mod connection;
 mod doorman;
 mod hub;
+mod logs;
 mod nesting;
 mod origin;
 mod outbox;

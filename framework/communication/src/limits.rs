@@ -31,6 +31,10 @@ pub struct Limits {
     pub wrong_tokens: u32,
     /// Entries in one answer to `paths`.
     pub entries: usize,
+    /// Log messages of one module in a second; more are left out.
+    pub logs_per_second: usize,
+    /// Log messages that are kept for clients who come late.
+    pub kept_logs: usize,
 }
 
 impl Default for Limits {
@@ -49,6 +53,8 @@ impl Default for Limits {
             queued_bytes: 16 << 20,
             wrong_tokens: 5,
             entries: 20_000,
+            logs_per_second: 200,
+            kept_logs: 2000,
         }
     }
 }

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 
 use axum::extract::ws::Message;
-use protocol::Lost;
+use protocol::{Log, Lost};
 
 use crate::limits::Limits;
 
@@ -48,6 +48,15 @@ impl Outbox {
         let text = serde_json::to_string(message).unwrap_or_default();
         self.answer_bytes += text.len();
         self.answers.push_back(text);
+    }
+
+    /// A message that may be lost, and is told then.
+    pub(crate) fn log(&mut self, log: Log, limits: &Limits) {
+        if self.may_ask(limits) {
+            self.say(&protocol::Message::Log(log));
+        } else {
+            self.count_lost(None, 1);
+        }
     }
 
     /// Whether the client took so many of its answers that it may ask for more.

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use framework::OutputKind;
-use protocol::{Ask, Change, Encoding, Failure, Good, Request, Subscribed, Value};
+use protocol::{Ask, Change, Encoding, Failure, Good, Level, Request, Subscribed, Value};
 use serde_json::Value as Json;
 
 use crate::catalogue;
@@ -105,9 +105,8 @@ fn answer(hub: &mut Hub, client: ClientId, request: Request) -> Answered {
             hub.wait(client, id, reports, None)
         }
         Ask::Graph {} => hub.graph(),
-        Ask::Logs { .. } | Ask::SetLogLevel { .. } => {
-            Err(Failure::new("this robot keeps no log messages".to_owned()))
-        }
+        Ask::Logs { level } => hub.log(client, id, level.unwrap_or(Level::Info)),
+        Ask::SetLogLevel { of, level } => hub.set_log_level(of.as_deref(), level),
         Ask::Trace { .. } => Err(Failure::new("this robot keeps no trace".to_owned())),
     }
 }
@@ -209,6 +208,7 @@ impl Hub {
                 cycle: reading.version,
                 time: self.link.clock.now().as_nanos(),
                 value: reading.value,
+                injected: false,
             })));
         }
         let (source, below) = self.find(path)?;
@@ -330,21 +330,18 @@ impl Hub {
                 .inject(output, &mut value)
                 .map_err(|error| Failure::new(error.to_string()))?;
             self.injected.insert((instance, output), client);
+            self.mark(instance, output, true);
         }
         Ok(Some(Good::Done {}))
     }
 
     fn release(&mut self, path: &str) -> Answered {
         let (instance, output) = self.main_output(path)?;
-        if self.injected.remove(&(instance, output)).is_none() {
+        if !self.injected.contains_key(&(instance, output)) {
             return Err(Failure::new(format!("nobody has replaced `{path}`")));
         }
-        if let Some(link) = self.link.instances.get_mut(instance) {
-            link.access
-                .injector
-                .release(output)
-                .map_err(|error| Failure::new(error.to_string()))?;
-        }
+        self.release_output(instance, output)
+            .map_err(|error| Failure::new(error.to_string()))?;
         Ok(Some(Good::Done {}))
     }
 
@@ -379,6 +376,41 @@ impl Hub {
         serde_json::from_str(self.rules.graph)
             .map(|graph| Some(Good::Graph(graph)))
             .map_err(|_| Failure::new("this robot was built without its graph".to_owned()))
+    }
+
+    /// Answers first, so that the messages come behind it.
+    fn log(&mut self, id: ClientId, request: u32, level: Level) -> Answered {
+        let client = self.clients.get_mut(&id).ok_or_else(gone)?;
+        client.answer(Some(request), Ok(Good::Done {}));
+        client.logs = Some(level);
+        for log in self.logs.kept().filter(|log| log.level >= level) {
+            client.outbox.log(log.clone(), &self.limits);
+        }
+        Ok(None)
+    }
+
+    fn set_log_level(&self, of: Option<&str>, level: Level) -> Answered {
+        let Some(of) = of else {
+            self.logs.set_level(None, level);
+            return Ok(Some(Good::Done {}));
+        };
+        self.check_path(of)?;
+        let (instance, module) = match of.split_once('.') {
+            Some((instance, module)) => (instance, Some(module)),
+            None => (of, None),
+        };
+        let mut instances = self.link.instances.iter();
+        let known = instances.find(|known| known.description.name == instance);
+        let has_node = |module: &str| known.is_some_and(|known| known.nodes.contains(&module));
+        if known.is_none() || module.is_some_and(|module| !has_node(module)) {
+            let nodes = known.map(|known| known.nodes.join(", "));
+            let expected = nodes.map_or_else(String::new, |nodes| format!("; its nodes are {nodes}"));
+            return Err(Failure::new(format!(
+                "no `{of}`: expected `INSTANCE` or `INSTANCE.crate::module` of one of its nodes{expected}"
+            )));
+        }
+        self.logs.set_level(Some((instance, module)), level);
+        Ok(Some(Good::Done {}))
     }
 
     /// The answer comes later.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use framework::reflect::{Path, Reflect, ResolvedPath, Shape, binary};
 use framework::{OutputKind, Tap, Tapped};
-use protocol::Encoding;
+use protocol::{Encoding, Good, Value};
 
 use crate::hub::{Client, ClientId};
 use crate::limits::Limits;
@@ -21,6 +21,8 @@ pub(crate) struct Source {
     streams: Vec<Stream>,
     /// Copies that came too late, so far.
     dropped: u64,
+    /// A client has replaced it.
+    pub(crate) is_injected: bool,
 }
 
 /// One part of an output in one encoding.
@@ -96,6 +98,7 @@ impl Source {
             tap,
             streams: Vec::new(),
             dropped: 0,
+            is_injected: false,
         }
     }
 
@@ -166,11 +169,11 @@ impl Source {
 
     /// Hands out every copy that the instance left.
     pub(crate) fn hand_out(&mut self, clients: &mut BTreeMap<ClientId, Client>, limits: &Limits) {
-        let Self { tap, streams, .. } = self;
+        let Self { tap, streams, is_injected, .. } = self;
         let mut read = 0;
         while tap.take(|tapped| {
             for stream in streams.iter_mut() {
-                read += stream.hand_out(tapped, clients, limits);
+                read += stream.hand_out(tapped, *is_injected, clients, limits);
             }
         }) {}
         (0..read).for_each(|_| tap.close());
@@ -218,6 +221,7 @@ impl Stream {
     fn hand_out(
         &mut self,
         tapped: Tapped<'_>,
+        is_injected: bool,
         clients: &mut BTreeMap<ClientId, Client>,
         limits: &Limits,
     ) -> usize {
@@ -231,7 +235,7 @@ impl Stream {
             if let Some(client) = clients.get_mut(&subscriber.client) {
                 let content = content.get_or_insert_with(|| match self.encoding {
                     Encoding::Binary => encode(&self.part, part, cycle, time),
-                    Encoding::Json | Encoding::Jpeg { .. } => write(part, cycle, time),
+                    Encoding::Json | Encoding::Jpeg { .. } => write(part, cycle, time, is_injected),
                 });
                 client
                     .outbox
@@ -243,7 +247,13 @@ impl Stream {
         for reader in &readers {
             if let Some(client) = clients.get_mut(&reader.client) {
                 let value = part.and_then(|part| serde_json::to_value(part.as_serialize()).ok());
-                client.answer_read(reader.request, cycle, time, value.unwrap_or_default());
+                let value = Value {
+                    cycle,
+                    time,
+                    value: value.unwrap_or_default(),
+                    injected: is_injected,
+                };
+                client.answer(Some(reader.request), Ok(Good::Value(value)));
             }
         }
         readers.len()
@@ -251,8 +261,9 @@ impl Stream {
 }
 
 /// The rest of an update: what is the same for all clients.
-fn write(part: Option<&dyn Reflect>, cycle: u64, time: u64) -> Content {
-    let mut text = format!(r#""cycle":{cycle},"time":{time},"value":"#).into_bytes();
+fn write(part: Option<&dyn Reflect>, cycle: u64, time: u64, is_injected: bool) -> Content {
+    let mark = if is_injected { r#""injected":true,"# } else { "" };
+    let mut text = format!(r#""cycle":{cycle},"time":{time},{mark}"value":"#).into_bytes();
     let start = text.len();
     let written =
         part.is_some_and(|part| serde_json::to_writer(&mut text, part.as_serialize()).is_ok());

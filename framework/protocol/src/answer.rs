@@ -86,8 +86,11 @@ pub struct Value<V = serde_json::Value> {
     pub cycle: u64,
     /// Timestamp of that cycle, in nanoseconds of the robot's clock.
     pub time: u64,
-    /// Null: the output is absent, or the part is not there in the active variant.
+    /// Null: the part is not there in this cycle.
     pub value: V,
+    /// Whether a client has put it in place of what the node wrote.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub injected: bool,
 }
 
 /// A subscription that was made.

@@ -51,8 +51,11 @@ pub struct Update<V = serde_json::Value> {
     pub cycle: u64,
     /// Timestamp of that cycle, in nanoseconds of the robot's clock.
     pub time: u64,
-    /// Null: the output is absent.
+    /// Null: the part is not there in this cycle.
     pub value: V,
+    /// Whether a client has put it in place of what the node wrote.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub injected: bool,
 }
 
 /// Updates that a client did not take in time.

@@ -88,6 +88,7 @@ fn messages_are_written_as_documented() {
                 cycle: 812,
                 time: 9_744_000_000,
                 value: json!(0.5),
+                injected: false,
             }),
             json!({ "update": { "subscription": 3, "cycle": 812, "time": 9_744_000_000_u64, "value": 0.5 } }),
         ),

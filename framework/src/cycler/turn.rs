@@ -15,6 +15,7 @@ use crate::buffer::Writer;
 use crate::clock::Clock;
 use crate::error::{Error, Result};
 use crate::guarded::{OnFailure, State, contain};
+use crate::logs;
 use crate::reflect::Reflect;
 use crate::report::{InstanceReport, NodeReport, SlotsReport};
 use crate::subscriptions::Subscriptions;
@@ -173,6 +174,7 @@ impl<B: Body> Instance for Cycler<B> {
     #[inline]
     fn wait(&mut self) -> Result<Waited> {
         let number = self.cycle.number + 1;
+        logs::enter(self.description.name, number);
         self.timed = timing::is_timed(number) || self.stopwatch.looks_closely();
         let cycle = Cycle {
             number,
@@ -256,6 +258,7 @@ impl<B: Body> Instance for Cycler<B> {
 
     #[inline]
     fn run(&mut self) {
+        logs::enter(self.description.name, self.cycle.number);
         if self.failure.is_none() && self.phase.begun() {
             let Self {
                 body,

@@ -37,6 +37,8 @@ fn unlimited() -> Limits {
         queued_bytes: usize::MAX,
         wrong_tokens: u32::MAX,
         entries: usize::MAX,
+        logs_per_second: usize::MAX,
+        kept_logs: usize::MAX,
     }
 }
 

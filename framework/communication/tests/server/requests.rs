@@ -248,6 +248,65 @@ fn timings_tell_what_nodes_did() {
     assert_eq!(control["deadline"], json!(12_000.0));
 }
 
+/// The next log message.
+fn log(client: &mut Client) -> Value {
+    let is_log = |message: &Value| message.get("log").is_some();
+    loop {
+        if let Some(position) = client.waiting.iter().position(is_log) {
+            return client.waiting.remove(position)["log"].clone();
+        }
+        let message = client.receive();
+        client.waiting.push(message);
+    }
+}
+
+#[test]
+fn what_nodes_say_is_told_to_those_who_come_late_too() {
+    let zoo = Zoo::new();
+    let mut early = zoo.client();
+    early.ok(json!({ "logs": {} }));
+    let found = "zoo_nodes::vision::spot_finder";
+    let of_finder = |client: &mut Client| loop {
+        let said = log(client);
+        if said["node"] == found && said["instance"] == "VisionTop" {
+            return said;
+        }
+    };
+    let first = of_finder(&mut early);
+    assert_eq!(first["level"], "error");
+    assert!(first["message"].as_str().is_some_and(|text| text.contains("too dark")));
+    assert!(first["cycle"].as_u64() > Some(0) && first["time"].as_u64() > Some(0));
+    let mut late = zoo.client();
+    late.ok(json!({ "logs": { "level": "error" } }));
+    assert_eq!(of_finder(&mut late), first);
+    for (of, level) in [
+        (Value::Null, "info"),
+        (json!("VisionTop"), "debug"),
+        (json!("VisionTop.zoo_nodes::vision::spot_finder"), "trace"),
+    ] {
+        late.ok(json!({ "set_log_level": { "of": of, "level": level } }));
+    }
+    for (of, expected) in [("Vision", "INSTANCE"), ("VisionTop.spot", "spot_finder")] {
+        let ask = json!({ "set_log_level": { "of": of, "level": "trace" } });
+        let error = late.error(ask);
+        assert!(error.contains(expected), "{error}");
+    }
+}
+
+#[test]
+fn the_graph_is_that_of_the_program() {
+    let with = |graph: &'static str| Listening {
+        graph,
+        ..Listening::default()
+    };
+    let zoo = Zoo::with(with(r#"{ "version": 1, "robot": "zoo" }"#), Limits::default());
+    let graph = zoo.client().ok(json!({ "graph": {} }));
+    assert_eq!(graph["graph"]["robot"], "zoo");
+    let zoo = Zoo::with(with(""), Limits::default());
+    let error = zoo.client().error(json!({ "graph": {} }));
+    assert!(error.contains("without its graph"), "{error}");
+}
+
 #[test]
 fn who_has_no_token_may_only_look() {
     let listening = Listening {

@@ -1,0 +1,104 @@
+//! Log messages: fetched from where instances leave them, numbered, and kept for those who come late.
+
+use std::collections::{BTreeMap, VecDeque};
+use std::sync::Arc;
+
+use framework::Clock;
+use framework::logs::{self, Record, Sink};
+use protocol::{Level, Log};
+
+use crate::limits::Limits;
+
+/// The messages of the run.
+pub(crate) struct Logs {
+    sink: Arc<Sink>,
+    /// Oldest first.
+    kept: VecDeque<Log>,
+    /// Messages so far, those that were left out, too.
+    number: u64,
+    /// Of each module: a second, and how many messages came in it.
+    rates: BTreeMap<&'static str, (u64, usize)>,
+}
+
+impl Logs {
+    pub(crate) fn new(clock: Clock) -> Self {
+        Self {
+            sink: Sink::new(clock),
+            kept: VecDeque::new(),
+            number: 0,
+            rates: BTreeMap::new(),
+        }
+    }
+
+    /// What was said since the last time; of a module that says too much a part. `nodes` are all nodes of the robot.
+    pub(crate) fn fetch(&mut self, nodes: &[&'static str], limits: &Limits) -> Vec<Log> {
+        let mut new = Vec::new();
+        self.number += self.sink.left_out();
+        while let Some(record) = self.sink.take() {
+            self.number += 1;
+            if self.is_allowed(&record, limits) {
+                new.push(describe(record, self.number, nodes));
+            }
+        }
+        self.kept.extend(new.iter().cloned());
+        let surplus = self.kept.len().saturating_sub(limits.kept_logs);
+        self.kept.drain(..surplus);
+        new
+    }
+
+    /// The newest messages, oldest first.
+    pub(crate) fn kept(&self) -> impl Iterator<Item = &Log> {
+        self.kept.iter()
+    }
+
+    pub(crate) fn set_level(&self, of: Option<(&str, Option<&str>)>, level: Level) {
+        self.sink.set_level(of, level_of(level));
+    }
+
+    fn is_allowed(&mut self, record: &Record, limits: &Limits) -> bool {
+        let second = record.time.as_nanos() / 1_000_000_000;
+        let rate = self.rates.entry(record.module).or_default();
+        if rate.0 != second {
+            *rate = (second, 0);
+        }
+        rate.1 += 1;
+        rate.1 <= limits.logs_per_second
+    }
+}
+
+fn describe(record: Record, number: u64, nodes: &[&'static str]) -> Log {
+    let within = nodes
+        .iter()
+        .filter(|node| logs::is_within(record.module, node));
+    let node = within.max_by_key(|node| node.len());
+    let mut fields = record.fields;
+    if node.is_none() {
+        fields.insert("module".to_owned(), record.module.into());
+    }
+    Log {
+        number,
+        time: record.time.as_nanos(),
+        level: match record.level {
+            logs::Level::TRACE => Level::Trace,
+            logs::Level::DEBUG => Level::Debug,
+            logs::Level::INFO => Level::Info,
+            logs::Level::WARN => Level::Warn,
+            logs::Level::ERROR => Level::Error,
+        },
+        instance: record.instance.map(str::to_owned),
+        node: node.map(|node| (*node).to_owned()),
+        cycle: record.cycle,
+        message: record.message,
+        fields,
+    }
+}
+
+fn level_of(level: Level) -> logs::Level {
+    match level {
+        Level::Trace => logs::Level::TRACE,
+        Level::Debug => logs::Level::DEBUG,
+        Level::Info => logs::Level::INFO,
+        Level::Warn => logs::Level::WARN,
+        Level::Error => logs::Level::ERROR,
+    }
+}

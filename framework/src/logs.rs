@@ -1,0 +1,400 @@
+//! Log messages of nodes, hardware and framework, collected for whoever asks.
+//!
+//! Nodes say them with the macros of the crate `tracing`. A message knows the instance and the cycle that its thread is in, and
+//! the module that says it: for a node that is its path in the manifest. It goes into a queue that a server empties; where
+//! the queue is full it is left out and counted, so that no thread waits.
+//!
+//! Without a sink nothing is collected, and a message costs one load.
+
+use std::cell::Cell;
+use std::fmt::{self, Write};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, PoisonError, RwLock, RwLockReadGuard, Weak};
+
+use crossbeam_queue::ArrayQueue;
+use serde_json::{Map, Value};
+use tracing::field::{Field, Visit};
+use tracing::level_filters::LevelFilter;
+use tracing::span;
+use tracing::subscriber::Interest;
+use tracing::{Event, Metadata, Subscriber};
+
+use crate::clock::Clock;
+use crate::report::tell;
+use crate::time::Timestamp;
+
+pub use tracing::Level;
+
+/// Messages that wait for the server.
+const WAITING: usize = 1024;
+
+/// Longer texts are cut.
+const LONGEST: usize = 8 << 10;
+
+/// All sinks of the process.
+static SINKS: RwLock<Vec<Weak<Sink>>> = RwLock::new(Vec::new());
+
+thread_local! {
+    static PLACE: Cell<Option<Place>> = const { Cell::new(None) };
+}
+
+/// What a thread is in.
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    instance: &'static str,
+    cycle: u64,
+}
+
+/// One message.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Record {
+    /// Of the robot's clock.
+    pub time: Timestamp,
+    pub level: Level,
+    /// The module that says it.
+    pub module: &'static str,
+    /// Whose thread says it.
+    pub instance: Option<&'static str>,
+    pub cycle: Option<u64>,
+    pub message: String,
+    /// What is said with it.
+    pub fields: Map<String, Value>,
+}
+
+/// Where messages are collected, from its creation until it is dropped.
+#[derive(Debug)]
+pub struct Sink {
+    clock: Clock,
+    records: ArrayQueue<Record>,
+    left_out: AtomicU64,
+    rules: RwLock<Rules>,
+}
+
+/// Which messages are made.
+#[derive(Clone, Debug)]
+struct Rules {
+    /// Where no other holds.
+    level: Level,
+    others: Vec<Rule>,
+}
+
+/// A level for one instance, or for one module in it.
+#[derive(Clone, Debug)]
+struct Rule {
+    instance: String,
+    module: Option<String>,
+    level: Level,
+}
+
+impl Sink {
+    /// Collects messages from now on, those of level `INFO` and above.
+    pub fn new(clock: Clock) -> Arc<Self> {
+        let sink = Arc::new(Self {
+            clock,
+            records: ArrayQueue::new(WAITING),
+            left_out: AtomicU64::new(0),
+            rules: RwLock::new(Rules {
+                level: Level::INFO,
+                others: Vec::new(),
+            }),
+        });
+        let mut sinks = SINKS.write().unwrap_or_else(PoisonError::into_inner);
+        sinks.retain(|known| known.strong_count() > 0);
+        sinks.push(Arc::downgrade(&sink));
+        drop(sinks);
+        // Whoever has set another one before wants it so.
+        let _ = tracing::subscriber::set_global_default(Collector);
+        tracing::callsite::rebuild_interest_cache();
+        sink
+    }
+
+    /// The message that waits longest.
+    pub fn take(&self) -> Option<Record> {
+        self.records.pop()
+    }
+
+    /// How many messages found no place since this was last asked.
+    pub fn left_out(&self) -> u64 {
+        self.left_out.swap(0, Ordering::Relaxed)
+    }
+
+    /// Messages of an instance, of a module in it, or all, are made from this level on.
+    pub fn set_level(&self, of: Option<(&str, Option<&str>)>, level: Level) {
+        let mut rules = self.rules.write().unwrap_or_else(PoisonError::into_inner);
+        match of {
+            None => {
+                rules.level = level;
+                rules.others.clear();
+            }
+            Some((instance, module)) => {
+                rules.others.retain(|rule| {
+                    rule.instance != instance
+                        || (module.is_some() && rule.module.as_deref() != module)
+                });
+                rules.others.push(Rule {
+                    instance: instance.to_owned(),
+                    module: module.map(str::to_owned),
+                    level,
+                });
+            }
+        }
+        drop(rules);
+        tracing::callsite::rebuild_interest_cache();
+    }
+
+    fn wants(&self, level: Level, module: &str, place: Option<Place>) -> bool {
+        level <= self.rules().of(module, place)
+    }
+
+    fn keep(&self, record: Record) {
+        if self.records.push(record).is_err() {
+            self.left_out.fetch_add(1, Ordering::Relaxed);
+        }
+    }
+
+    fn rules(&self) -> RwLockReadGuard<'_, Rules> {
+        self.rules.read().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Rules {
+    /// The rule that says most about it holds.
+    fn of(&self, module: &str, place: Option<Place>) -> Level {
+        let of_instance = |rule: &&Rule| place.is_some_and(|it| it.instance == rule.instance);
+        let fits = |rule: &&Rule| {
+            let wanted = rule.module.as_deref();
+            of_instance(rule) && wanted.is_none_or(|wanted| is_within(module, wanted))
+        };
+        let found = self.others.iter().filter(fits);
+        let found = found.max_by_key(|rule| rule.module.as_ref().map_or(0, String::len));
+        found.map_or(self.level, |rule| rule.level)
+    }
+
+    fn most_verbose(&self) -> Level {
+        let others = self.others.iter().map(|rule| rule.level);
+        others.fold(self.level, Ord::max)
+    }
+}
+
+/// Whether a module is `outer` or lies in it.
+pub fn is_within(module: &str, outer: &str) -> bool {
+    let rest = module.strip_prefix(outer);
+    rest.is_some_and(|rest| rest.is_empty() || rest.starts_with("::"))
+}
+
+/// From now on the thread is in this cycle.
+#[inline]
+pub(crate) fn enter(instance: &'static str, cycle: u64) {
+    PLACE.set(Some(Place { instance, cycle }));
+}
+
+/// Something beside the robot is not as it should be: it goes on, and who watches standard error is told, too.
+pub fn tell_warning(module: &'static str, warning: &dyn fmt::Display) {
+    record(Level::WARN, module, format_args!("{warning}"));
+    tell(format_args!("warning: {warning}"));
+}
+
+/// A message of the framework about a node.
+pub(crate) fn record(level: Level, module: &'static str, message: fmt::Arguments<'_>) {
+    hand_out(level, module, || (cut(message.to_string()), Map::new()));
+}
+
+/// Gives the message to everybody who wants it; it is made only if somebody does.
+fn hand_out(
+    level: Level,
+    module: &'static str,
+    make: impl FnOnce() -> (String, Map<String, Value>),
+) {
+    let place = PLACE.get();
+    let sinks = SINKS.read().unwrap_or_else(PoisonError::into_inner);
+    let sinks = sinks.iter().filter_map(Weak::upgrade);
+    let wanting: Vec<_> = sinks
+        .filter(|sink| sink.wants(level, module, place))
+        .collect();
+    if wanting.is_empty() {
+        return;
+    }
+    let (message, fields) = make();
+    for sink in wanting {
+        sink.keep(Record {
+            time: sink.clock.now(),
+            level,
+            module,
+            instance: place.map(|place| place.instance),
+            cycle: place.map(|place| place.cycle),
+            message: message.clone(),
+            fields: fields.clone(),
+        });
+    }
+}
+
+/// What `tracing` calls.
+struct Collector;
+
+impl Subscriber for Collector {
+    fn register_callsite(&self, _: &'static Metadata<'static>) -> Interest {
+        Interest::sometimes()
+    }
+
+    fn max_level_hint(&self) -> Option<LevelFilter> {
+        let sinks = SINKS.read().unwrap_or_else(PoisonError::into_inner);
+        let levels = sinks.iter().filter_map(Weak::upgrade);
+        let levels = levels.map(|sink| sink.rules().most_verbose());
+        Some(levels.max().map_or(LevelFilter::OFF, LevelFilter::from_level))
+    }
+
+    fn enabled(&self, metadata: &Metadata<'_>) -> bool {
+        metadata.is_event()
+    }
+
+    fn new_span(&self, _: &span::Attributes<'_>) -> span::Id {
+        span::Id::from_u64(1)
+    }
+
+    fn record(&self, _: &span::Id, _: &span::Record<'_>) {}
+
+    fn record_follows_from(&self, _: &span::Id, _: &span::Id) {}
+
+    fn event(&self, event: &Event<'_>) {
+        let metadata = event.metadata();
+        let module = metadata.target();
+        // Targets live as long as their metadata.
+        hand_out(*metadata.level(), module, || {
+            let mut said = Said::default();
+            event.record(&mut said);
+            (cut(said.message), said.fields)
+        });
+    }
+
+    fn enter(&self, _: &span::Id) {}
+
+    fn exit(&self, _: &span::Id) {}
+}
+
+/// Message and fields of an event.
+#[derive(Default)]
+struct Said {
+    message: String,
+    fields: Map<String, Value>,
+}
+
+impl Said {
+    fn say(&mut self, field: &Field, value: Value) {
+        match (field.name(), value) {
+            ("message", Value::String(text)) => self.message = text,
+            (name, value) => {
+                self.fields.insert(name.to_owned(), value);
+            }
+        }
+    }
+}
+
+impl Visit for Said {
+    fn record_debug(&mut self, field: &Field, value: &dyn fmt::Debug) {
+        let mut text = String::new();
+        // Writing to a string cannot fail; what cannot be shown is shown as far as it went.
+        let _ = write!(text, "{value:?}");
+        self.say(field, cut(text).into());
+    }
+
+    fn record_str(&mut self, field: &Field, value: &str) {
+        self.say(field, cut(value.to_owned()).into());
+    }
+
+    fn record_f64(&mut self, field: &Field, value: f64) {
+        self.say(field, value.into());
+    }
+
+    fn record_i64(&mut self, field: &Field, value: i64) {
+        self.say(field, value.into());
+    }
+
+    fn record_u64(&mut self, field: &Field, value: u64) {
+        self.say(field, value.into());
+    }
+
+    fn record_bool(&mut self, field: &Field, value: bool) {
+        self.say(field, value.into());
+    }
+}
+
+fn cut(mut text: String) -> String {
+    if text.len() > LONGEST {
+        let end = (0..=LONGEST).rev().find(|end| text.is_char_boundary(*end));
+        text.truncate(end.unwrap_or_default());
+        text.push('…');
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rules(others: &[(&str, Option<&str>, Level)]) -> Arc<Sink> {
+        let sink = Sink::new(Clock::stepped());
+        for (instance, module, level) in others {
+            sink.set_level(Some((instance, *module)), *level);
+        }
+        sink
+    }
+
+    fn place(instance: &'static str) -> Option<Place> {
+        Some(Place { instance, cycle: 1 })
+    }
+
+    #[test]
+    fn the_rule_that_says_most_holds() {
+        let sink = rules(&[
+            ("Control", None, Level::WARN),
+            ("Control", Some("walk::step"), Level::TRACE),
+        ]);
+        for (level, module, instance, expected) in [
+            (Level::INFO, "walk", "Control", false),
+            (Level::WARN, "walk", "Control", true),
+            (Level::TRACE, "walk::step", "Control", true),
+            (Level::TRACE, "walk::step::foot", "Control", true),
+            (Level::TRACE, "walk::steps", "Control", false),
+            (Level::INFO, "walk", "Vision", true),
+            (Level::DEBUG, "walk::step", "Vision", false),
+        ] {
+            let wanted = sink.wants(level, module, place(instance));
+            assert_eq!(wanted, expected, "{level} {module} {instance}");
+        }
+        assert!(!sink.wants(Level::DEBUG, "anything", None));
+        sink.set_level(None, Level::DEBUG);
+        assert!(sink.wants(Level::DEBUG, "walk", place("Control")));
+    }
+
+    #[test]
+    fn a_message_knows_where_it_was_said_and_what_with() {
+        let sink = Sink::new(Clock::stepped());
+        let said = std::thread::spawn(|| {
+            enter("Test", 7);
+            tracing::warn!(target: "test::said", depth = 3, name = "x", "it {} deep", "is");
+            tracing::debug!(target: "test::said", "nobody wants it");
+        });
+        said.join().expect("it only says something");
+        let records: Vec<_> = std::iter::from_fn(|| sink.take())
+            .filter(|record| record.module == "test::said")
+            .collect();
+        let [record] = &records[..] else {
+            panic!("one message: {records:?}")
+        };
+        assert_eq!((record.instance, record.cycle), (Some("Test"), Some(7)));
+        assert_eq!((record.level, record.message.as_str()), (Level::WARN, "it is deep"));
+        assert_eq!(Value::from(record.fields.clone()), serde_json::json!({ "depth": 3, "name": "x" }));
+    }
+
+    #[test]
+    fn what_finds_no_place_is_counted_and_long_texts_are_cut() {
+        let sink = Sink::new(Clock::stepped());
+        let long = "ä".repeat(LONGEST);
+        for _ in 0..WAITING + 5 {
+            record(Level::ERROR, "test::full", format_args!("{long}"));
+        }
+        assert!(sink.left_out() >= 5);
+        assert_eq!(sink.left_out(), 0);
+        assert!(sink.take().is_some_and(|record| record.message.len() <= LONGEST + 3));
+    }
+}
