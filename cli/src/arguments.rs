@@ -79,6 +79,7 @@ pub enum Command {
     Call(Call),
     Log(Log),
     Top(Top),
+    Replay(Replay),
     New(New),
     AddNode(AddNode),
     AddCycler(AddCycler),
@@ -248,15 +249,54 @@ pub struct Run {
     /// Folder for what the run writes
     #[arg(long, value_name = "FOLDER")]
     pub run_folder: Option<Utf8PathBuf>,
+    /// Record into this file, which must not be there; `on`: into the run folder; `off` [default: `on` if simulated]
+    #[arg(long, value_name = "FILE|on|off")]
+    pub record: Option<Utf8PathBuf>,
+    /// What the recording keeps, for example `512MiB` [default: the manifest's `recording_budget`]
+    #[arg(long, value_name = "SIZE")]
+    pub recording_budget: Option<String>,
+    #[command(flatten)]
+    pub build: Build,
+    /// Options of the hardware
+    #[arg(last = true, value_name = "OPTIONS")]
+    pub options: Vec<OsString>,
+}
+
+/// How the robot's program is built.
+#[derive(Args, Clone, Debug)]
+pub struct Build {
     /// cargo's profile [default: the target's, else `release`, or `dev` where hulkgen itself is a debug build]
     #[arg(long, value_name = "NAME")]
     pub profile: Option<String>,
     /// Folder for what cargo builds [default: cargo's]
     #[arg(long, value_name = "FOLDER")]
     pub target_dir: Option<Utf8PathBuf>,
-    /// Options of the hardware
-    #[arg(last = true, value_name = "OPTIONS")]
-    pub options: Vec<OsString>,
+}
+
+/// Generate, build, and run the cycles of a recording again
+///
+/// Each instance runs alone, each cycle from what was recorded of it, without hardware.
+#[derive(Args, Clone, Debug)]
+#[command(after_help = "\
+Exit status: 0 every output has the same bits, 1 one differs, nothing was verified, errors in the robot or a failed build,
+             2 wrong usage.
+
+Examples:
+  hulkgen replay runs/1700000000-42/recording.mcap --verify")]
+pub struct Replay {
+    /// The recording
+    pub file: Utf8PathBuf,
+    /// Compare every output, bit for bit, and name the first that differs
+    #[arg(long, required = true)]
+    pub verify: bool,
+    /// The target [default: the first of hulk.toml]
+    #[arg(long)]
+    pub target: Option<String>,
+    /// Form of the answer
+    #[arg(long, value_enum)]
+    pub format: Option<TextOrJson>,
+    #[command(flatten)]
+    pub build: Build,
 }
 
 #[cfg(test)]

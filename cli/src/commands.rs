@@ -94,6 +94,7 @@ fn with_session(
         Command::Show(show) => show::run(&mut session, show),
         Command::Run(run) => run::run(&mut session, run),
         Command::Simulate(simulate) => simulate::run(&mut session, simulate),
+        Command::Replay(replay) => run::replay(&mut session, replay),
         Command::AddNode(add) => scaffold::add_node(&mut session, add),
         Command::AddCycler(add) => scaffold::add_cycler(&mut session, add),
         Command::RemoveNode(remove) => scaffold::remove_node(&mut session, remove),

@@ -14,6 +14,7 @@ pub mod node;
 pub mod outside;
 pub mod package;
 pub mod parameters;
+pub mod recording;
 pub mod runtime;
 mod sentences;
 pub mod structs;
@@ -33,6 +34,7 @@ pub use dataflow::Dataflow;
 pub use outside::Outside;
 pub use package::Package;
 pub use parameters::Parameters;
+pub use recording::Sink;
 pub use runtime::Runtime;
 
 /// The sentence that stands in the header of every generated file.
@@ -60,6 +62,8 @@ pub struct RuntimeModel {
     pub outside: Vec<Outside>,
     /// `src/runtime.rs`.
     pub runtime: Runtime,
+    /// `src/recording.rs`.
+    pub sink: Sink,
     /// `src/bin/…`, in manifest order.
     pub binaries: Vec<Binary>,
     /// `graph.json`, which the binaries show their clients.
@@ -80,6 +84,7 @@ pub fn describe(robot: &Robot, schedule: &Schedule) -> RuntimeModel {
         package: package::describe(robot),
         dataflow: dataflow::describe(robot, schedule),
         runtime: runtime::describe(robot, &cyclers),
+        sink: recording::sink(robot),
         binaries: binary::describe(robot),
         graph: json::render_for_clients(&graph::describe(robot, schedule)),
         outside: outside::describe(robot),

@@ -14,6 +14,7 @@ mod instance;
 mod layout;
 mod nodes;
 mod parameters;
+mod recording;
 mod runtime;
 mod spelling;
 mod step;
@@ -63,6 +64,10 @@ pub fn render(model: &RuntimeModel) -> GeneratedFiles {
         ),
         ("src/runtime.rs".to_owned(), runtime::render_runtime(model)),
         (
+            "src/recording.rs".to_owned(),
+            recording::render_recording(model),
+        ),
+        (
             "tests/drift.rs".to_owned(),
             drift_test::render_drift_test(&model.folder, &model.options),
         ),
@@ -80,6 +85,10 @@ pub fn render(model: &RuntimeModel) -> GeneratedFiles {
         files.insert(
             format!("src/runtime/{module}.rs"),
             body::render_body(cycler, &model.runtime),
+        );
+        files.insert(
+            format!("src/recording/{module}.rs"),
+            recording::render_recorded(model, cycler),
         );
     }
     for cycler in &model.outside {
@@ -114,6 +123,8 @@ fn render_library(model: &RuntimeModel) -> String {
         pub mod cyclers;
         #[rustfmt::skip]
         pub mod runtime;
+        #[rustfmt::skip]
+        pub mod recording;
     };
     layout::rust_file(&model.title, &[], modules)
 }

@@ -72,6 +72,7 @@ pub fn resolve(
             .iter()
             .map(ToString::to_string)
             .collect(),
+        recording_budget: manifest.robot.recording_budget.bytes(),
         targets: hardware::targets(workspace, manifest, &sources.library, diagnostics),
         left_to_rustc: left_to_rustc + cyclers.iter().map(unchecked_edges).sum::<usize>(),
         cyclers,

@@ -15,7 +15,7 @@ mod restarts;
 mod turn;
 
 pub use counters::{Counters, Counts};
-pub use description::{InstanceDescription, Kind};
+pub use description::{InstanceDescription, Kind, Record};
 pub use instance::{Finished, Instance, PAUSE_AFTER_SETUP_FAILURE, Restarted, Waited};
 pub use turn::Cycler;
 
@@ -139,6 +139,16 @@ impl<T> Swap<T> {
     /// Both at once, to read one while writing the other.
     #[inline]
     pub fn both(&mut self) -> (&mut T, &T) {
+        let [first, second] = &mut self.values;
+        if self.second_is_current {
+            (second, first)
+        } else {
+            (first, second)
+        }
+    }
+
+    /// Both at once, to make them what they were.
+    pub fn both_to_load(&mut self) -> (&mut T, &mut T) {
         let [first, second] = &mut self.values;
         if self.second_is_current {
             (second, first)

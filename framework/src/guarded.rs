@@ -226,9 +226,29 @@ impl<N> Guarded<N> {
         self.ledger.not_renewed = None;
     }
 
+    /// What fails was told when it happened: nothing is told of this node again.
+    pub(crate) fn hush(&mut self) {
+        // Only powers of two are told.
+        self.ledger.failures = 1 << 62 | 1;
+    }
+
     /// The node, for its `restore` in a replay.
     pub fn node_mut(&mut self) -> &mut N {
         &mut self.node
+    }
+
+    pub(crate) fn node(&self) -> &N {
+        &self.node
+    }
+
+    /// What [`Condition`] is made of.
+    pub(crate) fn failed(&self) -> (bool, &Option<String>, Option<Timestamp>) {
+        let Ledger {
+            not_renewed,
+            good_at,
+            ..
+        } = &*self.ledger;
+        (self.broken, not_renewed, *good_at)
     }
 
     /// What the node did so far; how long it took, the instance knows.

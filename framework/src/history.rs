@@ -72,6 +72,13 @@ impl<T> History<T> {
         self.len = 0;
     }
 
+    /// Forgets the values of this time and later ones.
+    pub(crate) fn forget_from(&mut self, timestamp: Timestamp) {
+        while self.len > 0 && self.entry(self.len - 1).0 >= timestamp {
+            self.len -= 1;
+        }
+    }
+
     /// What lies at a path in every value: `history.project(|pose| &pose.position)`.
     #[inline]
     pub fn project<'c, V, F: Fn(&'c T) -> V>(&'c self, path: F) -> Stored<'c, T, F> {

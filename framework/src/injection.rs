@@ -6,13 +6,15 @@
 use std::collections::BTreeSet;
 
 use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
 
 use crate::buffer::Writer;
 use crate::error::{Error, Result};
 use crate::time::Timestamp;
 
 /// The value of one output, if a client replaces it.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(transparent)]
 pub struct Injection<T>(Option<T>);
 
 /// The injections of one instance, as its cycle takes them.

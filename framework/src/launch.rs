@@ -7,6 +7,8 @@
 
 mod check;
 mod options;
+mod record;
+mod replay;
 mod scenario;
 mod serving;
 mod signals;
@@ -26,6 +28,8 @@ use crate::driver::Threads;
 use crate::error::{Error, Result};
 use crate::hardware::{Hardware, HardwareContext};
 use crate::parameters::{Layers, Parameters};
+use crate::recorded::Recording;
+use crate::replay::Replayable;
 use crate::report::{RobotReport, tell};
 use crate::robot::{Robot, Start};
 use crate::stop::Stop;
@@ -36,7 +40,7 @@ use signals::Signals;
 use status::Supervisor;
 
 /// What the manifest says about a binary; a constant of the generated crate.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug)]
 pub struct Target {
     /// The robot's name.
     pub robot: &'static str,
@@ -50,6 +54,14 @@ pub struct Target {
     pub identities: &'static [&'static str],
     /// The data-flow graph, as `hulkgen graph --format json` prints it; empty where the binary does not have it.
     pub graph: &'static str,
+    /// Bytes of chunks that a recording keeps.
+    pub recording_budget: u64,
+    /// The text of the manifest, for recordings.
+    pub manifest: &'static str,
+    /// The text of `DATAFLOW.md`, for recordings.
+    pub dataflow: &'static str,
+    /// Instances that can be replayed.
+    pub replayables: &'static [Replayable],
 }
 
 const DONE: u8 = 0;
@@ -99,6 +111,9 @@ where
     };
     if options.check_parameters {
         return check::parameters::<P>(&target, &options, output);
+    }
+    if let Some(file) = &options.replay {
+        return replay::run(&target, file, &options, output);
     }
     let signals = Signals::new();
     let stop = Stop::new();
@@ -168,12 +183,20 @@ where
     };
     let mut robot = create(&hardware, start)?;
     robot.parameters.came_from(layers, loaded)?;
+    let identities = hardware.identities();
+    let mut recording = record::start(
+        target,
+        options,
+        &robot,
+        hardware.is_simulated(),
+        &identities,
+    )?;
 
     tell(format_args!(
         "robot {} on target {}; Ctrl-C stops it",
         target.robot, target.name
     ));
-    supervisor.watch(&robot, options.duration);
+    supervisor.watch(&robot, options.duration, recording.as_ref());
     let started = clock.now();
     let is_real_time = options.is_real_time || !hardware.is_simulated();
     let threads = Threads::new(&clock, hardware.as_ref(), stop).real_time(is_real_time);
@@ -183,8 +206,11 @@ where
         None => None,
     };
     let page = served.as_ref().map(|served| page(served.as_ref()));
-    let result = threads.run(&mut robot.instances);
-    let report = RobotReport::new(target.name, clock.now() - started, &robot);
+    let result = threads.run_observed(&mut robot.instances, |instance| {
+        recording.as_mut()?.observer(instance)
+    });
+    let mut report = RobotReport::new(target.name, clock.now() - started, &robot);
+    report.recording = recording.map(Recording::end);
     let written = match options.format {
         Format::Json => {
             let mut json = report.to_json();
@@ -232,7 +258,7 @@ fn connect<H: Hardware>(
     let hardware = H::new(HardwareContext {
         options: options.hardware.clone(),
         table: parameters.hardware(target.name)?,
-        run_folder: run_folder(options),
+        run_folder: options.run_folder.clone(),
         clock: clock.clone(),
         stop: stop.clone(),
     });
@@ -272,13 +298,6 @@ fn known_identities(target: &Target, reported: Vec<(String, String)>) -> Vec<(St
             .cloned()
     };
     target.identities.iter().filter_map(of_name).collect()
-}
-
-fn run_folder(options: &Options) -> PathBuf {
-    options
-        .run_folder
-        .clone()
-        .unwrap_or_else(default_run_folder)
 }
 
 fn default_run_folder() -> PathBuf {

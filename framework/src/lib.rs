@@ -16,7 +16,7 @@
 //! | [`stub`] | what stands in for an instance that a partial robot does without |
 //! | [`pool`] | large values that are handed on by handle |
 //! | [`temporal`], [`history`] | results of perception in order of time; own outputs by time |
-//! | [`recorded`] | what a cycle took, saved and given back |
+//! | [`recorded`], [`replay`], [`numerics`] | what a cycle took, saved and given back; recorded cycles run again |
 //! | [`subscriptions`], [`injection`] | clients: listen to an output, replace one |
 //! | [`logs`] | what nodes say, with instance and cycle, for whoever collects it |
 //! | [`tap`], [`link`] | copies of outputs for a communication server, and all else that it may see and change |
@@ -43,12 +43,14 @@ pub mod injection;
 pub mod launch;
 pub mod link;
 pub mod logs;
+pub mod numerics;
 pub mod parameters;
 pub mod pool;
 pub mod procedure;
 pub mod rearm;
 pub mod recorded;
 pub mod reflect;
+pub mod replay;
 pub mod report;
 pub mod robot;
 pub mod scenario;
@@ -71,8 +73,8 @@ pub use context::{
     LatestInput, MainOutput, Parameter, PreviousInput, Procedure, ReadState, RequiredInput,
 };
 pub use cycler::{
-    Body, Cycle, Cycler, Finished, Instance, InstanceDescription, Kind, Restarted, Slots, Swap,
-    Waited,
+    Body, Cycle, Cycler, Finished, Instance, InstanceDescription, Kind, Record, Restarted, Slots,
+    Swap, Waited,
 };
 pub use data::{Data, NodeState, ParameterData};
 pub use digest::Digest;

@@ -145,6 +145,14 @@ impl<Request, Response> Answerer<Request, Response> {
         self.taken.as_ref().map(|asked| &asked.request)
     }
 
+    /// The call of this cycle, whose answer nobody waits for.
+    pub(crate) fn ask(&mut self, request: Option<Request>) {
+        self.taken = request.map(|request| Asked {
+            request,
+            answers: sync_channel(1).0,
+        });
+    }
+
     /// Ends the cycle: what is not answered is refused.
     #[inline]
     pub fn close(&mut self) {

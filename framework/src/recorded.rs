@@ -6,9 +6,22 @@
 //!
 //! Invariant: what is given back shows the same values, times, order and split as what was saved.
 
+mod body;
 mod bytes;
+mod capture;
+mod ends;
 mod history;
 mod inputs;
+mod recorder;
+mod report;
+mod start;
 
+pub use body::{Loaded, Recorded, Visit, digest};
 pub use bytes::{Loading, SaveError, Saving};
+pub(crate) use capture::{BEGUN, FINISHED, Written};
+pub use capture::{Capture, Head, PARAMETERS, Stored, VERSION, Values};
+pub use hulkgen_recording::{Counts, Settings};
 pub use inputs::{Foreign, Found};
+pub use report::{InstanceRecorded, RecordingReport};
+pub use start::{About, Recording};
+pub(crate) use start::{FRAMES, VALUES};

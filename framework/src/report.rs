@@ -8,13 +8,14 @@ use std::io::Write;
 use std::time::Duration;
 
 use crate::cycler::{Counts, InstanceDescription};
+use crate::recorded::RecordingReport;
 use crate::robot::Robot;
 use crate::scheduling::Granted;
 use crate::temporal::QueueCounts;
 use crate::timing::{CountingAllocator, Histogram};
 
 /// A whole run.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct RobotReport {
     /// Name of the target that ran.
     pub target: &'static str,
@@ -22,6 +23,8 @@ pub struct RobotReport {
     pub duration: Duration,
     /// In manifest order.
     pub instances: Vec<InstanceReport>,
+    /// What was recorded, if anything was.
+    pub recording: Option<RecordingReport>,
 }
 
 /// What one instance did.
@@ -135,6 +138,7 @@ impl RobotReport {
             target,
             duration,
             instances,
+            recording: None,
         }
     }
 }

@@ -44,6 +44,10 @@ fn an_interrupted_run_reports_and_ends_with_130() {
         location: None,
         identities: &[],
         graph: "",
+        recording_budget: 1 << 20,
+        manifest: "",
+        dataflow: "",
+        replayables: &[],
     };
     let arguments = [
         "--parameters".into(),

@@ -21,6 +21,10 @@ const TARGET: Target = Target {
     location: None,
     identities: &["body", "head"],
     graph: "",
+    recording_budget: 1 << 20,
+    manifest: "",
+    dataflow: "",
+    replayables: &[],
 };
 
 #[derive(Clone, Debug, Deserialize, Reflect, Serialize)]

@@ -180,7 +180,7 @@ pub enum Switch {
 pub enum RecordSome {
     /// Every so many cycles one.
     Every(#[schemars(range(min = 1))] u32),
-    /// Cycles in which this output is true.
+    /// Cycles that begin while this output of the newest finished cycle is true.
     While(String),
 }
 

@@ -1,6 +1,8 @@
-//! `run`: generate, build, and become the robot's program.
+//! `run` and `replay`: generate, build, and become the robot's program.
 
 mod program;
+
+use std::ffi::OsString;
 
 use camino::{Utf8Path, Utf8PathBuf};
 
@@ -15,16 +17,35 @@ use crate::outcome::{Outcome, Refusal};
 use crate::resolve::robot::{Robot, Target};
 
 pub(super) fn run(session: &mut Session<'_>, run: &arguments::Run) -> Result<Outcome, Failure> {
+    let arguments = program::arguments(run)?;
+    become_program(session, run.target.as_deref(), &run.build, &arguments)
+}
+
+pub(super) fn replay(
+    session: &mut Session<'_>,
+    replay: &arguments::Replay,
+) -> Result<Outcome, Failure> {
+    let arguments = program::arguments_of_replay(replay)?;
+    become_program(session, replay.target.as_deref(), &replay.build, &arguments)
+}
+
+/// Builds the target's program and becomes it.
+fn become_program(
+    session: &mut Session<'_>,
+    target: Option<&str>,
+    how: &arguments::Build,
+    arguments: &[OsString],
+) -> Result<Outcome, Failure> {
     let wanted = Wanted {
-        target: run.target.as_deref(),
-        profile: run.profile.as_deref(),
-        target_dir: run.target_dir.as_deref(),
+        target,
+        profile: how.profile.as_deref(),
+        target_dir: how.target_dir.as_deref(),
     };
     let Some(executable) = build(session, &wanted)? else {
         return Ok(Outcome::Bad);
     };
     let root = session.workspace.root();
-    Err(program::become_robot(&executable, run, root).into())
+    Err(program::become_robot(&executable, arguments, root).into())
 }
 
 /// Which program.

@@ -29,6 +29,7 @@ pub(crate) fn robot() -> Robot {
         generated: "generated".into(),
         parameters: "parameters".into(),
         identities: vec!["body".to_owned()],
+        recording_budget: 2 << 30,
         cyclers: vec![vision(), control()],
         partial: None,
         targets: vec![target("simulated"), target("nao")],
@@ -79,6 +80,7 @@ fn vision() -> Cycler {
     receiver.cycle_bounds = vec![Interface {
         path: "hardware::CameraInterface".to_owned(),
         reading: Some(true),
+        methods: None,
     }];
 
     let mut detection = node("vision::ball_detection", "BallDetection", false);
@@ -135,6 +137,7 @@ fn control() -> Cycler {
     receiver.cycle_bounds = vec![Interface {
         path: "hardware::SensorInterface".to_owned(),
         reading: Some(true),
+        methods: None,
     }];
 
     let mut head = node("control::head", "Head", false);
@@ -208,6 +211,7 @@ fn control() -> Cycler {
     sender.cycle_bounds = vec![Interface {
         path: "hardware::ActuatorInterface".to_owned(),
         reading: Some(false),
+        methods: None,
     }];
     Cycler {
         states: Tree {

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use crate::resolve::robot::Robot;
+use crate::workspace::MANIFEST;
 
 /// The binary of a target.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -18,10 +19,16 @@ pub struct Binary {
     pub parameters: String,
     pub location: Option<String>,
     pub identities: Vec<String>,
+    /// Bytes that a recording keeps before its oldest part goes.
+    pub recording_budget: u64,
+    /// From the file to the manifest.
+    pub manifest: String,
 }
 
 /// Decides what the binary of each target says.
 pub fn describe(robot: &Robot) -> Vec<Binary> {
+    // Out of `src/bin`, and out of the crate.
+    let up = "../".repeat(2 + robot.generated.components().count());
     let binary = |target: &crate::resolve::robot::Target| Binary {
         name: target.name.clone(),
         robot: robot.name.clone(),
@@ -30,6 +37,8 @@ pub fn describe(robot: &Robot) -> Vec<Binary> {
         parameters: robot.parameters.to_string(),
         location: target.location.clone(),
         identities: robot.identities.clone(),
+        recording_budget: robot.recording_budget,
+        manifest: format!("{up}{MANIFEST}"),
     };
     robot.targets.iter().map(binary).collect()
 }

@@ -100,6 +100,8 @@ pub struct OutputField {
     pub historic: bool,
     /// A setup node writes it.
     pub setup: bool,
+    /// Some node reads it as previous, or its producer holds.
+    pub previous: bool,
 }
 
 /// A declared additional output.
@@ -151,6 +153,8 @@ pub struct Source {
     pub field: String,
     /// The field of the body that reads its newest cycle.
     pub reader: String,
+    /// Who writes its cycles in a replay: a field of `Outside`.
+    pub writer: String,
     /// Module of its database: `vision`.
     pub module: String,
 }
@@ -258,6 +262,7 @@ pub fn describe(
     let nodes: Vec<NodeModel> = named
         .map(|(name, node)| surroundings.describe(name, node))
         .collect();
+    let latest = sources::latest(robot, cycler, &instance_parameters);
     let created = surroundings.creation_is_generic;
     let touched = surroundings.frame_is_generic || created;
     CyclerModel {
@@ -271,8 +276,8 @@ pub fn describe(
         additional_structs: outputs::additional_structs(robot, cycler),
         state_structs: outputs::state_structs(robot, cycler),
         procedures: outputs::procedures(cycler),
-        perception: sources::perception(robot, cycler),
-        latest: sources::latest(robot, cycler, &instance_parameters),
+        perception: sources::perception(robot, cycler, &latest),
+        latest,
         previous: previous(cycler),
         renews: frame::renews_from_frame(cycler),
         setup: calls(schedule, &nodes, true),

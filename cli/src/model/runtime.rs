@@ -10,6 +10,7 @@ use super::frame::Hardware;
 use super::names::{Names, constant_case, joined, snake_case};
 use super::node::asked;
 use super::outside;
+use super::recording::{self, RecordModel};
 use super::sentences;
 use crate::resolve::robot::{Cycler, CyclerKind, InstanceId, OnFailure, Robot, Scheduling};
 
@@ -109,6 +110,7 @@ pub struct Description {
     pub history: Duration,
     pub lockstep_duration: Option<Duration>,
     pub scheduling: Scheduling,
+    pub record: RecordModel,
 }
 
 impl Runtime {
@@ -223,7 +225,7 @@ fn instance_model(robot: &Robot, buffer: &Buffer) -> InstanceModel {
         name: name.clone(),
         variable: buffer.variable.clone(),
         constant: constant_case(name),
-        description: description(cycler, id.instance),
+        description: description(robot, cycler, id.instance),
         procedures: Vec::new(),
     }
 }
@@ -294,8 +296,10 @@ pub fn queue(variable: &str, consumer: &str) -> String {
     format!("{variable}_queue_for_{consumer}")
 }
 
-fn description(cycler: &Cycler, instance: usize) -> Description {
+fn description(robot: &Robot, cycler: &Cycler, instance: usize) -> Description {
+    let declared = &cycler.instances[instance];
     Description {
+        record: recording::record(robot, &declared.name, &declared.record),
         cycler: cycler.name.clone(),
         kind: cycler.kind,
         on_failure: cycler.on_failure,

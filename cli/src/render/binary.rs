@@ -1,5 +1,6 @@
 //! `src/bin/<target>.rs`.
 
+use proc_macro2::Literal;
 use quote::quote;
 
 use super::layout;
@@ -13,10 +14,14 @@ pub(super) fn render_binary(binary: &Binary) -> String {
         robot,
         parameters,
         identities,
+        recording_budget,
+        manifest,
         ..
     } = binary;
     let hardware = path(&binary.hardware);
     let library = path(&format!("{}::runtime", binary.library));
+    let replayables = path(&format!("{}::recording", binary.library));
+    let budget = Literal::u64_unsuffixed(*recording_budget);
     let location = match &binary.location {
         Some(location) => quote!(Some(#location)),
         None => quote!(None),
@@ -29,6 +34,10 @@ pub(super) fn render_binary(binary: &Binary) -> String {
             location: #location,
             identities: &[#(#identities),*],
             graph: include_str!("../../graph.json"),
+            recording_budget: #budget,
+            manifest: include_str!(#manifest),
+            dataflow: include_str!("../../DATAFLOW.md"),
+            replayables: #replayables::INSTANCES,
         };
 
         fn main() -> ::std::process::ExitCode {
@@ -41,6 +50,7 @@ pub(super) fn render_binary(binary: &Binary) -> String {
     };
     let title = format!("The robot `{robot}` on target `{name}`.");
     let modules = [
+        format!("{}::recording", binary.library),
         format!("{}::runtime", binary.library),
         "framework::launch".to_owned(),
     ];

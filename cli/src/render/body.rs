@@ -69,12 +69,12 @@ fn quote_additional_outputs(cycler: &CyclerModel) -> Option<TokenStream> {
 }
 
 /// A type of the cycler's own database.
-fn own(cycler: &CyclerModel, name: &str) -> TokenStream {
+pub(super) fn own(cycler: &CyclerModel, name: &str) -> TokenStream {
     path(&format!("crate::databases::{}::{name}", cycler.module))
 }
 
 /// What a slot of the instance's buffer holds.
-fn quote_shared(cycler: &CyclerModel) -> TokenStream {
+pub(super) fn quote_shared(cycler: &CyclerModel) -> TokenStream {
     if cycler.has_shared() {
         own(cycler, "SharedOutputs")
     } else {
@@ -83,7 +83,7 @@ fn quote_shared(cycler: &CyclerModel) -> TokenStream {
 }
 
 /// Type parameters and type arguments of the body.
-fn quote_generics(cycler: &CyclerModel, bounded: bool) -> (TokenStream, TokenStream) {
+pub(super) fn quote_generics(cycler: &CyclerModel, bounded: bool) -> (TokenStream, TokenStream) {
     match &cycler.hardware {
         Hardware::Absent => (quote!(), quote!()),
         Hardware::Asked(_) if !bounded => (quote!(<Hardware>), quote!(<Hardware>)),
@@ -237,7 +237,7 @@ fn quote_filled(cycler: &CyclerModel, field: &FrameField) -> TokenStream {
 }
 
 /// A name for an argument, with an underscore in front where the function does not need it.
-fn argument(name: &str, needed: bool) -> proc_macro2::Ident {
+pub(super) fn argument(name: &str, needed: bool) -> proc_macro2::Ident {
     if needed {
         ident(name)
     } else {

@@ -139,7 +139,7 @@ fn quote_additional_outputs(cycler: &CyclerModel) -> TokenStream {
     let subscribed = (!flags.is_empty()).then(|| {
         quote! {
             #about
-            #[derive(Clone, Copy, Debug, Default)]
+            #[derive(Clone, Copy, Debug, Default, ::serde::Deserialize, ::serde::Serialize)]
             pub struct Subscribed {
                 #(pub #flags: bool,)*
             }
@@ -169,7 +169,7 @@ fn quote_injections(cycler: &CyclerModel) -> TokenStream {
     let about = doc("Values of clients in place of main outputs.");
     quote! {
         #about
-        #[derive(Clone, Debug, Default)]
+        #[derive(Clone, Debug, Default, ::serde::Deserialize, ::serde::Serialize)]
         pub struct Injections {
             #(#fields)*
         }

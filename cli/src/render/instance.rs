@@ -8,6 +8,7 @@ use quote::quote;
 use super::layout::doc;
 use super::nodes::quote_on_failure;
 use super::spelling::ident;
+use crate::model::recording::RecordModel;
 use crate::model::runtime::InstanceModel;
 use crate::model::{CyclerKind, Scheduling};
 
@@ -27,6 +28,7 @@ pub(super) fn quote_description(instance: &InstanceModel) -> TokenStream {
     let history = quote_duration(description.history);
     let lockstep_duration = quote_option(description.lockstep_duration.map(quote_duration));
     let scheduling = quote_scheduling(&description.scheduling);
+    let record = quote_record(&description.record);
     let about = doc(&format!("What the manifest says about `{name}`."));
     quote! {
         #about
@@ -41,7 +43,22 @@ pub(super) fn quote_description(instance: &InstanceModel) -> TokenStream {
             history: #history,
             lockstep_duration: #lockstep_duration,
             scheduling: #scheduling,
+            record: #record,
         };
+    }
+}
+
+fn quote_record(record: &RecordModel) -> TokenStream {
+    match record {
+        RecordModel::On => quote!(::framework::Record::On),
+        RecordModel::Off => quote!(::framework::Record::Off),
+        RecordModel::Every(cycles) => {
+            let cycles = Literal::u32_unsuffixed(*cycles);
+            quote!(::framework::Record::Every(#cycles))
+        }
+        RecordModel::While { instance, path } => {
+            quote!(::framework::Record::While { instance: #instance, path: #path })
+        }
     }
 }
 

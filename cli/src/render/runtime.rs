@@ -10,6 +10,7 @@ use super::layout::{self, comment, doc, empty_line};
 use super::spelling::{ident, path};
 use crate::model::runtime::{Buffer, InstanceModel, Runtime, end};
 use crate::model::{CyclerModel, RuntimeModel};
+pub(super) use instance::quote_body_fields;
 use instance::quote_instance;
 use stubs::{quote_new_stubs, quote_stubs};
 
@@ -155,19 +156,9 @@ fn quote_ends(model: &RuntimeModel, instance: &InstanceModel) -> TokenStream {
     let variable = &instance.variable;
     let injections = ident(&format!("{variable}_injections"));
     let injected = (!cycler.outputs.is_empty()).then(|| ident(&format!("{variable}_injected")));
-    let subscriptions = (!cycler.additional_outputs.is_empty()).then(|| {
-        let subscriptions = ident(&format!("{variable}_subscriptions"));
-        let names = if cycler.names_are_shared() {
-            let module = ident(&cycler.module);
-            quote!(#module::ADDITIONAL_OUTPUTS)
-        } else {
-            let names = cycler.additional_outputs.iter().map(|output| {
-                let own = output.names.get(instance.id.instance);
-                own.unwrap_or(&output.names[0])
-            });
-            quote!(&[#(#names),*])
-        };
-        quote!(let #subscriptions = ::framework::Subscriptions::new(#names);)
+    let subscriptions = quote_subscriptions(cycler, instance, |module| {
+        let module = ident(module);
+        quote!(#module::ADDITIONAL_OUTPUTS)
     });
     let procedures = instance.procedures.iter().map(|procedure| {
         let (caller, answerer) = (ident(&procedure.caller), ident(&procedure.answerer));
@@ -178,6 +169,28 @@ fn quote_ends(model: &RuntimeModel, instance: &InstanceModel) -> TokenStream {
         #subscriptions
         #(#procedures)*
     }
+}
+
+/// What clients listen to, if there is anything; `shared` names the constant of a module.
+pub(super) fn quote_subscriptions(
+    cycler: &CyclerModel,
+    instance: &InstanceModel,
+    shared: impl Fn(&str) -> TokenStream,
+) -> Option<TokenStream> {
+    if cycler.additional_outputs.is_empty() {
+        return None;
+    }
+    let subscriptions = ident(&format!("{}_subscriptions", instance.variable));
+    let names = if cycler.names_are_shared() {
+        shared(&cycler.module)
+    } else {
+        let names = cycler.additional_outputs.iter().map(|output| {
+            let own = output.names.get(instance.id.instance);
+            own.unwrap_or(&output.names[0])
+        });
+        quote!(&[#(#names),*])
+    };
+    Some(quote!(let #subscriptions = ::framework::Subscriptions::new(#names);))
 }
 
 /// What clients may do with an instance.

@@ -34,6 +34,14 @@ pub(super) fn data_type(text: &str) -> TokenStream {
     quote!(#data)
 }
 
+/// A function's signature whose paths are absolute.
+pub(super) fn make_absolute(signature: &str) -> TokenStream {
+    let mut signature: syn::Signature = syn::parse_str(signature)
+        .unwrap_or_else(|error| panic!("hulkgen resolved no signature ({error}): {signature}"));
+    MakeAbsolute.visit_signature_mut(&mut signature);
+    quote!(#signature)
+}
+
 struct MakeAbsolute;
 
 impl VisitMut for MakeAbsolute {

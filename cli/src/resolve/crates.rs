@@ -98,7 +98,11 @@ fn names_in_code(robot: &Robot) -> Vec<String> {
                 .iter()
                 .chain(&node.cycle_bounds)
                 .chain(&node.restore_bounds);
-            texts.extend(bounds.map(|interface| interface.path.clone()));
+            for interface in bounds {
+                texts.push(interface.path.clone());
+                let methods = interface.methods.iter().flatten();
+                texts.extend(methods.map(|method| method.signature.clone()));
+            }
             for field in &node.cycle {
                 if let CycleBinding::Procedure {
                     request, response, ..

@@ -10,7 +10,7 @@ use std::time::Duration;
 use camino::Utf8PathBuf;
 use serde::Serialize;
 
-pub use crate::scan::traits::Interface;
+pub use crate::scan::traits::{Answer, Interface, Method};
 pub use read::OutputRead;
 
 /// A robot: its cyclers, what they exchange, and the targets it runs on.
@@ -22,6 +22,8 @@ pub struct Robot {
     /// Folder of the parameter files, relative to the workspace root.
     pub parameters: Utf8PathBuf,
     pub identities: Vec<String>,
+    /// Bytes that a recording keeps before its oldest part goes.
+    pub recording_budget: u64,
     /// In manifest order, also those that a partial robot does without.
     pub cyclers: Vec<Cycler>,
     /// What makes it a partial robot; `None`: it is whole.

@@ -1,5 +1,7 @@
 //! Hardware traits: where they are, and whether they read.
 
+mod methods;
+
 use std::rc::Rc;
 
 use serde::Serialize;
@@ -11,6 +13,8 @@ use super::module::Module;
 use super::types::written;
 use crate::diagnostics::listed;
 
+pub use methods::{Answer, Method};
+
 /// A hardware trait that a node asks for.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub struct Interface {
@@ -18,6 +22,9 @@ pub struct Interface {
     pub path: String,
     /// Whether a method returns anything but nothing; `None` where the trait was not found.
     pub reading: Option<bool>,
+    /// What whoever implements it writes; `None` where that cannot be told.
+    #[serde(skip)]
+    pub methods: Option<Vec<Method>>,
 }
 
 /// A trait that a node asks of the hardware.
@@ -38,10 +45,12 @@ impl Library<'_> {
     /// The trait of a bound that is written in a module; nothing for markers such as `Send`.
     pub fn hardware_trait(&self, module: &Rc<Module>, bound: &syn::Path) -> Option<HardwareTrait> {
         let known = |path: String, reading, private| {
-            Some(HardwareTrait {
-                interface: Interface { path, reading },
-                private,
-            })
+            let interface = Interface {
+                path,
+                reading,
+                methods: None,
+            };
+            Some(HardwareTrait { interface, private })
         };
         match self.find(module, bound) {
             Some(Found::Prelude(name)) if MARKERS.contains(&name.as_str()) => None,
@@ -50,10 +59,14 @@ impl Library<'_> {
             Some(Found::Foreign(path)) => known(path.join("::"), None, None),
             Some(Found::Item(item)) => {
                 let reading = self.is_reading(&item, 0);
-                match self.public_path(&item) {
+                let found = match self.public_path(&item) {
                     Some(path) => known(path, reading, None),
-                    None => known(item.path(), reading, Some(item)),
-                }
+                    None => known(item.path(), reading, Some(item.clone())),
+                };
+                found.map(|mut found| {
+                    found.interface.methods = self.quietly(|| self.methods(&item));
+                    found
+                })
             }
             Some(Found::Module(_)) | None => known(written(bound), None, None),
         }

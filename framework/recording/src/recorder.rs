@@ -2,8 +2,8 @@
 
 use std::io;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
@@ -35,6 +35,8 @@ pub struct Recorder {
     path: PathBuf,
     counts: Vec<(String, Arc<Counts>)>,
     is_ending: Arc<AtomicBool>,
+    /// What else is said at the end.
+    last: Arc<Mutex<Vec<Metadata>>>,
     thread: Option<JoinHandle<Option<io::Error>>>,
 }
 
@@ -80,12 +82,14 @@ impl Recorder {
         });
         let tracks = tracks.collect();
         let is_ending = Arc::new(AtomicBool::new(false));
+        let last = Arc::<Mutex<Vec<Metadata>>>::default();
         let thread = Thread {
             writer,
             pool,
             settings,
             counts: counts.clone(),
             is_ending: is_ending.clone(),
+            last: last.clone(),
             open: Vec::new(),
             since: Instant::now(),
             error: None,
@@ -97,6 +101,7 @@ impl Recorder {
             path: path.to_owned(),
             counts,
             is_ending,
+            last,
             thread: Some(thread),
         };
         Ok((recorder, tracks))
@@ -107,15 +112,21 @@ impl Recorder {
         &self.path
     }
 
-    /// What became of each instance's frames so far.
-    pub fn counts(&self) -> impl Iterator<Item = (&str, &Counts)> {
+    /// What became of each instance's frames so far, to be read whenever somebody likes.
+    pub fn counts(&self) -> impl Iterator<Item = (&str, &Arc<Counts>)> {
         self.counts
             .iter()
-            .map(|(instance, counts)| (instance.as_str(), &**counts))
+            .map(|(instance, counts)| (instance.as_str(), counts))
     }
 
     /// Writes what was handed over and ends the file. Tracks that are dropped before have handed over everything.
-    pub fn end(mut self) -> Ended {
+    pub fn end(self) -> Ended {
+        self.end_with(Vec::new())
+    }
+
+    /// As [`end`](Self::end), with more to say there.
+    pub fn end_with(mut self, metadata: Vec<Metadata>) -> Ended {
+        *self.last.lock().unwrap_or_else(PoisonError::into_inner) = metadata;
         let error = self.join();
         let is_whole = self.counts.iter().all(|(_, counts)| counts.is_complete());
         Ended {
@@ -147,6 +158,7 @@ struct Thread {
     settings: Settings,
     counts: Vec<(String, Arc<Counts>)>,
     is_ending: Arc<AtomicBool>,
+    last: Arc<Mutex<Vec<Metadata>>>,
     /// Tracks and frames in the chunk that is open.
     open: Vec<(usize, u64)>,
     /// When the chunk that is open got its first block.
@@ -225,9 +237,12 @@ impl Thread {
             name: "end".to_owned(),
             entries,
         };
-        let ended = self
-            .writer
-            .write_metadata(&end)
+        let mut said =
+            std::mem::take(&mut *self.last.lock().unwrap_or_else(PoisonError::into_inner));
+        said.push(end);
+        let ended = said
+            .iter()
+            .try_for_each(|metadata| self.writer.write_metadata(metadata))
             .and_then(|()| self.writer.finish());
         self.error.or(ended.err())
     }

@@ -28,6 +28,26 @@ pub struct InstanceDescription {
     pub lockstep_duration: Option<Duration>,
     /// What its thread asks of the operating system.
     pub scheduling: Scheduling,
+    /// Which cycles are recorded, while the robot records.
+    pub record: Record,
+}
+
+/// Which cycles of an instance are recorded.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Record {
+    /// All of them.
+    #[default]
+    On,
+    /// None.
+    Off,
+    /// The first, and every so many cycles one.
+    Every(u32),
+    /// Those that begin while the newest finished cycle of an instance says so.
+    While {
+        instance: &'static str,
+        /// A main output that is a `bool`, or the path of one in it.
+        path: &'static str,
+    },
 }
 
 /// The two kinds of cyclers.

@@ -4,8 +4,10 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use super::{Counters, Cycle, InstanceDescription, Reference};
+use crate::digest::DigestError;
 use crate::error::Result;
 use crate::guarded::State;
+use crate::recorded::{Capture, SaveError, Visit};
 use crate::reflect::Reflect;
 use crate::report::InstanceReport;
 use crate::subscriptions::Subscriptions;
@@ -68,6 +70,18 @@ pub trait Instance: Send {
 
     /// Calls `restore` of the nodes that have one, after their states were loaded.
     fn restore(&mut self) -> Result<()>;
+
+    /// Saves all that the cycle that has just begun depends on.
+    ///
+    /// # Errors
+    /// If there is no room, or a value cannot be serialised.
+    fn save(&mut self, capture: &mut Capture<'_, '_>) -> Result<(), SaveError>;
+
+    /// Digests of what the nodes wrote in the last finished cycle, in the order of their calls.
+    ///
+    /// # Errors
+    /// If a value's own `Serialize` fails.
+    fn digests(&self, visit: Visit<'_>) -> Result<(), DigestError>;
 }
 
 /// How a `wait` ended.

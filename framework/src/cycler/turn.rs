@@ -1,6 +1,7 @@
 //! The loop that turns a body, whichever driver asks.
 
 mod failure;
+mod loaded;
 mod stopwatch;
 
 use std::sync::Arc;
@@ -13,9 +14,11 @@ use super::{
 };
 use crate::buffer::Writer;
 use crate::clock::Clock;
+use crate::digest::DigestError;
 use crate::error::{Error, Result};
 use crate::guarded::{OnFailure, State, contain};
 use crate::logs;
+use crate::recorded::{Capture, Head, Recorded, SaveError, Visit};
 use crate::reflect::Reflect;
 use crate::report::{InstanceReport, NodeReport, SlotsReport};
 use crate::subscriptions::Subscriptions;
@@ -61,7 +64,7 @@ enum Phase {
     Between { restarted: bool },
 }
 
-impl<B: Body> Cycler<B> {
+impl<B: Recorded> Cycler<B> {
     /// An instance whose nodes were just created.
     pub fn new(
         description: InstanceDescription,
@@ -162,7 +165,7 @@ impl<B: Body> Cycler<B> {
     }
 }
 
-impl<B: Body> Instance for Cycler<B> {
+impl<B: Recorded> Instance for Cycler<B> {
     fn description(&self) -> &InstanceDescription {
         &self.description
     }
@@ -413,6 +416,32 @@ impl<B: Body> Instance for Cycler<B> {
 
     fn restore(&mut self) -> Result<()> {
         self.body.restore()
+    }
+
+    fn save(&mut self, capture: &mut Capture<'_, '_>) -> Result<(), SaveError> {
+        let Self {
+            body,
+            writer,
+            cycle,
+            phase,
+            ..
+        } = self;
+        body.values(&mut capture.values(cycle.time.start))?;
+        let head = Head {
+            number: cycle.number,
+            start: cycle.time.start,
+            since_last: cycle.time.since_last,
+            restarted: phase.restarted(),
+            whole: false,
+        };
+        let (current, previous) = writer.slots();
+        capture.frame(head, |since, out| {
+            body.save(Slots { current, previous }, since, out)
+        })
+    }
+
+    fn digests(&self, visit: Visit<'_>) -> Result<(), DigestError> {
+        self.body.digests(&self.writer.newest().value, visit)
     }
 }
 

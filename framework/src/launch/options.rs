@@ -28,7 +28,15 @@ pub(super) struct Options {
     pub(super) location: Option<String>,
     /// (path, value)
     pub(super) settings: Vec<(String, String)>,
-    pub(super) run_folder: Option<PathBuf>,
+    /// For files of this run.
+    pub(super) run_folder: PathBuf,
+    pub(super) record: Record,
+    /// Bytes, instead of what the manifest says.
+    pub(super) recording_budget: Option<u64>,
+    /// A recording, instead of running.
+    pub(super) replay: Option<PathBuf>,
+    /// With a replay: whether it gives the same bits.
+    pub(super) verify: bool,
     /// Also on a simulated target, threads ask for their `scheduling`.
     pub(super) is_real_time: bool,
     /// Instead of running.
@@ -59,6 +67,18 @@ impl Options {
         };
         (self.listen.as_deref() != Some("off")).then_some(listening)
     }
+}
+
+/// Whether and where the run is recorded.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(super) enum Record {
+    /// On a simulated target: as `On`.
+    #[default]
+    Simulated,
+    /// Into the run folder.
+    On,
+    Off,
+    Into(PathBuf),
 }
 
 /// How the run is reported at its end.
@@ -92,12 +112,18 @@ Usage: {name} [OPTIONS] [-- HARDWARE OPTIONS]
   --token TOKEN       clients have to know it before they may change anything; without it none from other machines may
   --read-only         no client may change anything
   --web-root DIR      files of the page from there instead of those in the program
+  --record FILE       record into this file, which must not be there; on: into the run folder; off (default: on if simulated)
+  --recording-budget SIZE
+                      what the recording keeps, e.g. 512MiB, instead of {budget} MiB
+  --replay FILE --verify
+                      run the cycles of a recording again and compare, bit for bit
   --real-time         apply the manifest's `scheduling` on a simulated target, too
   --help              this text
 ",
         robot = target.robot,
         name = target.name,
         parameters = target.parameters,
+        budget = target.recording_budget >> 20,
     )
 }
 
@@ -110,6 +136,7 @@ pub(super) fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Com
     let hardware = arguments.map(text).collect::<Result<_>>()?;
     let mut options = Options {
         hardware,
+        run_folder: super::default_run_folder(),
         ..Options::default()
     };
     let mut parser = Parser::from_args(own);
@@ -123,7 +150,6 @@ pub(super) fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Com
             Arg::Long("parameters") => options.parameters = Some(parser.value()?.into()),
             Arg::Long("location") => options.location = Some(parser.value()?.string()?),
             Arg::Long("set") => options.settings.push(setting(&parser.value()?.string()?)?),
-            Arg::Long("run-folder") => options.run_folder = Some(parser.value()?.into()),
             Arg::Long("scenario") => options.scenario = Some(parser.value()?.into()),
             Arg::Long("seed") => options.seed = Some(parser.value()?.parse()?),
             Arg::Long("repeat") => options.repeat = Some(parser.value()?.parse()?),
@@ -131,10 +157,22 @@ pub(super) fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Com
             Arg::Long("token") => options.token = Some(parser.value()?.string()?),
             Arg::Long("read-only") => options.is_read_only = true,
             Arg::Long("web-root") => options.web_root = Some(parser.value()?.into()),
+            Arg::Long("run-folder") => options.run_folder = parser.value()?.into(),
+            Arg::Long("record") => options.record = record(parser.value()?),
+            Arg::Long("recording-budget") => {
+                options.recording_budget = Some(size(&parser.value()?.string()?)?);
+            }
+            Arg::Long("replay") => options.replay = Some(parser.value()?.into()),
+            Arg::Long("verify") => options.verify = true,
             Arg::Long("real-time") => options.is_real_time = true,
             Arg::Long("help") | Arg::Short('h') => return Ok(Command::Help),
             unexpected => return Err(unexpected.unexpected().into()),
         }
+    }
+    if options.verify != options.replay.is_some() {
+        return Err(Error::new(
+            "--replay FILE and --verify go together: there is no other replay yet",
+        ));
     }
     Ok(Command::Run(Box::new(options)))
 }
@@ -147,6 +185,26 @@ fn format_named(name: &str) -> Result<Format> {
             "no format `{name}`: expected text or json"
         ))),
     }
+}
+
+fn record(written: OsString) -> Record {
+    match written.to_str() {
+        Some("on") => Record::On,
+        Some("off") => Record::Off,
+        _ => Record::Into(written.into()),
+    }
+}
+
+/// Bytes with their unit: `512MiB`, `2GiB`.
+fn size(text: &str) -> Result<u64> {
+    let units = [("KiB", 1 << 10), ("MiB", 1 << 20), ("GiB", 1 << 30)];
+    let found = units.iter().find_map(|(unit, bytes)| {
+        let number = text.strip_suffix(unit)?.trim().parse::<u64>().ok()?;
+        number.checked_mul(*bytes)
+    });
+    found
+        .filter(|bytes| *bytes > 0)
+        .ok_or_else(|| Error::new(format!("`{text}` is no size: expected e.g. 512MiB or 2GiB")))
 }
 
 fn setting(text: &str) -> Result<(String, String)> {
@@ -219,6 +277,12 @@ mod tests {
             "c = x=y",
             "--run-folder",
             "there",
+            "--record",
+            "tape",
+            "--recording-budget",
+            "3MiB",
+            "--replay=old",
+            "--verify",
             "--real-time",
             "--scenario",
             "s.toml",
@@ -244,7 +308,11 @@ mod tests {
                 ("a.b".to_owned(), "[1, 2]".to_owned()),
                 ("c".to_owned(), "x=y".to_owned()),
             ],
-            run_folder: Some("there".into()),
+            run_folder: "there".into(),
+            record: Record::Into("tape".into()),
+            recording_budget: Some(3 << 20),
+            replay: Some("old".into()),
+            verify: true,
             is_real_time: true,
             scenario: Some("s.toml".into()),
             seed: Some(7),
@@ -279,6 +347,8 @@ mod tests {
             &["x"],
             &["--format", "xml"],
             &["--for"],
+            &["--verify"],
+            &["--recording-budget", "2"],
         ] {
             assert!(parsed(wrong).is_err(), "{wrong:?}");
         }

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::options::{Format, Options};
-use super::{DONE, FAILED, Target, known_identities, layers, run_folder};
+use super::{DONE, FAILED, Target, known_identities, layers};
 use crate::clock::Clock;
 use crate::data::ParameterData;
 use crate::error::{Error, Result};
@@ -80,7 +80,7 @@ fn play_once<H: Hardware, P: ParameterData>(
     let hardware = H::new(HardwareContext {
         options: options.hardware.clone(),
         table: scenario.world(table, seed)?,
-        run_folder: run_folder(options),
+        run_folder: options.run_folder.clone(),
         clock: clock.clone(),
         stop: stop.clone(),
     });

@@ -9,6 +9,7 @@ use super::signals::Signals;
 use crate::cycler::{Counters, Counts};
 use crate::error::{Error, Result};
 use crate::guarded::contain;
+use crate::recorded::{self, Recording};
 use crate::report::tell;
 use crate::robot::Robot;
 use crate::stop::Stop;
@@ -29,6 +30,8 @@ struct Watched {
     duration: Option<Duration>,
     shown: Instant,
     instances: Vec<Line>,
+    /// Frames of a recording, by instance.
+    recorded: Vec<Arc<recorded::Counts>>,
 }
 
 struct Line {
@@ -58,7 +61,12 @@ impl Supervisor {
     }
 
     /// From now on the robot's status is shown, and it is stopped after `duration`.
-    pub(super) fn watch<P>(&self, robot: &Robot<P>, duration: Option<Duration>) {
+    pub(super) fn watch<P>(
+        &self,
+        robot: &Robot<P>,
+        duration: Option<Duration>,
+        recording: Option<&Recording>,
+    ) {
         let now = Instant::now();
         let instances = robot.instances.iter().map(|instance| Line {
             name: instance.description().name,
@@ -70,6 +78,7 @@ impl Supervisor {
             duration,
             shown: now,
             instances: instances.collect(),
+            recorded: recording.map_or_else(Vec::new, Recording::shared_counts),
         });
     }
 
@@ -113,6 +122,13 @@ impl Watched {
             let mut line = format!("{:6.0} s", (now - self.started).as_secs_f64());
             for instance in &mut self.instances {
                 instance.write(since_shown, &mut line);
+            }
+            let missing = self.recorded.iter();
+            let missing: u64 = missing
+                .map(|one| one.dropped() + one.failed() + one.lost())
+                .sum();
+            if missing > 0 {
+                let _ = write!(line, "  |  {missing} not recorded");
             }
             tell(format_args!("{line}"));
         }

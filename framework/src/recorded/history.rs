@@ -42,6 +42,8 @@ impl<T: Clone + DeserializeOwned> History<T> {
         }
         for _ in 0..from.take::<u32>()? {
             let (timestamp, value) = from.take::<(Timestamp, T)>()?;
+            // A replay that ran the cycle before has kept what came of it.
+            self.forget_from(timestamp);
             self.push(timestamp, &value);
         }
         Ok(())

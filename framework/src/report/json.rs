@@ -5,6 +5,7 @@ use std::time::Duration;
 use serde_json::{Value, json};
 
 use super::{Allocations, InstanceReport, NodeReport, QueueReport, RobotReport};
+use crate::recorded::RecordingReport;
 use crate::scheduling::{Granted, Policy};
 use crate::timing::Histogram;
 
@@ -20,7 +21,9 @@ impl RobotReport {
             "target": self.target,
             "duration_s": self.duration.as_secs_f64(),
             "instances": instances.collect::<Vec<_>>(),
-            "recording": null,
+            "recording": self.recording.as_ref().map(|one| one.ended.path.display().to_string()),
+            "recording_state": self.recording.as_ref().map(RecordingReport::state),
+            "recorded": self.recording.as_ref().map(RecordingReport::to_json),
         })
     }
 }

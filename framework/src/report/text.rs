@@ -45,7 +45,11 @@ impl fmt::Display for RobotReport {
         }
         self.instances
             .iter()
-            .try_for_each(|instance| write_remarks(instance, formatter))
+            .try_for_each(|instance| write_remarks(instance, formatter))?;
+        match &self.recording {
+            Some(recording) => write!(formatter, "{recording}"),
+            None => Ok(()),
+        }
     }
 }
 

@@ -3,6 +3,10 @@
 use std::time::Duration;
 
 use framework::cycler::Reference;
+use framework::digest::DigestError;
+use framework::recorded::{
+    self, Loaded, Loading, Recorded, SaveError, Saving, Stored, Values, Visit,
+};
 use framework::report::Allocations;
 use framework::{
     Answerer, Body, Clock, Cycle, Cycler, Finished, Guarded, Injected, Injection, InjectionCell,
@@ -15,7 +19,7 @@ use crate::counting::allocations;
 
 const NODES: usize = 20;
 
-#[derive(Clone, Default)]
+#[derive(Clone, Default, serde::Serialize)]
 struct Injections(Injection<f32>);
 
 impl InjectionTable for Injections {
@@ -111,6 +115,41 @@ impl Body for Adding {
     }
 }
 
+impl Recorded for Adding {
+    type Outside = ();
+
+    fn values(&self, _: &mut Values<'_, '_>) -> Result<(), SaveError> {
+        Ok(())
+    }
+
+    fn save(
+        &self,
+        slots: Slots<'_, Self::Shared>,
+        _: Option<Timestamp>,
+        out: &mut Saving<'_, '_>,
+    ) -> Result<(), SaveError> {
+        self.nodes.iter().try_for_each(|node| node.record(out))?;
+        self.injections.save_injected(out)?;
+        self.procedure.save(out)?;
+        out.put(slots.previous)
+    }
+
+    fn load(
+        &mut self,
+        _: Loaded<'_, Self::Shared>,
+        (): &mut (),
+        _: &mut Loading<'_>,
+        _: &Stored<'_>,
+    ) -> Result<()> {
+        Err(framework::Error::new("nobody replays it"))
+    }
+
+    fn digests(&self, shared: &Self::Shared, visit: Visit<'_>) -> Result<(), DigestError> {
+        visit("adding", "sums", recorded::digest(shared)?);
+        Ok(())
+    }
+}
+
 const DESCRIPTION: InstanceDescription = InstanceDescription {
     name: "Adding",
     cycler: "Adding",
@@ -126,6 +165,7 @@ const DESCRIPTION: InstanceDescription = InstanceDescription {
         priority: None,
         cores: &[],
     },
+    record: framework::Record::On,
 };
 
 fn turn(instance: &mut dyn Instance, cycles: u64) {
@@ -221,6 +261,7 @@ fn what_a_node_allocates_is_told_by_node() {
         target: "test",
         duration: Duration::from_secs(1),
         instances: vec![report],
+        recording: None,
     };
     let told = report.to_string();
     let line = "Adding: 3.0 allocations a cycle, 0.0 of the framework, most in `test::greedy`: 3.0";

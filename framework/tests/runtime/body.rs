@@ -5,6 +5,8 @@ use std::time::{Duration, Instant};
 
 use framework::LiveParameters;
 use framework::cycler::{Reference, ReferenceKind};
+use framework::digest::DigestError;
+use framework::recorded::{Loaded, Loading, Recorded, SaveError, Saving, Stored, Values, Visit};
 use framework::{
     Access, AdditionalOutput, AdditionalSlot, Answerer, Body, Consumer, Cycle, Cycler, Guarded,
     Held, Horizon, InNode, Injected, Injection, InjectionCell, InjectionTable, Injector, Instance,
@@ -200,6 +202,38 @@ impl TestBody {
     }
 }
 
+/// Nothing of it is recorded.
+impl Recorded for TestBody {
+    type Outside = ();
+
+    fn values(&self, _: &mut Values<'_, '_>) -> Result<(), SaveError> {
+        Ok(())
+    }
+
+    fn save(
+        &self,
+        _: Slots<'_, SharedOutputs>,
+        _: Option<Timestamp>,
+        _: &mut Saving<'_, '_>,
+    ) -> Result<(), SaveError> {
+        Ok(())
+    }
+
+    fn load(
+        &mut self,
+        _: Loaded<'_, SharedOutputs>,
+        (): &mut (),
+        _: &mut Loading<'_>,
+        _: &Stored<'_>,
+    ) -> Result<()> {
+        Ok(())
+    }
+
+    fn digests(&self, _: &SharedOutputs, _: Visit<'_>) -> Result<(), DigestError> {
+        Ok(())
+    }
+}
+
 impl Body for TestBody {
     type Shared = SharedOutputs;
 
@@ -385,6 +419,7 @@ fn description(name: &'static str, kind: Kind, setting: &Setting) -> InstanceDes
             "Legs" => setting.legs_scheduling,
             _ => Scheduling::default(),
         },
+        record: framework::Record::On,
     }
 }
 

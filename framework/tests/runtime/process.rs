@@ -43,6 +43,10 @@ fn launch(arguments: &[&str], setting: &Setting) -> ! {
         location: None,
         identities: &[],
         graph: "",
+        recording_budget: 1 << 20,
+        manifest: "",
+        dataflow: "",
+        replayables: &[],
     };
     let mut all = vec![OsString::from("--parameters"), directory.path().into()];
     all.extend(arguments.iter().map(OsString::from));

@@ -17,6 +17,10 @@ const TARGET: Target = Target {
     location: None,
     identities: &[],
     graph: "",
+    recording_budget: 1 << 20,
+    manifest: "",
+    dataflow: "",
+    replayables: &[],
 };
 
 /// Status and outcome of a scenario of one second, in which `Legs` has data every 10 ms and the world counts the events.

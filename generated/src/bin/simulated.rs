@@ -7,6 +7,7 @@ use std::process::ExitCode;
 use framework::Target;
 use framework::launch;
 use hulkgen_communication::serve;
+use nao_runtime::recording;
 use nao_runtime::runtime;
 use simulated_nao::Hardware;
 
@@ -16,7 +17,11 @@ const TARGET: Target = Target {
     parameters: "robotics/parameters",
     location: Some("simulated"),
     identities: &["body", "head"],
-    graph: "",
+    graph: include_str!("../../graph.json"),
+    recording_budget: 2147483648,
+    manifest: include_str!("../../../hulk.toml"),
+    dataflow: include_str!("../../DATAFLOW.md"),
+    replayables: recording::INSTANCES,
 };
 
 fn main() -> ExitCode {

@@ -47,13 +47,13 @@ pub struct AdditionalOutputsWhistleDetection {
 }
 
 /// Who listens to which additional output, decided once per cycle.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Deserialize, Serialize)]
 pub struct Subscribed {
     pub whistle_detection_peaks: bool,
 }
 
 /// Values of clients in place of main outputs.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
 pub struct Injections {
     pub audio_block: Injection<AudioBlock>,
     pub whistle_evidence: Injection<WhistleEvidence>,

@@ -177,7 +177,7 @@ pub struct AdditionalOutputsWhistleFilter {
 }
 
 /// Who listens to which additional output, decided once per cycle.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Deserialize, Serialize)]
 pub struct Subscribed {
     pub ball_filter_delivered: bool,
     pub ball_filter_hypotheses: bool,
@@ -188,7 +188,7 @@ pub struct Subscribed {
 }
 
 /// Values of clients in place of main outputs.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
 pub struct Injections {
     pub ball: Injection<Option<Ball>>,
     pub buttons: Injection<Buttons>,

@@ -60,14 +60,14 @@ pub struct AdditionalOutputsTeamMessageParser {
 }
 
 /// Who listens to which additional output, decided once per cycle.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Deserialize, Serialize)]
 pub struct Subscribed {
     pub game_controller_parser_refusal: bool,
     pub team_message_parser_refusal: bool,
 }
 
 /// Values of clients in place of main outputs.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
 pub struct Injections {
     pub datagram: Injection<Datagram>,
     pub game_controller_counts: Injection<PacketCounts>,

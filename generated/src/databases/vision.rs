@@ -75,7 +75,7 @@ pub struct AdditionalOutputs {
 }
 
 /// Who listens to which additional output, decided once per cycle.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Deserialize, Serialize)]
 pub struct Subscribed {
     pub ball_candidates: bool,
     pub field_border_points: bool,
@@ -86,7 +86,7 @@ pub struct Subscribed {
 }
 
 /// Values of clients in place of main outputs.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
 pub struct Injections {
     pub balls: Injection<Vec<BallCandidate>>,
     pub camera_matrix: Injection<Option<CameraMatrix>>,

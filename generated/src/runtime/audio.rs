@@ -15,6 +15,7 @@ use framework::OnFailure;
 use framework::OutputVisitor;
 use framework::QueueReport;
 use framework::Reader;
+use framework::Record;
 use framework::Reference;
 use framework::Reflect;
 use framework::Result;
@@ -47,6 +48,7 @@ pub const AUDIO: InstanceDescription = InstanceDescription {
     history: Duration::from_secs(1),
     lockstep_duration: None,
     scheduling: Scheduling::BY_THE_SYSTEM,
+    record: Record::On,
 };
 
 /// What clients can listen to, in the order of `Subscribed`.

@@ -15,6 +15,7 @@ use framework::OnFailure;
 use framework::OutputVisitor;
 use framework::QueueReport;
 use framework::Reader;
+use framework::Record;
 use framework::Reference;
 use framework::Reflect;
 use framework::Result;
@@ -55,6 +56,10 @@ pub const CONTROL: InstanceDescription = InstanceDescription {
     history: Duration::from_secs(1),
     lockstep_duration: None,
     scheduling: Scheduling::BY_THE_SYSTEM,
+    record: Record::While {
+        instance: "Control",
+        path: "is_recording_wanted",
+    },
 };
 
 /// What clients can listen to, in the order of `Subscribed`.

@@ -15,6 +15,7 @@ use framework::OnFailure;
 use framework::OutputVisitor;
 use framework::QueueReport;
 use framework::Reader;
+use framework::Record;
 use framework::Reference;
 use framework::Reflect;
 use framework::Result;
@@ -50,6 +51,7 @@ pub const VISION_TOP: InstanceDescription = InstanceDescription {
     history: Duration::from_secs(1),
     lockstep_duration: None,
     scheduling: Scheduling::BY_THE_SYSTEM,
+    record: Record::On,
 };
 
 /// What the manifest says about `VisionBottom`.
@@ -64,6 +66,7 @@ pub const VISION_BOTTOM: InstanceDescription = InstanceDescription {
     history: Duration::from_secs(1),
     lockstep_duration: None,
     scheduling: Scheduling::BY_THE_SYSTEM,
+    record: Record::On,
 };
 
 /// What clients can listen to, in the order of `Subscribed`.

@@ -7,17 +7,17 @@ use std::process::Command;
 
 use camino::Utf8Path;
 
-use crate::arguments::{Run, TextOrJson};
+use crate::arguments::{Replay, Run, TextOrJson};
 use crate::outcome::Refusal;
 
 /// Replaces this process, so that signals, exit status and terminal are the robot's own, as
 /// `cargo run` does. Runs in the workspace root, where the generated program expects to be. Returns
 /// only if that is impossible.
-pub(super) fn become_robot(executable: &Utf8Path, run: &Run, root: &Utf8Path) -> Refusal {
-    let arguments = match arguments(run) {
-        Ok(arguments) => arguments,
-        Err(refusal) => return refusal,
-    };
+pub(super) fn become_robot(
+    executable: &Utf8Path,
+    arguments: &[OsString],
+    root: &Utf8Path,
+) -> Refusal {
     let error = Command::new(executable)
         .args(arguments)
         .current_dir(root)
@@ -26,7 +26,7 @@ pub(super) fn become_robot(executable: &Utf8Path, run: &Run, root: &Utf8Path) ->
 }
 
 /// The program's options: those of `run` that are not hulkgen's own.
-fn arguments(run: &Run) -> Result<Vec<OsString>, Refusal> {
+pub(super) fn arguments(run: &Run) -> Result<Vec<OsString>, Refusal> {
     let mut arguments = Vec::new();
     let folders = [
         ("--parameters", &run.parameters),
@@ -37,12 +37,22 @@ fn arguments(run: &Run) -> Result<Vec<OsString>, Refusal> {
             arguments.extend([name.into(), absolute(folder)?]);
         }
     }
+    match &run.record {
+        Some(file) if !matches!(file.as_str(), "on" | "off") => {
+            arguments.extend(["--record".into(), absolute(file)?]);
+        }
+        Some(switch) => arguments.extend(["--record".into(), switch.as_str().into()]),
+        None => {}
+    }
     let mut add = |name: &str, value: &str| arguments.extend([name.into(), value.into()]);
     if let Some(duration) = run.duration {
         add("--for", &format!("{}s", duration.get().as_secs_f64()));
     }
     if let Some(location) = &run.location {
         add("--location", location);
+    }
+    if let Some(budget) = &run.recording_budget {
+        add("--recording-budget", budget);
     }
     for assignment in &run.set {
         add("--set", assignment);
@@ -58,6 +68,18 @@ fn arguments(run: &Run) -> Result<Vec<OsString>, Refusal> {
     if !run.options.is_empty() {
         arguments.push("--".into());
         arguments.extend(run.options.iter().cloned());
+    }
+    Ok(arguments)
+}
+
+/// The program's options for a replay.
+pub(super) fn arguments_of_replay(replay: &Replay) -> Result<Vec<OsString>, Refusal> {
+    let mut arguments = vec!["--replay".into(), absolute(&replay.file)?];
+    if replay.verify {
+        arguments.push("--verify".into());
+    }
+    if let Some(TextOrJson::Json) = replay.format {
+        arguments.extend(["--format".into(), "json".into()]);
     }
     Ok(arguments)
 }
@@ -110,6 +132,14 @@ mod tests {
         assert_eq!(
             passed_on("hulkgen run --parameters other --run-folder /runs/1"),
             format!("--parameters {folder} --run-folder /runs/1")
+        );
+        assert_eq!(
+            passed_on("hulkgen run --record other"),
+            format!("--record {folder}")
+        );
+        assert_eq!(
+            passed_on("hulkgen run --record off --recording-budget 1GiB"),
+            "--record off --recording-budget 1GiB"
         );
     }
 }

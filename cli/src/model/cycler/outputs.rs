@@ -19,6 +19,7 @@ pub(in crate::model) fn outputs(cycler: &Cycler) -> Vec<OutputField> {
             shared: output.shared,
             historic: output.historic,
             setup: producer.setup,
+            previous: output.previous,
         }
     });
     outputs.collect()

@@ -7,8 +7,8 @@ use crate::model::frame::InstanceParameters;
 use crate::model::names::{Names, snake_case};
 use crate::resolve::robot::{CycleBinding, Cycler, InstanceId, Robot};
 
-/// Every perception instance that any node consumes, once.
-pub(super) fn perception(robot: &Robot, cycler: &Cycler) -> Option<Perception> {
+/// Every perception instance that any node consumes, once; `latest` are those of which it reads the newest cycle.
+pub(super) fn perception(robot: &Robot, cycler: &Cycler, latest: &[Source]) -> Option<Perception> {
     let mut lanes = BTreeSet::new();
     let mut cyclers = BTreeSet::new();
     for field in cycler.nodes.iter().flat_map(|node| &node.cycle) {
@@ -22,7 +22,15 @@ pub(super) fn perception(robot: &Robot, cycler: &Cycler) -> Option<Perception> {
     if lanes.is_empty() {
         return None;
     }
-    let lanes: Vec<Source> = lanes.into_iter().map(|id| source(robot, id)).collect();
+    let taken = latest.iter().map(|source| source.writer.clone());
+    let mut writers = Names::with(taken.chain(FIELDS_OF_BODIES.map(str::to_owned)));
+    let lanes = lanes.into_iter().map(|id| source(robot, id));
+    let lanes: Vec<Source> = lanes
+        .map(|source| Source {
+            writer: writers.give(&source.field),
+            ..source
+        })
+        .collect();
     let interleavings = cyclers.into_iter().map(|cycler| Interleaving {
         field: snake_case(&robot.cyclers[cycler].name),
         lanes: lanes
@@ -55,9 +63,13 @@ pub(super) fn latest(robot: &Robot, cycler: &Cycler, parts: &[InstanceParameters
     let mut names = Names::with(fields.into_iter().chain(selects));
     let sources = instances.into_iter().map(|id| source(robot, id));
     sources
-        .map(|source| Source {
-            reader: names.give(&source.field),
-            ..source
+        .map(|source| {
+            let reader = names.give(&source.field);
+            Source {
+                writer: reader.clone(),
+                reader,
+                ..source
+            }
         })
         .collect()
 }
@@ -70,6 +82,7 @@ fn source(robot: &Robot, id: InstanceId) -> Source {
     Source {
         id,
         reader: field.clone(),
+        writer: field.clone(),
         field,
         instance,
         module: snake_case(&cycler.name),

@@ -19,7 +19,17 @@ pub(super) fn quote_instance(model: &RuntimeModel, instance: &InstanceModel) -> 
     let (constant, variable) = (ident(&instance.constant), ident(&instance.variable));
     let writer = ident(&format!("{}_writer", instance.variable));
     let creation = quote_creation(cycler, instance);
-    let fields = quote_body_fields(model, cycler, instance);
+    let argument = (!cycler.creation.is_empty()).then(|| quote!(&mut creation));
+    let nodes = path(&format!("crate::cyclers::{}::Nodes", cycler.module));
+    let created = cycler.creation.contains(&FrameField::CyclerState);
+    let state = created.then(|| quote!(cycler_state));
+    let fields = quote_body_fields(
+        model,
+        cycler,
+        instance,
+        &quote!(#nodes::new(#argument)?),
+        state,
+    );
     let paragraph = empty_line();
     let body = quote! {
         let #variable = ::framework::Cycler::new(
@@ -60,15 +70,16 @@ fn quote_creation(cycler: &CyclerModel, instance: &InstanceModel) -> TokenStream
     }
 }
 
-fn quote_body_fields(
+/// All fields of a body, of these nodes and this cycler state, by default the default.
+pub(in crate::render) fn quote_body_fields(
     model: &RuntimeModel,
     cycler: &CyclerModel,
     instance: &InstanceModel,
+    nodes: &TokenStream,
+    state: Option<TokenStream>,
 ) -> TokenStream {
     let variable = &instance.variable;
-    let nodes = path(&format!("crate::cyclers::{}::Nodes", cycler.module));
-    let creation = (!cycler.creation.is_empty()).then(|| quote!(&mut creation));
-    let fields = quote_fields(model, cycler, instance);
+    let fields = quote_fields(model, cycler, instance, state);
     let readers = cycler.latest.iter().map(|source| {
         let producer = &model.runtime.buffer(source.id).variable;
         let (field, reader) = (ident(&source.reader), ident(&end(producer, variable)));
@@ -80,7 +91,7 @@ fn quote_body_fields(
         quote!(#select: |parameters| &#path,)
     });
     quote! {
-        nodes: #nodes::new(#creation)?,
+        nodes: #nodes,
         #fields
         #(#readers)*
         #(#selects)*
@@ -92,6 +103,7 @@ fn quote_fields(
     model: &RuntimeModel,
     cycler: &CyclerModel,
     instance: &InstanceModel,
+    state: Option<TokenStream>,
 ) -> TokenStream {
     let has = |field: FrameField| cycler.has(&field);
     let end_of = |suffix: &str| {
@@ -103,12 +115,7 @@ fn quote_fields(
         quote!(#content::default())
     };
     let parameters = ident(&end("parameters", &instance.variable));
-    let created = cycler.creation.contains(&FrameField::CyclerState);
-    let state = if created {
-        quote!(cycler_state)
-    } else {
-        default("CyclerState")
-    };
+    let state = state.unwrap_or_else(|| default("CyclerState"));
     let perception = quote_perception(model, cycler, instance);
     let swap = quote!(::framework::Swap::default());
     let subscriptions = end_of("subscriptions");

@@ -42,6 +42,7 @@ pub(crate) fn robot(cyclers: Vec<CyclerBuilder>) -> Robot {
         generated: "generated".into(),
         parameters: "robotics/parameters".into(),
         identities: vec!["body".to_owned(), "head".to_owned()],
+        recording_budget: 2 << 30,
         parameter_tree: parameter_tree(&resolved),
         parameter_hints: Default::default(),
         cyclers: resolved,

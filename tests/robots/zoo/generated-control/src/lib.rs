@@ -10,3 +10,5 @@ pub mod databases;
 pub mod cyclers;
 #[rustfmt::skip]
 pub mod runtime;
+#[rustfmt::skip]
+pub mod recording;

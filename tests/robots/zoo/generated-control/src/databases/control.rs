@@ -69,14 +69,14 @@ pub struct AdditionalOutputsDebugWatcher {
 }
 
 /// Who listens to which additional output, decided once per cycle.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Deserialize, Serialize)]
 pub struct Subscribed {
     pub debug_certainty: bool,
     pub debug_watcher_seen: bool,
 }
 
 /// Values of clients in place of main outputs.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
 pub struct Injections {
     pub cycles: Injection<u64>,
     pub joints: Injection<[f32; 3]>,

@@ -60,14 +60,14 @@ pub struct AdditionalOutputsCyclerInstance {
 }
 
 /// Who listens to which additional output, decided once per cycle.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Deserialize, Serialize)]
 pub struct Subscribed {
     pub candidates: bool,
     pub cycler_instance_width: bool,
 }
 
 /// Values of clients in place of main outputs.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
 pub struct Injections {
     pub agreement: Injection<f32>,
     pub best: Injection<Option<Spot>>,

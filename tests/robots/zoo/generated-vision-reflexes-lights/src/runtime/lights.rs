@@ -14,6 +14,7 @@ use framework::OnFailure;
 use framework::OutputVisitor;
 use framework::QueueReport;
 use framework::Reader;
+use framework::Record;
 use framework::Reference;
 use framework::Reflect;
 use framework::Result;
@@ -43,6 +44,7 @@ pub const LIGHTS: InstanceDescription = InstanceDescription {
     history: Duration::from_secs(1),
     lockstep_duration: None,
     scheduling: Scheduling::BY_THE_SYSTEM,
+    record: Record::On,
 };
 
 /// One instance: its nodes, and its ends of all buffers.

@@ -8,6 +8,7 @@ use framework::Target;
 use framework::launch;
 use hulkgen_communication::serve;
 use zoo_hardware::Hardware;
+use zoo_runtime::recording;
 use zoo_runtime::runtime;
 
 const TARGET: Target = Target {
@@ -16,7 +17,11 @@ const TARGET: Target = Target {
     parameters: "parameters",
     location: None,
     identities: &["body"],
-    graph: "",
+    graph: include_str!("../../graph.json"),
+    recording_budget: 2147483648,
+    manifest: include_str!("../../../hulk.toml"),
+    dataflow: include_str!("../../DATAFLOW.md"),
+    replayables: recording::INSTANCES,
 };
 
 fn main() -> ExitCode {

@@ -24,7 +24,7 @@ pub struct SharedOutputs {
 }
 
 /// Values of clients in place of main outputs.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
 pub struct Injections {
     pub loudness: Injection<f32>,
     pub whistle: Injection<Option<Whistle>>,

@@ -15,7 +15,7 @@ use serde::Serialize;
 use crate::databases::control;
 
 /// Values of clients in place of main outputs.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
 pub struct Injections {}
 
 impl InjectionTable for Injections {

@@ -16,6 +16,7 @@ use framework::OutputVisitor;
 use framework::Policy;
 use framework::QueueReport;
 use framework::Reader;
+use framework::Record;
 use framework::Reference;
 use framework::Reflect;
 use framework::Result;
@@ -59,6 +60,7 @@ pub const CONTROL: InstanceDescription = InstanceDescription {
         priority: Some(80),
         cores: &[0],
     },
+    record: Record::On,
 };
 
 /// What clients can listen to, in the order of `Subscribed`.

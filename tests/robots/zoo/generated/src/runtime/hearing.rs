@@ -15,6 +15,7 @@ use framework::OnFailure;
 use framework::OutputVisitor;
 use framework::QueueReport;
 use framework::Reader;
+use framework::Record;
 use framework::Reference;
 use framework::Reflect;
 use framework::Result;
@@ -42,6 +43,7 @@ pub const HEARING: InstanceDescription = InstanceDescription {
     history: Duration::from_secs(1),
     lockstep_duration: Some(Duration::from_millis(3)),
     scheduling: Scheduling::BY_THE_SYSTEM,
+    record: Record::On,
 };
 
 /// One instance: its nodes, and its ends of all buffers.

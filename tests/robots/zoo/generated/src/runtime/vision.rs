@@ -15,6 +15,7 @@ use framework::OnFailure;
 use framework::OutputVisitor;
 use framework::QueueReport;
 use framework::Reader;
+use framework::Record;
 use framework::Reference;
 use framework::Reflect;
 use framework::Result;
@@ -53,6 +54,7 @@ pub const VISION_TOP: InstanceDescription = InstanceDescription {
     history: Duration::from_secs(1),
     lockstep_duration: Some(Duration::from_millis(20)),
     scheduling: Scheduling::BY_THE_SYSTEM,
+    record: Record::On,
 };
 
 /// What the manifest says about `VisionBottom`.
@@ -71,6 +73,7 @@ pub const VISION_BOTTOM: InstanceDescription = InstanceDescription {
         priority: None,
         cores: &[1],
     },
+    record: Record::On,
 };
 
 /// One instance: its nodes, and its ends of all buffers.

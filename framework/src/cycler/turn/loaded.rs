@@ -1,0 +1,52 @@
+//! A cycle that was recorded, about to run again.
+
+use super::{Cycler, Phase};
+use crate::cycler::{Cycle, Instance};
+use crate::error::{Error, Result};
+use crate::recorded::{Head, Loaded, Loading, Recorded, Stored};
+use crate::time::CycleTime;
+
+impl<B: Recorded> Cycler<B> {
+    /// Makes the cycle that a frame is of the one that has just begun.
+    ///
+    /// # Errors
+    /// If the bytes are none of such a frame, or a value is not found.
+    pub(crate) fn load(
+        &mut self,
+        outside: &mut B::Outside,
+        head: Head,
+        from: &mut Loading<'_>,
+        stored: &Stored<'_>,
+    ) -> Result<()> {
+        self.abandon();
+        let mut current = B::Shared::default();
+        let mut previous = B::Shared::default();
+        let slots = Loaded {
+            current: &mut current,
+            previous: &mut previous,
+        };
+        self.body.load(slots, outside, from, stored)?;
+        *self.writer.slots().0 = previous;
+        self.writer.complete(self.finished, self.cycle.time.start);
+        *self.writer.slots().0 = current;
+        self.cycle = Cycle {
+            number: head.number,
+            time: CycleTime {
+                start: head.start,
+                since_last: head.since_last,
+            },
+            timed: false,
+            in_setup: false,
+        };
+        self.phase = Phase::Begun {
+            restarted: head.restarted,
+        };
+        self.failure = None;
+        Ok(())
+    }
+
+    /// Why the cycle that ran will not be published.
+    pub(crate) fn failure(&self) -> Option<&Error> {
+        self.failure.as_ref()
+    }
+}

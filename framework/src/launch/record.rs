@@ -1,0 +1,109 @@
+//! The recording of a run.
+
+use std::fs;
+use std::process::Command;
+use std::time::{SystemTime, UNIX_EPOCH};
+
+use super::Target;
+use super::options::{Options, Record};
+use crate::data::ParameterData;
+use crate::error::{Error, Result};
+use crate::recorded::{About, Recording, Settings};
+use crate::report::tell;
+use crate::robot::Robot;
+
+/// What a recording is called in its run's folder.
+const FILE: &str = "recording.mcap";
+
+/// Starts it, if one is wanted.
+pub(super) fn start<P: ParameterData>(
+    target: &Target,
+    options: &Options,
+    robot: &Robot<P>,
+    is_simulated: bool,
+    identities: &[(String, String)],
+) -> Result<Option<Recording>> {
+    let path = match &options.record {
+        Record::Off => return Ok(None),
+        Record::Simulated if !is_simulated => return Ok(None),
+        Record::Simulated | Record::On => options.run_folder.join(FILE),
+        Record::Into(path) => path.clone(),
+    };
+    if let Some(folder) = path.parent() {
+        fs::create_dir_all(folder).map_err(|error| {
+            Error::from(error).context(format!("cannot create {}", folder.display()))
+        })?;
+    }
+    let settings = Settings {
+        budget: options.recording_budget.unwrap_or(target.recording_budget),
+        ..Settings::default()
+    };
+    let about = about(target, options, robot, identities);
+    let recording = Recording::start(&path, robot, about, settings)?;
+    tell(format_args!("recording into {}", path.display()));
+    Ok(Some(recording))
+}
+
+fn about<P: ParameterData>(
+    target: &Target,
+    options: &Options,
+    robot: &Robot<P>,
+    identities: &[(String, String)],
+) -> About {
+    let since_epoch = SystemTime::now()
+        .duration_since(UNIX_EPOCH)
+        .unwrap_or_default();
+    let run = options.run_folder.file_name().unwrap_or_default();
+    let mut entries = vec![
+        ("run".to_owned(), run.to_string_lossy().into_owned()),
+        ("robot".to_owned(), target.robot.to_owned()),
+        ("target".to_owned(), target.name.to_owned()),
+        ("started".to_owned(), since_epoch.as_secs().to_string()),
+        ("git".to_owned(), git_revision()),
+        ("graph".to_owned(), digest_of(target.dataflow)),
+    ];
+    let identities = identities.iter();
+    entries.extend(identities.map(|(name, id)| (format!("identity.{name}"), id.clone())));
+    let parameters = robot.parameters.read("");
+    let parameters = parameters
+        .ok()
+        .and_then(|reading| serde_json::to_string_pretty(&reading.value).ok());
+    let file = |name: &str, media_type: &str, text: &str| {
+        (name.to_owned(), media_type.to_owned(), text.to_owned())
+    };
+    About {
+        run: entries,
+        files: vec![
+            file("hulk.toml", "application/toml", target.manifest),
+            file("DATAFLOW.md", "text/markdown", target.dataflow),
+            file(
+                "parameters.json",
+                "application/json",
+                &parameters.unwrap_or_default(),
+            ),
+        ],
+    }
+}
+
+/// Of the folder in which the robot was started; empty where there is none.
+fn git_revision() -> String {
+    let git = |arguments: &[&str]| {
+        let output = Command::new("git").args(arguments).output().ok()?;
+        let text = String::from_utf8(output.stdout).ok()?;
+        output.status.success().then(|| text.trim().to_owned())
+    };
+    let Some(revision) = git(&["rev-parse", "HEAD"]) else {
+        return String::new();
+    };
+    match git(&["status", "--porcelain", "--untracked-files=no"]) {
+        Some(changes) if !changes.is_empty() => format!("{revision} with changes"),
+        _ => revision,
+    }
+}
+
+fn digest_of(text: &str) -> String {
+    let mut digest = crate::digest::Digest::new();
+    // A text can always be part of a digest.
+    let _ = digest.add(text);
+    digest.to_string()
+}

@@ -1,0 +1,72 @@
+//! The generated part: what a recording takes of one instance, and how a replay gives it back.
+
+use super::{Loading, SaveError, Saving, Stored, Values};
+use crate::cycler::{Body, Slots};
+use crate::digest::{Digest, DigestError};
+use crate::error::Result;
+use crate::time::Timestamp;
+
+/// A body that can be recorded and replayed. Both sides are generated from one list: every field of what the nodes may touch.
+pub trait Recorded: Body {
+    /// Writing ends of all that the body reads from elsewhere; in a replay nobody else has any.
+    type Outside: Send;
+
+    /// Values that others wrote, which frames name by number.
+    ///
+    /// # Errors
+    /// If there is no room, or a value cannot be serialised.
+    fn values(&self, values: &mut Values<'_, '_>) -> Result<(), SaveError>;
+
+    /// The states of nodes, and all that the cycle took in `begin` or got of its setup nodes. Of historic outputs what came
+    /// since that time, `None` for all of it.
+    ///
+    /// # Errors
+    /// If there is no room, or a value cannot be serialised.
+    fn save(
+        &self,
+        slots: Slots<'_, Self::Shared>,
+        since: Option<Timestamp>,
+        out: &mut Saving<'_, '_>,
+    ) -> Result<(), SaveError>;
+
+    /// Makes all of it what was saved.
+    ///
+    /// # Errors
+    /// If the bytes are none of such a frame, or a value is not found; what the body has then is not defined.
+    fn load(
+        &mut self,
+        slots: Loaded<'_, Self::Shared>,
+        outside: &mut Self::Outside,
+        from: &mut Loading<'_>,
+        stored: &Stored<'_>,
+    ) -> Result<()>;
+
+    /// What the nodes wrote in the last finished cycle, in the order of their calls: node, output, digest.
+    /// What setup nodes wrote stands in the frame.
+    ///
+    /// # Errors
+    /// If a value's own `Serialize` fails.
+    fn digests(&self, shared: &Self::Shared, visit: Visit<'_>) -> Result<(), DigestError>;
+}
+
+/// Is told of the digest of each output: node, output, digest.
+pub type Visit<'a> = &'a mut dyn FnMut(&'static str, &'static str, u64);
+
+/// Where a replay puts what other instances read of its instance.
+#[derive(Debug)]
+pub struct Loaded<'a, S> {
+    /// Of the cycle that is replayed.
+    pub current: &'a mut S,
+    /// Of the last finished cycle before it.
+    pub previous: &'a mut S,
+}
+
+/// The digest of one output.
+///
+/// # Errors
+/// If its own `Serialize` fails.
+pub fn digest(value: &impl serde::Serialize) -> Result<u64, DigestError> {
+    let mut digest = Digest::new();
+    digest.add(value)?;
+    Ok(digest.value())
+}

@@ -1,0 +1,224 @@
+//! One frame on its way into a recording, and out of it.
+//!
+//! ```text
+//! message on the channel of an instance:  0, head, states of nodes, what the cycle took        where it begins
+//!                                         1, one digest after the other                        where it ends
+//! message on a channel of values:         one value; its sequence number is the cycle's        before the first frame that names it
+//! ```
+
+use std::collections::BTreeMap;
+use std::time::Duration;
+
+use hulkgen_recording::{ChannelId, Frame};
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+
+use super::{Foreign, Loading, SaveError, Saving};
+use crate::buffer::Reader;
+use crate::error::{Error, Result};
+use crate::time::Timestamp;
+
+/// Version of all that [`Capture`] writes; a reader of another version says so.
+pub const VERSION: u32 = 1;
+
+/// What [`Values::parameters`] are listed under among the instances.
+pub const PARAMETERS: &str = "parameters";
+
+/// Which kind of message.
+pub(crate) const BEGUN: u8 = 0;
+pub(crate) const FINISHED: u8 = 1;
+
+/// How a frame begins.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Head {
+    /// The cycle's number.
+    pub number: u64,
+    pub start: Timestamp,
+    pub since_last: Duration,
+    /// Whether it is the first cycle after a restart.
+    pub restarted: bool,
+    /// Whether no frame before it is needed.
+    pub whole: bool,
+}
+
+/// Channels of values by the instance that wrote them, [`PARAMETERS`] among them.
+pub(crate) type Channels = [(&'static str, ChannelId)];
+
+/// Which cycle of each input stands in the block, in the order of the calls of [`Values`].
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Written {
+    block: Vec<Option<u64>>,
+    /// With the frame that is being written.
+    next: Vec<Option<u64>>,
+}
+
+impl Written {
+    pub(crate) fn begin(&mut self, is_first: bool) {
+        self.next.clear();
+        if !is_first {
+            self.next.extend_from_slice(&self.block);
+        }
+    }
+
+    pub(crate) fn keep(&mut self) {
+        std::mem::swap(&mut self.block, &mut self.next);
+    }
+}
+
+/// What an instance writes one frame into.
+pub struct Capture<'a, 'block> {
+    pub(crate) frame: &'a mut Frame<'block>,
+    pub(crate) written: &'a mut Written,
+    pub(crate) channels: &'a Channels,
+    pub(crate) own: ChannelId,
+    /// Of the last frame, for histories.
+    pub(crate) since: Option<Timestamp>,
+}
+
+/// What values of other instances are written into.
+pub struct Values<'a, 'block> {
+    frame: &'a mut Frame<'block>,
+    written: &'a mut Written,
+    channels: &'a Channels,
+    time: Timestamp,
+    /// How many inputs there were.
+    position: usize,
+}
+
+/// Values of other instances in one chunk, by channel and cycle.
+#[derive(Debug)]
+pub struct Stored<'chunk> {
+    channels: &'chunk [(String, u16)],
+    values: BTreeMap<(u16, u32), &'chunk [u8]>,
+}
+
+impl<'block> Capture<'_, 'block> {
+    /// For what the cycle that started at this time sees of other instances; before [`Capture::frame`].
+    pub fn values(&mut self, start: Timestamp) -> Values<'_, 'block> {
+        self.written.begin(self.frame.is_first());
+        Values {
+            frame: self.frame,
+            written: self.written,
+            channels: self.channels,
+            time: start,
+            position: 0,
+        }
+    }
+
+    /// Writes the frame itself.
+    ///
+    /// # Errors
+    /// If there is no room, or a value cannot be serialised.
+    pub fn frame(
+        &mut self,
+        mut head: Head,
+        save: impl FnOnce(Option<Timestamp>, &mut Saving<'_, '_>) -> Result<(), SaveError>,
+    ) -> Result<(), SaveError> {
+        head.whole = self.frame.is_first();
+        let since = self.since.filter(|_| !head.whole);
+        let (sequence, time) = (head.number as u32, head.start.as_nanos());
+        self.frame.message(self.own, sequence, time, |writing| {
+            let mut out = Saving::new(writing);
+            out.put(&BEGUN)?;
+            out.put(&head)?;
+            save(since, &mut out)
+        })
+    }
+}
+
+impl Values<'_, '_> {
+    /// Every cycle of an instance that this input shows and the block does not have yet.
+    ///
+    /// # Errors
+    /// If there is no room, or a value cannot be serialised.
+    pub fn of<T: Serialize>(
+        &mut self,
+        instance: &str,
+        input: &impl Foreign<T>,
+    ) -> Result<(), SaveError> {
+        let before = self.before();
+        input
+            .values(&mut |cycle, value| {
+                // Cycles of an instance come in order.
+                if before.is_none_or(|before| cycle > before) {
+                    self.put(instance, cycle, value)?;
+                }
+                Ok(())
+            })
+            .map(|()| self.position += 1)
+    }
+
+    /// The parameters, if the block does not have this version.
+    ///
+    /// # Errors
+    /// If there is no room, or a value cannot be serialised.
+    pub fn parameters<P: Serialize>(&mut self, parameters: &Reader<P>) -> Result<(), SaveError> {
+        let view = parameters.view();
+        if self.before() != Some(view.cycle()) {
+            self.put(PARAMETERS, view.cycle(), view.value())?;
+        }
+        self.position += 1;
+        Ok(())
+    }
+
+    fn before(&mut self) -> Option<u64> {
+        if self.written.next.len() <= self.position {
+            self.written.next.resize(self.position + 1, None);
+        }
+        self.written.next[self.position]
+    }
+
+    fn put(&mut self, name: &str, cycle: u64, value: &impl Serialize) -> Result<(), SaveError> {
+        let mut channels = self.channels.iter();
+        let channel = channels.find(|(known, _)| *known == name);
+        let (_, channel) = channel
+            .ok_or_else(|| SaveError::Value(format!("`{name}` has no channel of values")))?;
+        self.written.next[self.position] = Some(cycle);
+        let time = self.time.as_nanos();
+        self.frame.message(*channel, cycle as u32, time, |writing| {
+            Saving::new(writing).put(value)
+        })
+    }
+}
+
+impl<'chunk> Stored<'chunk> {
+    /// Of channels by the names of instances.
+    pub(crate) fn new(channels: &'chunk [(String, u16)]) -> Self {
+        Self {
+            channels,
+            values: BTreeMap::new(),
+        }
+    }
+
+    pub(crate) fn add(&mut self, channel: u16, sequence: u32, value: &'chunk [u8]) {
+        self.values.insert((channel, sequence), value);
+    }
+
+    /// The bytes of what an instance wrote in a cycle.
+    pub(crate) fn bytes(&self, instance: &str, cycle: u64) -> Option<&'chunk [u8]> {
+        let mut channels = self.channels.iter();
+        let (_, channel) = channels.find(|(known, _)| known == instance)?;
+        self.values.get(&(*channel, cycle as u32)).copied()
+    }
+
+    /// What an instance wrote in a cycle.
+    ///
+    /// # Errors
+    /// If the chunk does not have it, or it is of another type.
+    pub fn value<T: DeserializeOwned>(&self, instance: &str, cycle: u64) -> Result<T> {
+        let bytes = self.bytes(instance, cycle).ok_or_else(|| {
+            Error::new(format!(
+                "the chunk has no cycle {cycle} of `{instance}`, which a frame in it names"
+            ))
+        })?;
+        Loading::new(bytes).take()
+    }
+
+    /// The parameters that a frame names.
+    ///
+    /// # Errors
+    /// As [`Self::value`].
+    pub fn parameters<P: DeserializeOwned>(&self, from: &mut Loading<'_>) -> Result<P> {
+        self.value(PARAMETERS, from.take()?)
+    }
+}

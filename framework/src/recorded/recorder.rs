@@ -1,0 +1,212 @@
+//! The cycles of one instance on their way into a recording.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+
+use hulkgen_recording::{ChannelId, Recorded, Track};
+
+use super::{Capture, FINISHED, SaveError, Written};
+use crate::cycler::{Instance, Record};
+use crate::digest::DigestError;
+use crate::driver::Observer;
+use crate::reflect::{self, Path, binary};
+use crate::report::tell;
+use crate::time::Timestamp;
+
+/// Bytes of a message without its digests, and of one digest.
+const END: usize = 64;
+const DIGEST: usize = 8;
+
+/// Puts the cycles of one instance into a recording. It never waits and allocates nothing in the steady state.
+pub(super) struct CycleRecorder {
+    pub(super) track: Track,
+    pub(super) own: ChannelId,
+    pub(super) channels: Arc<[(&'static str, ChannelId)]>,
+    pub(super) wanted: Wanted,
+    /// What the conditions of instances, this one among them, ask of its outputs.
+    pub(super) conditions: Vec<Condition>,
+    pub(super) wanted_cycles: Arc<AtomicU64>,
+    written: Written,
+    /// When the last recorded cycle started.
+    since: Option<Timestamp>,
+    /// The cycle whose frame awaits its end.
+    open: Option<u64>,
+}
+
+/// Which cycles are wanted now.
+pub(super) enum Wanted {
+    /// The first, and every so many cycles one.
+    Every {
+        cycles: u64,
+        seen: u64,
+    },
+    While(Arc<AtomicBool>),
+}
+
+/// A `bool` in a main output, for whoever records while it is true.
+pub(super) struct Condition {
+    output: String,
+    below: Path,
+    holds: Arc<AtomicBool>,
+    bytes: Vec<u8>,
+}
+
+impl Wanted {
+    /// `None`: none at all.
+    pub(super) fn new(record: Record, condition: &Arc<AtomicBool>) -> Option<Self> {
+        let every = |cycles| Some(Self::Every { cycles, seen: 0 });
+        match record {
+            Record::On => every(1),
+            Record::Off => None,
+            Record::Every(cycles) => every(u64::from(cycles.max(1))),
+            Record::While { .. } => Some(Self::While(condition.clone())),
+        }
+    }
+
+    fn next(&mut self) -> bool {
+        match self {
+            Self::Every { cycles, seen } => {
+                *seen += 1;
+                (*seen - 1).is_multiple_of(*cycles)
+            }
+            // Relaxed: a flag, with which no other memory comes.
+            Self::While(holds) => holds.load(Ordering::Relaxed),
+        }
+    }
+}
+
+impl Condition {
+    /// Of the output, or of what lies below it, at this path; `None`: there is no such output.
+    pub(super) fn new(outputs: &[&str], path: &str, holds: &Arc<AtomicBool>) -> Option<Self> {
+        let output = outputs.iter().find(|output| {
+            let rest = path.strip_prefix(**output);
+            rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+        })?;
+        let below = path[output.len()..].trim_start_matches('.');
+        Some(Self {
+            output: (*output).to_owned(),
+            below: below.parse().ok()?,
+            holds: holds.clone(),
+            bytes: Vec::with_capacity(1),
+        })
+    }
+
+    /// Looks at the last finished cycle; what is no `bool` now does not hold.
+    fn look(&mut self, instance: &dyn Instance) {
+        self.bytes.clear();
+        let value = instance.main_output(&self.output);
+        let value = value.and_then(|value| reflect::at(value, &self.below).ok());
+        let is_encoded = value.is_some_and(|value| binary::encode(value, &mut self.bytes).is_ok());
+        let holds = is_encoded && self.bytes == [1];
+        self.holds.store(holds, Ordering::Relaxed);
+    }
+}
+
+impl CycleRecorder {
+    pub(super) fn new(
+        track: Track,
+        own: ChannelId,
+        channels: Arc<[(&'static str, ChannelId)]>,
+        wanted: Wanted,
+        wanted_cycles: Arc<AtomicU64>,
+    ) -> Self {
+        Self {
+            track,
+            own,
+            channels,
+            wanted,
+            conditions: Vec::new(),
+            wanted_cycles,
+            written: Written::default(),
+            since: None,
+            open: None,
+        }
+    }
+
+    fn tell(&self, instance: &dyn Instance, error: &str) {
+        let failed = self.track.counts().failed();
+        if failed.is_power_of_two() {
+            let (name, cycle) = (instance.description().name, instance.cycle().number);
+            tell(format_args!(
+                "{name}: cycle {cycle} is not recorded: {error} (failure {failed} of this kind)"
+            ));
+        }
+    }
+}
+
+impl Observer for CycleRecorder {
+    fn begun(&mut self, instance: &mut dyn Instance) {
+        self.open = None;
+        if !self.wanted.next() {
+            return;
+        }
+        // Relaxed: a count.
+        self.wanted_cycles.fetch_add(1, Ordering::Relaxed);
+        let cycle = instance.cycle();
+        let keep = END + DIGEST * instance.main_outputs().len();
+        let Self {
+            track,
+            own,
+            channels,
+            written,
+            since,
+            ..
+        } = self;
+        let recorded = track.frame(cycle.time.start.as_nanos(), keep, |frame| {
+            instance.save(&mut Capture {
+                frame,
+                written: &mut *written,
+                channels,
+                own: *own,
+                since: *since,
+            })
+        });
+        match recorded {
+            Recorded::Whole => {
+                self.written.keep();
+                self.since = Some(cycle.time.start);
+                self.open = Some(cycle.number);
+            }
+            Recorded::Dropped => {}
+            Recorded::Failed(error) => self.tell(instance, &error.to_string()),
+        }
+    }
+
+    fn finished(&mut self, instance: &dyn Instance) {
+        let cycle = instance.cycle();
+        if self.open.take() == Some(cycle.number) {
+            let time = cycle.time.start.as_nanos();
+            let own = self.own;
+            let ended = self.track.end(time, |frame| {
+                frame.message(own, cycle.number as u32, time, |writing| {
+                    writing.put(&[FINISHED])?;
+                    let mut put = Ok(());
+                    let digested = instance.digests(&mut |_, _, digest| {
+                        if put.is_ok() {
+                            put = writing.put(&digest.to_le_bytes());
+                        }
+                    });
+                    put?;
+                    digested.map_err(|error: DigestError| SaveError::Value(error.to_string()))
+                })
+            });
+            if let Recorded::Failed(error) = ended {
+                self.tell(instance, &error.to_string());
+            }
+        }
+        for condition in &mut self.conditions {
+            condition.look(instance);
+        }
+    }
+}
+
+/// Only looks at outputs on behalf of others: the instance itself is not recorded.
+pub(super) struct ConditionsAlone(pub(super) Vec<Condition>);
+
+impl Observer for ConditionsAlone {
+    fn finished(&mut self, instance: &dyn Instance) {
+        self.0
+            .iter_mut()
+            .for_each(|condition| condition.look(instance));
+    }
+}

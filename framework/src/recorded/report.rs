@@ -1,0 +1,81 @@
+//! How a recording went.
+
+use std::fmt;
+
+use hulkgen_recording::Ended;
+use serde_json::{Value, json};
+
+/// How a recording went.
+#[derive(Debug)]
+pub struct RecordingReport {
+    pub ended: Ended,
+    /// In manifest order.
+    pub instances: Vec<InstanceRecorded>,
+}
+
+/// What became of the cycles of one instance.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct InstanceRecorded {
+    pub instance: &'static str,
+    /// Cycles that its `record` asks for.
+    pub wanted: u64,
+    pub recorded: u64,
+    /// There was no room for them.
+    pub dropped: u64,
+    /// They could not be encoded.
+    pub failed: u64,
+    /// The disk did not take them.
+    pub lost: u64,
+}
+
+impl RecordingReport {
+    /// `COMPLETE` where everything that was wanted was recorded.
+    pub fn state(&self) -> &'static str {
+        if self.ended.is_complete {
+            "COMPLETE"
+        } else {
+            "INCOMPLETE"
+        }
+    }
+
+    /// Counts by instance.
+    pub fn to_json(&self) -> Value {
+        let instances = self.instances.iter().map(|one| {
+            json!({
+                "instance": one.instance,
+                "wanted": one.wanted,
+                "recorded": one.recorded,
+                "dropped": one.dropped,
+                "failed": one.failed,
+                "lost": one.lost,
+            })
+        });
+        instances.collect()
+    }
+}
+
+impl fmt::Display for RecordingReport {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let path = self.ended.path.display();
+        write!(formatter, "recording {path}: {}", self.state())?;
+        if let Some(error) = &self.ended.error {
+            write!(formatter, " ({error})")?;
+        }
+        writeln!(formatter)?;
+        for one in &self.instances {
+            let counts = [
+                (one.dropped, "dropped"),
+                (one.failed, "not encoded"),
+                (one.lost, "not taken by the disk"),
+            ];
+            for (count, what) in counts.into_iter().filter(|(count, _)| *count > 0) {
+                writeln!(
+                    formatter,
+                    "{}: {count} of {} frames {what}",
+                    one.instance, one.wanted
+                )?;
+            }
+        }
+        Ok(())
+    }
+}

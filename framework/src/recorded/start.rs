@@ -1,0 +1,263 @@
+//! A recording of a whole robot.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+
+use hulkgen_recording::{
+    Attachment, Channel, ChannelId, Counts, Description, Metadata, Recorder, Settings,
+};
+
+use super::recorder::{Condition, ConditionsAlone, CycleRecorder, Wanted};
+use super::{InstanceRecorded, PARAMETERS, RecordingReport, VERSION};
+use crate::cycler::{InstanceDescription, Record};
+use crate::driver::Observer;
+use crate::error::{Error, Result};
+use crate::numerics;
+use crate::robot::Robot;
+
+/// Encoding of frames, and of values that they name.
+pub(crate) const FRAMES: &str = "hulkgen-frames";
+pub(crate) const VALUES: &str = "hulkgen-values";
+
+/// What a recording says of its run.
+#[derive(Clone, Debug, Default)]
+pub struct About {
+    /// Names and values of the metadata `run`.
+    pub run: Vec<(String, String)>,
+    /// Files: name, media type, content.
+    pub files: Vec<(String, String, String)>,
+}
+
+/// A recording of a robot that runs.
+pub struct Recording {
+    recorder: Recorder,
+    observers: BTreeMap<&'static str, Box<dyn Observer>>,
+    wanted: Vec<(&'static str, Arc<AtomicU64>)>,
+}
+
+impl Recording {
+    /// Creates the file, which must not exist, for a robot that has not run yet.
+    ///
+    /// # Errors
+    /// If the file cannot be created, or a `record = { while = … }` names what no instance has.
+    pub fn start<P>(
+        path: &Path,
+        robot: &Robot<P>,
+        about: About,
+        settings: Settings,
+    ) -> Result<Self> {
+        Self::start_with(path, robot, about, settings, |instance| instance.record)
+    }
+
+    /// As [`Recording::start`], of the cycles that `record_of` chooses instead of the manifest.
+    ///
+    /// # Errors
+    /// As [`Recording::start`].
+    pub fn start_with<P>(
+        path: &Path,
+        robot: &Robot<P>,
+        about: About,
+        settings: Settings,
+        record_of: impl Fn(&InstanceDescription) -> Record,
+    ) -> Result<Self> {
+        let instances = robot.instances.iter();
+        let descriptions: Vec<_> = instances
+            .map(|instance| {
+                let mut description = *instance.description();
+                description.record = record_of(&description);
+                description
+            })
+            .collect();
+        let names: Vec<_> = descriptions.iter().map(|one| one.name).collect();
+        let written: Vec<_> = names.iter().chain(robot.left_out).copied().collect();
+        let description = describe(&descriptions, &written, about);
+        let (recorder, tracks) =
+            Recorder::start(path, description, &names, settings).map_err(|error| {
+                Error::from(error).context(format!("cannot record into {}", path.display()))
+            })?;
+        // Channels: frames of all instances, then values.
+        let values = (names.len()..).map(|index| ChannelId(index as u16));
+        let sources = written.into_iter().chain([PARAMETERS]);
+        let channels: Arc<[_]> = sources.zip(values).collect();
+        let mut conditions = conditions(robot, &descriptions)?;
+        let mut observers: BTreeMap<_, Box<dyn Observer>> = BTreeMap::new();
+        let mut wanted = Vec::new();
+        for (index, (track, one)) in tracks.into_iter().zip(&descriptions).enumerate() {
+            let count = Arc::<AtomicU64>::default();
+            wanted.push((one.name, count.clone()));
+            let asked = conditions.asked.remove(one.name).unwrap_or_default();
+            match Wanted::new(one.record, &conditions.of(one.name)) {
+                Some(which) => {
+                    let own = ChannelId(index as u16);
+                    let mut recorder =
+                        CycleRecorder::new(track, own, channels.clone(), which, count);
+                    recorder.conditions = asked;
+                    observers.insert(one.name, Box::new(recorder));
+                }
+                None if asked.is_empty() => {}
+                None => {
+                    observers.insert(one.name, Box::new(ConditionsAlone(asked)));
+                }
+            }
+        }
+        Ok(Self {
+            recorder,
+            observers,
+            wanted,
+        })
+    }
+
+    /// The observer of an instance, once.
+    pub fn observer(&mut self, instance: &InstanceDescription) -> Option<Box<dyn Observer>> {
+        self.observers.remove(instance.name)
+    }
+
+    /// The file.
+    pub fn path(&self) -> &Path {
+        self.recorder.path()
+    }
+
+    /// What became of each instance's frames, to be read while the robot runs.
+    pub fn shared_counts(&self) -> Vec<Arc<Counts>> {
+        self.recorder
+            .counts()
+            .map(|(_, counts)| counts.clone())
+            .collect()
+    }
+
+    /// What became of the cycles so far, to be asked while the robot runs.
+    pub fn counts(&self) -> Vec<InstanceRecorded> {
+        let counts = self.recorder.counts().zip(&self.wanted);
+        counts
+            .map(|((_, counts), (instance, wanted))| InstanceRecorded {
+                instance,
+                wanted: wanted.load(Ordering::Relaxed),
+                recorded: counts.recorded(),
+                dropped: counts.dropped(),
+                failed: counts.failed(),
+                lost: counts.lost(),
+            })
+            .collect()
+    }
+
+    /// Ends the file; observers that are gone by now have handed over everything.
+    pub fn end(mut self) -> RecordingReport {
+        self.observers.clear();
+        let mut instances = self.counts();
+        let wanted = Metadata {
+            name: "wanted".to_owned(),
+            entries: instances
+                .iter()
+                .map(|one| (one.instance.to_owned(), one.wanted.to_string()))
+                .collect(),
+        };
+        let counts = self.shared_counts();
+        let ended = self.recorder.end_with(vec![wanted]);
+        // What the disk did not take is known when all was written.
+        for (one, counts) in instances.iter_mut().zip(counts) {
+            one.lost = counts.lost();
+        }
+        RecordingReport { ended, instances }
+    }
+}
+
+/// The conditions of all instances.
+struct Conditions {
+    /// By the instance whose cycles depend on it.
+    holds: BTreeMap<&'static str, Arc<AtomicBool>>,
+    /// By the instance that is asked.
+    asked: BTreeMap<&'static str, Vec<Condition>>,
+}
+
+impl Conditions {
+    fn of(&self, instance: &str) -> Arc<AtomicBool> {
+        self.holds.get(instance).cloned().unwrap_or_default()
+    }
+}
+
+fn conditions<P>(robot: &Robot<P>, all: &[InstanceDescription]) -> Result<Conditions> {
+    let mut conditions = Conditions {
+        holds: BTreeMap::new(),
+        asked: BTreeMap::new(),
+    };
+    for one in all {
+        let Record::While { instance, path } = one.record else {
+            continue;
+        };
+        let holds = Arc::<AtomicBool>::default();
+        conditions.holds.insert(one.name, holds.clone());
+        if robot.left_out.contains(&instance) {
+            continue;
+        }
+        let outputs = robot.instance(instance)?.main_outputs();
+        let condition = Condition::new(outputs, path, &holds).ok_or_else(|| {
+            Error::new(format!(
+                "`{}` is recorded while `{path}` of `{instance}` is true, which writes no such output",
+                one.name
+            ))
+        })?;
+        conditions
+            .asked
+            .entry(instance)
+            .or_default()
+            .push(condition);
+    }
+    Ok(conditions)
+}
+
+fn describe(
+    instances: &[InstanceDescription],
+    written: &[&'static str],
+    About { mut run, files }: About,
+) -> Description {
+    let channel = |topic: String, encoding: &str, once_per_chunk| Channel {
+        topic,
+        schema: None,
+        encoding: encoding.to_owned(),
+        metadata: vec![("version".to_owned(), VERSION.to_string())],
+        once_per_chunk,
+    };
+    let frames = instances
+        .iter()
+        .map(|one| channel(format!("frames/{}", one.name), FRAMES, false));
+    let values = written.iter().chain([&PARAMETERS]);
+    let values = values.map(|name| channel(format!("values/{name}"), VALUES, true));
+    run.push(("numerics".to_owned(), numerics::fingerprint()));
+    let record = instances
+        .iter()
+        .map(|one| (one.name.to_owned(), text_of(one.record)));
+    Description {
+        library: format!("hulkgen {}", env!("CARGO_PKG_VERSION")),
+        schemas: Vec::new(),
+        channels: frames.chain(values).collect(),
+        metadata: vec![
+            Metadata {
+                name: "run".to_owned(),
+                entries: run,
+            },
+            Metadata {
+                name: "record".to_owned(),
+                entries: record.collect(),
+            },
+        ],
+        attachments: files
+            .into_iter()
+            .map(|(name, media_type, text)| Attachment {
+                name,
+                media_type,
+                data: text.into_bytes(),
+            })
+            .collect(),
+    }
+}
+
+fn text_of(record: Record) -> String {
+    match record {
+        Record::On => "on".to_owned(),
+        Record::Off => "off".to_owned(),
+        Record::Every(cycles) => format!("every {cycles}"),
+        Record::While { instance, path } => format!("while {instance}.{path}"),
+    }
+}

@@ -1,0 +1,125 @@
+//! Recorded cycles run again: each instance alone, each cycle from its frame, without hardware.
+//!
+//! ```text
+//! file -> chunks -> frames of one instance -> states, inputs -> run, finish -> digests, beside those of the recording
+//! ```
+//! Setup nodes are not called; what they wrote stands in the frame. What nodes command goes nowhere. A node that asks the
+//! hardware for something in a cycle cannot be replayed in that cycle; it is counted.
+
+mod difference;
+mod play;
+mod report;
+mod verify;
+
+use std::cell::Cell;
+
+use serde::de::DeserializeOwned;
+use serde_json::Value;
+
+use crate::cycler::{Cycler, Finished, Instance};
+use crate::error::Result;
+use crate::recorded::{Head, Loading, Recorded, Stored, digest};
+
+pub use play::{Frame, Player, Players, ValueChannels, value_channels};
+pub use report::Divergence;
+pub use verify::{InstanceVerified, Verification, verify};
+
+/// An instance that can be replayed; a constant of the generated crate lists them.
+#[derive(Clone, Copy, Debug)]
+pub struct Replayable {
+    pub instance: &'static str,
+    /// Makes it, with the states of its nodes as in a frame.
+    pub create: fn(&mut Loading<'_>, &Stored<'_>) -> Result<Box<dyn Replay>>,
+}
+
+/// One instance whose cycles come from a recording.
+pub trait Replay {
+    /// Makes a recorded cycle the one that has just begun.
+    ///
+    /// # Errors
+    /// If the bytes are none of such a frame, or a value is not found.
+    fn load(&mut self, head: Head, from: &mut Loading<'_>, stored: &Stored<'_>) -> Result<()>;
+
+    /// Runs its nodes and finishes it.
+    fn run(&mut self) -> Ran;
+
+    /// The instance.
+    fn instance(&self) -> &dyn Instance;
+
+    /// An output out of the bytes of all that others read of a cycle, if it is the one with this digest.
+    fn recorded(&self, shared: &[u8], output: &str, digest: u64) -> Option<Value>;
+}
+
+/// How a replayed cycle ended.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Ran {
+    Finished,
+    /// A node asked the hardware for something.
+    NeedsHardware,
+    /// It would have been abandoned.
+    Failed(String),
+}
+
+/// One instance, with the writing ends of all that it reads.
+pub struct Alone<B: Recorded> {
+    cycler: Cycler<B>,
+    outside: B::Outside,
+}
+
+impl<B: Recorded> Alone<B> {
+    /// An instance that was just created.
+    pub fn new(cycler: Cycler<B>, outside: B::Outside) -> Self {
+        Self { cycler, outside }
+    }
+}
+
+impl<B: Recorded> Replay for Alone<B>
+where
+    B::Shared: DeserializeOwned,
+{
+    fn load(&mut self, head: Head, from: &mut Loading<'_>, stored: &Stored<'_>) -> Result<()> {
+        self.cycler.load(&mut self.outside, head, from, stored)
+    }
+
+    fn run(&mut self) -> Ran {
+        HARDWARE_WAS_READ.set(false);
+        self.cycler.run();
+        let failure = self.cycler.failure().map(ToString::to_string);
+        let finished = self.cycler.finish();
+        match finished {
+            _ if HARDWARE_WAS_READ.get() => Ran::NeedsHardware,
+            Ok(Finished::Completed | Finished::Recovered) => Ran::Finished,
+            Ok(Finished::Abandoned | Finished::Restarting { .. } | Finished::Stopped) => {
+                Ran::Failed(failure.unwrap_or_else(|| "it was abandoned".to_owned()))
+            }
+            Err(error) => Ran::Failed(error.to_string()),
+        }
+    }
+
+    fn instance(&self) -> &dyn Instance {
+        &self.cycler
+    }
+
+    fn recorded(&self, shared: &[u8], output: &str, wanted: u64) -> Option<Value> {
+        let shared: B::Shared = Loading::new(shared).take().ok()?;
+        let value = self
+            .cycler
+            .body()
+            .main_output(&shared, output)?
+            .as_serialize();
+        (digest(&value).ok()? == wanted).then(|| serde_json::to_value(value).ok())?
+    }
+}
+
+thread_local! {
+    static HARDWARE_WAS_READ: Cell<bool> = const { Cell::new(false) };
+}
+
+/// What the hardware of a replay does where it is asked for something.
+///
+/// # Panics
+/// Always: the node that asks ends here, and its cycle counts as one that needs hardware.
+pub fn no_hardware() -> ! {
+    HARDWARE_WAS_READ.set(true);
+    panic!("a replay has no hardware to ask")
+}

@@ -1,0 +1,235 @@
+//! Frames of a recording by instance and cycle, in any order.
+
+use std::collections::BTreeMap;
+
+use hulkgen_recording::Recording;
+
+use super::{Ran, Replay, Replayable};
+use crate::error::{Error, Result};
+use crate::recorded::{BEGUN, FINISHED, FRAMES, Head, Loading, Stored, VALUES, VERSION};
+
+/// All instances of a recording that this robot can replay.
+pub struct Players<'r> {
+    chunks: Vec<Stored<'r>>,
+    /// In manifest order.
+    pub players: Vec<Player<'r>>,
+    /// Instances of the recording that this robot does not have, or cannot replay.
+    pub unknown: Vec<String>,
+}
+
+/// One instance and its recorded cycles.
+pub struct Player<'r> {
+    pub instance: &'static str,
+    /// In the order of the file.
+    pub frames: Vec<Frame<'r>>,
+    replayable: Replayable,
+    replay: Option<Box<dyn Replay>>,
+    /// Position of the frame that was loaded last.
+    loaded: Option<usize>,
+}
+
+/// One recorded cycle.
+#[derive(Clone, Copy, Debug)]
+pub struct Frame<'r> {
+    pub head: Head,
+    /// Digests of what it wrote; `None`: it was not finished.
+    end: Option<&'r [u8]>,
+    chunk: usize,
+    content: Loading<'r>,
+}
+
+impl<'r> Frame<'r> {
+    /// Digests in the order in which the outputs were written; `None`: the cycle was not finished.
+    pub fn digests(&self) -> Option<impl Iterator<Item = u64> + use<'r>> {
+        let whole = self.end?.chunks_exact(8);
+        Some(whole.map(|bytes| {
+            bytes
+                .iter()
+                .rev()
+                .fold(0, |all, byte| all << 8 | u64::from(*byte))
+        }))
+    }
+}
+
+/// Channels of a recording.
+struct Topics {
+    /// Instance by channel.
+    frames: BTreeMap<u16, String>,
+    values: Vec<(String, u16)>,
+}
+
+/// Names and numbers of the channels that hold values.
+pub type ValueChannels = Vec<(String, u16)>;
+
+/// Channels of values of a recording, which [`Players::new`] needs to live longer than itself.
+///
+/// # Errors
+/// If the recording was made by another version.
+pub fn value_channels(recording: &Recording) -> Result<ValueChannels> {
+    topics(recording).map(|topics| topics.values)
+}
+
+fn topics(recording: &Recording) -> Result<Topics> {
+    let mut topics = Topics {
+        frames: BTreeMap::new(),
+        values: Vec::new(),
+    };
+    for (number, channel) in &recording.channels {
+        if ![FRAMES, VALUES].contains(&&*channel.encoding) {
+            continue;
+        }
+        let mut metadata = channel.metadata.iter();
+        let version = metadata.find(|(key, _)| key == "version");
+        let version = version.map_or("", |(_, version)| version);
+        if version != VERSION.to_string() {
+            return Err(Error::new(format!(
+                "the recording is of version `{version}`, this robot reads version {VERSION}"
+            )));
+        }
+        match channel.topic.split_once('/') {
+            Some(("frames", instance)) => {
+                topics.frames.insert(*number, instance.to_owned());
+            }
+            Some(("values", instance)) => topics.values.push((instance.to_owned(), *number)),
+            _ => {}
+        }
+    }
+    Ok(topics)
+}
+
+impl<'r> Players<'r> {
+    /// Of a recording whose values lie in these channels.
+    ///
+    /// # Errors
+    /// If a frame cannot be understood.
+    pub fn new(
+        recording: &'r Recording,
+        values: &'r ValueChannels,
+        replayables: &[Replayable],
+    ) -> Result<Self> {
+        let topics = topics(recording)?;
+        let mut players: Vec<_> = replayables.iter().map(|one| Player::new(*one)).collect();
+        let mut chunks = Vec::new();
+        for (index, chunk) in recording.chunks.iter().enumerate() {
+            let mut stored = Stored::new(values);
+            for message in chunk.messages() {
+                let Some(instance) = topics.frames.get(&message.channel) else {
+                    stored.add(message.channel, message.sequence, message.data);
+                    continue;
+                };
+                if let Some(player) = players.iter_mut().find(|one| one.instance == instance) {
+                    player.add(index, message.sequence, message.data)?;
+                }
+            }
+            chunks.push(stored);
+        }
+        let is_known = |name: &String| replayables.iter().any(|one| one.instance == name);
+        let unknown = topics.frames.into_values().filter(|name| !is_known(name));
+        Ok(Self {
+            chunks,
+            players,
+            unknown: unknown.collect(),
+        })
+    }
+
+    /// The player of an instance, with the values that it needs.
+    pub fn of(&mut self, instance: &str) -> Option<(&mut Player<'r>, &[Stored<'r>])> {
+        let mut players = self.players.iter_mut();
+        let player = players.find(|player| player.instance == instance)?;
+        Some((player, &self.chunks))
+    }
+
+    /// All of them.
+    pub fn each(&mut self) -> impl Iterator<Item = (&mut Player<'r>, &[Stored<'r>])> {
+        self.players
+            .iter_mut()
+            .map(|player| (player, &*self.chunks))
+    }
+}
+
+impl<'r> Player<'r> {
+    fn new(replayable: Replayable) -> Self {
+        Self {
+            instance: replayable.instance,
+            frames: Vec::new(),
+            replayable,
+            replay: None,
+            loaded: None,
+        }
+    }
+
+    fn add(&mut self, chunk: usize, sequence: u32, data: &'r [u8]) -> Result<()> {
+        let damaged = || Error::new(format!("a frame of `{}` is damaged", self.instance));
+        let (kind, content) = data.split_first().ok_or_else(damaged)?;
+        match *kind {
+            BEGUN => {
+                let mut content = Loading::new(content);
+                let head: Head = content.take()?;
+                self.frames.push(Frame {
+                    head,
+                    end: None,
+                    chunk,
+                    content,
+                });
+                Ok(())
+            }
+            FINISHED => {
+                let begun = self.frames.last_mut();
+                let begun = begun.filter(|frame| frame.head.number as u32 == sequence);
+                begun.ok_or_else(damaged)?.end = Some(content);
+                Ok(())
+            }
+            _ => Err(damaged()),
+        }
+    }
+
+    /// Runs the cycle at this position again, whichever ran before.
+    ///
+    /// # Errors
+    /// If its frame, or one that it needs, does not fit this robot.
+    pub fn play(&mut self, position: usize, chunks: &[Stored<'_>]) -> Result<Ran> {
+        let whole = (0..=position)
+            .rev()
+            .find(|at| self.frames[*at].head.whole)
+            .ok_or_else(|| Error::new("the frame that it goes on from is missing"))?;
+        // What was loaded before may lead here, too.
+        let first = match self.loaded {
+            Some(loaded) if loaded >= whole && loaded < position => loaded + 1,
+            _ => whole,
+        };
+        for at in first..=position {
+            self.load(at, chunks)?;
+        }
+        let replay = self.replay.as_mut();
+        Ok(replay.map_or(Ran::NeedsHardware, |replay| replay.run()))
+    }
+
+    fn load(&mut self, at: usize, chunks: &[Stored<'_>]) -> Result<()> {
+        // Until it is there, nothing can go on from it.
+        self.loaded = None;
+        let Frame {
+            head,
+            chunk,
+            mut content,
+            ..
+        } = self.frames[at];
+        let mut states = content;
+        let replay = match &mut self.replay {
+            Some(replay) => replay,
+            none => none.insert((self.replayable.create)(&mut states, &chunks[chunk])?),
+        };
+        replay.load(head, &mut content, &chunks[chunk])?;
+        if !content.is_empty() {
+            return Err(Error::new(
+                "the frame has more than this robot takes: the recording is of another robot, or of another version of it",
+            ));
+        }
+        self.loaded = Some(at);
+        Ok(())
+    }
+
+    /// The instance, once a frame was loaded.
+    pub fn replay(&self) -> Option<&dyn Replay> {
+        self.replay.as_deref()
+    }
+}

@@ -1,0 +1,225 @@
+//! A verification in words, and for programs.
+
+use std::fmt;
+
+use serde_json::{Value, json};
+
+use super::{InstanceVerified, Verification};
+use crate::recorded::Head;
+use crate::time::Timestamp;
+
+/// Bytes of a value that are shown.
+const SHOWN: usize = 400;
+
+/// The first output that is not what it was.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Divergence {
+    pub instance: &'static str,
+    pub cycle: u64,
+    /// When the cycle started.
+    pub at: Timestamp,
+    /// Empty: the cycle itself failed.
+    pub node: String,
+    pub output: String,
+    /// What in the output differs first; empty for all of it, or where only digests are known.
+    pub path: String,
+    /// Of the recording, where it has the value.
+    pub recorded: Option<Value>,
+    pub recomputed: Option<Value>,
+    /// Of the recording, where it has one, and of the replay.
+    pub digests: (Option<u64>, u64),
+    /// Why the cycle failed.
+    pub failure: Option<String>,
+}
+
+impl Divergence {
+    pub(super) fn of(
+        instance: &'static str,
+        head: Head,
+        (node, output): (&str, &str),
+        recorded: Option<u64>,
+        recomputed: u64,
+    ) -> Self {
+        Self {
+            instance,
+            cycle: head.number,
+            at: head.start,
+            node: node.to_owned(),
+            output: output.to_owned(),
+            path: String::new(),
+            recorded: None,
+            recomputed: None,
+            digests: (recorded, recomputed),
+            failure: None,
+        }
+    }
+
+    pub(super) fn failed(instance: &'static str, head: Head, failure: String) -> Self {
+        Self {
+            failure: Some(failure),
+            ..Self::of(instance, head, ("", ""), None, 0)
+        }
+    }
+
+    fn to_json(&self) -> Value {
+        let digest = |digest: u64| format!("{digest:016x}");
+        json!({
+            "instance": self.instance,
+            "cycle": self.cycle,
+            "at_ns": self.at.as_nanos(),
+            "node": self.node,
+            "output": self.output,
+            "path": self.path,
+            "recorded": self.recorded,
+            "recomputed": self.recomputed,
+            "recorded_digest": self.digests.0.map(digest),
+            "recomputed_digest": digest(self.digests.1),
+            "failure": self.failure,
+        })
+    }
+}
+
+impl fmt::Display for Divergence {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            instance,
+            cycle,
+            at,
+            node,
+            output,
+            ..
+        } = self;
+        write!(
+            out,
+            "the first divergence is in cycle {cycle} of {instance} at {at}"
+        )?;
+        if let Some(failure) = &self.failure {
+            return write!(
+                out,
+                ": it finished when it was recorded, and fails now: {failure}"
+            );
+        }
+        write!(out, ": `{output}` of `{node}`")?;
+        if !self.path.is_empty() {
+            write!(out, ", first in `{}`", self.path)?;
+        }
+        let shown = |value: &Option<Value>| {
+            let mut text = value.as_ref().map(Value::to_string)?;
+            if text.len() > SHOWN {
+                let end = (0..=SHOWN).rev().find(|end| text.is_char_boundary(*end));
+                text.truncate(end.unwrap_or_default());
+                text.push('…');
+            }
+            Some(text)
+        };
+        let (recorded, recomputed) = self.digests;
+        let recorded = recorded.map_or("none".to_owned(), |digest| format!("digest {digest:016x}"));
+        let recorded = shown(&self.recorded).unwrap_or(recorded);
+        let value = shown(&self.recomputed).unwrap_or_default();
+        let recomputed = match self.recorded {
+            Some(_) => value,
+            None => format!("{value} (digest {recomputed:016x})"),
+        };
+        write!(
+            out,
+            "\n  recorded:   {recorded}\n  recomputed: {recomputed}"
+        )
+    }
+}
+
+impl Verification {
+    /// Version 1 of what `--format json` gives.
+    pub fn to_json(&self) -> Value {
+        json!({
+            "version": 1,
+            "good": self.is_good(),
+            "instances": self.instances.iter().map(|one| json!({
+                "instance": one.instance,
+                "record": one.record,
+                "wanted": one.wanted,
+                "frames": one.frames,
+                "dropped": one.dropped,
+                "verified": one.verified,
+                "diverged": one.diverged,
+                "outputs": one.outputs,
+                "unfinished": one.unfinished,
+                "needs_hardware": one.needs_hardware,
+                "unreadable": one.unreadable,
+                "good": one.is_good(),
+            })).collect::<Vec<_>>(),
+            "divergence": self.divergence.as_ref().map(Divergence::to_json),
+            "unknown": self.unknown,
+            "numerics": self.numerics.as_ref().map(|(there, here)| json!({ "recorded": there, "here": here })),
+        })
+    }
+}
+
+impl fmt::Display for Verification {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(
+            out,
+            "{:<16} {:>8} {:>8} {:>9} {:>9}",
+            "instance", "frames", "dropped", "verified", "outputs"
+        )?;
+        for one in &self.instances {
+            writeln!(
+                out,
+                "{:<16} {:>8} {:>8} {:>9} {:>9}{}",
+                one.instance,
+                one.frames,
+                one.dropped,
+                one.verified,
+                one.outputs,
+                Remarks(one)
+            )?;
+        }
+        for unknown in &self.unknown {
+            writeln!(
+                out,
+                "{unknown}: this robot has no such instance, or cannot replay it"
+            )?;
+        }
+        if let Some((there, here)) = &self.numerics {
+            writeln!(
+                out,
+                "recorded with other numerics ({there}, here {here}): results may differ in their last bits"
+            )?;
+        }
+        if let Some(divergence) = &self.divergence {
+            writeln!(out, "{divergence}")?;
+        }
+        Ok(())
+    }
+}
+
+/// What there is to say of an instance beside its counts.
+struct Remarks<'a>(&'a InstanceVerified);
+
+impl fmt::Display for Remarks<'_> {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let one = self.0;
+        let mut remarks = Vec::new();
+        if one.is_off() {
+            remarks.push(format!("off ({})", one.record));
+        } else if one.verified == 0 {
+            remarks.push("nothing verified".to_owned());
+        }
+        if one.record.starts_with("every ") {
+            remarks.push(one.record.clone());
+        }
+        for (count, what) in [
+            (one.diverged, "diverged"),
+            (one.unfinished, "unfinished"),
+            (one.needs_hardware, "needing hardware"),
+        ] {
+            if count > 0 {
+                remarks.push(format!("{count} {what}"));
+            }
+        }
+        remarks.extend(one.unreadable.clone());
+        match remarks.as_slice() {
+            [] => Ok(()),
+            remarks => write!(out, "  {}", remarks.join(", ")),
+        }
+    }
+}

@@ -1,0 +1,103 @@
+//! Recordings of the robot, and their replay.
+//!
+//! Written by `hulkgen generate` from hulk.toml and the nodes it names. Do not edit.
+
+use framework::error::Result;
+use framework::replay::Replayable;
+use framework::replay::no_hardware;
+use framework::time::Timestamp;
+use hardware::ActuatorInterface;
+use hardware::CameraInterface;
+use hardware::MessageInterface;
+use hardware::MicrophoneInterface;
+use hardware::NetworkInterface;
+use hardware::SensorInterface;
+use hardware::SpeakerInterface;
+use types::audio::AudioBlock;
+use types::audio::Tone;
+use types::camera::CameraPosition;
+use types::image::YuyvImage;
+use types::leds::Leds;
+use types::motor_commands::MotorCommands;
+use types::network::Datagram;
+use types::network::Endpoint;
+use types::sensor_data::SensorData;
+
+pub mod audio;
+pub mod control;
+pub mod spl_network;
+pub mod vision;
+
+/// All instances that a recording can be replayed with, in manifest order.
+pub const INSTANCES: &[Replayable] = &[
+    Replayable {
+        instance: "VisionTop",
+        create: vision::replay_vision_top,
+    },
+    Replayable {
+        instance: "VisionBottom",
+        create: vision::replay_vision_bottom,
+    },
+    Replayable {
+        instance: "SplNetwork",
+        create: spl_network::replay_spl_network,
+    },
+    Replayable {
+        instance: "Audio",
+        create: audio::replay_audio,
+    },
+    Replayable {
+        instance: "Control",
+        create: control::replay_control,
+    },
+];
+
+/// The hardware of a replay: what it is told to do goes nowhere, and it cannot be asked.
+#[derive(Clone, Copy, Debug)]
+pub struct Sink;
+
+impl ActuatorInterface for Sink {
+    fn write_command(&self, _: &MotorCommands, _: &Leds) -> Result<()> {
+        Ok(())
+    }
+}
+
+impl CameraInterface for Sink {
+    fn read_image(&self, _: CameraPosition, _: &mut YuyvImage) -> Result<Timestamp> {
+        no_hardware()
+    }
+}
+
+impl MessageInterface for Sink {
+    fn send_to_game_controller(&self, _: Endpoint, _: &[u8]) -> Result<()> {
+        Ok(())
+    }
+
+    fn send_to_team(&self, _: &[u8]) -> Result<()> {
+        Ok(())
+    }
+}
+
+impl MicrophoneInterface for Sink {
+    fn read_audio(&self, _: &mut AudioBlock) -> Result<Timestamp> {
+        no_hardware()
+    }
+}
+
+impl NetworkInterface for Sink {
+    fn read_datagram(&self, _: &mut Datagram) -> Result<Timestamp> {
+        no_hardware()
+    }
+}
+
+impl SensorInterface for Sink {
+    fn read_sensors(&self) -> Result<(Timestamp, SensorData)> {
+        no_hardware()
+    }
+}
+
+impl SpeakerInterface for Sink {
+    fn play_tone(&self, _: &Tone) -> Result<()> {
+        Ok(())
+    }
+}

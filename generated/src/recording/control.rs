@@ -1,0 +1,594 @@
+//! Cycler `Control` in a recording: what its cycles take, saved and given back.
+//!
+//! Written by `hulkgen generate` from hulk.toml and the nodes it names. Do not edit.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use framework::Clock;
+use framework::Consumer;
+use framework::Cycler;
+use framework::Guarded;
+use framework::History;
+use framework::Horizon;
+use framework::Injected;
+use framework::Interleaving;
+use framework::OnFailure;
+use framework::Result;
+use framework::Slots;
+use framework::Subscriptions;
+use framework::Swap;
+use framework::Timestamp;
+use framework::Writer;
+use framework::buffer;
+use framework::buffer_of;
+use framework::digest::DigestError;
+use framework::procedure;
+use framework::recorded::Foreign;
+use framework::recorded::Loaded;
+use framework::recorded::Loading;
+use framework::recorded::Recorded;
+use framework::recorded::SaveError;
+use framework::recorded::Saving;
+use framework::recorded::Stored;
+use framework::recorded::Values;
+use framework::recorded::Visit;
+use framework::recorded::digest;
+use framework::replay::Alone;
+use framework::replay::Replay;
+use hardware::ActuatorInterface;
+use hardware::MessageInterface;
+use hardware::SensorInterface;
+use hardware::SpeakerInterface;
+
+use crate::cyclers::control::Nodes;
+use crate::databases::audio;
+use crate::databases::control::AdditionalOutputs;
+use crate::databases::control::CyclerState;
+use crate::databases::control::Historic;
+use crate::databases::control::Injections;
+use crate::databases::control::Perception;
+use crate::databases::control::Procedures;
+use crate::databases::control::SharedOutputs;
+use crate::databases::control::Subscribed;
+use crate::databases::spl_network;
+use crate::databases::vision;
+use crate::parameters::Parameters;
+use crate::recording::Sink;
+use crate::runtime::control::ADDITIONAL_OUTPUTS;
+use crate::runtime::control::CONTROL;
+use crate::runtime::control::Control;
+
+/// In a replay: who writes what an instance reads.
+pub struct Outside {
+    pub injections: Writer<Injected<Injections>>,
+    pub parameters: Writer<Parameters>,
+    pub vision_top: Writer<vision::SharedOutputs>,
+    pub vision_bottom: Writer<vision::SharedOutputs>,
+    pub spl_network: Writer<spl_network::SharedOutputs>,
+    pub audio: Writer<audio::SharedOutputs>,
+}
+
+impl<
+    Hardware: ActuatorInterface + MessageInterface + SensorInterface + SpeakerInterface
+        + Send + Sync,
+> Recorded for Control<Hardware> {
+    type Outside = Outside;
+
+    fn values(&self, values: &mut Values<'_, '_>) -> Result<(), SaveError> {
+        values.parameters(&self.parameters)?;
+        values.of("VisionTop", &self.perception.vision_top)?;
+        values.of("VisionBottom", &self.perception.vision_bottom)?;
+        values.of("SplNetwork", &self.perception.spl_network)?;
+        values.of("Audio", &self.perception.audio)?;
+        Ok(())
+    }
+
+    fn save(
+        &self,
+        _slots: Slots<'_, SharedOutputs>,
+        since: Option<Timestamp>,
+        out: &mut Saving<'_, '_>,
+    ) -> Result<(), SaveError> {
+        self.parameters.save_version(out)?;
+        self.nodes.sensor_data_receiver.record(out)?;
+        self.nodes.button_filter.record(out)?;
+        self.nodes.sonar_filter.record(out)?;
+        self.nodes.orientation_filter.record(out)?;
+        self.nodes.foot_pressure_filter.record(out)?;
+        self.nodes.ground_contact_filter.record(out)?;
+        self.nodes.support_foot_filter.record(out)?;
+        self.nodes.forward_kinematics.record(out)?;
+        self.nodes.center_of_mass.record(out)?;
+        self.nodes.fall_state_filter.record(out)?;
+        self.nodes.odometry.record(out)?;
+        self.nodes.camera_matrices.record(out)?;
+        self.nodes.game_controller_filter.record(out)?;
+        self.nodes.team_message_filter.record(out)?;
+        self.nodes.whistle_filter.record(out)?;
+        self.nodes.game_state_filter.record(out)?;
+        self.nodes.ball_filter.record(out)?;
+        self.nodes.obstacle_filter.record(out)?;
+        self.nodes.world_state_composer.record(out)?;
+        self.nodes.client_wishes.record(out)?;
+        self.nodes.behavior.record(out)?;
+        self.nodes.recording_switch.record(out)?;
+        self.nodes.motion_selector.record(out)?;
+        self.nodes.motion_dispatcher.record(out)?;
+        self.nodes.stand.record(out)?;
+        self.nodes.penalized_pose.record(out)?;
+        self.nodes.sit_down.record(out)?;
+        self.nodes.walking_engine.record(out)?;
+        self.nodes.look_around.record(out)?;
+        self.nodes.look_at.record(out)?;
+        self.nodes.head_motion.record(out)?;
+        self.nodes.motor_commands_collector.record(out)?;
+        self.nodes.led_status.record(out)?;
+        self.nodes.tone_selector.record(out)?;
+        self.nodes.tone_player.record(out)?;
+        self.nodes.self_report.record(out)?;
+        self.nodes.game_controller_responder.record(out)?;
+        self.nodes.team_message_sender.record(out)?;
+        self.nodes.command_sender.record(out)?;
+        out.put(&self.cycler_state)?;
+        self.historic.odometry.save(since, out)?;
+        self.injections.save_injected(out)?;
+        out.put(&self.own.current().sensor_data)?;
+        Foreign::save(&self.perception.vision_top, out)?;
+        Foreign::save(&self.perception.vision_bottom, out)?;
+        Foreign::save(&self.perception.spl_network, out)?;
+        Foreign::save(&self.perception.audio, out)?;
+        out.put(&self.own.previous().head_command)?;
+        out.put(&self.own.previous().motor_commands)?;
+        self.procedures.look_at.save(out)?;
+        self.procedures.motion.save(out)?;
+        self.procedures.walk.save(out)?;
+        out.put(&self.subscribed)?;
+        Ok(())
+    }
+
+    fn load(
+        &mut self,
+        _slots: Loaded<'_, SharedOutputs>,
+        outside: &mut Outside,
+        from: &mut Loading<'_>,
+        stored: &Stored<'_>,
+    ) -> Result<()> {
+        self.parameters.load_version(from, &mut outside.parameters, stored)?;
+        self.nodes = load_nodes(from)?;
+        self.cycler_state = from.take()?;
+        self.historic.odometry.load(from)?;
+        self.injections.load_injected(from, &mut outside.injections)?;
+        self.own.both_to_load().0.sensor_data = from.take()?;
+        Foreign::load(
+            &mut self.perception.vision_top,
+            from,
+            &mut outside.vision_top,
+            &mut |cycle| stored.value("VisionTop", cycle),
+        )?;
+        Foreign::load(
+            &mut self.perception.vision_bottom,
+            from,
+            &mut outside.vision_bottom,
+            &mut |cycle| stored.value("VisionBottom", cycle),
+        )?;
+        Foreign::load(
+            &mut self.perception.spl_network,
+            from,
+            &mut outside.spl_network,
+            &mut |cycle| stored.value("SplNetwork", cycle),
+        )?;
+        Foreign::load(
+            &mut self.perception.audio,
+            from,
+            &mut outside.audio,
+            &mut |cycle| stored.value("Audio", cycle),
+        )?;
+        self.perception
+            .vision
+            .merge([&self.perception.vision_top, &self.perception.vision_bottom]);
+        self.own.both_to_load().1.head_command = from.take()?;
+        self.own.both_to_load().1.motor_commands = from.take()?;
+        self.procedures.look_at.load(from)?;
+        self.procedures.motion.load(from)?;
+        self.procedures.walk.load(from)?;
+        self.subscribed = from.take()?;
+        Ok(())
+    }
+
+    fn digests(
+        &self,
+        shared: &SharedOutputs,
+        visit: Visit<'_>,
+    ) -> Result<(), DigestError> {
+        visit(
+            "control::button_filter",
+            "buttons",
+            digest(&self.own.previous().buttons)?,
+        );
+        visit(
+            "control::sonar_filter",
+            "sonar_distances",
+            digest(&self.own.previous().sonar_distances)?,
+        );
+        visit(
+            "control::orientation_filter",
+            "orientation",
+            digest(&self.own.previous().orientation)?,
+        );
+        visit(
+            "control::foot_pressure_filter",
+            "sole_pressures",
+            digest(&self.own.previous().sole_pressures)?,
+        );
+        visit(
+            "control::ground_contact_filter",
+            "has_ground_contact",
+            digest(&self.own.previous().has_ground_contact)?,
+        );
+        visit(
+            "control::support_foot_filter",
+            "support_side",
+            digest(&self.own.previous().support_side)?,
+        );
+        visit(
+            "control::forward_kinematics",
+            "robot_kinematics",
+            digest(&shared.robot_kinematics)?,
+        );
+        visit(
+            "control::center_of_mass",
+            "center_of_mass",
+            digest(&self.own.previous().center_of_mass)?,
+        );
+        visit(
+            "control::fall_state_filter",
+            "fall_state",
+            digest(&self.own.previous().fall_state)?,
+        );
+        visit("control::odometry", "odometry", digest(&self.own.previous().odometry)?);
+        visit(
+            "control::camera_matrices",
+            "camera_matrices",
+            digest(&shared.camera_matrices)?,
+        );
+        visit(
+            "control::game_controller_filter",
+            "game_controller_state",
+            digest(&self.own.previous().game_controller_state)?,
+        );
+        visit(
+            "control::team_message_filter",
+            "teammates",
+            digest(&self.own.previous().teammates)?,
+        );
+        visit(
+            "control::whistle_filter",
+            "whistle",
+            digest(&self.own.previous().whistle)?,
+        );
+        visit(
+            "control::game_state_filter",
+            "primary_state",
+            digest(&self.own.previous().primary_state)?,
+        );
+        visit("control::ball_filter", "ball", digest(&self.own.previous().ball)?);
+        visit(
+            "control::obstacle_filter",
+            "obstacles",
+            digest(&self.own.previous().obstacles)?,
+        );
+        visit(
+            "control::world_state_composer",
+            "world_state",
+            digest(&self.own.previous().world_state)?,
+        );
+        visit(
+            "control::client_wishes",
+            "client_wish",
+            digest(&self.own.previous().client_wish)?,
+        );
+        visit(
+            "control::behavior",
+            "motion_command",
+            digest(&self.own.previous().motion_command)?,
+        );
+        visit(
+            "control::recording_switch",
+            "is_recording_wanted",
+            digest(&self.own.previous().is_recording_wanted)?,
+        );
+        visit(
+            "control::motion_selector",
+            "motion_selection",
+            digest(&self.own.previous().motion_selection)?,
+        );
+        visit(
+            "control::motion_dispatcher",
+            "dispatch_commands",
+            digest(&self.own.previous().dispatch_commands)?,
+        );
+        visit(
+            "control::stand",
+            "stand_commands",
+            digest(&self.own.previous().stand_commands)?,
+        );
+        visit(
+            "control::penalized_pose",
+            "penalized_commands",
+            digest(&self.own.previous().penalized_commands)?,
+        );
+        visit(
+            "control::sit_down",
+            "sit_down_commands",
+            digest(&self.own.previous().sit_down_commands)?,
+        );
+        visit(
+            "control::walking_engine",
+            "walk_commands",
+            digest(&self.own.previous().walk_commands)?,
+        );
+        visit(
+            "control::look_around",
+            "look_around",
+            digest(&self.own.previous().look_around)?,
+        );
+        visit("control::look_at", "look_at", digest(&self.own.previous().look_at)?);
+        visit(
+            "control::head_motion",
+            "head_command",
+            digest(&self.own.previous().head_command)?,
+        );
+        visit(
+            "control::motor_commands_collector",
+            "motor_commands",
+            digest(&self.own.previous().motor_commands)?,
+        );
+        visit("control::led_status", "leds", digest(&self.own.previous().leds)?);
+        visit("control::tone_selector", "tone", digest(&self.own.previous().tone)?);
+        visit(
+            "control::self_report",
+            "self_report",
+            digest(&self.own.previous().self_report)?,
+        );
+        visit(
+            "control::self_report",
+            "team_report",
+            digest(&self.own.previous().team_report)?,
+        );
+        Ok(())
+    }
+}
+
+/// The nodes as `save` wrote them, in manifest order.
+fn load_nodes(from: &mut Loading<'_>) -> Result<Nodes> {
+    Ok(Nodes {
+        sensor_data_receiver: Guarded::recorded(
+            "control::sensor_data_receiver",
+            OnFailure::Stop,
+            from,
+        )?,
+        button_filter: Guarded::recorded(
+            "control::button_filter",
+            OnFailure::Stop,
+            from,
+        )?,
+        sonar_filter: Guarded::recorded("control::sonar_filter", OnFailure::Stop, from)?,
+        orientation_filter: Guarded::recorded(
+            "control::orientation_filter",
+            OnFailure::Stop,
+            from,
+        )?,
+        foot_pressure_filter: Guarded::recorded(
+            "control::foot_pressure_filter",
+            OnFailure::Stop,
+            from,
+        )?,
+        ground_contact_filter: Guarded::recorded(
+            "control::ground_contact_filter",
+            OnFailure::Stop,
+            from,
+        )?,
+        support_foot_filter: Guarded::recorded(
+            "control::support_foot_filter",
+            OnFailure::Stop,
+            from,
+        )?,
+        forward_kinematics: Guarded::recorded(
+            "control::forward_kinematics",
+            OnFailure::Stop,
+            from,
+        )?,
+        center_of_mass: Guarded::recorded(
+            "control::center_of_mass",
+            OnFailure::Stop,
+            from,
+        )?,
+        fall_state_filter: Guarded::recorded(
+            "control::fall_state_filter",
+            OnFailure::Stop,
+            from,
+        )?,
+        odometry: Guarded::recorded("control::odometry", OnFailure::Stop, from)?,
+        camera_matrices: Guarded::recorded(
+            "control::camera_matrices",
+            OnFailure::Stop,
+            from,
+        )?,
+        game_controller_filter: Guarded::recorded(
+            "control::game_controller_filter",
+            OnFailure::Stop,
+            from,
+        )?,
+        team_message_filter: Guarded::recorded(
+            "control::team_message_filter",
+            OnFailure::Stop,
+            from,
+        )?,
+        whistle_filter: Guarded::recorded(
+            "control::whistle_filter",
+            OnFailure::Stop,
+            from,
+        )?,
+        game_state_filter: Guarded::recorded(
+            "control::game_state_filter",
+            OnFailure::Stop,
+            from,
+        )?,
+        ball_filter: Guarded::recorded("control::ball_filter", OnFailure::Stop, from)?,
+        obstacle_filter: Guarded::recorded(
+            "control::obstacle_filter",
+            OnFailure::Stop,
+            from,
+        )?,
+        world_state_composer: Guarded::recorded(
+            "control::world_state_composer",
+            OnFailure::Stop,
+            from,
+        )?,
+        client_wishes: Guarded::recorded(
+            "control::client_wishes",
+            OnFailure::Stop,
+            from,
+        )?,
+        behavior: Guarded::recorded("control::behavior", OnFailure::Stop, from)?,
+        recording_switch: Guarded::recorded(
+            "control::recording_switch",
+            OnFailure::Stop,
+            from,
+        )?,
+        motion_selector: Guarded::recorded(
+            "control::motion_selector",
+            OnFailure::Stop,
+            from,
+        )?,
+        motion_dispatcher: Guarded::recorded(
+            "control::motion_dispatcher",
+            OnFailure::Stop,
+            from,
+        )?,
+        stand: Guarded::recorded("control::stand", OnFailure::Stop, from)?,
+        penalized_pose: Guarded::recorded(
+            "control::penalized_pose",
+            OnFailure::Stop,
+            from,
+        )?,
+        sit_down: Guarded::recorded("control::sit_down", OnFailure::Stop, from)?,
+        walking_engine: Guarded::recorded(
+            "control::walking_engine",
+            OnFailure::Stop,
+            from,
+        )?,
+        look_around: Guarded::recorded("control::look_around", OnFailure::Stop, from)?,
+        look_at: Guarded::recorded("control::look_at", OnFailure::Stop, from)?,
+        head_motion: Guarded::recorded("control::head_motion", OnFailure::Stop, from)?,
+        motor_commands_collector: Guarded::recorded(
+            "control::motor_commands_collector",
+            OnFailure::Stop,
+            from,
+        )?,
+        led_status: Guarded::recorded("control::led_status", OnFailure::Stop, from)?,
+        tone_selector: Guarded::recorded(
+            "control::tone_selector",
+            OnFailure::Stop,
+            from,
+        )?,
+        tone_player: Guarded::recorded("control::tone_player", OnFailure::Skip, from)?,
+        self_report: Guarded::recorded("control::self_report", OnFailure::Stop, from)?,
+        game_controller_responder: Guarded::recorded(
+            "control::game_controller_responder",
+            OnFailure::Skip,
+            from,
+        )?,
+        team_message_sender: Guarded::recorded(
+            "control::team_message_sender",
+            OnFailure::Skip,
+            from,
+        )?,
+        command_sender: Guarded::recorded(
+            "control::command_sender",
+            OnFailure::Stop,
+            from,
+        )?,
+    })
+}
+
+/// `Control` alone, with the nodes of the frame that is loaded first.
+pub fn replay_control(
+    from: &mut Loading<'_>,
+    stored: &Stored<'_>,
+) -> Result<Box<dyn Replay>> {
+    let start: Parameters = stored.parameters(from)?;
+    let (parameters_writer, [parameters_for_control], []) = buffer_of(
+        || start.clone(),
+        [],
+    );
+    let hardware = Arc::new(Sink);
+    let (injections_writer, [control_injected], []) = buffer([]);
+    let (vision_top_writer, [], [vision_top_queue_for_control]) = buffer([32]);
+    let (vision_bottom_writer, [], [vision_bottom_queue_for_control]) = buffer([32]);
+    let (spl_network_writer, [], [spl_network_queue_for_control]) = buffer([32]);
+    let (audio_writer, [], [audio_queue_for_control]) = buffer([32]);
+    let control_subscriptions = Subscriptions::new(ADDITIONAL_OUTPUTS);
+    let (_, control_look_at_answerer) = procedure();
+    let (_, control_motion_answerer) = procedure();
+    let (_, control_walk_answerer) = procedure();
+    let (writer, [], []) = buffer([]);
+    let cycler = Cycler::new(
+        CONTROL,
+        Control {
+            nodes: load_nodes(from)?,
+            additional_outputs: AdditionalOutputs::default(),
+            capture_time: None,
+            cycler_state: CyclerState::default(),
+            hardware_interface: hardware.clone(),
+            historic: Historic {
+                odometry: History::new(Duration::from_secs(1)),
+            },
+            injections: control_injected,
+            own: Swap::default(),
+            parameters: parameters_for_control,
+            perception: Perception {
+                horizon: Horizon::new(),
+                vision: Interleaving::new(),
+                vision_top: Consumer::new(
+                    vision_top_queue_for_control,
+                    Duration::from_secs(1),
+                ),
+                vision_bottom: Consumer::new(
+                    vision_bottom_queue_for_control,
+                    Duration::from_secs(1),
+                ),
+                spl_network: Consumer::new(
+                    spl_network_queue_for_control,
+                    Duration::from_secs(1),
+                ),
+                audio: Consumer::new(audio_queue_for_control, Duration::from_secs(1)),
+            },
+            procedures: Procedures {
+                look_at: control_look_at_answerer,
+                motion: control_motion_answerer,
+                walk: control_walk_answerer,
+            },
+            subscribed: Subscribed::default(),
+            subscriptions: control_subscriptions.clone(),
+        },
+        writer,
+        Clock::stepped(),
+    );
+    Ok(
+        Box::new(
+            Alone::new(
+                cycler,
+                Outside {
+                    injections: injections_writer,
+                    parameters: parameters_writer,
+                    vision_top: vision_top_writer,
+                    vision_bottom: vision_bottom_writer,
+                    spl_network: spl_network_writer,
+                    audio: audio_writer,
+                },
+            ),
+        ),
+    )
+}

@@ -1,0 +1,288 @@
+//! Cycler `Vision` in a recording: what its cycles take, saved and given back.
+//!
+//! Written by `hulkgen generate` from hulk.toml and the nodes it names. Do not edit.
+
+use std::sync::Arc;
+
+use framework::Clock;
+use framework::Cycler;
+use framework::Guarded;
+use framework::Injected;
+use framework::OnFailure;
+use framework::Result;
+use framework::Slots;
+use framework::Subscriptions;
+use framework::Swap;
+use framework::Timestamp;
+use framework::Writer;
+use framework::buffer;
+use framework::buffer_of;
+use framework::digest::DigestError;
+use framework::recorded::Foreign;
+use framework::recorded::Loaded;
+use framework::recorded::Loading;
+use framework::recorded::Recorded;
+use framework::recorded::SaveError;
+use framework::recorded::Saving;
+use framework::recorded::Stored;
+use framework::recorded::Values;
+use framework::recorded::Visit;
+use framework::recorded::digest;
+use framework::replay::Alone;
+use framework::replay::Replay;
+use hardware::CameraInterface;
+
+use crate::cyclers::vision::Nodes;
+use crate::databases::control;
+use crate::databases::vision::AdditionalOutputs;
+use crate::databases::vision::Injections;
+use crate::databases::vision::SharedOutputs;
+use crate::databases::vision::Subscribed;
+use crate::parameters::Parameters;
+use crate::recording::Sink;
+use crate::runtime::vision::ADDITIONAL_OUTPUTS;
+use crate::runtime::vision::VISION_BOTTOM;
+use crate::runtime::vision::VISION_TOP;
+use crate::runtime::vision::Vision;
+
+/// In a replay: who writes what an instance reads.
+pub struct Outside {
+    pub injections: Writer<Injected<Injections>>,
+    pub parameters: Writer<Parameters>,
+    pub control: Writer<control::SharedOutputs>,
+}
+
+impl<Hardware: CameraInterface + Send + Sync> Recorded for Vision<Hardware> {
+    type Outside = Outside;
+
+    fn values(&self, values: &mut Values<'_, '_>) -> Result<(), SaveError> {
+        values.parameters(&self.parameters)?;
+        values.of("Control", &self.control)?;
+        Ok(())
+    }
+
+    fn save(
+        &self,
+        _slots: Slots<'_, SharedOutputs>,
+        _since: Option<Timestamp>,
+        out: &mut Saving<'_, '_>,
+    ) -> Result<(), SaveError> {
+        self.parameters.save_version(out)?;
+        self.nodes.image_receiver.record(out)?;
+        self.nodes.camera_matrix_extractor.record(out)?;
+        self.nodes.limb_projector.record(out)?;
+        self.nodes.image_segmenter.record(out)?;
+        self.nodes.field_border.record(out)?;
+        self.nodes.line_detection.record(out)?;
+        self.nodes.penalty_mark_detection.record(out)?;
+        self.nodes.ball_detection.record(out)?;
+        self.nodes.obstacle_detection.record(out)?;
+        self.injections.save_injected(out)?;
+        Foreign::save(&self.control, out)?;
+        out.put(&self.own.current().image)?;
+        out.put(&self.subscribed)?;
+        Ok(())
+    }
+
+    fn load(
+        &mut self,
+        _slots: Loaded<'_, SharedOutputs>,
+        outside: &mut Outside,
+        from: &mut Loading<'_>,
+        stored: &Stored<'_>,
+    ) -> Result<()> {
+        self.parameters.load_version(from, &mut outside.parameters, stored)?;
+        self.nodes = load_nodes(from)?;
+        self.injections.load_injected(from, &mut outside.injections)?;
+        Foreign::load(
+            &mut self.control,
+            from,
+            &mut outside.control,
+            &mut |cycle| stored.value("Control", cycle),
+        )?;
+        self.own.both_to_load().0.image = from.take()?;
+        self.subscribed = from.take()?;
+        Ok(())
+    }
+
+    fn digests(
+        &self,
+        shared: &SharedOutputs,
+        visit: Visit<'_>,
+    ) -> Result<(), DigestError> {
+        visit(
+            "vision::camera_matrix_extractor",
+            "camera_matrix",
+            digest(&self.own.previous().camera_matrix)?,
+        );
+        visit(
+            "vision::limb_projector",
+            "limb_mask",
+            digest(&self.own.previous().limb_mask)?,
+        );
+        visit(
+            "vision::image_segmenter",
+            "image_segments",
+            digest(&self.own.previous().image_segments)?,
+        );
+        visit(
+            "vision::field_border",
+            "field_border",
+            digest(&self.own.previous().field_border)?,
+        );
+        visit("vision::line_detection", "lines", digest(&self.own.previous().lines)?);
+        visit(
+            "vision::penalty_mark_detection",
+            "penalty_mark",
+            digest(&self.own.previous().penalty_mark)?,
+        );
+        visit("vision::ball_detection", "balls", digest(&shared.balls)?);
+        visit("vision::obstacle_detection", "obstacles", digest(&shared.obstacles)?);
+        Ok(())
+    }
+}
+
+/// The nodes as `save` wrote them, in manifest order.
+fn load_nodes(from: &mut Loading<'_>) -> Result<Nodes> {
+    Ok(Nodes {
+        image_receiver: Guarded::recorded(
+            "vision::image_receiver",
+            OnFailure::Restart,
+            from,
+        )?,
+        camera_matrix_extractor: Guarded::recorded(
+            "vision::camera_matrix_extractor",
+            OnFailure::Restart,
+            from,
+        )?,
+        limb_projector: Guarded::recorded(
+            "vision::limb_projector",
+            OnFailure::Restart,
+            from,
+        )?,
+        image_segmenter: Guarded::recorded(
+            "vision::image_segmenter",
+            OnFailure::Restart,
+            from,
+        )?,
+        field_border: Guarded::recorded(
+            "vision::field_border",
+            OnFailure::Restart,
+            from,
+        )?,
+        line_detection: Guarded::recorded(
+            "vision::line_detection",
+            OnFailure::Restart,
+            from,
+        )?,
+        penalty_mark_detection: Guarded::recorded(
+            "vision::penalty_mark_detection",
+            OnFailure::Restart,
+            from,
+        )?,
+        ball_detection: Guarded::recorded(
+            "vision::ball_detection",
+            OnFailure::Restart,
+            from,
+        )?,
+        obstacle_detection: Guarded::recorded(
+            "vision::obstacle_detection",
+            OnFailure::Restart,
+            from,
+        )?,
+    })
+}
+
+/// `VisionTop` alone, with the nodes of the frame that is loaded first.
+pub fn replay_vision_top(
+    from: &mut Loading<'_>,
+    stored: &Stored<'_>,
+) -> Result<Box<dyn Replay>> {
+    let start: Parameters = stored.parameters(from)?;
+    let (parameters_writer, [parameters_for_vision_top], []) = buffer_of(
+        || start.clone(),
+        [],
+    );
+    let hardware = Arc::new(Sink);
+    let (injections_writer, [vision_top_injected], []) = buffer([]);
+    let (control_writer, [control_for_vision_top], []) = buffer([]);
+    let vision_top_subscriptions = Subscriptions::new(ADDITIONAL_OUTPUTS);
+    let (writer, [], []) = buffer([]);
+    let cycler = Cycler::new(
+        VISION_TOP,
+        Vision {
+            nodes: load_nodes(from)?,
+            additional_outputs: AdditionalOutputs::default(),
+            capture_time: None,
+            hardware_interface: hardware.clone(),
+            injections: vision_top_injected,
+            own: Swap::default(),
+            parameters: parameters_for_vision_top,
+            subscribed: Subscribed::default(),
+            subscriptions: vision_top_subscriptions.clone(),
+            control: control_for_vision_top,
+            select: |parameters| &parameters.vision_top,
+        },
+        writer,
+        Clock::stepped(),
+    );
+    Ok(
+        Box::new(
+            Alone::new(
+                cycler,
+                Outside {
+                    injections: injections_writer,
+                    parameters: parameters_writer,
+                    control: control_writer,
+                },
+            ),
+        ),
+    )
+}
+
+/// `VisionBottom` alone, with the nodes of the frame that is loaded first.
+pub fn replay_vision_bottom(
+    from: &mut Loading<'_>,
+    stored: &Stored<'_>,
+) -> Result<Box<dyn Replay>> {
+    let start: Parameters = stored.parameters(from)?;
+    let (parameters_writer, [parameters_for_vision_bottom], []) = buffer_of(
+        || start.clone(),
+        [],
+    );
+    let hardware = Arc::new(Sink);
+    let (injections_writer, [vision_bottom_injected], []) = buffer([]);
+    let (control_writer, [control_for_vision_bottom], []) = buffer([]);
+    let vision_bottom_subscriptions = Subscriptions::new(ADDITIONAL_OUTPUTS);
+    let (writer, [], []) = buffer([]);
+    let cycler = Cycler::new(
+        VISION_BOTTOM,
+        Vision {
+            nodes: load_nodes(from)?,
+            additional_outputs: AdditionalOutputs::default(),
+            capture_time: None,
+            hardware_interface: hardware.clone(),
+            injections: vision_bottom_injected,
+            own: Swap::default(),
+            parameters: parameters_for_vision_bottom,
+            subscribed: Subscribed::default(),
+            subscriptions: vision_bottom_subscriptions.clone(),
+            control: control_for_vision_bottom,
+            select: |parameters| &parameters.vision_bottom,
+        },
+        writer,
+        Clock::stepped(),
+    );
+    Ok(
+        Box::new(
+            Alone::new(
+                cycler,
+                Outside {
+                    injections: injections_writer,
+                    parameters: parameters_writer,
+                    control: control_writer,
+                },
+            ),
+        ),
+    )
+}

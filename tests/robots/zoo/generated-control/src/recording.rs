@@ -1,0 +1,40 @@
+//! Recordings of the robot, and their replay.
+//!
+//! Written by `hulkgen generate` from hulk.toml and the nodes it names. Do not edit.
+
+use framework::error::Result;
+use framework::replay::Replayable;
+use framework::replay::no_hardware;
+use framework::time::Timestamp;
+use zoo_nodes::interfaces::BodyInterface;
+use zoo_nodes::interfaces::LegInterface;
+
+pub mod control;
+
+/// All instances that a recording can be replayed with, in manifest order.
+pub const INSTANCES: &[Replayable] = &[
+    Replayable {
+        instance: "Control",
+        create: control::replay_control,
+    },
+];
+
+/// The hardware of a replay: what it is told to do goes nowhere, and it cannot be asked.
+#[derive(Clone, Copy, Debug)]
+pub struct Sink;
+
+impl BodyInterface for Sink {
+    fn read_joints(&self) -> Result<(Timestamp, [f32; 3])> {
+        no_hardware()
+    }
+
+    fn leg_length(&self) -> f32 {
+        no_hardware()
+    }
+}
+
+impl LegInterface for Sink {
+    fn write_angles(&self, _: &[f32]) -> Result<()> {
+        Ok(())
+    }
+}

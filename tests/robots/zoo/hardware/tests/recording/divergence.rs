@@ -1,0 +1,247 @@
+//! What is not as it was is named: instance, cycle, node, output.
+
+use std::sync::Arc;
+
+use framework::cycler::{Counters, Reference};
+use framework::digest::DigestError;
+use framework::driver::Observer;
+use framework::recorded::{Capture, SaveError, Settings, Visit};
+use framework::reflect::Reflect;
+use framework::report::InstanceReport;
+use framework::{Cycle, Finished, Instance, InstanceDescription, Restarted, Result, State, Waited};
+
+use super::{Tape, on, record_in_lockstep};
+
+/// The cycle that differs.
+const CYCLE: u64 = 40;
+
+/// What a recording sees of an instance one of whose outputs has one bit flipped.
+struct Flipped {
+    description: InstanceDescription,
+    cycle: Cycle,
+    report: InstanceReport,
+    counters: Arc<Counters>,
+    digests: Vec<(&'static str, &'static str, u64)>,
+}
+
+impl Flipped {
+    fn new(instance: &dyn Instance, flipped: &str) -> Self {
+        let mut digests = Vec::new();
+        let visited = instance.digests(&mut |node, output, digest| {
+            digests.push((node, output, digest ^ u64::from(output == flipped)));
+        });
+        visited.expect("every output serialises");
+        Self {
+            description: *instance.description(),
+            cycle: instance.cycle(),
+            report: instance.report(),
+            counters: instance.counters().clone(),
+            digests,
+        }
+    }
+}
+
+/// Records an instance that flips one bit of one output in one cycle.
+struct Flipping {
+    observer: Box<dyn Observer>,
+    output: &'static str,
+}
+
+impl Observer for Flipping {
+    fn begun(&mut self, instance: &mut dyn Instance) {
+        self.observer.begun(instance);
+    }
+
+    fn finished(&mut self, instance: &dyn Instance) {
+        if instance.cycle().number == CYCLE {
+            self.observer.finished(&Flipped::new(instance, self.output));
+        } else {
+            self.observer.finished(instance);
+        }
+    }
+}
+
+/// Changes a state right after it was saved: as if saving had left it out.
+struct Forgetting {
+    observer: Box<dyn Observer>,
+    state: &'static str,
+    becomes: &'static str,
+}
+
+impl Observer for Forgetting {
+    fn begun(&mut self, instance: &mut dyn Instance) {
+        self.observer.begun(instance);
+        if instance.cycle().number == CYCLE {
+            instance.states(&mut |name, state| {
+                if name == self.state {
+                    let mut json = serde_json::Deserializer::from_str(self.becomes);
+                    let loaded =
+                        state.load(&mut <dyn erased_serde::Deserializer<'_>>::erase(&mut json));
+                    loaded.expect("it is such a state");
+                }
+            });
+        }
+    }
+
+    fn finished(&mut self, instance: &dyn Instance) {
+        self.observer.finished(instance);
+    }
+}
+
+#[test]
+fn a_flipped_bit_of_any_output_is_named_with_its_node_and_cycle() {
+    let outputs = [
+        ("VisionTop", "zoo_nodes::vision::spot_finder", "spots"),
+        ("VisionBottom", "zoo_nodes::vision::spot_finder", "best"),
+        ("Hearing", "zoo_nodes::hearing::whistle", "whistle"),
+        ("Control", "zoo_nodes::control::pose_filter", "pose"),
+        ("Control", "zoo_nodes::control::spot_filter", "target"),
+        ("Control", "zoo_nodes::control::watcher", "seen"),
+        ("Control", "zoo_nodes::control::gait", "plan"),
+        ("Control", "zoo_nodes::control::gait", "speed"),
+        ("Control", "zoo_nodes::shared::counter", "cycles"),
+    ];
+    for (whose, node, output) in outputs {
+        let tape = Tape::new();
+        record_in_lockstep(
+            &tape.path,
+            Settings::default(),
+            on,
+            &|instance, observer| {
+                if instance.name == whose {
+                    Box::new(Flipping { observer, output })
+                } else {
+                    observer
+                }
+            },
+        );
+        let verification = tape.verify();
+        assert!(!verification.is_good(), "{whose} {output}");
+        let diverged: u64 = verification.instances.iter().map(|one| one.diverged).sum();
+        assert_eq!(diverged, 1, "{verification}");
+        let divergence = verification.divergence.expect("one bit differs");
+        let found = (
+            divergence.instance,
+            divergence.cycle,
+            &*divergence.node,
+            &*divergence.output,
+        );
+        assert_eq!(found, (whose, CYCLE, node, output));
+        assert!(divergence.recomputed.is_some());
+    }
+}
+
+#[test]
+fn what_saving_leaves_out_is_noticed() {
+    for (state, becomes, node, output) in [
+        (
+            "cycler_state",
+            r#"{"count": 7000, "filter": {"drift": {"x": 0.0, "y": 0.0}, "gain": 0.5}, "gait": {"phase": 0.5}}"#,
+            "",
+            "",
+        ),
+        (
+            "zoo_nodes::control::gait",
+            r#"{"speed": 12.5}"#,
+            "zoo_nodes::control::gait",
+            "plan",
+        ),
+    ] {
+        let tape = Tape::new();
+        record_in_lockstep(
+            &tape.path,
+            Settings::default(),
+            on,
+            &|instance, observer| {
+                if instance.name == "Control" {
+                    Box::new(Forgetting {
+                        observer,
+                        state,
+                        becomes,
+                    })
+                } else {
+                    observer
+                }
+            },
+        );
+        let verification = tape.verify();
+        let divergence = verification
+            .divergence
+            .as_ref()
+            .expect("the state was other");
+        assert_eq!(
+            (divergence.instance, divergence.cycle),
+            ("Control", CYCLE),
+            "{verification}"
+        );
+        if !node.is_empty() {
+            assert_eq!((&*divergence.node, &*divergence.output), (node, output));
+        }
+    }
+}
+
+impl Instance for Flipped {
+    fn digests(&self, visit: Visit<'_>) -> std::result::Result<(), DigestError> {
+        let digests = self.digests.iter();
+        digests.for_each(|(node, output, digest)| visit(node, output, *digest));
+        Ok(())
+    }
+
+    fn description(&self) -> &InstanceDescription {
+        &self.description
+    }
+
+    fn cycle(&self) -> Cycle {
+        self.cycle
+    }
+
+    fn wait(&mut self) -> Result<Waited> {
+        Ok(Waited::Stopped)
+    }
+
+    fn begin(&mut self) {}
+
+    fn run(&mut self) {}
+
+    fn finish(&mut self) -> Result<Finished> {
+        Ok(Finished::Stopped)
+    }
+
+    fn abandon(&mut self) {}
+
+    fn restart(&mut self) -> Result<Restarted> {
+        Ok(Restarted::Stopped)
+    }
+
+    fn counters(&self) -> &Arc<Counters> {
+        &self.counters
+    }
+
+    fn report(&self) -> InstanceReport {
+        self.report.clone()
+    }
+
+    fn main_outputs(&self) -> &'static [&'static str] {
+        &[]
+    }
+
+    fn main_output(&self, _: &str) -> Option<&dyn Reflect> {
+        None
+    }
+
+    fn additional_output(&self, _: &str) -> Option<&dyn Reflect> {
+        None
+    }
+
+    fn references(&self, _: &mut dyn FnMut(Reference)) {}
+
+    fn states(&mut self, _: &mut dyn FnMut(&'static str, &mut dyn State)) {}
+
+    fn restore(&mut self) -> Result<()> {
+        Ok(())
+    }
+
+    fn save(&mut self, _: &mut Capture<'_, '_>) -> std::result::Result<(), SaveError> {
+        Ok(())
+    }
+}

@@ -1,0 +1,130 @@
+//! Recordings that do not have everything: the rest is recomputed all the same.
+
+use framework::Record;
+use framework::recorded::Settings;
+
+use super::{SMALL, Tape, as_it_is, on, record_in_lockstep};
+
+#[test]
+fn an_instance_that_is_off_is_not_missed_and_not_needed() {
+    let tape = Tape::new();
+    let record_of = |instance: &framework::InstanceDescription| match instance.name {
+        "VisionTop" | "Hearing" => Record::Off,
+        _ => Record::On,
+    };
+    record_in_lockstep(&tape.path, SMALL, record_of, &as_it_is);
+    let verification = tape.verify();
+    assert!(verification.is_good(), "{verification}");
+    for one in &verification.instances {
+        let is_off = matches!(&*one.instance, "VisionTop" | "Hearing");
+        assert_eq!(
+            (one.is_off(), one.verified == 0),
+            (is_off, is_off),
+            "{verification}"
+        );
+    }
+}
+
+#[test]
+fn every_fifth_cycle_is_enough() {
+    let tape = Tape::new();
+    let report = record_in_lockstep(&tape.path, SMALL, |_| Record::Every(5), &as_it_is);
+    assert!(report.ended.is_complete, "{report}");
+    let verification = tape.verify();
+    assert!(verification.is_good(), "{verification}");
+    let control = &verification.instances[3];
+    assert!((30..50).contains(&control.frames), "{verification}");
+}
+
+#[test]
+fn only_what_an_output_asks_for_is_recorded() {
+    let tape = Tape::new();
+    let record_of = |instance: &framework::InstanceDescription| match instance.name {
+        "Reflexes" | "Control" => Record::While {
+            instance: "Reflexes",
+            path: "pressed",
+        },
+        _ => Record::On,
+    };
+    let report = record_in_lockstep(&tape.path, SMALL, record_of, &as_it_is);
+    let verification = tape.verify();
+    // The hundredth cycle says so, for the one that begins next; the next one to say so is the last.
+    let reflexes = &verification.instances[4];
+    assert_eq!(
+        (reflexes.frames, reflexes.verified),
+        (1, 1),
+        "{verification}"
+    );
+    for one in &verification.instances[3..5] {
+        assert_eq!(one.record, "while Reflexes.pressed");
+        assert!(one.frames <= 1, "{verification}");
+        assert_eq!(one.is_off(), one.frames == 0, "{verification}");
+    }
+    assert_eq!(report.instances[4].wanted, 1);
+    assert!(verification.is_good(), "{verification}");
+}
+
+#[test]
+fn what_does_not_fit_is_dropped_and_counted() {
+    let tape = Tape::new();
+    let settings = Settings {
+        blocks: 2,
+        block_bytes: 2 << 10,
+        ..SMALL
+    };
+    let report = record_in_lockstep(&tape.path, settings, on, &as_it_is);
+    assert_eq!(report.state(), "INCOMPLETE");
+    let verification = tape.verify();
+    let dropped: u64 = verification.instances.iter().map(|one| one.dropped).sum();
+    assert!(dropped > 0, "{verification}");
+    for (one, told) in verification.instances.iter().zip(&report.instances) {
+        assert_eq!(one.diverged, 0, "{verification}");
+        assert_eq!(one.unreadable, None);
+        assert_eq!(told.wanted, one.dropped + one.frames, "{verification}");
+    }
+}
+
+#[test]
+fn a_ring_keeps_whole_chunks() {
+    let tape = Tape::new();
+    let settings = Settings {
+        budget: 24 << 10,
+        block_bytes: 2 << 10,
+        chunk_bytes: 12 << 10,
+        blocks: 64,
+        ..SMALL
+    };
+    record_in_lockstep(&tape.path, settings, on, &as_it_is);
+    let file = tape.read();
+    assert!(
+        file.gone > 0 && file.chunks.len() >= 3,
+        "{} chunks",
+        file.chunks.len()
+    );
+    let verification = tape.verify();
+    assert_eq!(verification.divergence, None);
+    assert!(verification.instances[3].verified > 0, "{verification}");
+    for one in &verification.instances {
+        assert_eq!(
+            (one.verified + one.unfinished, &one.unreadable),
+            (one.frames, &None),
+            "{verification}"
+        );
+    }
+}
+
+#[test]
+fn an_instance_without_a_single_frame_was_not_verified() {
+    let tape = Tape::new();
+    let settings = Settings {
+        // No frame fits into it.
+        block_bytes: 64,
+        ..SMALL
+    };
+    record_in_lockstep(&tape.path, settings, on, &as_it_is);
+    let verification = tape.verify();
+    assert_eq!(verification.instances[3].frames, 0, "{verification}");
+    assert!(!verification.is_good());
+    let text = verification.to_string();
+    assert!(text.contains("nothing verified"), "{text}");
+}
