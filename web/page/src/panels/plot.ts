@@ -103,7 +103,7 @@ class Plot implements Panel {
         const swatch = make("span", { class: "swatch" });
         swatch.style.background = color(at);
         const gone = button("×", `remove ${curve.path}`, () => this.drop(curve), "plain");
-        return make("span", { class: "chip", title: curve.path }, swatch, curve.path, gone);
+        return make("span", { class: "chip", title: curve.path }, swatch, shortly(curve.path), gone);
       }),
       this.input,
     );
@@ -191,6 +191,11 @@ class Plot implements Panel {
     const rows = times.map((time, row) => [time, ...columns.map((column) => column[row] ?? "")].join(","));
     download("plot.csv", `${[head, ...rows].join("\n")}\n`, "text/csv");
   }
+}
+
+/** The last two names: as much as tells curves apart in most panels. */
+function shortly(path: string): string {
+  return path.split(".").slice(-2).join(".");
 }
 
 function color(at: number): string {
