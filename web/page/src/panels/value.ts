@@ -45,8 +45,8 @@ function open(context: Context): Panel {
     complain(failure, null);
     if (path === "") return;
     stop = context.robot.subscriptions.watch(
-      // As bytes: an image as JSON would take seconds.
-      { path, rate, encoding: "binary" },
+      // As bytes, since an image as JSON would take seconds; the robot tells parameters as JSON alone.
+      { path, rate, encoding: /^parameters(\.|$)/.test(path) ? "json" : "binary" },
       {
         sample: (next) => {
           sample = next;
