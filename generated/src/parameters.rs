@@ -9,6 +9,7 @@ use control::fall_state_filter::Sitting;
 use control::fall_state_filter::TiltLimits;
 use control::obstacle_filter::ObstacleFilterParameters;
 use framework::Reflect;
+use keyframes::Motions;
 use serde::Deserialize;
 use serde::Serialize;
 use types::audio::Tone;
@@ -58,6 +59,8 @@ pub struct Parameters {
     pub look_around: LookAround,
     pub look_at: LookAt,
     pub motion_dispatcher: MotionDispatcher,
+    /// control::motion_dispatcher, control::scripted_motion
+    pub motions: Motions,
     pub motor_commands_collector: MotorCommandsCollector,
     /// vision::obstacle_detection
     pub obstacle_detection: ObstacleDetectionParameters,
@@ -118,6 +121,8 @@ pub struct Cameras {
 #[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct ClientWishes {
+    /// control::client_wishes
+    pub kick_duration: f32,
     /// control::client_wishes
     pub motion_duration: f32,
     /// control::client_wishes

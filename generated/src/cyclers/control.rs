@@ -28,6 +28,7 @@ use control::odometry;
 use control::orientation_filter;
 use control::penalized_pose;
 use control::recording_switch;
+use control::scripted_motion;
 use control::self_report;
 use control::sensor_data_receiver;
 use control::sit_down;
@@ -89,6 +90,7 @@ pub struct Nodes {
     pub orientation_filter: Guarded<orientation_filter::OrientationFilter>,
     pub penalized_pose: Guarded<penalized_pose::PenalizedPose>,
     pub recording_switch: Guarded<recording_switch::RecordingSwitch>,
+    pub scripted_motion: Guarded<scripted_motion::ScriptedMotion>,
     pub self_report: Guarded<self_report::SelfReport>,
     pub sensor_data_receiver: Guarded<sensor_data_receiver::SensorDataReceiver>,
     pub sit_down: Guarded<sit_down::SitDown>,
@@ -247,6 +249,11 @@ impl Nodes {
                 OnFailure::Stop,
                 Self::create_walking_engine()?,
             ),
+            scripted_motion: Guarded::new(
+                "control::scripted_motion",
+                OnFailure::Stop,
+                Self::create_scripted_motion()?,
+            ),
             look_around: Guarded::new(
                 "control::look_around",
                 OnFailure::Stop,
@@ -355,6 +362,7 @@ impl Nodes {
         self.penalized_pose(frame)?;
         self.sit_down(frame)?;
         self.walking_engine(frame)?;
+        self.scripted_motion(frame)?;
         self.look_around(frame)?;
         self.look_at(frame)?;
         self.head_motion(frame)?;
@@ -524,6 +532,7 @@ impl Nodes {
             limits: &frame.parameters.walking_engine.limits,
             walk_duration: &frame.parameters.client_wishes.walk_duration,
             motion_duration: &frame.parameters.client_wishes.motion_duration,
+            kick_duration: &frame.parameters.client_wishes.kick_duration,
             walk: frame.procedures.walk.call(),
             motion: frame.procedures.motion.call(),
         };
@@ -839,6 +848,7 @@ impl Nodes {
             penalized_pose: &frame.parameters.penalized_pose.positions,
             crouch: &frame.parameters.sit_down.crouch,
             walk: &frame.parameters.walking_engine,
+            motions: &frame.parameters.motions,
             stiffness: &frame.parameters.motion_dispatcher.stiffness,
             velocity_share: &frame.parameters.motion_dispatcher.velocity_share,
             minimum_duration: &frame.parameters.motion_dispatcher.minimum_duration,
@@ -874,8 +884,8 @@ impl Nodes {
     }
 
     /// motion_selection, dispatch_commands, stand_commands, penalized_commands,
-    /// sit_down_commands, walk_commands, head_command, previous motor_commands,
-    /// sensor_data.positions -> motor_commands
+    /// sit_down_commands, walk_commands, script_commands, head_command, previous
+    /// motor_commands, sensor_data.positions -> motor_commands
     #[inline(always)]
     fn motor_commands_collector<Hardware>(
         &mut self,
@@ -888,6 +898,7 @@ impl Nodes {
             penalized_commands: frame.own.penalized_commands.as_ref(),
             sit_down_commands: frame.own.sit_down_commands.as_ref(),
             walk_commands: frame.own.walk_commands.as_ref(),
+            script_commands: frame.own.script_commands.as_ref(),
             head_command: frame.own.head_command.as_ref(),
             previous: frame.previous.own.motor_commands.as_ref(),
             positions: &frame.own.sensor_data.positions,
@@ -1036,6 +1047,31 @@ impl Nodes {
         frame.own.is_recording_wanted = outputs.is_recording_wanted.value;
         if let Some(injections) = frame.injections {
             injections.is_recording_wanted.replace(&mut frame.own.is_recording_wanted);
+        }
+        Ok(())
+    }
+
+    /// motion_selection, sensor_data.positions, previous motor_commands, state
+    /// safe_exits.script -> script_commands
+    #[inline(always)]
+    fn scripted_motion<Hardware>(
+        &mut self,
+        frame: &mut Frame<'_, Hardware>,
+    ) -> Result<()> {
+        let context = scripted_motion::CycleContext {
+            motion_selection: &frame.own.motion_selection,
+            positions: &frame.own.sensor_data.positions,
+            previous: frame.previous.own.motor_commands.as_ref(),
+            cycle_time: frame.cycle.time,
+            safe_exit: &mut frame.cycler_state.safe_exits.script,
+            motions: &frame.parameters.motions,
+        };
+        let outputs = self
+            .scripted_motion
+            .call(&frame.cycle, |node| node.cycle(context))?;
+        frame.own.script_commands = outputs.script_commands.value;
+        if let Some(injections) = frame.injections {
+            injections.script_commands.replace(&mut frame.own.script_commands);
         }
         Ok(())
     }
@@ -1481,6 +1517,11 @@ impl Nodes {
         let context = recording_switch::CreationContext {};
         recording_switch::RecordingSwitch::new(context)
             .in_node("control::recording_switch")
+    }
+
+    fn create_scripted_motion() -> Result<scripted_motion::ScriptedMotion> {
+        let context = scripted_motion::CreationContext {};
+        scripted_motion::ScriptedMotion::new(context).in_node("control::scripted_motion")
     }
 
     fn create_self_report() -> Result<self_report::SelfReport> {

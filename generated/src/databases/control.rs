@@ -102,6 +102,8 @@ pub struct OwnOutputs {
     pub penalized_commands: Option<MotorCommands>,
     /// control::game_state_filter
     pub primary_state: PrimaryState,
+    /// control::scripted_motion
+    pub script_commands: Option<MotorCommands>,
     /// control::self_report
     pub self_report: Option<TeamMessage>,
     /// control::sensor_data_receiver
@@ -213,6 +215,7 @@ pub struct Injections {
     pub penalized_commands: Injection<Option<MotorCommands>>,
     pub primary_state: Injection<PrimaryState>,
     pub robot_kinematics: Injection<RobotKinematics>,
+    pub script_commands: Injection<Option<MotorCommands>>,
     pub self_report: Injection<Option<TeamMessage>>,
     pub sensor_data: Injection<SensorData>,
     pub sit_down_commands: Injection<Option<MotorCommands>>,
@@ -254,6 +257,7 @@ impl InjectionTable for Injections {
             "penalized_commands" => Some(&mut self.penalized_commands),
             "primary_state" => Some(&mut self.primary_state),
             "robot_kinematics" => Some(&mut self.robot_kinematics),
+            "script_commands" => Some(&mut self.script_commands),
             "self_report" => Some(&mut self.self_report),
             "sensor_data" => Some(&mut self.sensor_data),
             "sit_down_commands" => Some(&mut self.sit_down_commands),
@@ -275,8 +279,8 @@ impl InjectionTable for Injections {
 /// Shared by the nodes of one instance, kept between cycles.
 #[derive(Clone, Debug, Default, Deserialize, Reflect, Serialize)]
 pub struct CyclerState {
-    /// control::motion_dispatcher, control::motion_selector, control::sit_down,
-    /// control::walking_engine
+    /// control::motion_dispatcher, control::motion_selector, control::scripted_motion,
+    /// control::sit_down, control::walking_engine
     pub safe_exits: SafeExits,
 }
 

@@ -119,6 +119,7 @@ impl<
         self.nodes.penalized_pose.record(out)?;
         self.nodes.sit_down.record(out)?;
         self.nodes.walking_engine.record(out)?;
+        self.nodes.scripted_motion.record(out)?;
         self.nodes.look_around.record(out)?;
         self.nodes.look_at.record(out)?;
         self.nodes.head_motion.record(out)?;
@@ -329,6 +330,11 @@ impl<
             digest(&self.own.previous().walk_commands)?,
         );
         visit(
+            "control::scripted_motion",
+            "script_commands",
+            digest(&self.own.previous().script_commands)?,
+        );
+        visit(
             "control::look_around",
             "look_around",
             digest(&self.own.previous().look_around)?,
@@ -476,6 +482,11 @@ fn load_nodes(from: &mut Loading<'_>) -> Result<Nodes> {
         sit_down: Guarded::recorded("control::sit_down", OnFailure::Stop, from)?,
         walking_engine: Guarded::recorded(
             "control::walking_engine",
+            OnFailure::Stop,
+            from,
+        )?,
+        scripted_motion: Guarded::recorded(
+            "control::scripted_motion",
             OnFailure::Stop,
             from,
         )?,

@@ -245,6 +245,7 @@ impl<
             "penalized_commands",
             "sit_down_commands",
             "walk_commands",
+            "script_commands",
             "look_around",
             "look_at",
             "head_command",
@@ -290,6 +291,7 @@ impl<
             "penalized_commands" => Some(&self.own.previous().penalized_commands),
             "sit_down_commands" => Some(&self.own.previous().sit_down_commands),
             "walk_commands" => Some(&self.own.previous().walk_commands),
+            "script_commands" => Some(&self.own.previous().script_commands),
             "look_around" => Some(&self.own.previous().look_around),
             "look_at" => Some(&self.own.previous().look_at),
             "head_command" => Some(&self.own.previous().head_command),
@@ -366,6 +368,7 @@ impl<
         visitor.output(Some(&self.own.previous().penalized_commands));
         visitor.output(Some(&self.own.previous().sit_down_commands));
         visitor.output(Some(&self.own.previous().walk_commands));
+        visitor.output(Some(&self.own.previous().script_commands));
         visitor.output(Some(&self.own.previous().look_around));
         visitor.output(Some(&self.own.previous().look_at));
         visitor.output(Some(&self.own.previous().head_command));
@@ -418,6 +421,7 @@ impl<
         visit(self.nodes.penalized_pose.report());
         visit(self.nodes.sit_down.report());
         visit(self.nodes.walking_engine.report());
+        visit(self.nodes.scripted_motion.report());
         visit(self.nodes.look_around.report());
         visit(self.nodes.look_at.report());
         visit(self.nodes.head_motion.report());
@@ -479,6 +483,7 @@ impl<
         visit("control::penalized_pose", &mut self.nodes.penalized_pose);
         visit("control::sit_down", &mut self.nodes.sit_down);
         visit("control::walking_engine", &mut self.nodes.walking_engine);
+        visit("control::scripted_motion", &mut self.nodes.scripted_motion);
         visit("control::look_around", &mut self.nodes.look_around);
         visit("control::look_at", &mut self.nodes.look_at);
         visit("control::head_motion", &mut self.nodes.head_motion);

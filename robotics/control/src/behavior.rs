@@ -1,14 +1,14 @@
 //! Decides what body and head do, from what the robot knows about the game and the world.
 //!
-//! Limp where the robot falls or lies, still where the rules want it still, else on its feet with an
+//! Protects itself where the robot falls, gets up where it plays, still where the rules want it still, else on its feet with an
 //! eye on the ball, which it walks to while the game is on. A client may drive the body instead.
 
 use framework::{Input, MainOutput, Parameter, Result, context};
 use nalgebra::Point2;
 use serde::{Deserialize, Serialize};
-use types::fall_state::FallState;
+use types::fall_state::{Facing, FallDirection, FallState};
 use types::game::PrimaryState;
-use types::motion::{BodyMotion, ClientWish, HeadMotion, MotionCommand, Step};
+use types::motion::{BodyMotion, ClientWish, HeadMotion, MotionCommand, Script, Step};
 use types::world_state::WorldState;
 
 pub use self::approach::Approach;
@@ -90,8 +90,8 @@ fn ball_to_walk_to(world_state: &WorldState) -> Option<Point2<f32>> {
 
 /// Without a client and without walking. What robots may do in each state is as in the RoboCup SPL rules 2025.
 fn decide(world_state: &WorldState) -> MotionCommand {
-    if let FallState::Falling(_) | FallState::Lying(_) = world_state.fall_state {
-        return command(BodyMotion::Unstiff, HeadMotion::WithBody);
+    if let Some(body) = on_the_ground(world_state) {
+        return command(body, HeadMotion::WithBody);
     }
     match world_state.primary_state {
         PrimaryState::Unstiff => command(BodyMotion::SitDown, HeadMotion::WithBody),
@@ -109,6 +109,32 @@ fn decide(world_state: &WorldState) -> MotionCommand {
     }
 }
 
+/// What a robot that falls or lies does: it protects itself, and gets up where it plays. One that is limp stays so, and nobody
+/// has his hands on a robot that moves.
+fn on_the_ground(world_state: &WorldState) -> Option<BodyMotion> {
+    let script = match world_state.fall_state {
+        FallState::Upright | FallState::Sitting => return None,
+        FallState::Falling(FallDirection::Forward) => Script::FallForward,
+        FallState::Falling(FallDirection::Backward) => Script::FallBackward,
+        FallState::Falling(FallDirection::Left | FallDirection::Right) => Script::FallSideways,
+        FallState::Lying(Facing::Down) => Script::StandUpFront,
+        FallState::Lying(Facing::Up) => Script::StandUpBack,
+    };
+    let may_move = match world_state.primary_state {
+        PrimaryState::Unstiff => false,
+        PrimaryState::Ready | PrimaryState::Set | PrimaryState::Playing => true,
+        PrimaryState::Initial
+        | PrimaryState::Standby
+        | PrimaryState::Penalized
+        | PrimaryState::Finished => script.protects(),
+    };
+    Some(if may_move {
+        BodyMotion::Scripted(script)
+    } else {
+        BodyMotion::Unstiff
+    })
+}
+
 const fn command(body: BodyMotion, head: HeadMotion) -> MotionCommand {
     MotionCommand {
         body,
@@ -121,7 +147,6 @@ const fn command(body: BodyMotion, head: HeadMotion) -> MotionCommand {
 mod tests {
     use nalgebra::Point2;
     use types::ball::Ball;
-    use types::fall_state::{Facing, FallDirection};
 
     use super::*;
 
@@ -251,7 +276,7 @@ mod tests {
                 BodyMotion::SitDown,
             ),
             (
-                PrimaryState::Playing,
+                PrimaryState::Initial,
                 FallState::Lying(Facing::Up),
                 BodyMotion::Unstiff,
             ),
@@ -280,20 +305,29 @@ mod tests {
     }
 
     #[test]
-    fn whoever_falls_or_lies_is_limp_whatever_the_game_says() {
-        let limp = command(BodyMotion::Unstiff, HeadMotion::WithBody);
-        for fall_state in [
-            FallState::Falling(FallDirection::Left),
-            FallState::Lying(Facing::Up),
-        ] {
-            for primary_state in [PrimaryState::Playing, PrimaryState::Unstiff] {
-                let world_state = WorldState {
-                    primary_state,
-                    fall_state,
-                    ..WorldState::default()
-                };
-                assert_eq!(decision(&world_state), limp);
-            }
+    fn whoever_falls_protects_itself_and_whoever_lies_gets_up_where_it_plays() {
+        use PrimaryState::{Finished, Initial, Penalized, Playing, Ready, Unstiff};
+        let falls = FallState::Falling(FallDirection::Left);
+        let lies = FallState::Lying(Facing::Up);
+        let body = |primary_state, fall_state| {
+            let world_state = WorldState {
+                primary_state,
+                fall_state,
+                ..WorldState::default()
+            };
+            decision(&world_state).body
+        };
+        for state in [Initial, Ready, Playing, Penalized, Finished] {
+            let protects = BodyMotion::Scripted(Script::FallSideways);
+            assert_eq!(body(state, falls), protects, "{state:?}");
         }
+        for state in [Ready, Playing] {
+            let rises = BodyMotion::Scripted(Script::StandUpBack);
+            assert_eq!(body(state, lies), rises, "{state:?}");
+        }
+        for state in [Initial, Penalized, Finished, Unstiff] {
+            assert_eq!(body(state, lies), BodyMotion::Unstiff, "{state:?}");
+        }
+        assert_eq!(body(Unstiff, falls), BodyMotion::Unstiff);
     }
 }

@@ -8,7 +8,7 @@ use framework::{CycleTime, Input, MainOutput, Parameter, Procedure, Result, cont
 use serde::{Deserialize, Serialize};
 use types::fall_state::FallState;
 use types::game::PrimaryState;
-use types::motion::{BodyMotion, ClientWish, MotionRequest, Step};
+use types::motion::{BodyMotion, ClientWish, MotionRequest, Script, Step};
 use walking::Limits;
 
 /// What is wished for, and for how long still, in s.
@@ -32,6 +32,8 @@ pub struct CycleContext {
     walk_duration: Parameter<f32, "client_wishes.walk_duration">,
     /// In s: how long another motion goes on that nobody asks for again.
     motion_duration: Parameter<f32, "client_wishes.motion_duration">,
+    /// In s: how long a kick may wait until the robot can begin it; then it is carried out once.
+    kick_duration: Parameter<f32, "client_wishes.kick_duration">,
 
     /// Steps from now on, answered with the step that the legs can do.
     walk: Procedure<Step, Step, "walk">,
@@ -82,9 +84,13 @@ impl ClientWishes {
                 }
                 (Some(_), Some(reason)) => call.refuse(reason),
                 (Some(body), None) => {
+                    let duration = match body {
+                        BodyMotion::Scripted(_) => *context.kick_duration,
+                        _ => *context.motion_duration,
+                    };
                     let step = Step::ZERO;
-                    self.wish = Some((ClientWish { body, step }, *context.motion_duration));
-                    call.answer(*context.motion_duration);
+                    self.wish = Some((ClientWish { body, step }, duration));
+                    call.answer(duration);
                 }
             }
         }
@@ -103,6 +109,8 @@ fn body_motion(request: MotionRequest) -> Option<BodyMotion> {
         MotionRequest::Release => None,
         MotionRequest::Stand => Some(BodyMotion::Stand),
         MotionRequest::SitDown => Some(BodyMotion::SitDown),
+        MotionRequest::KickLeft => Some(BodyMotion::Scripted(Script::KickLeft)),
+        MotionRequest::KickRight => Some(BodyMotion::Scripted(Script::KickRight)),
     }
 }
 
@@ -180,6 +188,7 @@ mod tests {
                 limits: &LIMITS,
                 walk_duration: &1.0,
                 motion_duration: &10.0,
+                kick_duration: &0.5,
                 walk: walk_answerer.call(),
                 motion: motion_answerer.call(),
             };

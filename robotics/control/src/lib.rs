@@ -35,6 +35,7 @@ pub mod recording_switch;
 
 pub mod motion_dispatcher;
 pub mod penalized_pose;
+pub mod scripted_motion;
 pub mod sit_down;
 pub mod stand;
 mod transition;

@@ -3,6 +3,7 @@
 use framework::{
     CycleTime, CyclerState, Input, MainOutput, Parameter, PreviousInput, Result, context,
 };
+use keyframes::Motions;
 use serde::{Deserialize, Serialize};
 use types::joints::Joints;
 use types::motion::{BodyMotion, MotionSelection};
@@ -45,6 +46,8 @@ pub struct CycleContext {
     crouch: Parameter<Joints<f32>, "sit_down.crouch">,
     /// Walking begins with both feet side by side.
     walk: Parameter<walking::Parameters, "walking_engine">,
+    /// Scripted motions begin with their first pose.
+    motions: Parameter<Motions, "motions">,
     /// Stiffness of every joint, 0 (limp) to 1.
     stiffness: Parameter<f32, "motion_dispatcher.stiffness">,
     /// Share of every joint's greatest speed that the way may take.
@@ -113,6 +116,7 @@ impl CycleContext<'_> {
             BodyMotion::Stand => Some(*self.stand),
             BodyMotion::Penalized => Some(*self.penalized_pose),
             BodyMotion::Walk => Some(walking::standing_pose(self.walk)),
+            BodyMotion::Scripted(script) => Some(self.motions.of(script).start()),
         };
         begin.filter(|_| self.motion_selection.is_dispatching)
     }
@@ -139,6 +143,7 @@ mod tests {
         previous: Option<&MotorCommands>,
     ) -> (Option<MotorCommands>, bool) {
         let mut safe_exit = true;
+        let parameters = ParameterFile::new(include_str!("../../parameters/default.toml"));
         let (current, is_dispatching) = selection;
         let motion_selection = MotionSelection {
             current,
@@ -153,8 +158,8 @@ mod tests {
             stand: &stand(),
             penalized_pose: &Joints::filled(0.1),
             crouch: &Joints::filled(0.2),
-            walk: &ParameterFile::new(include_str!("../../parameters/default.toml"))
-                .get("walking_engine"),
+            walk: &parameters.get("walking_engine"),
+            motions: &parameters.get("motions"),
             stiffness: &0.8,
             velocity_share: &0.25,
             minimum_duration: &1.0,

@@ -53,40 +53,75 @@ fn next(selection: MotionSelection, wanted: BodyMotion, exits: SafeExits) -> Mot
         current,
         is_dispatching: current != BodyMotion::Unstiff,
     };
-    match (selection.current, wanted) {
+    let current = selection.current;
+    if let BodyMotion::Scripted(script) = wanted
+        && script.protects()
+    {
+        return match current {
+            // Who gets up tilts as one who falls.
+            BodyMotion::Scripted(now) if now.stands_up() && !exits.script => arrive(stay, exits),
+            BodyMotion::Scripted(now) if now.protects() => stay,
+            _ => MotionSelection {
+                current: wanted,
+                is_dispatching: false,
+            },
+        };
+    }
+    match (current, wanted) {
         (_, BodyMotion::Unstiff) => go(BodyMotion::Unstiff),
         // There is nothing to sit down from.
         (BodyMotion::Unstiff, BodyMotion::SitDown) => stay,
         (BodyMotion::Unstiff, _) => go(wanted),
-        _ if selection.is_dispatching => match (exits.dispatch, selection.current == wanted) {
+        _ if selection.is_dispatching => match (exits.dispatch, current == wanted) {
             (false, _) => stay,
-            (true, false) => go(wanted),
-            (true, true) => MotionSelection {
-                is_dispatching: false,
-                ..selection
-            },
+            (true, false) if !is_kick(current) => go(wanted),
+            (true, _) => arrive(stay, exits),
         },
         (BodyMotion::SitDown, _) if !exits.sit_down => stay,
         (BodyMotion::SitDown, BodyMotion::SitDown) => go(BodyMotion::Unstiff),
-        (current, _) if current == wanted => stay,
+        (BodyMotion::Scripted(script), _) if !script.protects() => {
+            if exits.script {
+                go(wanted)
+            } else {
+                stay
+            }
+        }
+        _ if current == wanted => stay,
         (BodyMotion::Walk, _) if !exits.walk => stay,
         _ => go(wanted),
     }
 }
 
+/// The way to a motion ends where that begins.
+fn arrive(selection: MotionSelection, exits: SafeExits) -> MotionSelection {
+    MotionSelection {
+        is_dispatching: selection.is_dispatching && !exits.dispatch,
+        ..selection
+    }
+}
+
+/// Who has asked for a kick does not ask until it is over.
+fn is_kick(motion: BodyMotion) -> bool {
+    matches!(motion, BodyMotion::Scripted(script) if !script.protects() && !script.stands_up())
+}
+
 #[cfg(test)]
 mod tests {
+    use types::motion::Script;
+
     use super::*;
 
     const NOWHERE: SafeExits = SafeExits {
         sit_down: false,
         dispatch: false,
         walk: false,
+        script: false,
     };
     const EVERYWHERE: SafeExits = SafeExits {
         sit_down: true,
         dispatch: true,
         walk: true,
+        script: true,
     };
 
     fn select(
@@ -174,6 +209,62 @@ mod tests {
         assert_eq!(select(&mut node, stand, EVERYWHERE), (stand, true));
     }
 
+    const FALL: BodyMotion = BodyMotion::Scripted(Script::FallForward);
+    const KICK: BodyMotion = BodyMotion::Scripted(Script::KickLeft);
+    const RISE: BodyMotion = BodyMotion::Scripted(Script::StandUpFront);
+
+    #[test]
+    fn a_fall_is_not_waited_for_and_left_at_once() {
+        for motion in [
+            BodyMotion::Stand,
+            BodyMotion::Walk,
+            BodyMotion::SitDown,
+            KICK,
+        ] {
+            for is_dispatching in [false, true] {
+                let mut node = node_in(motion);
+                node.selection.is_dispatching = is_dispatching;
+                assert_eq!(select(&mut node, FALL, NOWHERE), (FALL, false));
+                // The direction in which it began.
+                let backward = BodyMotion::Scripted(Script::FallBackward);
+                assert_eq!(select(&mut node, backward, NOWHERE), (FALL, false));
+                assert_eq!(select(&mut node, RISE, NOWHERE), (RISE, true));
+            }
+        }
+    }
+
+    #[test]
+    fn who_gets_up_goes_on_to_the_end_although_it_tilts_as_one_who_falls() {
+        let mut node = node_in(FALL);
+        assert_eq!(select(&mut node, RISE, NOWHERE), (RISE, true));
+        assert_eq!(select(&mut node, FALL, NOWHERE), (RISE, true));
+        let there = SafeExits {
+            dispatch: true,
+            ..NOWHERE
+        };
+        assert_eq!(select(&mut node, FALL, there), (RISE, false));
+        for wanted in [FALL, RISE, BodyMotion::Stand] {
+            assert_eq!(select(&mut node, wanted, NOWHERE), (RISE, false));
+        }
+        let stand = BodyMotion::Stand;
+        assert_eq!(select(&mut node, stand, EVERYWHERE), (stand, true));
+        // And once more if it still lies.
+        let mut node = node_in(RISE);
+        assert_eq!(select(&mut node, RISE, EVERYWHERE), (RISE, true));
+        assert_eq!(select(&mut node_in(RISE), FALL, EVERYWHERE), (FALL, false));
+    }
+
+    #[test]
+    fn a_kick_that_was_begun_is_carried_out_once() {
+        let mut node = node_in(BodyMotion::Stand);
+        let stand = BodyMotion::Stand;
+        assert_eq!(select(&mut node, KICK, NOWHERE), (KICK, true));
+        assert_eq!(select(&mut node, stand, NOWHERE), (KICK, true));
+        assert_eq!(select(&mut node, stand, EVERYWHERE), (KICK, false));
+        assert_eq!(select(&mut node, stand, NOWHERE), (KICK, false));
+        assert_eq!(select(&mut node, stand, EVERYWHERE), (stand, true));
+    }
+
     #[test]
     fn after_sitting_down_the_body_is_limp_and_stays_so() {
         let mut node = node_in(BodyMotion::SitDown);
@@ -189,6 +280,9 @@ mod tests {
             BodyMotion::Stand,
             BodyMotion::Penalized,
             BodyMotion::Walk,
+            FALL,
+            RISE,
+            KICK,
         ] {
             for is_dispatching in [false, true] {
                 let mut node = node_in(current);

@@ -27,6 +27,7 @@ pub struct CycleContext {
     penalized_commands: Input<Option<MotorCommands>, "penalized_commands?">,
     sit_down_commands: Input<Option<MotorCommands>, "sit_down_commands?">,
     walk_commands: Input<Option<MotorCommands>, "walk_commands?">,
+    script_commands: Input<Option<MotorCommands>, "script_commands?">,
     head_command: Input<Option<HeadCommand>, "head_command?">,
     previous: PreviousInput<Option<MotorCommands>, "motor_commands?">,
     positions: Input<Joints<f32>, "sensor_data.positions">,
@@ -79,6 +80,7 @@ impl<'context> CycleContext<'context> {
             BodyMotion::Stand => self.stand_commands,
             BodyMotion::Penalized => self.penalized_commands,
             BodyMotion::Walk => self.walk_commands,
+            BodyMotion::Scripted(_) => self.script_commands,
         }
     }
 }
@@ -100,6 +102,7 @@ mod tests {
     use kinematics::limits;
     use types::head::HeadAngles;
     use types::joints::JointName;
+    use types::motion::Script;
 
     use super::*;
 
@@ -132,6 +135,7 @@ mod tests {
             penalized_commands: None,
             sit_down_commands: None,
             walk_commands: None,
+            script_commands: None,
             head_command: None,
             previous: None,
             positions,
@@ -160,8 +164,8 @@ mod tests {
 
     #[test]
     fn the_body_obeys_the_motion_that_has_it() {
-        let [dispatch, stand, penalized, sit_down, walk] =
-            [0.11, 0.12, 0.13, 0.14, 0.15].map(|stiffness| MotorCommands {
+        let [dispatch, stand, penalized, sit_down, walk, script] =
+            [0.11, 0.12, 0.13, 0.14, 0.15, 0.16].map(|stiffness| MotorCommands {
                 positions: start(),
                 stiffnesses: Joints::filled(stiffness),
             });
@@ -176,6 +180,7 @@ mod tests {
                 penalized_commands: Some(&penalized),
                 sit_down_commands: Some(&sit_down),
                 walk_commands: Some(&walk),
+                script_commands: Some(&script),
                 ..nobody(&selection, &start())
             });
             commands.stiffnesses.left_knee_pitch
@@ -185,6 +190,8 @@ mod tests {
         assert_eq!(stiffness(BodyMotion::Penalized, false), 0.13);
         assert_eq!(stiffness(BodyMotion::SitDown, false), 0.14);
         assert_eq!(stiffness(BodyMotion::Walk, false), 0.15);
+        let kick = BodyMotion::Scripted(Script::KickLeft);
+        assert_eq!(stiffness(kick, false), 0.16);
         assert_eq!(stiffness(BodyMotion::Unstiff, false), 0.0);
     }
 

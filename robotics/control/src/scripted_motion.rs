@@ -140,7 +140,10 @@ mod tests {
                     .take_while(|_| !cycle(&mut node, &motions, script, false).1)
                     .count();
                 let seconds = 0.012 * cycles as f32;
-                assert!((seconds - motion.duration()).abs() < 0.025, "{script:?} {seconds}");
+                assert!(
+                    (seconds - motion.duration()).abs() < 0.025,
+                    "{script:?} {seconds}"
+                );
                 let (commands, _) = cycle(&mut node, &motions, script, false);
                 assert_eq!(commands, Some(motion.at(100.0, &Joints::filled(0.0))));
             }

@@ -10,7 +10,7 @@ use kinematics::{forward_kinematics, limits};
 use nalgebra::{Point2, Point3};
 use types::ball::Ball;
 use types::camera::{CameraCalibration, CameraMatrices};
-use types::fall_state::{FallDirection, FallState};
+use types::fall_state::{Facing, FallState};
 use types::feet::Side;
 use types::game::PrimaryState;
 use types::head::{HeadAngles, HeadCommand};
@@ -200,6 +200,7 @@ impl Robot {
             penalized_pose: &self.penalized,
             crouch: &self.crouch,
             walk: &self.parameters.get("walking_engine"),
+            motions: &self.parameters.get("motions"),
             stiffness: &self.parameters.get("motion_dispatcher.stiffness"),
             velocity_share: &self.parameters.get("motion_dispatcher.velocity_share"),
             minimum_duration: &self.parameters.get("motion_dispatcher.minimum_duration"),
@@ -253,8 +254,9 @@ impl Robot {
             stand_commands: wanted.stand.as_ref(),
             penalized_commands: wanted.penalized.as_ref(),
             sit_down_commands: wanted.sit_down.as_ref(),
-            // Walking has tests of its own, on the physics.
+            // These have tests of their own, on the physics.
             walk_commands: None,
+            script_commands: None,
             head_command: self.head_command.as_ref(),
             previous: self.motor_commands.as_ref(),
             positions: &self.body,
@@ -292,7 +294,7 @@ impl Robot {
                 BodyMotion::SitDown => &self.crouch,
                 BodyMotion::Stand => &self.stand_pose,
                 BodyMotion::Penalized => &self.penalized,
-                BodyMotion::Unstiff | BodyMotion::Walk => body,
+                BodyMotion::Unstiff | BodyMotion::Walk | BodyMotion::Scripted(_) => body,
             };
             assert_eq!(begin, body);
         } else if before.current == BodyMotion::SitDown {
@@ -412,11 +414,11 @@ fn a_known_ball_is_looked_at_until_it_is_in_the_middle_of_an_image() {
 }
 
 #[test]
-fn a_falling_robot_is_limp_at_once_and_rises_from_where_it_was_put() {
+fn a_robot_that_lies_before_the_game_is_limp_at_once_and_rises_from_where_it_was_put() {
     for seconds in [0.5, 3.0] {
         let mut robot = Robot::sitting();
-        robot.live(PrimaryState::Playing, seconds);
-        robot.world_state.fall_state = FallState::Falling(FallDirection::Forward);
+        robot.live(PrimaryState::Initial, seconds);
+        robot.world_state.fall_state = FallState::Lying(Facing::Down);
         robot.cycle();
         assert_eq!(robot.stiffness(), 0.0);
         robot.body = somewhere(0.5);

@@ -29,6 +29,54 @@ pub enum BodyMotion {
     Penalized,
     /// Step by step, as [`MotionCommand::step`] says.
     Walk,
+    /// Pose by pose, as the parameter files say.
+    Scripted(Script),
+}
+
+/// A motion whose poses stand in the parameter files.
+#[derive(Clear, Clone, Copy, Debug, Default, Deserialize, Eq, PartialEq, Reflect, Serialize)]
+pub enum Script {
+    /// From lying on the face.
+    #[default]
+    StandUpFront,
+    /// From lying on the back.
+    StandUpBack,
+    /// Protects a robot that falls on its face.
+    FallForward,
+    /// Protects a robot that falls on its back.
+    FallBackward,
+    /// Protects a robot that falls on an arm.
+    FallSideways,
+    /// With the left foot, straight ahead.
+    KickLeft,
+    /// With the right foot, straight ahead.
+    KickRight,
+}
+
+impl Script {
+    /// Every one of them.
+    pub const ALL: [Self; 7] = [
+        Self::StandUpFront,
+        Self::StandUpBack,
+        Self::FallForward,
+        Self::FallBackward,
+        Self::FallSideways,
+        Self::KickLeft,
+        Self::KickRight,
+    ];
+
+    /// Whether it brings a robot that lies back to its feet.
+    pub const fn stands_up(self) -> bool {
+        matches!(self, Self::StandUpFront | Self::StandUpBack)
+    }
+
+    /// Whether it protects a robot that falls: it begins at once, wherever the body is.
+    pub const fn protects(self) -> bool {
+        matches!(
+            self,
+            Self::FallForward | Self::FallBackward | Self::FallSideways
+        )
+    }
 }
 
 /// How far the swing foot comes to stand from where it would stand beside the support foot; the body goes as far.
@@ -93,6 +141,8 @@ pub struct SafeExits {
     pub dispatch: bool,
     /// Walking: only with both feet side by side.
     pub walk: bool,
+    /// Scripted motions: only at their end.
+    pub script: bool,
 }
 
 /// What a client asks the body to do.
@@ -105,6 +155,10 @@ pub enum MotionRequest {
     Stand,
     /// Down to the ground, then limp.
     SitDown,
+    /// Once with the left foot, straight ahead.
+    KickLeft,
+    /// Once with the right foot, straight ahead.
+    KickRight,
 }
 
 /// What a client wants of the body as long as its wish holds.

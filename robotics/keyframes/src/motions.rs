@@ -1,0 +1,35 @@
+//! Owns which motions there are.
+
+use framework::Reflect;
+use serde::{Deserialize, Serialize};
+use types::motion::Script;
+
+use crate::motion::Motion;
+
+/// One motion for every [`Script`].
+#[derive(Clone, Debug, Deserialize, PartialEq, Reflect, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Motions {
+    pub stand_up_front: Motion,
+    pub stand_up_back: Motion,
+    pub fall_forward: Motion,
+    pub fall_backward: Motion,
+    pub fall_sideways: Motion,
+    pub kick_left: Motion,
+    pub kick_right: Motion,
+}
+
+impl Motions {
+    /// The motion of this script.
+    pub fn of(&self, script: Script) -> &Motion {
+        match script {
+            Script::StandUpFront => &self.stand_up_front,
+            Script::StandUpBack => &self.stand_up_back,
+            Script::FallForward => &self.fall_forward,
+            Script::FallBackward => &self.fall_backward,
+            Script::FallSideways => &self.fall_sideways,
+            Script::KickLeft => &self.kick_left,
+            Script::KickRight => &self.kick_right,
+        }
+    }
+}
