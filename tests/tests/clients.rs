@@ -1,7 +1,8 @@
-//! The running NAO and who talks to it: `hulkgen topic|param|call|log|top`, Python.
+//! The running NAO and everything that talks to it: the page in a browser, `hulkgen topic|param|call|log|top`, Python.
 
 use std::io::{BufRead as _, BufReader};
 use std::net::{SocketAddr, TcpListener};
+use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
@@ -11,6 +12,13 @@ use support::{root, skip, target_folder};
 
 /// A busy machine may take so long for anything.
 const PATIENCE: Duration = Duration::from_secs(60);
+
+/// A page that is shown needs them; without `npm ci` playwright is not there either.
+const BROWSERS: [&str; 3] = [
+    "/usr/bin/chromium",
+    "/usr/bin/chromium-browser",
+    "/usr/bin/google-chrome",
+];
 
 /// One simulated NAO at a time: several on a small machine are slower than their clients are patient.
 static TURN: Mutex<()> = Mutex::new(());
@@ -298,4 +306,26 @@ fn python_reads_and_writes_with_nothing_but_websockets() {
             .count()
             > 2
     );
+}
+
+#[test]
+fn the_page_works_in_a_browser() {
+    let name = "the_page_works_in_a_browser";
+    let page = root().join("web/page");
+    let has_browser = BROWSERS.iter().any(|browser| Path::new(browser).is_file());
+    if !has_browser || !page.join("node_modules/playwright-core").is_dir() {
+        skip(name, "chromium, node 20, and `npm ci` in web/page");
+        return;
+    }
+    let _turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
+    let output = Command::new("node")
+        .arg(page.join("test/browser.mjs"))
+        .arg(program())
+        .args(["--", "--free-ports"])
+        .current_dir(root())
+        .output()
+        .expect("npm came with node");
+    let said = String::from_utf8_lossy(&output.stdout);
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{said}{stderr}");
 }
