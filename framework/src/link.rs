@@ -51,7 +51,12 @@ impl<P> Robot<P> {
             let (taps, reports) = instance.tap(&access.subscriptions);
             InstanceLink {
                 description: *instance.description(),
-                nodes: instance.report().nodes.iter().map(|node| node.node).collect(),
+                nodes: instance
+                    .report()
+                    .nodes
+                    .iter()
+                    .map(|node| node.node)
+                    .collect(),
                 counters: instance.counters().clone(),
                 taps,
                 reports,

@@ -240,7 +240,11 @@ impl Subscriber for Collector {
         let sinks = SINKS.read().unwrap_or_else(PoisonError::into_inner);
         let levels = sinks.iter().filter_map(Weak::upgrade);
         let levels = levels.map(|sink| sink.rules().most_verbose());
-        Some(levels.max().map_or(LevelFilter::OFF, LevelFilter::from_level))
+        Some(
+            levels
+                .max()
+                .map_or(LevelFilter::OFF, LevelFilter::from_level),
+        )
     }
 
     fn enabled(&self, metadata: &Metadata<'_>) -> bool {
@@ -382,8 +386,14 @@ mod tests {
             panic!("one message: {records:?}")
         };
         assert_eq!((record.instance, record.cycle), (Some("Test"), Some(7)));
-        assert_eq!((record.level, record.message.as_str()), (Level::WARN, "it is deep"));
-        assert_eq!(Value::from(record.fields.clone()), serde_json::json!({ "depth": 3, "name": "x" }));
+        assert_eq!(
+            (record.level, record.message.as_str()),
+            (Level::WARN, "it is deep")
+        );
+        assert_eq!(
+            Value::from(record.fields.clone()),
+            serde_json::json!({ "depth": 3, "name": "x" })
+        );
     }
 
     #[test]
@@ -395,6 +405,9 @@ mod tests {
         }
         assert!(sink.left_out() >= 5);
         assert_eq!(sink.left_out(), 0);
-        assert!(sink.take().is_some_and(|record| record.message.len() <= LONGEST + 3));
+        assert!(
+            sink.take()
+                .is_some_and(|record| record.message.len() <= LONGEST + 3)
+        );
     }
 }

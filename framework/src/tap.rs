@@ -300,6 +300,18 @@ impl Drop for Tap {
 }
 
 impl Reports {
+    /// Of an instance that tells nothing.
+    pub fn silent() -> Self {
+        Self {
+            wishes: Arc::new(Wishes {
+                changes: AtomicU32::new(0),
+                open: Box::default(),
+                report: AtomicBool::new(false),
+            }),
+            receiver: sync_channel(1).1,
+        }
+    }
+
     /// The instance's next finished cycle tells what it did so far.
     pub fn ask(&self) {
         self.wishes.report.store(true, Ordering::Relaxed);

@@ -18,6 +18,10 @@ const TARGET: Target = Target {
     location: Some("simulated"),
     identities: &["body", "head"],
     graph: "",
+    recording_budget: 0,
+    manifest: "",
+    dataflow: "",
+    replayables: &[],
 };
 
 fn files() -> Vec<PathBuf> {

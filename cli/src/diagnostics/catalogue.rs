@@ -118,7 +118,7 @@ catalogue! {
     MissingParameterFile, "missing-parameter-file", Error,
         "A parameter file does not exist.";
     MistypedParameter, "mistyped-parameter", Error,
-        "A parameter file has a value of the wrong type.";
+        "A parameter file has a value of the wrong type, or outside of its field's range.";
     Nondeterminism, "nondeterminism", Warning,
         "A node gets another answer in every run.";
     NotPublic, "not-public", Error,

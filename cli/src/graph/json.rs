@@ -29,7 +29,9 @@ fn write_lines(value: &Value, depth: usize, indentation: &str, text: &mut String
     let (open, close) = match value {
         Value::Object(object) if depth > 0 && !object.is_empty() => {
             let keyed = object.iter();
-            entries.extend(keyed.map(|(key, value)| (format!("{}: ", Value::from(key.as_str())), value)));
+            entries.extend(
+                keyed.map(|(key, value)| (format!("{}: ", Value::from(key.as_str())), value)),
+            );
             ('{', '}')
         }
         Value::Array(list) if depth > 0 && !list.is_empty() => {
@@ -66,7 +68,9 @@ fn remove_key(value: &mut Value, key: &str) {
     match value {
         Value::Object(entries) => {
             entries.shift_remove(key);
-            entries.values_mut().for_each(|value| remove_key(value, key));
+            entries
+                .values_mut()
+                .for_each(|value| remove_key(value, key));
         }
         Value::Array(values) => values.iter_mut().for_each(|value| remove_key(value, key)),
         Value::Null | Value::Bool(_) | Value::Number(_) | Value::String(_) => {}
@@ -93,7 +97,8 @@ mod tests {
         write_lines(&value, 2, "", &mut text);
         let read: Value = serde_json::from_str(&text).expect("JSON");
         assert_eq!(read, value);
-        let lines = "{\n \"a\": [\n  1,\n  {\"b\":[2]}\n ],\n \"c\": {},\n \"d\": null,\n \"e\": []\n}";
+        let lines =
+            "{\n \"a\": [\n  1,\n  {\"b\":[2]}\n ],\n \"c\": {},\n \"d\": null,\n \"e\": []\n}";
         assert_eq!(text, lines);
     }
 

@@ -10,7 +10,9 @@ use framework::link::{InstanceLink, Link};
 use framework::procedure::PendingAny;
 use framework::report::InstanceReport;
 use framework::timing::{self, Timing};
-use protocol::{Answer, Failure, Good, Level, Message, Outcome, ParametersChanged, Refusal, Welcome};
+use protocol::{
+    Answer, Failure, Good, Level, Message, Outcome, ParametersChanged, Refusal, Welcome,
+};
 
 use crate::connection::News;
 use crate::limits::Limits;
@@ -302,7 +304,9 @@ impl Hub {
 
     /// Asks all instances what they did.
     pub(crate) fn ask_for_reports(&mut self) -> WaitingFor {
-        let before = self.timed.map_or_else(timing::current, |(_, before)| before);
+        let before = self
+            .timed
+            .map_or_else(timing::current, |(_, before)| before);
         self.timed = Some((Instant::now(), before));
         timing::set(Timing::Complete);
         self.reports.iter_mut().for_each(|report| *report = None);

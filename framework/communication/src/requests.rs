@@ -404,7 +404,8 @@ impl Hub {
         let has_node = |module: &str| known.is_some_and(|known| known.nodes.contains(&module));
         if known.is_none() || module.is_some_and(|module| !has_node(module)) {
             let nodes = known.map(|known| known.nodes.join(", "));
-            let expected = nodes.map_or_else(String::new, |nodes| format!("; its nodes are {nodes}"));
+            let expected =
+                nodes.map_or_else(String::new, |nodes| format!("; its nodes are {nodes}"));
             return Err(Failure::new(format!(
                 "no `{of}`: expected `INSTANCE` or `INSTANCE.crate::module` of one of its nodes{expected}"
             )));

@@ -169,7 +169,12 @@ impl Source {
 
     /// Hands out every copy that the instance left.
     pub(crate) fn hand_out(&mut self, clients: &mut BTreeMap<ClientId, Client>, limits: &Limits) {
-        let Self { tap, streams, is_injected, .. } = self;
+        let Self {
+            tap,
+            streams,
+            is_injected,
+            ..
+        } = self;
         let mut read = 0;
         while tap.take(|tapped| {
             for stream in streams.iter_mut() {
@@ -262,7 +267,11 @@ impl Stream {
 
 /// The rest of an update: what is the same for all clients.
 fn write(part: Option<&dyn Reflect>, cycle: u64, time: u64, is_injected: bool) -> Content {
-    let mark = if is_injected { r#""injected":true,"# } else { "" };
+    let mark = if is_injected {
+        r#""injected":true,"#
+    } else {
+        ""
+    };
     let mut text = format!(r#""cycle":{cycle},"time":{time},{mark}"value":"#).into_bytes();
     let start = text.len();
     let written =

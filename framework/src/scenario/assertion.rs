@@ -16,7 +16,7 @@ use crate::time::Timestamp;
 pub struct Assertion {
     /// For people.
     pub what: String,
-    /// `truth.…`, or an output: `Control.main_outputs.ball.position.x`.
+    /// `truth.…`, or an output: `Control.main_outputs.lamp.level`.
     pub value: String,
     equals: Option<Value>,
     is_not: Option<Value>,

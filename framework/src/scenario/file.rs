@@ -243,7 +243,7 @@ mod tests {
     fn everything_that_can_be_said_is_read() {
         let text = format!(
             "about = 'x'\nends = 2\npasses = 0.9\nparameters = {{ a.b = [1, 2], 'c.d' = 'e' }}\n\
-             world = {{ pose = [1.0, 2], ball = {{ there = false }} }}\nrandom = {{ pose = [0.5, 0] }}\n\
+             world = {{ pose = [1.0, 2], lamp = {{ there = false }} }}\nrandom = {{ pose = [0.5, 0] }}\n\
              [[event]]\nat = 1.5\npush = [1]\n[[event]]\nat = 1\nkick = true\n{ASSERTION}"
         );
         let scenario = Scenario::parse(&text).expect("it is right");
@@ -261,13 +261,13 @@ mod tests {
             .collect();
         assert_eq!(times, [1000, 1500]);
         let given =
-            toml::from_str("pose = [0, 0]\nball = { there = true, size = 3 }").expect("it is TOML");
+            toml::from_str("pose = [0, 0]\nlamp = { there = true, size = 3 }").expect("it is TOML");
         let one = scenario.world(given, 1).expect("everything is there");
-        assert_eq!(one["ball"].to_string(), "{ there = false, size = 3 }");
+        assert_eq!(one["lamp"].to_string(), "{ there = false, size = 3 }");
         let x = one["pose"][0].as_float().expect("it is a number");
         assert!((0.5..=1.5).contains(&x) && x != 1.0, "{x}");
         assert_eq!(one["pose"][1].as_float(), Some(2.0));
-        let given = || toml::from_str("ball = {}").expect("it is TOML");
+        let given = || toml::from_str("lamp = {}").expect("it is TOML");
         let again = scenario.world(given(), 1).expect("everything is there");
         assert_eq!(again["pose"], one["pose"], "the same seed");
         let other = scenario.world(given(), 2).expect("everything is there");

@@ -274,7 +274,11 @@ fn what_nodes_say_is_told_to_those_who_come_late_too() {
     };
     let first = of_finder(&mut early);
     assert_eq!(first["level"], "error");
-    assert!(first["message"].as_str().is_some_and(|text| text.contains("too dark")));
+    assert!(
+        first["message"]
+            .as_str()
+            .is_some_and(|text| text.contains("too dark"))
+    );
     assert!(first["cycle"].as_u64() > Some(0) && first["time"].as_u64() > Some(0));
     let mut late = zoo.client();
     late.ok(json!({ "logs": { "level": "error" } }));
@@ -299,7 +303,10 @@ fn the_graph_is_that_of_the_program() {
         graph,
         ..Listening::default()
     };
-    let zoo = Zoo::with(with(r#"{ "version": 1, "robot": "zoo" }"#), Limits::default());
+    let zoo = Zoo::with(
+        with(r#"{ "version": 1, "robot": "zoo" }"#),
+        Limits::default(),
+    );
     let graph = zoo.client().ok(json!({ "graph": {} }));
     assert_eq!(graph["graph"]["robot"], "zoo");
     let zoo = Zoo::with(with(""), Limits::default());

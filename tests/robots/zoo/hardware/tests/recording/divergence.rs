@@ -8,7 +8,10 @@ use framework::driver::Observer;
 use framework::recorded::{Capture, SaveError, Settings, Visit};
 use framework::reflect::Reflect;
 use framework::report::InstanceReport;
-use framework::{Cycle, Finished, Instance, InstanceDescription, Restarted, Result, State, Waited};
+use framework::tap::{Reports, Tap};
+use framework::{
+    Cycle, Finished, Instance, InstanceDescription, Restarted, Result, State, Subscriptions, Waited,
+};
 
 use super::{Tape, on, record_in_lockstep};
 
@@ -219,6 +222,10 @@ impl Instance for Flipped {
 
     fn report(&self) -> InstanceReport {
         self.report.clone()
+    }
+
+    fn tap(&mut self, _: &Subscriptions) -> (Vec<Tap>, Reports) {
+        (Vec::new(), Reports::silent())
     }
 
     fn main_outputs(&self) -> &'static [&'static str] {
