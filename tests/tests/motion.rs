@@ -2,12 +2,13 @@
 
 use erased_serde::Deserializer;
 use kinematics::limits;
-use nalgebra::{Isometry2, Vector2, Vector3};
+use nalgebra::{Isometry2, Point2, Vector2, Vector3};
 use serde_json::json;
 use simulated_nao::GroundTruth;
+use simulated_nao::physics::Disturbance;
 use support::nao::{Nao, call, output};
 use types::joints::Joints;
-use types::motion::{BodyMotion, MotionSelection};
+use types::motion::{BodyMotion, MotionSelection, Script};
 use types::motor_commands::MotorCommands;
 use types::odometry::Odometry;
 
@@ -114,6 +115,16 @@ impl Robot {
     fn selection(&self) -> MotionSelection {
         let control = self.nao.robot.instance("Control").expect("it runs");
         output(control, "motion_selection")
+    }
+
+    /// Pushes the torso, N s in the robot's own x and y.
+    fn push(&self, impulse: [f64; 2]) {
+        let ahead = self.pose().rotation.cast::<f64>();
+        let aside = ahead * Vector2::from(impulse);
+        self.nao.hardware.disturb(&Disturbance::Push {
+            robot: 0,
+            impulse: aside.push(0.0),
+        });
     }
 
     fn greatest_lean(&mut self) -> f32 {
@@ -262,5 +273,118 @@ fn whatever_a_client_puts_in_place_of_commands_no_joint_is_harmed() {
         let access = robot.nao.robot.access("Control").expect("it runs");
         access.injector.release_all();
         robot.live(1.0, |_| {});
+    }
+}
+
+/// In a game without a ball, where the robot gets up by itself.
+fn playing(pose: &str) -> Robot {
+    let options = [
+        "--no-cameras",
+        "--no-sound",
+        "--no-ball",
+        "--game",
+        "Playing",
+        "--pose",
+        pose,
+    ];
+    let mut robot = Robot::new(&options, &[]);
+    robot.live(STANDS, |_| {});
+    robot
+}
+
+#[test]
+fn a_robot_that_is_pushed_onto_its_face_protects_itself_and_stands_up() {
+    let mut times = Vec::new();
+    for (pose, impulse) in [
+        ("0.0,0.0,0.0", [3.0, 0.0]),
+        ("1.0,1.0,2.0", [3.5, 0.2]),
+        ("-2.0,0.5,-1.0", [4.0, -0.3]),
+        ("-1.0,-1.0,0.7", [3.2, 0.1]),
+    ] {
+        let mut robot = playing(pose);
+        assert!(tilt(&robot.truth()) < UPRIGHT);
+        robot.push(impulse);
+        let (mut protected, mut fell, mut begun) = (false, false, None);
+        let pushed = robot.now;
+        while robot.now < pushed + 14.0 {
+            robot.live(0.1, |_| {});
+            fell |= tilt(&robot.truth()) > 1.3;
+            match robot.selection().current {
+                BodyMotion::Scripted(script) if script.protects() => protected = true,
+                BodyMotion::Scripted(Script::StandUpFront) => {
+                    begun.get_or_insert(robot.now);
+                }
+                BodyMotion::Stand if begun.is_some() => break,
+                _ => {}
+            }
+        }
+        times.push(robot.now - pushed);
+        robot.live(3.0, |_| {});
+        let truth = robot.truth();
+        assert!(
+            protected && fell,
+            "{protected} {fell}: the push did not knock it over"
+        );
+        assert!(tilt(&truth) < UPRIGHT, "it leans by {} rad", tilt(&truth));
+        assert!(truth.torso_to_field.translation.z > 0.28);
+        assert!(robot.selection().is_at(BodyMotion::Stand));
+    }
+    println!("on its feet {times:.1?} s after the push");
+    assert!(times.iter().all(|time| *time < 12.0), "{times:?}");
+}
+
+#[test]
+fn a_robot_that_is_pushed_to_any_side_protects_itself_before_it_lies() {
+    for (impulse, expected) in [
+        ([-3.0, 0.0], Script::FallBackward),
+        ([0.0, 4.0], Script::FallSideways),
+        ([0.0, -4.0], Script::FallSideways),
+    ] {
+        let mut robot = playing("0.0,0.0,0.0");
+        robot.push(impulse);
+        let (mut scripts, pushed) = (Vec::new(), robot.now);
+        while robot.now < pushed + 1.5 {
+            robot.live(0.05, |_| {});
+            if let BodyMotion::Scripted(script) = robot.selection().current
+                && scripts.last() != Some(&script)
+            {
+                scripts.push(script);
+            }
+        }
+        assert!(scripts.contains(&expected), "{impulse:?}: {scripts:?}");
+        assert!(
+            tilt(&robot.truth()) > 1.0,
+            "{impulse:?} does not knock it over"
+        );
+    }
+}
+
+#[test]
+fn a_client_makes_the_robot_kick_with_either_foot() {
+    for (request, side, pose) in [
+        ("KickLeft", 1.0, "0.0,0.0,0.0"),
+        ("KickRight", -1.0, "1.0,1.0,2.0"),
+    ] {
+        let mut robot = Robot::driven(pose);
+        let place = robot.pose() * Point2::new(0.17, side * 0.05);
+        robot.nao.hardware.disturb(&Disturbance::MoveBall {
+            position: place.coords.push(0.05).cast::<f64>().into(),
+            velocity: Vector3::zeros(),
+        });
+        robot.greatest_lean();
+        call(&mut robot.nao.robot, "motion", json!(request));
+        robot.live(8.0, |_| {});
+        let (lean, ball) = (robot.greatest_lean(), robot.truth().ball);
+        let way = ball.expect("there is one").xy() - place;
+        let way = robot.pose().rotation.inverse() * way;
+        println!(
+            "{request}: {:.2} m at {:.2} rad, lean {lean:.2} rad",
+            way.norm(),
+            way.y.atan2(way.x)
+        );
+        assert!(lean < UPRIGHT, "it leant by {lean} rad");
+        assert!(robot.selection().is_at(BodyMotion::Stand), "it kicks on");
+        assert!(way.x > 0.3, "{way}");
+        assert!(way.y.atan2(way.x).abs() < 0.35, "{way}");
     }
 }

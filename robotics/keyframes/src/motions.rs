@@ -10,12 +10,19 @@ use crate::motion::Motion;
 #[derive(Clone, Debug, Deserialize, PartialEq, Reflect, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Motions {
+    /// From lying on the face.
     pub stand_up_front: Motion,
+    /// From lying on the back.
     pub stand_up_back: Motion,
+    /// While falling on the face.
     pub fall_forward: Motion,
+    /// While falling on the back.
     pub fall_backward: Motion,
+    /// While falling on an arm.
     pub fall_sideways: Motion,
+    /// With the left foot, straight ahead.
     pub kick_left: Motion,
+    /// With the right foot, straight ahead.
     pub kick_right: Motion,
 }
 
