@@ -91,6 +91,7 @@ pub fn set(timing: Timing) {
 }
 
 /// Which cycles are timed now.
+#[inline]
 pub fn current() -> Timing {
     const OFF: u8 = Timing::Off as u8;
     const SAMPLED: u8 = Timing::Sampled as u8;
@@ -104,12 +105,10 @@ pub fn current() -> Timing {
 /// Whether the cycle with this number is timed.
 #[inline]
 pub(crate) fn is_timed(cycle: u64) -> bool {
-    const OFF: u8 = Timing::Off as u8;
-    const SAMPLED: u8 = Timing::Sampled as u8;
-    match TIMING.load(Ordering::Relaxed) {
-        OFF => false,
-        SAMPLED => cycle.is_multiple_of(SAMPLED_EVERY),
-        _ => true,
+    match current() {
+        Timing::Off => false,
+        Timing::Sampled => cycle.is_multiple_of(SAMPLED_EVERY),
+        Timing::Complete => true,
     }
 }
 
