@@ -10,14 +10,14 @@ use serde_json::{Value, json};
 use super::odd::{Odd, Tree, odd};
 use super::{Everything, everything, path, paths};
 
-fn bytes_of(value: &dyn Reflect) -> Vec<u8> {
+pub(crate) fn bytes_of(value: &dyn Reflect) -> Vec<u8> {
     let mut bytes = Vec::new();
     encode(value, &mut bytes).expect("it has a binary form");
     bytes
 }
 
 /// The layout as a client gets it.
-fn layout(shape: &Shape) -> Layout {
+pub(crate) fn layout(shape: &Shape) -> Layout {
     let json = serde_json::to_string(&shape.layout()).expect("it is plain");
     serde_json::from_str(&json).expect("it is its own")
 }

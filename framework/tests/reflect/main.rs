@@ -3,6 +3,7 @@
 #![expect(clippy::disallowed_types, reason = "authors may exchange hash maps")]
 
 mod binary;
+mod clients;
 mod odd;
 mod schema;
 
