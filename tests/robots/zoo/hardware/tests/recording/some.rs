@@ -91,7 +91,8 @@ fn a_ring_keeps_whole_chunks() {
         budget: 24 << 10,
         block_bytes: 2 << 10,
         chunk_bytes: 12 << 10,
-        blocks: 64,
+        // Lockstep is faster than the writer: room for all of it.
+        blocks: 4096,
         ..SMALL
     };
     record_in_lockstep(&tape.path, settings, on, &as_it_is);
@@ -103,7 +104,8 @@ fn a_ring_keeps_whole_chunks() {
     );
     let verification = tape.verify();
     assert_eq!(verification.divergence, None);
-    assert!(verification.instances[3].verified > 0, "{verification}");
+    let verified: u64 = verification.instances.iter().map(|one| one.verified).sum();
+    assert!(verified > 50, "{verification}");
     for one in &verification.instances {
         assert_eq!(
             (one.verified + one.unfinished, &one.unreadable),
