@@ -87,7 +87,8 @@ class Reader:
 
     def integer(self, bits, signed):
         value = int.from_bytes(self.take(bits // 8), "little", signed=signed)
-        return str(value) if bits > 64 else value
+        fits = -(2**63) <= value < 2**63 if signed else value < 2**64
+        return value if fits else str(value)
 
     def value(self, layout, depth):
         if depth > self.DEEPEST:

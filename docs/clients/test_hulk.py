@@ -8,6 +8,22 @@ sys.dont_write_bytecode = True
 import hulk
 
 
+def difference(one, other, path=""):
+    """Where they are not the same."""
+    for below, (left, right) in parts(one, other):
+        if not same(left, right):
+            return difference(left, right, f"{path}.{below}")
+    return f"{path}: {one!r} is not {other!r}"
+
+
+def parts(one, other):
+    if isinstance(one, dict) and isinstance(other, dict) and one.keys() == other.keys():
+        return [(key, (one[key], other[key])) for key in one]
+    if isinstance(one, list) and isinstance(other, list) and len(one) == len(other):
+        return list(enumerate(zip(one, other)))
+    return []
+
+
 def same(one, other):
     """As JSON; numbers of 32 bits are written with fewer digits than they have as 64."""
     if isinstance(one, dict) and isinstance(other, dict):
@@ -34,7 +50,7 @@ with open(sys.argv[1], encoding="utf-8") as corpus:
         try:
             read = hulk.decode(case["layout"], bytes.fromhex(case["bytes"]))
             assert "value" in case, f"it reads what the reference refuses: {line}"
-            assert same(read, case["value"]), f"{read}\n{case['value']}"
+            assert same(read, case["value"]), difference(read, case["value"])
         except hulk.Malformed as error:
             assert "value" not in case, f"it refuses what the reference reads: {error}: {line}"
         count += 1

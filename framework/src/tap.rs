@@ -96,12 +96,15 @@ trait AnyQueue: Send {
     fn dropped(&self) -> u64;
 }
 
+/// What an output looks like.
+type ShapeOf = fn() -> Shape;
+
 /// Sees the outputs once, to make both ends for their types.
 pub(crate) struct TapBuilder<'names> {
     main: &'names [&'static str],
     subscriptions: &'names Subscriptions,
     ends: Vec<End>,
-    queues: Vec<(Box<dyn AnyQueue>, fn() -> Shape)>,
+    queues: Vec<(Box<dyn AnyQueue>, ShapeOf)>,
 }
 
 /// Copies what is wanted.

@@ -146,7 +146,15 @@ fn the_json_has_the_keys_of_the_contract() {
     };
     assert_eq!(
         keys(&json),
-        ["version", "target", "duration_s", "instances", "recording"]
+        [
+            "version",
+            "target",
+            "duration_s",
+            "instances",
+            "recording",
+            "recording_state",
+            "recorded"
+        ]
     );
     let instance = &json["instances"][1];
     assert_eq!(

@@ -438,8 +438,10 @@ export type Update = {
   cycle: number;
   /** Timestamp of that cycle, in nanoseconds of the robot's clock. */
   time: number;
-  /** Null: the output is absent. */
+  /** Null: the part is not there in this cycle. */
   value: Json;
+  /** Whether a client has put it in place of what the node wrote. */
+  injected?: boolean;
 };
 
 /** A value of one cycle. */
@@ -448,8 +450,10 @@ export type Value = {
   cycle: number;
   /** Timestamp of that cycle, in nanoseconds of the robot's clock. */
   time: number;
-  /** Null: the output is absent, or the part is not there in the active variant. */
+  /** Null: the part is not there in this cycle. */
   value: Json;
+  /** Whether a client has put it in place of what the node wrote. */
+  injected?: boolean;
 };
 
 /** Who speaks. */

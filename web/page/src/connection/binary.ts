@@ -154,7 +154,8 @@ class Reader {
     let value = isSigned ? view.getBigInt64(high, true) : view.getBigUint64(high, true);
     if (bits === 64) return Number(value);
     value = (value << 64n) | view.getBigUint64(start, true);
-    return value.toString();
+    const fits = isSigned ? BigInt.asIntN(64, value) === value : BigInt.asUintN(64, value) === value;
+    return fits ? Number(value) : value.toString();
   }
 
   private string(): string {
