@@ -141,7 +141,8 @@ impl Keyframe {
         };
         for (joint, angle) in pose.iter() {
             let nearest = limits::clamp(joint, *angle);
-            if !((angle - nearest).abs() <= ROUNDING) {
+            let off = (angle - nearest).abs();
+            if off.is_nan() || off > ROUNDING {
                 return Some(format!(
                     "{joint:?} cannot turn to {angle} rad, only to {nearest}"
                 ));

@@ -130,7 +130,7 @@ fn a_good_client_has_no_gap_whatever_others_do() {
         for _ in 0..400 {
             expected += 1;
             assert_eq!(good.update(cycles)["cycle"], json!(expected));
-            if expected % 100 == 0 {
+            if expected.is_multiple_of(100) {
                 good.ok(json!({ "read": { "path": "Control.main_outputs.pose" } }));
             }
         }
