@@ -2,10 +2,10 @@
 //!
 //! Written by `hulkgen generate` from hulk.toml and the nodes it names. Do not edit.
 
-use framework::error::Result;
+use framework::Result;
+use framework::Timestamp;
 use framework::replay::Replayable;
 use framework::replay::no_hardware;
-use framework::time::Timestamp;
 use hardware::ActuatorInterface;
 use hardware::CameraInterface;
 use hardware::MessageInterface;

@@ -1,8 +1,9 @@
 //! The graph as JSON, and the hash by which recordings and clients recognise it.
 
-use serde_json::Value;
+use serde_json::{Map, Value};
 
 use super::Graph;
+use crate::model::DO_NOT_EDIT;
 
 /// The JSON form, one key a line.
 pub fn render(graph: &Graph) -> String {
@@ -14,8 +15,14 @@ pub fn render(graph: &Graph) -> String {
 /// The JSON form without lines of fields, for the robot's own program: a comment in a node's file changes nothing. One
 /// entry of a list a line, so that a change of the robot is a change of its lines.
 pub fn render_for_clients(graph: &Graph) -> String {
-    let mut value = serde_json::to_value(graph).expect("a graph has only string keys");
-    remove_key(&mut value, "line");
+    let mut graph = serde_json::to_value(graph).expect("a graph has only string keys");
+    remove_key(&mut graph, "line");
+    // JSON has no comments: a key says it.
+    let mut entries = Map::from_iter([("generated".to_owned(), DO_NOT_EDIT.into())]);
+    if let Value::Object(graph) = graph {
+        entries.extend(graph);
+    }
+    let value = Value::Object(entries);
     let mut text = String::new();
     write_lines(&value, 2, "", &mut text);
     text.push('\n');

@@ -641,7 +641,7 @@ fn only_parameters_have_units_and_ranges() {
     for (field, marked, message) in [
         (
             "#[reflect(unit = \"m\")] a: Input<f32, \"a\">",
-            "#[reflect(unit = \"m\")]",
+            "Input<f32, \"a\">",
             "`Input` has no unit and no range: its type says them",
         ),
         (

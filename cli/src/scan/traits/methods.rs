@@ -92,7 +92,7 @@ impl Library<'_> {
                 }
             })
             .collect::<Option<_>>()?;
-        let arguments = arguments.join(", ");
+        let arguments = self.by_root(module, &arguments.join(", "));
         let (result, answer) = match output {
             ReturnType::Default => (String::new(), Answer::Nothing),
             ReturnType::Type(_, data) => {
@@ -104,7 +104,7 @@ impl Library<'_> {
                 } else {
                     Answer::Something
                 };
-                (format!(" -> {text}"), answer)
+                (format!(" -> {}", self.by_root(module, &text)), answer)
             }
         };
         Some(Method {
@@ -140,6 +140,31 @@ impl Library<'_> {
         });
         let arguments: Vec<String> = arguments.collect::<Option<_>>()?;
         Some(format!("{base}<{}>", arguments.join(", ")))
+    }
+}
+
+impl Library<'_> {
+    /// Types of the framework as it exports them at its root, wherever the robot's workspace has it: `framework::Result`.
+    fn by_root(&self, module: &Rc<Module>, text: &str) -> String {
+        let is_of_path = |letter: char| letter.is_alphanumeric() || "_:".contains(letter);
+        let pieces = text.split_inclusive(|letter| !is_of_path(letter));
+        let pieces = pieces.map(|piece| {
+            let path = piece.trim_end_matches(|letter| !is_of_path(letter));
+            let rest = &piece[path.len()..];
+            let root = self.root_of_framework(module, path);
+            format!("{}{rest}", root.as_deref().unwrap_or(path))
+        });
+        pieces.collect()
+    }
+
+    fn root_of_framework(&self, module: &Rc<Module>, path: &str) -> Option<String> {
+        let (_, name) = path.strip_prefix("framework::")?.rsplit_once("::")?;
+        let root = format!("framework::{name}");
+        let item = |path: &str| match self.find(module, &syn::parse_str(path).ok()?)? {
+            Found::Item(item) => Some((item.module.path.clone(), item.index)),
+            _ => None,
+        };
+        (item(&root)? == item(path)?).then_some(root)
     }
 }
 

@@ -37,7 +37,7 @@ pub(super) fn hint_mistake(kind: Kind, field: &syn::Field) -> Option<Mistake> {
             "`{}` has no unit and no range: its type says them",
             kind.name()
         );
-        return Some(mistake(attribute.span(), message).help("remove `#[reflect(…)]`"));
+        return Some(mistake(field.ty.span(), message).help("remove `#[reflect(…)]`"));
     }
     if hints.skip || hints.creation_only {
         let message = "a field of a context says `unit` and `range`: a parameter that only `new` reads is known to be";
