@@ -15,8 +15,8 @@ fn camera_matrices_project_the_penalty_mark_while_the_head_scans() {
     let (mut shown, mut near, mut worst) = (0, 0, 0.0_f32);
     let mut directions: Vec<f32> = Vec::new();
     for pose in WAYS {
-        // Before the kick-off nobody walks.
-        let mut nao = Nao::new(&["--pose", pose, "--game", "Set"], &[]);
+        // Before the kick-off, which no whistle announces, nobody walks.
+        let mut nao = Nao::new(&["--pose", pose, "--game", "Set", "--no-sound"], &[]);
         nao.run(20.0, |hardware, instance| {
             let Some(camera) = camera_of(instance) else {
                 return;

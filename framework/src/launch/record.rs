@@ -1,6 +1,7 @@
 //! The recording of a run.
 
 use std::fs;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::{SystemTime, UNIX_EPOCH};
 
@@ -12,7 +13,7 @@ use crate::recorded::{About, Recording, Settings};
 use crate::report::tell;
 use crate::robot::Robot;
 
-/// What a recording is called in its run's folder.
+/// What the first recording of a run's folder is called.
 const FILE: &str = "recording.mcap";
 
 /// Starts it, if one is wanted.
@@ -26,7 +27,7 @@ pub(super) fn start<P: ParameterData>(
     let path = match &options.record {
         Record::Off => return Ok(None),
         Record::Simulated if !is_simulated => return Ok(None),
-        Record::Simulated | Record::On => options.run_folder.join(FILE),
+        Record::Simulated | Record::On => free_place(&options.run_folder),
         Record::Into(path) => path.clone(),
     };
     if let Some(folder) = path.parent() {
@@ -42,6 +43,14 @@ pub(super) fn start<P: ParameterData>(
     let recording = Recording::start(&path, robot, about, settings)?;
     tell(format_args!("recording into {}", path.display()));
     Ok(Some(recording))
+}
+
+/// In a run folder: after an earlier run there, beside its recording.
+fn free_place(folder: &Path) -> PathBuf {
+    let again = (2_u32..).map(|number| format!("recording-{number}.mcap"));
+    let mut names = std::iter::once(FILE.to_owned()).chain(again);
+    let free = names.find(|name| !folder.join(name).exists());
+    folder.join(free.unwrap_or_else(|| FILE.to_owned()))
 }
 
 fn about<P: ParameterData>(
