@@ -139,15 +139,12 @@ impl<T> Swap<T> {
     /// Both at once, to read one while writing the other.
     #[inline]
     pub fn both(&mut self) -> (&mut T, &T) {
-        let [first, second] = &mut self.values;
-        if self.second_is_current {
-            (second, first)
-        } else {
-            (first, second)
-        }
+        let (current, previous) = self.both_to_load();
+        (current, previous)
     }
 
     /// Both at once, to make them what they were.
+    #[inline]
     pub fn both_to_load(&mut self) -> (&mut T, &mut T) {
         let [first, second] = &mut self.values;
         if self.second_is_current {

@@ -192,12 +192,7 @@ impl<'a> OutputVisitor<'a> for TapBuilder<'_> {
 
 impl TapBuilder<'_> {
     fn finish(self) -> (Taps, Vec<Tap>, Reports) {
-        let open = self.queues.iter().map(|_| AtomicBool::new(false));
-        let wishes = Arc::new(Wishes {
-            changes: AtomicU32::new(0),
-            open: open.collect(),
-            report: AtomicBool::new(false),
-        });
+        let wishes = Arc::new(Wishes::for_outputs(self.queues.len()));
         let main = self.main.iter().map(|name| (*name, OutputKind::Main));
         let additional = self.subscriptions.names().iter();
         let names = main.chain(additional.map(|name| (*name, OutputKind::Additional)));
@@ -306,11 +301,7 @@ impl Reports {
     /// Of an instance that tells nothing.
     pub fn silent() -> Self {
         Self {
-            wishes: Arc::new(Wishes {
-                changes: AtomicU32::new(0),
-                open: Box::default(),
-                report: AtomicBool::new(false),
-            }),
+            wishes: Arc::new(Wishes::for_outputs(0)),
             receiver: sync_channel(1).1,
         }
     }
@@ -328,6 +319,15 @@ impl Reports {
 }
 
 impl Wishes {
+    /// Nobody wants anything of so many outputs.
+    fn for_outputs(count: usize) -> Self {
+        Self {
+            changes: AtomicU32::new(0),
+            open: (0..count).map(|_| AtomicBool::new(false)).collect(),
+            report: AtomicBool::new(false),
+        }
+    }
+
     fn wish(&self, index: usize, is_open: bool) {
         if let Some(open) = self.open.get(index) {
             open.store(is_open, Ordering::Relaxed);
