@@ -31,6 +31,7 @@ use std::time::Duration;
 use serde::de::DeserializeOwned;
 
 use crate::context::{AdditionalOutput, AdditionalSlot};
+use crate::launch::Target;
 use crate::parameters;
 use crate::time::{CycleTime, Timestamp};
 
@@ -38,6 +39,20 @@ pub use generated::{assert_generated, assert_generated_with};
 pub use parameter_file::ParameterFile;
 pub use skipped::skip;
 pub use temporal::*;
+
+/// A target without identities, graph and replay, whose parameters lie in `parameters`: `Target { name: "lab", ..TARGET }`.
+pub const TARGET: Target = Target {
+    robot: "test",
+    name: "simulated",
+    parameters: "parameters",
+    location: None,
+    identities: &[],
+    graph: "",
+    recording_budget: 1 << 20,
+    manifest: "",
+    dataflow: "",
+    replayables: &[],
+};
 
 /// A point in time, in milliseconds since the start of the run.
 pub fn at_millis(millis: u64) -> Timestamp {

@@ -6,7 +6,8 @@ use std::thread;
 use std::time::Duration;
 
 use framework::LiveParameters;
-use framework::launch::{self, Target};
+use framework::launch;
+use framework::testing::TARGET;
 use framework::{Hardware, HardwareContext, Result, Robot, Start, buffer_of};
 
 static IN_SAFE_STATE: AtomicBool = AtomicBool::new(false);
@@ -37,18 +38,6 @@ impl Hardware for InterruptedHardware {
 fn an_interrupted_run_reports_and_ends_with_130() {
     let directory = tempfile::tempdir().expect("a temporary directory");
     std::fs::write(directory.path().join("default.toml"), "").expect("can be written");
-    let target = Target {
-        robot: "test",
-        name: "simulated",
-        parameters: "parameters",
-        location: None,
-        identities: &[],
-        graph: "",
-        recording_budget: 1 << 20,
-        manifest: "",
-        dataflow: "",
-        replayables: &[],
-    };
     let arguments = [
         "--parameters".into(),
         directory.path().into(),
@@ -68,7 +57,7 @@ fn an_interrupted_run_reports_and_ends_with_130() {
     };
     let mut output = Vec::new();
     assert_eq!(
-        launch::run(target, arguments, &mut output, create, launch::nobody),
+        launch::run(TARGET, arguments, &mut output, create, launch::nobody),
         130
     );
     assert!(

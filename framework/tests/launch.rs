@@ -8,6 +8,7 @@ use std::time::Duration;
 
 use framework::LiveParameters;
 use framework::launch::{self, Target};
+use framework::testing;
 use framework::{
     Clock, Hardware, HardwareContext, Parameter, Reflect, Result, Robot, Start, Stop, buffer_of,
 };
@@ -15,16 +16,8 @@ use serde::{Deserialize, Serialize};
 use tempfile::TempDir;
 
 const TARGET: Target = Target {
-    robot: "test",
-    name: "simulated",
-    parameters: "parameters",
-    location: None,
     identities: &["body", "head"],
-    graph: "",
-    recording_budget: 1 << 20,
-    manifest: "",
-    dataflow: "",
-    replayables: &[],
+    ..testing::TARGET
 };
 
 #[derive(Clone, Debug, Deserialize, Reflect, Serialize)]

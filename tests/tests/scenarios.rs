@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use framework::launch::{self, Target};
 use framework::scenario::Scenario;
+use framework::testing;
 use nao_runtime::runtime;
 use serde_json::Value;
 use simulated_nao::Hardware;
@@ -12,16 +13,10 @@ use support::nao::Nao;
 use support::root;
 
 const TARGET: Target = Target {
-    robot: "nao",
-    name: "simulated",
     parameters: "robotics/parameters",
     location: Some("simulated"),
     identities: &["body", "head"],
-    graph: "",
-    recording_budget: 0,
-    manifest: "",
-    dataflow: "",
-    replayables: &[],
+    ..testing::TARGET
 };
 
 fn files() -> Vec<PathBuf> {

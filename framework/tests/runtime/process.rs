@@ -8,7 +8,8 @@ use std::sync::Arc;
 use std::thread;
 use std::time::{Duration, Instant};
 
-use framework::launch::{self, Target};
+use framework::launch;
+use framework::testing::TARGET;
 use framework::{OnFailure, Start};
 use signal_hook::consts::SIGHUP;
 use signal_hook::low_level::raise;
@@ -36,23 +37,11 @@ impl Write for Closed {
 fn launch(arguments: &[&str], setting: &Setting) -> ! {
     let directory = tempfile::tempdir().expect("a temporary directory");
     std::fs::write(directory.path().join("default.toml"), "gain = 1").expect("can be written");
-    let target = Target {
-        robot: "test",
-        name: "simulated",
-        parameters: "parameters",
-        location: None,
-        identities: &[],
-        graph: "",
-        recording_budget: 1 << 20,
-        manifest: "",
-        dataflow: "",
-        replayables: &[],
-    };
     let mut all = vec![OsString::from("--parameters"), directory.path().into()];
     all.extend(arguments.iter().map(OsString::from));
     let create =
         |hardware: &Arc<ScriptedHardware>, _: Start<Parameters>| Ok(robot(hardware, setting));
-    let status = launch::run(target, all, &mut Closed, create, launch::nobody);
+    let status = launch::run(TARGET, all, &mut Closed, create, launch::nobody);
     drop(directory);
     std::process::exit(status.into())
 }

@@ -3,25 +3,13 @@
 use std::ffi::OsString;
 use std::sync::Arc;
 
-use framework::launch::{self, Target};
+use framework::launch;
+use framework::testing::TARGET;
 use framework::{Result, Robot, Start};
 use serde_json::Value;
 
 use crate::body::{Parameters, Setting, robot};
 use crate::scripted::ScriptedHardware;
-
-const TARGET: Target = Target {
-    robot: "test",
-    name: "simulated",
-    parameters: "parameters",
-    location: None,
-    identities: &[],
-    graph: "",
-    recording_budget: 1 << 20,
-    manifest: "",
-    dataflow: "",
-    replayables: &[],
-};
 
 /// Status and outcome of a scenario of one second, in which `Legs` has data every 10 ms and the world counts the events.
 fn play(scenario: &str, arguments: &[&str]) -> (u8, Value) {
