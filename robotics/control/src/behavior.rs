@@ -148,15 +148,8 @@ mod tests {
     use nalgebra::Point2;
     use types::ball::Ball;
 
+    use super::approach::tests::APPROACH;
     use super::*;
-
-    const APPROACH: Approach = Approach {
-        arrived: 0.2,
-        depart: 0.3,
-        ahead: 0.5,
-        forward: 0.06,
-        turn: 0.4,
-    };
 
     fn decision(world_state: &WorldState) -> MotionCommand {
         decision_with(world_state, None)

@@ -54,10 +54,10 @@ pub(super) fn step_towards(
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
 
-    const APPROACH: Approach = Approach {
+    pub(in crate::behavior) const APPROACH: Approach = Approach {
         arrived: 0.2,
         depart: 0.3,
         ahead: 0.5,
