@@ -1,7 +1,8 @@
 //! The slots over memory that every cycle frees and allocates anew: who overwrites what is still read uses it after free.
+//! All of it comes from the allocator that counts.
 //!
-//! Includes the sources of `framework::buffer` and needs nothing else, so that `.ci/sanitize` can compile it with
-//! AddressSanitizer in seconds, once as it is and once with slots that are claimed while somebody holds them.
+//! Includes every source of the workspace with unsafe code and needs nothing else, so that `.ci/sanitize` can compile it
+//! with AddressSanitizer in seconds, once as it is and once with slots that are claimed while somebody holds them.
 #![expect(
     dead_code,
     unreachable_pub,
@@ -63,6 +64,17 @@ mod buffer {
     pub use writer::Writer;
 }
 
+#[path = "../../src/timing"]
+mod timing {
+    mod allocations;
+    mod ticks;
+
+    pub use allocations::CountingAllocator;
+}
+
+#[global_allocator]
+static ALLOCATOR: timing::CountingAllocator = timing::CountingAllocator;
+
 type Pages = Vec<u64>;
 
 /// Frees what the slot held.
@@ -94,6 +106,18 @@ fn what_was_taken_is_not_overwritten() {
     let pages = queue.get(0).expect("it was taken").value.as_slice();
     (2..100).for_each(|cycle| write(&mut writer, cycle));
     assert_whole(pages, 1);
+}
+
+#[test]
+fn memory_that_grows_and_shrinks_is_counted_and_whole() {
+    let before = timing::CountingAllocator::of_this_thread().expect("it is installed");
+    let mut pages = vec![0_u64; 7];
+    (1..1000).for_each(|word| pages.push(word));
+    pages.truncate(100);
+    pages.shrink_to_fit();
+    assert_eq!(pages.last(), Some(&93));
+    let after = timing::CountingAllocator::of_this_thread().expect("it is installed");
+    assert!(after - before >= 3, "{} allocations", after - before);
 }
 
 fn read(mut reader: Reader<Pages>, is_over: &AtomicBool) {
