@@ -27,6 +27,10 @@ pub struct GroundTruth {
     pub torso_to_field: Isometry3<f32>,
     /// From the ground frame (on the floor midway between the soles) to the field frame.
     pub ground_to_field: Isometry3<f32>,
+    /// How far the robot has gone over the floor, m: from place to place, a second apart.
+    pub walked: f64,
+    /// How many commands have come until now that want a joint beyond its limits.
+    pub harmful_commands: u64,
     /// Centre of the ball in the field frame, m.
     pub ball: Option<Point3<f32>>,
     /// The other robots.
@@ -96,7 +100,7 @@ pub struct GoalPostTruth {
 }
 
 impl GroundTruth {
-    pub(crate) fn new(world: &World) -> Self {
+    pub(crate) fn new(world: &World, harmful_commands: u64) -> Self {
         let body = world.body();
         Self {
             now: world.now(),
@@ -104,6 +108,8 @@ impl GroundTruth {
             commands: *world.commands(),
             torso_to_field: body.torso_to_field.cast(),
             ground_to_field: body.ground_to_field().cast(),
+            walked: world.walked(),
+            harmful_commands,
             ball: world.ball().map(|ball| ball.cast()),
             robots: world.robots().to_vec(),
             obstacles: world.obstacles().collect(),

@@ -13,7 +13,9 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use framework::{Error, Result};
+use kinematics::limits;
 use lola::Command;
+use types::joints::JointName;
 use types::motor_commands::MotorCommands;
 
 use self::command::CommandStream;
@@ -28,6 +30,8 @@ pub(crate) struct LolaServer {
     command: Command,
     /// The newest commands for motors, each with its number; for tests.
     commands: VecDeque<(u64, MotorCommands)>,
+    /// How many wanted a joint beyond its limits.
+    harmful: u64,
 }
 
 /// So many commands are remembered: 6 s of a robot that sends every 12 ms.
@@ -53,6 +57,7 @@ impl LolaServer {
             received: CommandStream::default(),
             command,
             commands: VecDeque::new(),
+            harmful: 0,
         })
     }
 
@@ -112,7 +117,13 @@ impl LolaServer {
         self.commands.iter().copied().collect()
     }
 
+    /// How many commands have wanted a joint beyond its limits.
+    pub(crate) fn harmful(&self) -> u64 {
+        self.harmful
+    }
+
     fn remember(&mut self) {
+        self.harmful += u64::from(is_harmful(&self.command.motors));
         let number = self.commands.back().map_or(0, |(last, _)| last + 1);
         if self.commands.len() == REMEMBERED {
             self.commands.pop_front();
@@ -156,6 +167,12 @@ impl Drop for LolaServer {
     }
 }
 
+/// Whether it wants a joint beyond its limits, or nowhere; 32 bits round by less than 1e-6 rad.
+fn is_harmful(commands: &MotorCommands) -> bool {
+    let beyond = |(joint, angle): (JointName, &f32)| (angle - limits::clamp(joint, *angle)).abs();
+    !commands.positions.iter().map(beyond).all(|by| by < 1e-6)
+}
+
 fn listen(path: &Path) -> std::io::Result<UnixListener> {
     let listener = match UnixListener::bind(path) {
         Err(error) if error.kind() == ErrorKind::AddrInUse => {
@@ -192,6 +209,17 @@ mod tests {
         let error = LolaServer::new(path.clone(), MotorCommands::default()).unwrap_err();
         assert!(error.to_string().contains("no socket"), "{error}");
         assert_eq!(std::fs::read_to_string(path).unwrap(), "precious");
+    }
+
+    #[test]
+    fn commands_beyond_the_limits_of_a_joint_are_harmful() {
+        let mut commands =
+            MotorCommands::holding(crate::posture::sitting().map(|angle| angle as f32), 0.5);
+        assert!(!is_harmful(&commands));
+        for angle in [2.2, -0.2, f32::NAN] {
+            commands.positions.left_knee_pitch = angle;
+            assert!(is_harmful(&commands), "{angle}");
+        }
     }
 
     #[test]

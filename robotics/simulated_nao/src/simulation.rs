@@ -226,7 +226,7 @@ impl Simulation {
             }
             Step::RefereeSpeaks => self.network.referee_speaks(at)?.then_some("SplNetwork"),
             Step::MateSpeaks => {
-                let truth = || GroundTruth::new(&self.world);
+                let truth = || GroundTruth::new(&self.world, self.server.harmful());
                 let has_arrived = self.network.mate_speaks(at, truth)?;
                 has_arrived.then_some("SplNetwork")
             }
@@ -379,7 +379,7 @@ impl Simulation {
     }
 
     pub(crate) fn ground_truth(&self) -> GroundTruth {
-        GroundTruth::new(&self.world)
+        GroundTruth::new(&self.world, self.server.harmful())
     }
 
     pub(crate) fn bodies(&self) -> Vec<BodyTruth> {

@@ -7,6 +7,7 @@ mod power;
 mod sensors;
 mod sonar;
 mod touch;
+mod way;
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -27,6 +28,7 @@ use self::inertial::InertialUnit;
 use self::motor_boards::MotorBoards;
 use self::power::Power;
 pub(crate) use self::sonar::NO_ECHO;
+use self::way::Way;
 use crate::camera::{Exposure, OwnBody};
 use crate::field::Field;
 use crate::physics::{Body, Disturbance, Dynamic, Kinematic, Physics, STEP, Situation, Start};
@@ -44,6 +46,7 @@ pub(crate) struct World {
     physics: Box<dyn Physics>,
     /// When the last step of the physics was.
     stepped: Timestamp,
+    way: Way,
     inertial: InertialUnit,
     imperfections: Imperfections,
     motors: MotorBoards,
@@ -68,6 +71,7 @@ impl World {
             field: Arc::default(),
             now: Timestamp::ZERO,
             stepped: Timestamp::ZERO,
+            way: Way::new(place(&physics.bodies()[0])),
             inertial: InertialUnit::default(),
             imperfections: Imperfections::new(&settings.imperfections),
             motors: MotorBoards::new(&joints),
@@ -96,6 +100,11 @@ impl World {
 
     pub(crate) fn ball(&self) -> Option<Point3<f64>> {
         self.physics.ball().map(|ball| ball.position)
+    }
+
+    /// How far the robot has gone over the floor, m.
+    pub(crate) fn walked(&self) -> f64 {
+        self.way.length()
     }
 
     pub(crate) fn robots(&self) -> &[Robot] {
@@ -127,6 +136,7 @@ impl World {
         self.power
             .advance(time - self.now, &self.motors.commands().stiffnesses);
         self.now = time;
+        self.way.go(time, place(self.body()));
     }
 
     /// Leaves out the time until `time`: nothing moves.
@@ -138,6 +148,10 @@ impl World {
     /// Does to the world what no motor does.
     pub(crate) fn disturb(&mut self, disturbance: &Disturbance) {
         self.physics.disturb(disturbance);
+        if let Disturbance::Kidnap { robot: 0, .. } = disturbance {
+            let place = place(self.body());
+            self.way.carry(place);
+        }
     }
 
     /// Somebody presses a button.
@@ -206,6 +220,11 @@ impl World {
 
 /// Nearer than this, m, a bystander is where it was: a body at rest trembles less.
 const STILL: f64 = 1e-4;
+
+/// Midway between its soles, in the field frame, m.
+fn place(body: &Body) -> Point2<f64> {
+    body.ground_to_field().translation.vector.xy().into()
+}
 
 /// What the settings put on the field; the robot sits and waits.
 fn situation(settings: &Settings) -> Situation {

@@ -61,7 +61,7 @@ impl Deed {
 
     /// Does it.
     pub(super) fn happen(&self, simulation: &mut Simulation) -> Result<()> {
-        let truth = GroundTruth::new(simulation.world());
+        let truth = simulation.ground_truth();
         for disturbance in self.disturbances(&truth)? {
             simulation.world_mut().disturb(&disturbance);
         }
@@ -111,8 +111,8 @@ impl Deed {
 
 /// What is really the case: lengths in m, angles in rad, in the field frame unless it says otherwise.
 ///
-/// `x`, `y`, `heading` of the robot, `tilt` and `height` of its torso; `ball.x`, `ball.y`, and from the robot
-/// `ball.ahead`, `ball.aside`, `ball.distance`.
+/// `x`, `y`, `heading` of the robot, how far it `walked`, `tilt` and `height` of its torso; `harmful_commands`, how many
+/// wanted a joint beyond its limits; `ball.x`, `ball.y`, and from the robot `ball.ahead`, `ball.aside`, `ball.distance`.
 pub(super) fn truth(truth: &GroundTruth) -> Value {
     let ground: Isometry3<f64> = truth.ground_to_field.cast();
     let torso: Isometry3<f64> = truth.torso_to_field.cast();
@@ -129,6 +129,8 @@ pub(super) fn truth(truth: &GroundTruth) -> Value {
         "x": ground.translation.x,
         "y": ground.translation.y,
         "heading": heading(&torso),
+        "walked": truth.walked,
+        "harmful_commands": truth.harmful_commands,
         "tilt": up.z.clamp(-1.0, 1.0).acos(),
         "height": torso.translation.z,
         "ball": ball,
