@@ -8,6 +8,7 @@ use control::behavior::Approach;
 use control::fall_state_filter::Sitting;
 use control::fall_state_filter::TiltLimits;
 use control::obstacle_filter::ObstacleFilterParameters;
+use control::walking_engine::Heat;
 use framework::Reflect;
 use keyframes::Motions;
 use serde::Deserialize;
@@ -86,6 +87,8 @@ pub struct Parameters {
     pub vision_top: VisionInstance,
     /// control::client_wishes, control::motion_dispatcher, control::walking_engine
     pub walking_engine: walking::Parameters,
+    /// control::walking_engine
+    pub walking_heat: Heat,
     /// audio::whistle_detection, control::tone_selector
     pub whistle_detection: WhistleDetectionParameters,
     pub whistle_filter: WhistleFilter,

@@ -1285,7 +1285,8 @@ impl Nodes {
     }
 
     /// motion_command, motion_selection, sensor_data.inertial.gyroscope,
-    /// sensor_data.force_sensitive_resistors, state safe_exits.walk -> walk_commands
+    /// sensor_data.force_sensitive_resistors, sensor_data.temperatures, state safe_exits.walk
+    /// -> walk_commands
     #[inline(always)]
     fn walking_engine<Hardware>(
         &mut self,
@@ -1296,9 +1297,11 @@ impl Nodes {
             motion_selection: &frame.own.motion_selection,
             gyroscope: &frame.own.sensor_data.inertial.gyroscope,
             resistors: &frame.own.sensor_data.force_sensitive_resistors,
+            temperatures: &frame.own.sensor_data.temperatures,
             cycle_time: frame.cycle.time,
             safe_exit: &mut frame.cycler_state.safe_exits.walk,
             parameters: &frame.parameters.walking_engine,
+            heat: &frame.parameters.walking_heat,
         };
         let outputs = self
             .walking_engine

@@ -2,11 +2,12 @@
 //!
 //! What it computes stands in the crate `walking`; the node gives it the robot's senses and says when the walk can be left.
 
-use framework::{CycleTime, CyclerState, Input, MainOutput, Parameter, Result, context};
+use framework::{CycleTime, CyclerState, Input, MainOutput, Parameter, Reflect, Result, context};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 use types::feet::Feet;
-use types::motion::{BodyMotion, MotionCommand, MotionSelection};
+use types::joints::Joints;
+use types::motion::{BodyMotion, MotionCommand, MotionSelection, Step};
 use types::motor_commands::MotorCommands;
 use walking::{Engine, Parameters, Senses};
 
@@ -19,6 +20,16 @@ pub struct WalkingEngine {
     engine: Engine,
 }
 
+/// From which heat on motors of the legs are spared.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Heat {
+    /// In °C, of the hottest motor of the legs: from here on steps become shorter.
+    pub shorter_from: f32,
+    /// In °C: from here on the robot stands still.
+    pub stops_at: f32,
+}
+
 #[context]
 pub struct CreationContext {}
 
@@ -29,12 +40,15 @@ pub struct CycleContext {
     gyroscope: Input<Vector3<f32>, "sensor_data.inertial.gyroscope">,
     // Not the smoothed ones: they would feel the floor later.
     resistors: Input<Feet<[f32; 4]>, "sensor_data.force_sensitive_resistors">,
+    temperatures: Input<Joints<f32>, "sensor_data.temperatures">,
     cycle_time: CycleTime,
     /// Whether both feet stand side by side.
     safe_exit: CyclerState<bool, "safe_exits.walk">,
 
     /// Everything about the walk that can be tuned.
     parameters: Parameter<Parameters, "walking_engine">,
+    /// How hot motors may become.
+    heat: Parameter<Heat, "walking_heat">,
 }
 
 #[context]
@@ -61,17 +75,37 @@ impl WalkingEngine {
             });
         }
         let command = context.motion_command;
-        let wanted = (command.body == BodyMotion::Walk).then_some(command.step);
+        let left = context.heat.left(context.temperatures);
+        let walks = command.body == BodyMotion::Walk && left > 0.0;
+        let wanted = walks.then(|| Step {
+            forward: left * command.step.forward,
+            left: left * command.step.left,
+            turn: left * command.step.turn,
+        });
         let senses = Senses {
             since_last: context.cycle_time.since_last.as_secs_f32(),
             angular_velocity: [context.gyroscope.x, context.gyroscope.y],
             pressures: shares(context.resistors),
         };
         let commands = self.engine.cycle(wanted, &senses, context.parameters);
-        *context.safe_exit = wanted.is_none() && self.engine.is_standing();
+        *context.safe_exit = command.body != BodyMotion::Walk && self.engine.is_standing();
         Ok(MainOutputs {
             walk_commands: Some(commands).into(),
         })
+    }
+}
+
+impl Heat {
+    /// Share of every step that is left at these temperatures (°C), 0 to 1. A sensor that says no number says nothing.
+    fn left(&self, temperatures: &Joints<f32>) -> f32 {
+        let legs = temperatures.iter().filter(|(joint, _)| joint.is_of_leg());
+        let hottest = legs.map(|(_, celsius)| *celsius).fold(0.0, f32::max);
+        let left = (self.stops_at - hottest) / (self.stops_at - self.shorter_from);
+        if left.is_nan() {
+            0.0
+        } else {
+            left.clamp(0.0, 1.0)
+        }
     }
 }
 
@@ -93,7 +127,6 @@ fn shares(resistors: &Feet<[f32; 4]>) -> Feet<f32> {
 mod tests {
     use framework::testing::{self, ParameterFile};
     use kinematics::limits;
-    use types::motion::Step;
     use walking::standing_pose;
 
     use super::*;
@@ -113,6 +146,34 @@ mod tests {
 
     fn parameters() -> Parameters {
         ParameterFile::new(include_str!("../../parameters/default.toml")).get("walking_engine")
+    }
+
+    const HEAT: Heat = Heat {
+        shorter_from: 70.0,
+        stops_at: 75.0,
+    };
+
+    #[test]
+    fn hot_legs_take_shorter_steps_and_then_none() {
+        let mut temperatures = Joints::filled(40.0);
+        temperatures.head_yaw = 99.0;
+        for (celsius, left) in [
+            (40.0, 1.0),
+            (70.0, 1.0),
+            (72.5, 0.5),
+            (75.0, 0.0),
+            (99.0, 0.0),
+            (f32::INFINITY, 0.0),
+            (f32::NAN, 1.0),
+        ] {
+            temperatures.right_ankle_pitch = celsius;
+            assert_eq!(HEAT.left(&temperatures), left, "at {celsius} °C");
+        }
+        let nonsense = Heat {
+            shorter_from: f32::NAN,
+            ..HEAT
+        };
+        assert_eq!(nonsense.left(&temperatures), 0.0);
     }
 
     fn node() -> WalkingEngine {
@@ -140,9 +201,11 @@ mod tests {
                 left: [load; 4],
                 right: [load; 4],
             },
+            temperatures: &Joints::filled(40.0),
             cycle_time: testing::cycle_time(0, 12),
             safe_exit: &mut safe_exit,
             parameters: &parameters(),
+            heat: &HEAT,
         };
         let commands = node.cycle(context).unwrap().walk_commands.value;
         (commands, safe_exit)
