@@ -58,6 +58,32 @@ pub trait Hardware: Send + Sync {
         Err(Error::new("nothing can happen to this hardware"))
     }
 
+    /// A simulated world: the hardware of a further robot in the same one, with a clock of its own. Called before time begins.
+    ///
+    /// # Errors
+    /// Says why there is no room for it.
+    fn join(&self, _context: HardwareContext) -> Result<Self>
+    where
+        Self: Sized,
+    {
+        Err(Error::new("the world of this hardware has room for one robot"))
+    }
+
+    /// A simulated world: parameters that follow from which of its robots this is, as path and value. They stand above all
+    /// layers and below what a scenario says itself.
+    fn settings(&self) -> Vec<(String, String)> {
+        Vec::new()
+    }
+
+    /// A world with more than one robot: lets it go on once all of them have come as far as it, and says how far.
+    /// `next_event` of none of them tells what is later; it says `None` in its place, until the world has gone on.
+    ///
+    /// # Errors
+    /// Where the world has one robot, whose events are what lets it go on.
+    fn advance(&self) -> Result<Timestamp> {
+        Err(Error::new("the world of this hardware has one robot"))
+    }
+
     /// Lockstep: advances the world until the data of one instance is ready, equal times in manifest order; `None` at the
     /// end of the world.
     ///

@@ -8,10 +8,17 @@
 //! world = { robot_pose = [0.0, 0.0, 0.0] }   # over the parameters' [hardware.<target>]
 //! random = { robot_pose = [0.1, 0.1, 0.5] }  # drawn from the seed, up to so much more or less
 //!
+//! [[robot]]                                  # one for each robot, if there are several
+//! place = "left"                             # the key `robot` of its hardware's table, in the hardware's own words
+//! parameters = { name = "a" }                # above those of the scenario
+//! random = { pose = [0.1, 0.1, 0.5] }        # as above, of the numbers that stand here
+//!
 //! [[event]]
+//! robot = 2                                  # which robot it happens to, or whose hardware is told; 1 where it is left out
 //! at = 5.0                                   # s
 //! push = [0.0, 0.5, 0.0]                     # what the hardware understands
 //!
+//! # A call and an assertion say `robot = 2` likewise.
 //! [[call]]                                   # what a client asks, every 0.5 s unless `every` says otherwise
 //! path = "Control.procedures.walk"
 //! argument = { forward = 0.05 }
@@ -29,13 +36,14 @@
 
 mod assertion;
 mod draw;
+mod ensemble;
 mod file;
 mod judge;
 mod play;
 mod report;
 
 pub use assertion::{Assertion, Condition, Window};
-pub use file::{Call, Event, Scenario};
+pub use file::{Call, Event, Participant, Scenario};
 pub use judge::{Judge, Verdict};
-pub(crate) use play::play;
+pub(crate) use play::{Cast, Manner, play};
 pub use report::{Outcome, Played};

@@ -203,6 +203,11 @@ impl<'robot, P> Lockstep<'robot, P> {
         }
     }
 
+    /// The world that had no more events may have some now, as one that waits for other robots: it is asked again.
+    pub fn world_goes_on(&mut self) {
+        self.world_has_ended = false;
+    }
+
     /// Gives the nodes the actuators back before the next step.
     pub fn rearming(&self) -> Rearm {
         self.rearm.clone()

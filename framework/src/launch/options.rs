@@ -45,6 +45,10 @@ pub(super) struct Options {
     pub(super) seed: Option<u64>,
     /// With how many seeds a scenario is played.
     pub(super) repeat: Option<u64>,
+    /// On how many threads the robots of a scenario live.
+    pub(super) threads: Option<usize>,
+    /// Whether a scenario tells digests.
+    pub(super) digests: bool,
     /// `--listen`: nobody may come if it is `off`.
     pub(super) listen: Option<String>,
     pub(super) token: Option<String>,
@@ -108,6 +112,8 @@ Usage: {name} [OPTIONS] [-- HARDWARE OPTIONS]
   --scenario FILE     play it in lockstep in place of running; the exit status says whether it passed
   --seed NUMBER       what a scenario draws its random numbers from; 1 without it
   --repeat COUNT      play a scenario with so many seeds, one after the other
+  --threads COUNT     let a scenario's robots live on so many threads; changes nothing but the time it takes
+  --digests           tell a digest of all that each robot of a scenario wrote
   --listen ADDRESS    where clients connect, e.g. 0.0.0.0:4857; off: nowhere; default: this machine alone, port 4857 or a free one
   --token TOKEN       clients have to know it before they may change anything; without it none from other machines may
   --read-only         no client may change anything
@@ -153,6 +159,8 @@ pub(super) fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Com
             Arg::Long("scenario") => options.scenario = Some(parser.value()?.into()),
             Arg::Long("seed") => options.seed = Some(parser.value()?.parse()?),
             Arg::Long("repeat") => options.repeat = Some(parser.value()?.parse()?),
+            Arg::Long("threads") => options.threads = Some(parser.value()?.parse()?),
+            Arg::Long("digests") => options.digests = true,
             Arg::Long("listen") => options.listen = Some(parser.value()?.string()?),
             Arg::Long("token") => options.token = Some(parser.value()?.string()?),
             Arg::Long("read-only") => options.is_read_only = true,
@@ -289,6 +297,8 @@ mod tests {
             "--seed=7",
             "--repeat",
             "3",
+            "--threads=2",
+            "--digests",
             "--listen",
             "0.0.0.0:1",
             "--token=secret",
@@ -317,6 +327,8 @@ mod tests {
             scenario: Some("s.toml".into()),
             seed: Some(7),
             repeat: Some(3),
+            threads: Some(2),
+            digests: true,
             listen: Some("0.0.0.0:1".to_owned()),
             token: Some("secret".to_owned()),
             is_read_only: true,

@@ -30,6 +30,17 @@ pub(super) fn start<P: ParameterData>(
         Record::Simulated | Record::On => free_place(&options.run_folder),
         Record::Into(path) => path.clone(),
     };
+    start_into(&path, target, options, robot, identities).map(Some)
+}
+
+/// Starts it there.
+pub(super) fn start_into<P: ParameterData>(
+    path: &Path,
+    target: &Target,
+    options: &Options,
+    robot: &Robot<P>,
+    identities: &[(String, String)],
+) -> Result<Recording> {
     if let Some(folder) = path.parent() {
         fs::create_dir_all(folder).map_err(|error| {
             Error::from(error).context(format!("cannot create {}", folder.display()))
@@ -40,9 +51,9 @@ pub(super) fn start<P: ParameterData>(
         ..Settings::default()
     };
     let about = about(target, options, robot, identities);
-    let recording = Recording::start(&path, robot, about, settings)?;
+    let recording = Recording::start(path, robot, about, settings)?;
     tell(format_args!("recording into {}", path.display()));
-    Ok(Some(recording))
+    Ok(recording)
 }
 
 /// In a run folder: after an earlier run there, beside its recording.

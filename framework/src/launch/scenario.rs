@@ -1,18 +1,19 @@
 //! `--scenario`: plays a file in place of running, and tells what came of it.
 
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::options::{Format, Options};
-use super::{DONE, FAILED, Target, known_identities, layers};
+use super::options::{Format, Options, Record};
+use super::{DONE, FAILED, Target, known_identities, layers, record};
 use crate::clock::Clock;
 use crate::data::ParameterData;
 use crate::error::{Error, Result};
 use crate::hardware::{Hardware, HardwareContext};
+use crate::recorded::Recording;
 use crate::report::tell;
 use crate::robot::{Robot, Start};
-use crate::scenario::{Outcome, Played, Scenario, play};
+use crate::scenario::{Cast, Manner, Outcome, Played, Scenario, play};
 use crate::stop::Stop;
 
 /// Plays it with every seed; gives the exit status.
@@ -24,12 +25,18 @@ pub(super) fn run<H: Hardware, P: ParameterData>(
     output: &mut dyn Write,
     create: &mut impl FnMut(&Arc<H>, Start<P>) -> Result<Robot<P>>,
 ) -> Result<u8> {
-    let scenario = Scenario::load(file)?;
+    let stage = Stage {
+        target,
+        options,
+        scenario: Scenario::load(file)?,
+        file,
+        stop,
+    };
     let mut runs: Vec<Played> = Vec::new();
     let first = options.seed.unwrap_or(1);
     for seed in first..first.saturating_add(options.repeat.unwrap_or(1)) {
         stop.check()?;
-        let played = play_once(target, options, &scenario, seed, stop, create);
+        let played = stage.play(seed, create);
         let played =
             played.map_err(|error| error.context(format!("scenario {}", file.display())))?;
         if options.format == Format::Text {
@@ -44,11 +51,11 @@ pub(super) fn run<H: Hardware, P: ParameterData>(
         clippy::cast_sign_loss,
         reason = "seeds are few"
     )]
-    let needed = (scenario.passes * runs.len() as f64 - 1e-9).ceil() as usize;
+    let needed = (stage.scenario.passes * runs.len() as f64 - 1e-9).ceil() as usize;
     let outcome = Outcome {
         version: 1,
         scenario: file.to_owned(),
-        about: scenario.about,
+        about: stage.scenario.about,
         passed: passes >= needed,
         passes,
         needed,
@@ -62,37 +69,136 @@ pub(super) fn run<H: Hardware, P: ParameterData>(
     Ok(if outcome.passed { DONE } else { FAILED })
 }
 
-fn play_once<H: Hardware, P: ParameterData>(
-    target: &Target,
-    options: &Options,
-    scenario: &Scenario,
-    seed: u64,
-    stop: &Stop,
-    create: &mut impl FnMut(&Arc<H>, Start<P>) -> Result<Robot<P>>,
-) -> Result<Played> {
-    let clock = Clock::stepped();
-    // What somebody says on the command line wins.
-    let mut layers = layers(target, options);
-    layers
-        .settings
-        .splice(0..0, scenario.settings.iter().cloned());
-    let table = layers.load()?.hardware(target.name)?;
-    let hardware = H::new(HardwareContext {
-        options: options.hardware.clone(),
-        table: scenario.world(table, seed)?,
-        run_folder: options.run_folder.clone(),
-        clock: clock.clone(),
-        stop: stop.clone(),
-    });
-    let hardware = Arc::new(
-        hardware.map_err(|error| error.context(format!("hardware of `{}`", target.name)))?,
-    );
-    layers.identities = known_identities(target, hardware.identities());
-    let start = Start {
-        clock,
-        stop: stop.clone(),
-        parameters: layers.load()?.deserialize()?,
-    };
-    let mut robot = create(&hardware, start)?;
-    play(scenario, seed, &hardware, &mut robot)
+/// What is played, and how.
+struct Stage<'run> {
+    target: &'run Target,
+    options: &'run Options,
+    scenario: Scenario,
+    file: &'run Path,
+    stop: &'run Stop,
+}
+
+impl Stage<'_> {
+    /// Plays it once; and where it does not pass, once more for a recording: the same seed gives the same.
+    fn play<H: Hardware, P: ParameterData>(
+        &self,
+        seed: u64,
+        create: &mut impl FnMut(&Arc<H>, Start<P>) -> Result<Robot<P>>,
+    ) -> Result<Played> {
+        let record_always = matches!(self.options.record, Record::On);
+        let record_never = matches!(self.options.record, Record::Off);
+        let played = self.play_once(seed, record_always, create)?;
+        if played.passed || record_always || record_never {
+            return Ok(played);
+        }
+        let recorded = self.play_once(seed, true, create)?;
+        Ok(Played {
+            recordings: recorded.recordings,
+            ..played
+        })
+    }
+
+    fn play_once<H: Hardware, P: ParameterData>(
+        &self,
+        seed: u64,
+        is_recorded: bool,
+        create: &mut impl FnMut(&Arc<H>, Start<P>) -> Result<Robot<P>>,
+    ) -> Result<Played> {
+        let mut casts = Vec::new();
+        for robot in 0..self.scenario.robot_count() {
+            let mut cast = self.cast(robot, seed, &casts, create)?;
+            if is_recorded {
+                cast.recording = Some(self.record(robot, seed, &cast)?);
+            }
+            casts.push(cast);
+        }
+        let threads = || std::thread::available_parallelism().map_or(1, usize::from);
+        let manner = Manner {
+            threads: self.options.threads.unwrap_or_else(threads),
+            digests: self.options.digests,
+            stop: self.stop,
+        };
+        let mut played = play(&self.scenario, seed, &mut casts, &manner)?;
+        let recordings = casts.into_iter().filter_map(|cast| cast.recording);
+        played.recordings = recordings.map(end).collect();
+        Ok(played)
+    }
+
+    /// One robot in the world of those that are there already.
+    fn cast<H: Hardware, P: ParameterData>(
+        &self,
+        robot: usize,
+        seed: u64,
+        others: &[Cast<H, P>],
+        create: &mut impl FnMut(&Arc<H>, Start<P>) -> Result<Robot<P>>,
+    ) -> Result<Cast<H, P>> {
+        // One that stops ends nothing but itself.
+        let (clock, stop) = (Clock::stepped(), Stop::new());
+        let mut layers = layers(self.target, self.options);
+        // Later ones win: what somebody says on the command line stands behind.
+        let own = self.scenario.robots.get(robot);
+        let own = own.into_iter().flat_map(|robot| &robot.settings);
+        let settings = self.scenario.settings.iter().chain(own).cloned();
+        layers.settings.splice(0..0, settings);
+        let table = layers.load()?.hardware(self.target.name)?;
+        let context = HardwareContext {
+            options: self.options.hardware.clone(),
+            table: self.scenario.world_of(robot, table, seed)?,
+            run_folder: self.options.run_folder.clone(),
+            clock: clock.clone(),
+            stop: stop.clone(),
+        };
+        let hardware = match others.first() {
+            None => H::new(context),
+            Some(first) => first.hardware.join(context),
+        };
+        let hardware = Arc::new(hardware.map_err(|error| {
+            error.context(match self.scenario.robot_count() {
+                1 => format!("hardware of `{}`", self.target.name),
+                _ => format!("hardware of `{}`, robot {}", self.target.name, robot + 1),
+            })
+        })?);
+        layers.settings.splice(0..0, hardware.settings());
+        layers.identities = known_identities(self.target, hardware.identities());
+        let start = Start {
+            clock,
+            stop,
+            parameters: layers.load()?.deserialize()?,
+        };
+        let robot = create(&hardware, start)?;
+        Ok(Cast {
+            hardware,
+            robot,
+            recording: None,
+        })
+    }
+
+    fn record<H: Hardware, P: ParameterData>(
+        &self,
+        robot: usize,
+        seed: u64,
+        cast: &Cast<H, P>,
+    ) -> Result<Recording> {
+        let name = self.file.file_stem().unwrap_or_default().to_string_lossy();
+        let number = match self.scenario.robot_count() {
+            1 => String::new(),
+            _ => format!("-robot-{}", robot + 1),
+        };
+        let file = format!("{name}-seed-{seed}{number}.mcap");
+        record::start_into(
+            &self.options.run_folder.join(file),
+            self.target,
+            self.options,
+            &cast.robot,
+            &cast.hardware.identities(),
+        )
+    }
+}
+
+/// Where it lies.
+fn end(recording: Recording) -> PathBuf {
+    let path = recording.path().to_owned();
+    let report = recording.end();
+    tell(format_args!("{}", report.to_string().trim_end()));
+    path
 }

@@ -5,7 +5,7 @@ use std::time::Duration;
 use serde::Deserialize;
 use serde_json::Value;
 
-use super::file::seconds;
+use super::file::{first, seconds};
 use crate::error::{Error, Result};
 use crate::reflect::Path;
 use crate::time::Timestamp;
@@ -18,6 +18,9 @@ pub struct Assertion {
     pub what: String,
     /// `truth.…`, or an output: `Control.main_outputs.lamp.level`.
     pub value: String,
+    /// Whose, counted from 1.
+    #[serde(default = "first")]
+    pub robot: usize,
     equals: Option<Value>,
     is_not: Option<Value>,
     below: Option<f64>,

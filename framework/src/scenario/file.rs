@@ -25,6 +25,8 @@ pub struct Scenario {
     pub world: toml::Table,
     /// Numbers of the world that a seed changes, with how far.
     pub random: toml::Table,
+    /// The robots, where the file names them; else there is one.
+    pub robots: Vec<Participant>,
     /// By time.
     pub events: Vec<Event>,
     /// What a client asks of the robot.
@@ -33,9 +35,22 @@ pub struct Scenario {
     pub assertions: Vec<Assertion>,
 }
 
+/// One of the robots of a scenario.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Participant {
+    /// Parameters above those of the scenario: path and value.
+    pub settings: Vec<(String, String)>,
+    /// The key `robot` of its hardware's table, in the words of the hardware.
+    pub entry: toml::Table,
+    /// Numbers of the entry that a seed changes, with how far.
+    pub random: toml::Table,
+}
+
 /// Something that happens to the world.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Event {
+    /// The robot whose hardware is told, counted from 0.
+    pub robot: usize,
     /// When.
     pub at: Timestamp,
     /// In the words of the hardware.
@@ -46,6 +61,9 @@ pub struct Event {
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Call {
+    /// Which robot is asked, counted from 1.
+    #[serde(default = "first")]
+    pub robot: usize,
     /// `Control.procedures.walk`
     pub path: String,
     /// What is asked.
@@ -74,6 +92,8 @@ struct Written {
     world: toml::Table,
     #[serde(default)]
     random: toml::Table,
+    #[serde(default, rename = "robot")]
+    robots: Vec<toml::Table>,
     #[serde(default, rename = "event")]
     events: Vec<toml::Table>,
     #[serde(default, rename = "call")]
@@ -84,6 +104,10 @@ struct Written {
 
 fn twice_a_second() -> f64 {
     0.5
+}
+
+pub(super) fn first() -> usize {
+    1
 }
 
 fn all() -> f64 {
@@ -119,12 +143,23 @@ impl Scenario {
             )));
         }
         let ends = seconds("ends", written.ends)?;
+        let robots: Result<Vec<Participant>> =
+            written.robots.into_iter().map(Participant::read).collect();
+        let robots = robots?;
+        let has_robot = |number: usize, what: String| match (1..=robots.len().max(1)).contains(&number) {
+            true => Ok(()),
+            false => Err(Error::new(format!(
+                "{what}: there is no robot {number}; add a `[[robot]]` for each, the first is 1"
+            ))),
+        };
         for call in &written.calls {
+            has_robot(call.robot, format!("call of `{}`", call.path))?;
             let _times = call
                 .times()
                 .map_err(|error| error.context(format!("call of `{}`", call.path)))?;
         }
         for assertion in &written.assertions {
+            has_robot(assertion.robot, format!("assertion `{}`", assertion.what))?;
             assertion.check(ends)?;
         }
         let events: Result<Vec<Event>> = written.events.into_iter().map(Event::read).collect();
@@ -138,6 +173,10 @@ impl Scenario {
                 (late.at - Timestamp::ZERO).as_secs_f64()
             )));
         }
+        for event in &events {
+            let at = (event.at - Timestamp::ZERO).as_secs_f64();
+            has_robot(event.robot + 1, format!("the event at {at} s"))?;
+        }
         events.sort_by_key(|event| event.at);
         let mut settings = Vec::new();
         flatten(&written.parameters, "", &mut settings);
@@ -148,6 +187,7 @@ impl Scenario {
             settings,
             world: written.world,
             random: written.random,
+            robots,
             events,
             calls: written.calls,
             assertions: written.assertions,
@@ -164,6 +204,51 @@ impl Scenario {
             .change(&mut table, &self.random)
             .map_err(|error| error.context("`random`"))?;
         Ok(table)
+    }
+
+    /// As [`Self::world`], of one of the robots, counted from 0.
+    ///
+    /// # Errors
+    /// Names what is drawn and not there.
+    pub fn world_of(&self, robot: usize, table: toml::Table, seed: u64) -> Result<toml::Table> {
+        let mut table = self.world(table, seed)?;
+        if let Some(participant) = self.robots.get(robot) {
+            let mut entry = participant.entry.clone();
+            // Robots that begin alike do not end alike.
+            Draw::new(seed.wrapping_add((robot as u64 + 1) << 32))
+                .change(&mut entry, &participant.random)
+                .map_err(|error| error.context(format!("`random` of robot {}", robot + 1)))?;
+            table.insert(ENTRY.to_owned(), entry.into());
+        }
+        Ok(table)
+    }
+
+    /// How many robots there are.
+    pub fn robot_count(&self) -> usize {
+        self.robots.len().max(1)
+    }
+}
+
+/// Where a robot's hardware finds its `[[robot]]`.
+const ENTRY: &str = "robot";
+
+impl Participant {
+    fn read(mut table: toml::Table) -> Result<Self> {
+        let mut take = |key: &str| match table.remove(key) {
+            None => Ok(toml::Table::new()),
+            Some(toml::Value::Table(inner)) => Ok(inner),
+            Some(other) => Err(Error::new(format!(
+                "`{key}` of a `[[robot]]` is a table, not {other}"
+            ))),
+        };
+        let mut settings = Vec::new();
+        flatten(&take("parameters")?, "", &mut settings);
+        let random = take("random")?;
+        Ok(Self {
+            settings,
+            entry: table,
+            random,
+        })
     }
 }
 
@@ -192,7 +277,17 @@ impl Event {
             Some(toml::Value::Integer(at)) => at as f64,
             _ => return Err(Error::new("an `[[event]]` needs `at = SECONDS`")),
         };
+        let robot = match table.remove("robot") {
+            None => first(),
+            Some(toml::Value::Integer(number)) if number > 0 => number as usize,
+            Some(other) => {
+                return Err(Error::new(format!(
+                    "`robot = {other}` of an `[[event]]` is no number of a robot: the first is 1"
+                )));
+            }
+        };
         Ok(Self {
+            robot: robot - 1,
             at: Timestamp::ZERO + seconds("at", at)?,
             deed: table,
         })

@@ -40,9 +40,12 @@ struct Looked<'a> {
 }
 
 impl<'a> Judge<'a> {
-    /// Nothing has been seen.
-    pub fn new(assertions: &'a [Assertion]) -> Self {
-        let assertions = assertions.iter().map(|assertion| Looked {
+    /// Of the robot with this number, counted from 1. Nothing has been seen.
+    pub fn new(assertions: &'a [Assertion], robot: usize) -> Self {
+        let of_robot = assertions
+            .iter()
+            .filter(|assertion| assertion.robot == robot);
+        let assertions = of_robot.map(|assertion| Looked {
             assertion,
             window: assertion.window(),
             seen: None,
@@ -81,7 +84,7 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// Ends the run.
+    /// Ends the run; in the order of the file.
     pub fn verdicts(self) -> Vec<Verdict> {
         self.assertions.into_iter().map(Looked::verdict).collect()
     }

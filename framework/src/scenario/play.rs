@@ -1,71 +1,199 @@
 //! Plays a scenario once.
 
-use std::sync::Arc;
-use std::time::Instant;
+use std::sync::{Arc, Mutex};
+use std::time::{Duration, Instant};
 
-use super::file::{Call, Scenario};
-use super::judge::Judge;
+use super::ensemble::{Ensemble, Lives, together};
+use super::file::{Call, Event, Scenario};
+use super::judge::{Judge, Verdict};
 use super::report::Played;
+use crate::digest::Digest;
 use crate::driver::Lockstep;
 use crate::error::{Error, Result};
+use crate::guarded::contain;
 use crate::hardware::Hardware;
+use crate::recorded::Recording;
 use crate::robot::Robot;
+use crate::stop::Stop;
 use crate::time::Timestamp;
 
-/// Lets a robot that was created for this scenario and this seed live through it.
+/// One robot that was created for this scenario and this seed.
+pub(crate) struct Cast<H, P> {
+    /// Its place in the world.
+    pub(crate) hardware: Arc<H>,
+    /// The robot.
+    pub(crate) robot: Robot<P>,
+    /// What sees its cycles.
+    pub(crate) recording: Option<Recording>,
+}
+
+/// How a scenario is played; nothing of it changes what happens.
+pub(crate) struct Manner<'run> {
+    /// On how many threads several robots live.
+    pub(crate) threads: usize,
+    /// Whether a digest of each robot is told.
+    pub(crate) digests: bool,
+    /// Ends all of it; robots that end by themselves have their own.
+    pub(crate) stop: &'run Stop,
+}
+
+/// How far one robot goes before anybody looks whether the run is to end. Several go as far as their world.
+const STRETCH: Duration = Duration::from_secs(1);
+
+/// Lets the robots live through it. One that stops is told of; the others go on.
 ///
 /// # Errors
-/// Where the hardware does not understand an event.
-pub(crate) fn play<H: Hardware, P>(
+/// Where the hardware does not understand an event, or somebody ends the run.
+pub(crate) fn play<H: Hardware, P: Send>(
     scenario: &Scenario,
     seed: u64,
-    hardware: &Arc<H>,
-    robot: &mut Robot<P>,
+    casts: &mut [Cast<H, P>],
+    manner: &Manner<'_>,
 ) -> Result<Played> {
     let begun = Instant::now();
-    let mut judge = Judge::new(&scenario.assertions);
-    let mut paused = None;
-    let mut stopped = None;
-    let clock = robot.clock.clone();
-    for (until, deed) in deeds(scenario)? {
-        let lockstep = Lockstep::new(robot, hardware.as_ref());
-        let mut lockstep = match paused.take() {
-            Some(paused) => lockstep.after(paused),
-            None => lockstep,
-        };
-        let lived = lockstep.run_until(until, |instance| {
-            judge.look(clock.now(), instance, || hardware.truth());
-        });
-        paused = Some(lockstep.pause());
-        if let Err(error) = lived {
-            stopped = Some(error.to_string());
-            break;
-        }
-        let done = match deed {
-            Deed::Event(deed) => hardware.disturb(deed),
-            Deed::Call(asked) => call(robot, asked),
-            Deed::End => Ok(()),
-        };
-        let at = (until - Timestamp::ZERO).as_secs_f64();
-        done.map_err(|error| error.context(format!("at {at:.3} s")))?;
+    let mut hardwares: Vec<&dyn Hardware> = Vec::new();
+    let mut actors = Vec::new();
+    for (number, cast) in (1..).zip(casts.iter_mut()) {
+        let hardware: &dyn Hardware = cast.hardware.as_ref();
+        let recording = &mut cast.recording;
+        let lockstep = Lockstep::new(&mut cast.robot, hardware)
+            .observed(|instance| recording.as_mut()?.observer(instance));
+        hardwares.push(hardware);
+        actors.push(Mutex::new(Actor {
+            lockstep,
+            hardware,
+            judge: Some(Judge::new(&scenario.assertions, number)),
+            digest: manner.digests.then(Digest::new),
+            stopped: None,
+        }));
     }
-    let assertions = judge.verdicts();
-    let reports = robot.instances.iter().map(|instance| instance.report());
-    let lasted = (clock.now() - Timestamp::ZERO).as_secs_f64();
+    let (lasted, verdicts) = together(&actors, manner.threads, |ensemble| {
+        live_through(scenario, &hardwares, ensemble, manner.stop)?;
+        let now = |actor: &Actor<'_, P>| actor.lockstep.robot().clock.now();
+        let lasted = ensemble.all().map(|actor| now(&actor)).max();
+        let verdicts = ensemble
+            .all()
+            .map(|mut actor| actor.judge.take().map(Judge::verdicts).unwrap_or_default());
+        Ok::<_, Error>((lasted, in_order(scenario, verdicts.collect())))
+    })?;
+    let mut digests = Vec::new();
+    let mut stopped = Vec::new();
+    for (number, actor) in (1..).zip(actors) {
+        let actor = actor.into_inner().unwrap_or_else(|poison| poison.into_inner());
+        digests.extend(actor.digest.map(|digest| digest.to_string()));
+        stopped.extend(actor.stopped.map(|why| match hardwares.len() {
+            1 => why,
+            _ => format!("robot {number}: {why}"),
+        }));
+        // What it was about to do is abandoned, as at every end.
+        drop(actor.lockstep);
+    }
+    let instances = casts.iter().flat_map(|cast| &cast.robot.instances);
+    let failures = instances.map(|instance| instance.report().counts.failures);
+    let lasted = lasted.map_or(0.0, |now| (now - Timestamp::ZERO).as_secs_f64());
     Ok(Played {
         seed,
-        passed: stopped.is_none() && assertions.iter().all(|verdict| verdict.passed),
-        stopped,
-        failures: reports.map(|report| report.counts.failures).sum(),
-        assertions,
+        passed: stopped.is_empty() && verdicts.iter().all(|verdict| verdict.passed),
+        stopped: (!stopped.is_empty()).then(|| stopped.join("; ")),
+        failures: failures.sum(),
+        digests,
+        recordings: Vec::new(),
+        assertions: verdicts,
         lasted,
         real_time_factor: lasted / begun.elapsed().as_secs_f64().max(1e-9),
     })
 }
 
+/// A robot on its way through the scenario.
+struct Actor<'run, P> {
+    lockstep: Lockstep<'run, P>,
+    hardware: &'run dyn Hardware,
+    /// There until the end.
+    judge: Option<Judge<'run>>,
+    digest: Option<Digest>,
+    /// Why it does not go on.
+    stopped: Option<String>,
+}
+
+impl<P: Send> Lives for Actor<'_, P> {
+    fn live(&mut self, until: Timestamp) {
+        if self.stopped.is_some() {
+            return;
+        }
+        let Self {
+            lockstep,
+            hardware,
+            judge,
+            digest,
+            stopped,
+        } = self;
+        let clock = lockstep.robot().clock.clone();
+        lockstep.world_goes_on();
+        let lived = contain("a robot's life", || {
+            let mut undigested = Ok(());
+            lockstep.run_until(until, |instance| {
+                if let Some(judge) = judge {
+                    judge.look(clock.now(), instance, || hardware.truth());
+                }
+                if let Some(digest) = digest
+                    && let Err(error) = digest.add_cycle(instance)
+                {
+                    undigested = Err(Error::new(format!("no digest: {error}")));
+                }
+            })?;
+            undigested
+        });
+        *stopped = lived.err().map(|error| error.to_string());
+    }
+}
+
+fn live_through<P: Send>(
+    scenario: &Scenario,
+    hardwares: &[&dyn Hardware],
+    ensemble: &Ensemble<'_, Actor<'_, P>>,
+    stop: &Stop,
+) -> Result<()> {
+    let mut world = Timestamp::ZERO;
+    for (until, deed) in deeds(scenario)? {
+        loop {
+            stop.check()?;
+            ensemble.live(world.min(until));
+            if world >= until {
+                break;
+            }
+            world = match hardwares {
+                [first, _, ..] => first.advance()?,
+                _ => until.min(world + STRETCH),
+            };
+        }
+        if ensemble.all().all(|actor| actor.stopped.is_some()) {
+            return Ok(());
+        }
+        let done = match deed {
+            Deed::Event(event) => hardwares[event.robot].disturb(&event.deed),
+            Deed::Call(asked) => {
+                call(ensemble.actor(asked.robot - 1).lockstep.robot_mut(), asked)
+            }
+            Deed::End => Ok(()),
+        };
+        let at = (until - Timestamp::ZERO).as_secs_f64();
+        done.map_err(|error| error.context(format!("at {at:.3} s")))?;
+    }
+    Ok(())
+}
+
+/// As the file has them, from those of each robot.
+fn in_order(scenario: &Scenario, of_robots: Vec<Vec<Verdict>>) -> Vec<Verdict> {
+    let mut of_robots: Vec<_> = of_robots.into_iter().map(Vec::into_iter).collect();
+    let assertions = scenario.assertions.iter();
+    assertions
+        .filter_map(|assertion| of_robots.get_mut(assertion.robot - 1)?.next())
+        .collect()
+}
+
 /// What is done between two stretches of a life.
 enum Deed<'a> {
-    Event(&'a toml::Table),
+    Event(&'a Event),
     Call(&'a Call),
     End,
 }
@@ -74,9 +202,7 @@ enum Deed<'a> {
 fn deeds(scenario: &Scenario) -> Result<Vec<(Timestamp, Deed<'_>)>> {
     let end = Timestamp::ZERO + scenario.ends;
     let events = scenario.events.iter();
-    let mut deeds: Vec<_> = events
-        .map(|event| (event.at, Deed::Event(&event.deed)))
-        .collect();
+    let mut deeds: Vec<_> = events.map(|event| (event.at, Deed::Event(event))).collect();
     for call in &scenario.calls {
         let times = call.times()?.take_while(|at| *at <= end);
         deeds.extend(times.map(|at| (at, Deed::Call(call))));

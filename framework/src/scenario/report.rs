@@ -14,11 +14,17 @@ pub struct Played {
     pub seed: u64,
     /// Whether every assertion was so, and the robot did not stop by itself.
     pub passed: bool,
-    /// Why the robot stopped before the end.
+    /// Why a robot stopped before the end.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stopped: Option<String>,
     /// Calls of nodes that failed.
     pub failures: u64,
+    /// Of all that each robot's instances wrote, if that was asked for.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub digests: Vec<String>,
+    /// What the run was recorded into, where it did not pass: one file for each robot.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub recordings: Vec<PathBuf>,
     /// One for each assertion.
     pub assertions: Vec<Verdict>,
     /// Seconds of the scenario.
@@ -80,6 +86,12 @@ impl fmt::Display for Played {
         }
         if self.failures > 0 {
             writeln!(formatter, "    {} calls of nodes failed", self.failures)?;
+        }
+        for (robot, digest) in (1..).zip(&self.digests) {
+            writeln!(formatter, "    digest of robot {robot}: {digest}")?;
+        }
+        for recording in &self.recordings {
+            writeln!(formatter, "    recorded into {}", recording.display())?;
         }
         for verdict in &self.assertions {
             let word = if verdict.passed { "passed" } else { "FAILED" };

@@ -26,6 +26,9 @@ fn play(scenario: &str, arguments: &[&str]) -> (u8, Value) {
         folder.path().into(),
         "--scenario".into(),
         scenario,
+        // Where what does not pass is recorded.
+        "--run-folder".into(),
+        folder.path().join("run").into_os_string(),
     ];
     all.extend(
         ["--format", "json"]
