@@ -66,7 +66,9 @@ pub trait Hardware: Send + Sync {
     where
         Self: Sized,
     {
-        Err(Error::new("the world of this hardware has room for one robot"))
+        Err(Error::new(
+            "the world of this hardware has room for one robot",
+        ))
     }
 
     /// A simulated world: parameters that follow from which of its robots this is, as path and value. They stand above all

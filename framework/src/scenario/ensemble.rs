@@ -129,8 +129,15 @@ mod tests {
 
     impl Lives for Adder {
         fn live(&mut self, until: Timestamp) {
-            let sum: u64 = self.seen.iter().map(|seen| seen.load(Ordering::Relaxed)).sum();
-            self.own = self.own.wrapping_mul(31).wrapping_add(sum ^ until.as_nanos());
+            let sum: u64 = self
+                .seen
+                .iter()
+                .map(|seen| seen.load(Ordering::Relaxed))
+                .sum();
+            self.own = self
+                .own
+                .wrapping_mul(31)
+                .wrapping_add(sum ^ until.as_nanos());
         }
     }
 

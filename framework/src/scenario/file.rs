@@ -146,12 +146,13 @@ impl Scenario {
         let robots: Result<Vec<Participant>> =
             written.robots.into_iter().map(Participant::read).collect();
         let robots = robots?;
-        let has_robot = |number: usize, what: String| match (1..=robots.len().max(1)).contains(&number) {
-            true => Ok(()),
-            false => Err(Error::new(format!(
-                "{what}: there is no robot {number}; add a `[[robot]]` for each, the first is 1"
-            ))),
-        };
+        let has_robot =
+            |number: usize, what: String| match (1..=robots.len().max(1)).contains(&number) {
+                true => Ok(()),
+                false => Err(Error::new(format!(
+                    "{what}: there is no robot {number}; add a `[[robot]]` for each, the first is 1"
+                ))),
+            };
         for call in &written.calls {
             has_robot(call.robot, format!("call of `{}`", call.path))?;
             let _times = call

@@ -79,7 +79,9 @@ pub(crate) fn play<H: Hardware, P: Send>(
     let mut digests = Vec::new();
     let mut stopped = Vec::new();
     for (number, actor) in (1..).zip(actors) {
-        let actor = actor.into_inner().unwrap_or_else(|poison| poison.into_inner());
+        let actor = actor
+            .into_inner()
+            .unwrap_or_else(|poison| poison.into_inner());
         digests.extend(actor.digest.map(|digest| digest.to_string()));
         stopped.extend(actor.stopped.map(|why| match hardwares.len() {
             1 => why,
@@ -171,9 +173,7 @@ fn live_through<P: Send>(
         }
         let done = match deed {
             Deed::Event(event) => hardwares[event.robot].disturb(&event.deed),
-            Deed::Call(asked) => {
-                call(ensemble.actor(asked.robot - 1).lockstep.robot_mut(), asked)
-            }
+            Deed::Call(asked) => call(ensemble.actor(asked.robot - 1).lockstep.robot_mut(), asked),
             Deed::End => Ok(()),
         };
         let at = (until - Timestamp::ZERO).as_secs_f64();

@@ -194,3 +194,83 @@ fn every_seed_is_a_run_and_enough_of_them_must_pass() {
         "the same seeds, the same runs"
     );
 }
+
+const TWO_ROBOTS: &str = "parameters = { gain = 6 }
+world = { step = 1.0 }
+[[robot]]
+parameters = { gain = 7 }
+[[robot]]
+parameters = { gain = 7 }
+crashes_at = 500
+place = 1.0
+random = { place = 1.0 }
+[[event]]
+at = 0.3
+robot = 2
+jump = 1000
+[[assertion]]
+what = 'the first lives to the end'
+value = 'truth.events'
+equals = 100
+at_end = true
+[[assertion]]
+what = 'the event is the second one\'s'
+robot = 2
+value = 'truth.events'
+above = 1000
+before = 0.4
+[[assertion]]
+what = 'where the second stands is drawn'
+robot = 2
+value = 'truth.entry.place'
+is_not = 1.0
+[[assertion]]
+what = 'the second does not live to the end'
+robot = 2
+value = 'truth.events'
+below = 1050
+";
+
+#[test]
+fn several_robots_live_in_one_world_and_one_that_crashes_leaves_the_others() {
+    let played = |threads: &str| {
+        let (status, mut outcome) = play(TWO_ROBOTS, &["--digests", "--threads", threads]);
+        assert_eq!(status, 1);
+        let mut run = outcome["runs"][0].take();
+        let assertions = run["assertions"].as_array().expect("there are some");
+        assert!(
+            assertions.iter().all(|one| one["passed"] == true),
+            "{run:#}"
+        );
+        assert_eq!(assertions.len(), 4);
+        let stopped = run["stopped"].as_str().unwrap_or_default();
+        assert!(
+            stopped.starts_with("robot 2: ") && stopped.contains("crashes as scripted"),
+            "{run:#}"
+        );
+        let recordings = run["recordings"].as_array().expect("it was recorded");
+        let second = recordings[1].as_str().unwrap_or_default();
+        assert!(second.ends_with("scenario-seed-1-robot-2.mcap"), "{second}");
+        (run["digests"].take(), run["assertions"].take())
+    };
+    let one = played("1");
+    assert_eq!(one.0.as_array().map(Vec::len), Some(2));
+    assert_eq!(played("2"), one);
+}
+
+#[test]
+fn a_robot_that_is_not_there_is_named() {
+    let scenario = format!(
+        "{}robot = 2\n",
+        assertion("value = 'truth.events'\nabove = 0")
+    );
+    assert_eq!(play(&scenario, &[]), (1, Value::Null));
+    let text = format!("ends = 1\n{scenario}");
+    let error = framework::scenario::Scenario::parse(&text).expect_err("there is one robot");
+    assert!(
+        error
+            .to_string()
+            .contains("assertion `it`: there is no robot 2"),
+        "{error}"
+    );
+}

@@ -77,6 +77,13 @@ impl Log {
     }
 }
 
+/// How many robots wait for each other, and how far they may go, in ms.
+#[derive(Default)]
+struct Beats {
+    joined: AtomicU64,
+    now: AtomicU64,
+}
+
 /// Hardware whose events and data a test wrote down.
 pub(crate) struct ScriptedHardware {
     pub(crate) clock: Clock,
@@ -94,6 +101,10 @@ pub(crate) struct ScriptedHardware {
     /// What scenarios ask about.
     happened: AtomicU64,
     step: f64,
+    /// A scenario's `[[robot]]`.
+    entry: serde_json::Value,
+    /// Of a world that several share.
+    beats: Arc<Beats>,
     /// Somebody presses the button that gives the nodes the actuators back.
     pub(crate) button: AtomicBool,
 }
@@ -127,6 +138,8 @@ impl ScriptedHardware {
             told: AtomicU64::new(0),
             happened: AtomicU64::new(0),
             step: 0.0,
+            entry: serde_json::Value::Null,
+            beats: Arc::default(),
             button: AtomicBool::new(false),
         }
     }
@@ -161,7 +174,20 @@ impl Hardware for ScriptedHardware {
         let mut hardware = Self::with(context.clock.clone(), events.collect());
         hardware.stop = context.stop.clone();
         hardware.step = step.unwrap_or_default();
+        hardware.entry = serde_json::to_value(context.table.get("robot"))?;
         Ok(hardware)
+    }
+
+    fn join(&self, context: HardwareContext) -> Result<Self> {
+        let mut joined = Self::new(context)?;
+        joined.beats = Arc::clone(&self.beats);
+        self.beats.joined.fetch_add(1, Ordering::Relaxed);
+        Ok(joined)
+    }
+
+    fn advance(&self) -> Result<Timestamp> {
+        let before = self.beats.now.fetch_add(25, Ordering::Relaxed);
+        Ok(millis(before + 25))
     }
 
     fn stop(&self) {
@@ -186,7 +212,18 @@ impl Hardware for ScriptedHardware {
             let count = world.fetch_add(1, Ordering::Relaxed);
             self.told.store(count, Ordering::Relaxed);
         }
-        let event = self.events.lock().expect("not poisoned").pop_front();
+        let mut events = self.events.lock().expect("not poisoned");
+        let next = events.front().map_or(Timestamp::ZERO, |event| event.at);
+        let is_shared = self.beats.joined.load(Ordering::Relaxed) > 0;
+        if is_shared && next > millis(self.beats.now.load(Ordering::Relaxed)) {
+            return Ok(None);
+        }
+        let crashes_at = self.entry["crashes_at"].as_u64();
+        assert!(
+            crashes_at.is_none_or(|at| next < millis(at)),
+            "the hardware crashes as scripted"
+        );
+        let event = events.pop_front();
         self.happened
             .fetch_add(u64::from(event.is_some()), Ordering::Relaxed);
         Ok(event)
@@ -196,7 +233,7 @@ impl Hardware for ScriptedHardware {
         // The driver asks for one event more before a cycle ends.
         let until = (self.clock.now() - Timestamp::ZERO).as_millis() as u64 / 10;
         let jumped = self.happened.load(Ordering::Relaxed) / 1000 * 1000;
-        serde_json::json!({ "events": jumped + until, "step": self.step })
+        serde_json::json!({ "events": jumped + until, "step": self.step, "entry": self.entry })
     }
 
     fn disturb(&self, deed: &toml::Table) -> Result<()> {
