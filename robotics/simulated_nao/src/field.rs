@@ -25,16 +25,18 @@ pub const CROSSBAR_HEIGHT: f32 = 0.85;
 pub const GOAL_DEPTH: f32 = 0.5;
 
 /// Between the middles of the posts of a goal, which are 1.5 m apart.
-const GOAL_WIDTH: f32 = 1.6;
+pub(crate) const GOAL_WIDTH: f32 = 1.6;
 
 const PENALTY_MARK_SIZE: f32 = 0.1;
-const GOAL_AREA: Vector2<f32> = Vector2::new(0.6, 2.2);
+/// How far it reaches into the field, and how wide it is.
+pub(crate) const GOAL_AREA: Vector2<f32> = Vector2::new(0.6, 2.2);
 const PENALTY_AREA: Vector2<f32> = Vector2::new(1.65, 4.0);
-const CIRCLE_RADIUS: f32 = 0.75;
+/// Of the circle in the middle.
+pub(crate) const CIRCLE_RADIUS: f32 = 0.75;
 const BORDER: f32 = 0.7;
 
 /// Half the size of the carpet.
-const CARPET: Vector2<f32> = Vector2::new(LENGTH / 2.0 + BORDER, WIDTH / 2.0 + BORDER);
+pub(crate) const CARPET: Vector2<f32> = Vector2::new(LENGTH / 2.0 + BORDER, WIDTH / 2.0 + BORDER);
 /// Edge of a cell of the distance table.
 const CELL: f32 = 0.02;
 

@@ -6,6 +6,7 @@ use framework::Timestamp;
 use nalgebra::{Isometry3, Point2, Point3, Vector2};
 use types::camera::CameraMatrix;
 use types::feet::Feet;
+use types::game::{GameState, SetPlay};
 use types::joints::Joints;
 use types::motor_commands::MotorCommands;
 
@@ -37,6 +38,21 @@ pub struct GroundTruth {
     pub robots: Vec<Robot>,
     /// What the robot can run into: the middle of each obstacle in the field frame and its radius, m.
     pub obstacles: Vec<(Point2<f64>, f64)>,
+    /// The game, where a referee plays one.
+    pub game: Option<GameTruth>,
+}
+
+/// How a game really stands; the referee's computer tells some of it later.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GameTruth {
+    /// What robots may do.
+    pub state: GameState,
+    /// How it was resumed.
+    pub set_play: SetPlay,
+    /// Who kicks.
+    pub kicking: Team,
+    /// Goals of the own (blue) and the other (red) team.
+    pub score: [u8; 2],
 }
 
 /// The body when a state was sent.
@@ -100,19 +116,21 @@ pub struct GoalPostTruth {
 }
 
 impl GroundTruth {
-    pub(crate) fn new(world: &World, harmful_commands: u64) -> Self {
-        let body = world.body();
+    /// As one of the robots has it.
+    pub(crate) fn new(world: &World, robot: usize, harmful_commands: u64) -> Self {
+        let body = world.body(robot);
         Self {
             now: world.now(),
             positions: body.joints.map(|angle| angle as f32),
-            commands: *world.commands(),
+            commands: *world.commands(robot),
             torso_to_field: body.torso_to_field.cast(),
             ground_to_field: body.ground_to_field().cast(),
-            walked: world.walked(),
+            walked: world.walked(robot),
             harmful_commands,
             ball: world.ball().map(|ball| ball.cast()),
-            robots: world.robots().to_vec(),
-            obstacles: world.obstacles().collect(),
+            robots: world.robots(robot).to_vec(),
+            obstacles: world.obstacles(robot).collect(),
+            game: world.game_truth(),
         }
     }
 }

@@ -28,6 +28,7 @@ use crate::network::RobotSockets;
 use crate::safety::Safety;
 use crate::settings::Settings;
 use crate::simulator::{Shared, Simulator};
+use crate::stage::Stage;
 
 /// How long a reader waits before it looks whether the robot stops.
 const PATIENCE: Duration = Duration::from_millis(50);
@@ -40,6 +41,8 @@ pub struct Hardware {
     client: Arc<Client>,
     safety: Arc<Mutex<Safety>>,
     identities: Vec<(String, String)>,
+    /// Parameters that follow from who it is in a scenario.
+    player: Vec<(String, String)>,
     field: Arc<Field>,
     sockets: Arc<RobotSockets>,
     /// Where the referee's computer hears answers; 0 where there is none.
@@ -51,54 +54,31 @@ pub struct Hardware {
 
 impl framework::Hardware for Hardware {
     fn new(context: HardwareContext) -> Result<Self> {
-        let mut settings: Settings = context.parameters()?;
-        settings.apply(&context.options)?;
-        let clock = context.clock;
-        let sockets = Arc::new(RobotSockets::new(&settings.network)?);
-        let shared = Shared::new(&settings, Some(Arc::clone(&sockets)), clock.is_stepped())?;
-        let shared = Arc::new(shared);
-        let client = Arc::new(Client::connect(
-            shared.socket(),
-            clock.clone(),
-            context.stop.clone(),
-        ));
-        let safety = Arc::new(Mutex::new(Safety::default()));
-        let first = connect(&shared, &client)?;
-        let thread = if clock.is_stepped() {
-            None
-        } else {
-            shared.lock().skip_to(clock.now());
-            let (client, safety) = (Arc::clone(&client), Arc::clone(&safety));
-            let let_down = move |now| let_down(&mut lock(&safety), &client, now);
-            Some(Simulator::run(
-                Arc::clone(&shared),
-                clock.clone(),
-                let_down,
-            )?)
+        let settings = Settings::of(&context)?;
+        let stage = Arc::new(Stage::new(&settings));
+        Self::on(stage, 0, &settings, context)
+    }
+
+    fn join(&self, context: HardwareContext) -> Result<Self> {
+        if !context.clock.is_stepped() {
+            return Err(Error::new("robots can only share a world in lockstep"));
+        }
+        let mut settings = Settings::of(&context)?;
+        let stage = Arc::clone(&self.shared.stage);
+        let place = {
+            let mut scene = stage.lock();
+            settings.number_body(scene.world.robot_count());
+            scene.join(&settings)?
         };
-        let configuration = first.configuration;
-        let (field, return_port, mate) = {
-            let simulation = shared.lock();
-            let network = &simulation.network;
-            let field = Arc::clone(&simulation.world().field);
-            (field, network.return_port()?, network.mate_address()?)
-        };
-        Ok(Self {
-            thread,
-            client,
-            safety,
-            identities: vec![
-                ("body".to_owned(), configuration.body_id.to_string()),
-                ("head".to_owned(), configuration.head_id.to_string()),
-            ],
-            field,
-            sockets,
-            return_port,
-            mate,
-            shared,
-            clock,
-            stop: context.stop,
-        })
+        Self::on(stage, place, &settings, context)
+    }
+
+    fn settings(&self) -> Vec<(String, String)> {
+        self.player.clone()
+    }
+
+    fn advance(&self) -> Result<Timestamp> {
+        self.shared.stage.lock().advance()
     }
 
     fn identities(&self) -> Vec<(String, String)> {
@@ -121,8 +101,8 @@ impl framework::Hardware for Hardware {
     fn is_rearm_wanted(&self) -> bool {
         let (is_down, now) = {
             let simulation = self.shared.lock();
-            let world = simulation.world();
-            (world.touch().chest_button, world.now())
+            let world = &simulation.scene().world;
+            (world.touch(simulation.robot()).chest_button, world.now())
         };
         lock(&self.safety).is_rearm_wanted(is_down, now)
     }
@@ -151,7 +131,7 @@ impl framework::Hardware for Hardware {
             let at = self.clock.now();
             return Ok(Some(Event { at, instance }));
         }
-        loop {
+        while simulation.can_step() {
             if simulation.next_is_tick() {
                 let_down(
                     &mut lock(&self.safety),
@@ -163,6 +143,72 @@ impl framework::Hardware for Hardware {
                 return Ok(Some(event));
             }
         }
+        Ok(None)
+    }
+}
+
+impl Hardware {
+    /// The robot with that place in a world.
+    fn on(
+        stage: Arc<Stage>,
+        place: usize,
+        settings: &Settings,
+        context: HardwareContext,
+    ) -> Result<Self> {
+        let clock = context.clock;
+        let sockets = Arc::new(RobotSockets::new(&settings.network)?);
+        let is_stepped = clock.is_stepped();
+        let shared = Shared::on(
+            stage,
+            place,
+            settings,
+            Some(Arc::clone(&sockets)),
+            is_stepped,
+        )?;
+        let shared = Arc::new(shared);
+        let client = Arc::new(Client::connect(
+            shared.socket(),
+            clock.clone(),
+            context.stop.clone(),
+        ));
+        let safety = Arc::new(Mutex::new(Safety::default()));
+        let first = connect(&shared, &client)?;
+        let thread = if clock.is_stepped() {
+            None
+        } else {
+            shared.lock().skip_to(clock.now());
+            let (client, safety) = (Arc::clone(&client), Arc::clone(&safety));
+            let let_down = move |now| let_down(&mut lock(&safety), &client, now);
+            Some(Simulator::run(
+                Arc::clone(&shared),
+                clock.clone(),
+                let_down,
+            )?)
+        };
+        let configuration = first.configuration;
+        let (field, return_port, mate) = {
+            let simulation = shared.lock();
+            let network = &simulation.network;
+            let field = Arc::clone(&simulation.scene().world.field);
+            (field, network.return_port()?, network.mate_address()?)
+        };
+        Ok(Self {
+            thread,
+            client,
+            safety,
+            identities: vec![
+                ("body".to_owned(), configuration.body_id.to_string()),
+                ("head".to_owned(), configuration.head_id.to_string()),
+            ],
+            player: settings.player_parameters(),
+            field,
+            sockets,
+            return_port,
+            mate,
+            shared,
+            clock,
+            stop: context.stop,
+        })
     }
 }
 

@@ -19,14 +19,19 @@ mod hardware;
 mod network;
 mod noise;
 pub mod posture;
+mod referee;
 mod safety;
+mod senses;
 mod server;
 mod simulation;
 mod simulator;
 mod sound;
+mod stage;
 mod world;
 
-pub use ground_truth::{BallTruth, BodyTruth, GoalPostTruth, GroundTruth, ImageTruth, RobotTruth};
+pub use ground_truth::{
+    BallTruth, BodyTruth, GameTruth, GoalPostTruth, GroundTruth, ImageTruth, RobotTruth,
+};
 pub use hardware::Hardware;
 pub use network::{NetworkTruth, Received};
 pub use simulator::Simulator;

@@ -21,6 +21,8 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use framework::{Result, Timestamp};
+use spl_messages::control_data;
+use types::game::GameControllerMessage;
 use types::network::{Channel, Endpoint};
 
 use self::mate::Mate;
@@ -33,6 +35,8 @@ use crate::settings::Settings;
 
 /// From a robot's own broadcast to its return.
 const ECHO_LATENCY: Duration = Duration::from_millis(1);
+/// How long our referee's computer says nothing after another one: it speaks twice a second.
+const RESPECT: Duration = Duration::from_secs(3);
 /// More than any buffer of a socket keeps is lost, as it is on every computer.
 const MOST_UNREAD: usize = 128;
 /// How long a datagram may need across the loopback interface: the kernel hands it over within the call
@@ -51,6 +55,8 @@ pub(crate) struct Network {
     return_port: u16,
     nominal_ports: [u16; 3],
     is_stepped: bool,
+    /// Another referee's computer is on the network.
+    quiet_until: Timestamp,
     /// What is on its way to the robot, with a stepped clock, first arrival first.
     flights: VecDeque<Flight>,
     /// What has arrived at the robot and was not read, with a stepped clock, oldest first.
@@ -64,6 +70,8 @@ enum Sender {
     Mate,
     /// The robot hears its own broadcasts.
     Robot,
+    /// Another one of its team, with its own program.
+    OtherRobot,
     Stranger,
 }
 
@@ -104,7 +112,7 @@ impl Network {
                 chosen(settings.network.team_port),
             ],
         };
-        let team_port = 10_000 + u16::from(settings.game.team);
+        let team_port = 10_000 + u16::from(settings.team());
         Ok(Self {
             referee: settings
                 .network
@@ -122,6 +130,7 @@ impl Network {
             return_port: settings.network.return_port,
             nominal_ports: [3939, team_port, 9],
             is_stepped,
+            quiet_until: Timestamp::ZERO,
             flights: VecDeque::new(),
             unread: VecDeque::new(),
         })
@@ -163,12 +172,31 @@ impl Network {
     }
 
     /// Lets the referee's computer speak; whether something arrived at the robot.
-    pub(crate) fn referee_speaks(&mut self, now: Timestamp) -> Result<bool> {
+    pub(crate) fn referee_speaks(
+        &mut self,
+        now: Timestamp,
+        played: Option<GameControllerMessage>,
+    ) -> Result<bool> {
         let Some(referee) = &mut self.referee else {
             return Ok(false);
         };
-        let bytes = referee.speak(now);
+        let bytes = referee.speak(now, played);
+        if now < self.quiet_until {
+            return Ok(false);
+        }
         self.deliver(now, Sender::Referee, Channel::GameController, &bytes)
+    }
+
+    /// The robot has heard something at the port for the referee's computer: where it comes from another one than ours, ours
+    /// says nothing until that has been silent for a while.
+    pub(crate) fn overheard(&mut self, now: Timestamp, sender: &Endpoint, bytes: &[u8]) {
+        let ours = self.referee.as_ref().and_then(|own| own.address().ok());
+        let is_ours = ours.is_some_and(|address| {
+            address.port() == sender.port && sender.address == Ipv4Addr::LOCALHOST.octets()
+        });
+        if !is_ours && control_data::decode(bytes).is_ok() {
+            self.quiet_until = now + RESPECT;
+        }
     }
 
     /// Lets the team mate speak; whether something arrived at the robot.
@@ -220,6 +248,11 @@ impl Network {
     /// The robot has told its team something: with a stepped clock its broadcast comes back later.
     pub(crate) fn robot_has_broadcast(&mut self, now: Timestamp, bytes: &[u8]) {
         self.send_off(now + ECHO_LATENCY, Sender::Robot, Channel::Team, bytes);
+    }
+
+    /// Another robot of its team has told it something that arrives later, with a stepped clock.
+    pub(crate) fn mate_has_broadcast(&mut self, arrives_at: Timestamp, bytes: &[u8]) {
+        self.send_off(arrives_at, Sender::OtherRobot, Channel::Team, bytes);
     }
 
     /// Takes what the robot has sent to the referee's computer and to the team mate.
@@ -290,7 +323,7 @@ impl Network {
             Sender::Referee => self.referee.as_ref().map(Referee::socket),
             Sender::Mate => self.mate.as_ref().map(Mate::socket),
             Sender::Robot => self.robot.as_deref().map(RobotSockets::team),
-            Sender::Stranger => Some(&self.stranger),
+            Sender::OtherRobot | Sender::Stranger => Some(&self.stranger),
         }
     }
 
@@ -300,7 +333,7 @@ impl Network {
             address: Ipv4Addr::LOCALHOST.octets(),
             port: match sender {
                 Sender::Referee => referee,
-                Sender::Mate | Sender::Robot => team,
+                Sender::Mate | Sender::Robot | Sender::OtherRobot => team,
                 Sender::Stranger => stranger,
             },
         }

@@ -11,6 +11,7 @@ use nalgebra::{Isometry3, Point2, Point3};
 use serde::Deserialize;
 use types::feet::{Feet, Side};
 use types::game::PLAYER_COUNT;
+use types::joints::Joints;
 
 use crate::camera::figure::{self, Capsule, PARTS};
 use crate::field::{GOAL_POST_RADIUS, goal_posts};
@@ -106,16 +107,26 @@ impl Robot {
     /// A robot with its torso at a pose in the field frame.
     pub fn new(settings: &RobotSettings, torso_to_field: &Isometry3<f64>) -> Self {
         let joints = settings.start().joints;
-        let body = Body::new(joints, *torso_to_field);
+        Self::posed(settings.team, settings.number, &joints, torso_to_field)
+    }
+
+    /// A robot with joints at angles in rad and its torso at a pose in the field frame.
+    pub fn posed(
+        team: Team,
+        number: u8,
+        joints: &Joints<f64>,
+        torso_to_field: &Isometry3<f64>,
+    ) -> Self {
+        let body = Body::new(*joints, *torso_to_field);
         let ground = body.ground_to_field();
         let poses = forward_kinematics(&joints.map(|angle| angle as f32));
-        let parts = figure::parts(&poses, figure::shirt(settings.team));
+        let parts = figure::parts(&poses, figure::shirt(team));
         let sole = |side| Point3::from(body.soles_to_field.on(side).translation.vector).cast();
         Self {
             position: ground.translation.vector.xy().into(),
             heading: heading(&ground),
-            team: settings.team,
-            number: settings.number,
+            team,
+            number,
             soles: Feet {
                 left: sole(Side::Left),
                 right: sole(Side::Right),

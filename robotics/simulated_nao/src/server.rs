@@ -32,7 +32,18 @@ pub(crate) struct LolaServer {
     commands: VecDeque<(u64, MotorCommands)>,
     /// How many wanted a joint beyond its limits.
     harmful: u64,
+    /// How often a client was dropped.
+    dropped: u64,
+    /// Whether it is told on stderr what clients do.
+    reports: bool,
+    /// States that were sent since the last command came.
+    unanswered: u32,
 }
+
+/// More than this between two states is no robot's program: 80 commands.
+const FLOOD: usize = 64 * 1024;
+/// So many states without any command are a stall: half a second.
+const STALL: u32 = 42;
 
 /// So many commands are remembered: 6 s of a robot that sends every 12 ms.
 const REMEMBERED: usize = 512;
@@ -58,6 +69,9 @@ impl LolaServer {
             command,
             commands: VecDeque::new(),
             harmful: 0,
+            dropped: 0,
+            reports: false,
+            unanswered: 0,
         })
     }
 
@@ -79,6 +93,16 @@ impl LolaServer {
         Ok(())
     }
 
+    /// From now on tells on stderr who comes, goes, stalls or floods.
+    pub(crate) fn report(&mut self) {
+        self.reports = true;
+    }
+
+    /// How often a client was dropped because it did not read or flooded.
+    pub(crate) fn dropped(&self) -> u64 {
+        self.dropped
+    }
+
     /// Where it listens.
     pub(crate) fn path(&self) -> &Path {
         &self.path
@@ -94,18 +118,31 @@ impl LolaServer {
         &self.command
     }
 
-    /// Everything that clients have asked for until now: the newest value of each key.
+    /// Everything that clients have asked for until now: the newest value of each key. Who stops asking leaves the motors with
+    /// what they were told last; what a NAO does then is not documented.
     pub(crate) fn receive(&mut self) -> MotorCommands {
         self.accept();
         let mut bytes = [0; 4096];
+        let mut taken = 0;
         while let Some(client) = &mut self.client {
             match client.read(&mut bytes) {
-                Ok(count) if count > 0 => self.received.push(&bytes[..count]),
+                Ok(count) if count > 0 && taken < FLOOD => {
+                    taken += count;
+                    self.received.push(&bytes[..count]);
+                }
+                Ok(count) if count > 0 => self.drop_for("sends more than any robot does"),
                 Err(error) if error.kind() == ErrorKind::WouldBlock => break,
                 Err(error) if error.kind() == ErrorKind::Interrupted => {}
-                Ok(_) | Err(_) => self.drop_client(),
+                Ok(_) | Err(_) => {
+                    self.tell("has gone");
+                    self.drop_client();
+                }
             }
             while self.received.next(&mut self.command) {
+                if self.unanswered >= STALL {
+                    self.tell("sends commands again");
+                }
+                self.unanswered = 0;
                 self.remember();
             }
         }
@@ -140,9 +177,27 @@ impl LolaServer {
         // A state that fits only in part would put every later one out of step.
         let sent = matches!(client.write(state), Ok(count) if count == state.len());
         if !sent {
-            self.drop_client();
+            self.drop_for("does not read its states");
+        }
+        self.unanswered = self.unanswered.saturating_add(1);
+        if self.unanswered == STALL {
+            self.tell(
+                "has sent no command for half a second; the motors keep what they were told last",
+            );
         }
         sent
+    }
+
+    fn drop_for(&mut self, reason: &str) {
+        self.dropped += 1;
+        self.tell(&format!("{reason}; it has to connect again"));
+        self.drop_client();
+    }
+
+    fn tell(&self, what: &str) {
+        if self.reports {
+            eprintln!("the program at {} {what}", self.path.display());
+        }
     }
 
     fn accept(&mut self) {
@@ -151,6 +206,8 @@ impl LolaServer {
             && client.set_nonblocking(true).is_ok()
         {
             self.client = Some(client);
+            self.unanswered = 0;
+            self.tell("has connected");
         }
     }
 
@@ -173,7 +230,8 @@ fn is_harmful(commands: &MotorCommands) -> bool {
     !commands.positions.iter().map(beyond).all(|by| by < 1e-6)
 }
 
-fn listen(path: &Path) -> std::io::Result<UnixListener> {
+/// A socket at a path that nobody serves; what a dead server left is replaced.
+pub(crate) fn listen(path: &Path) -> std::io::Result<UnixListener> {
     let listener = match UnixListener::bind(path) {
         Err(error) if error.kind() == ErrorKind::AddrInUse => {
             let refusal = |reason: &str| Err(std::io::Error::new(ErrorKind::AddrInUse, reason));

@@ -23,6 +23,8 @@ mod game;
 mod imperfections;
 mod network;
 mod options;
+mod play;
+mod player;
 
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -37,6 +39,8 @@ pub(crate) use self::game::PLAYERS_PER_TEAM;
 pub use self::game::{Announcement, GameSettings};
 pub use self::imperfections::{Imperfections, SensorErrors};
 pub use self::network::NetworkSettings;
+pub use self::play::PlaySettings;
+pub use self::player::PlayerSettings;
 use crate::scene::{self, ImageSettings, RobotSettings};
 pub use crate::sound::SoundSettings;
 
@@ -50,6 +54,8 @@ pub struct Settings {
     pub physics: PhysicsChoice,
     /// What is wrong with the robot's body.
     pub imperfections: Imperfections,
+    /// Who the robot is among several of a scenario: its `[[robot]]`.
+    pub robot: Option<PlayerSettings>,
     /// Where the robot starts in the field frame: x and y in m, heading in rad.
     pub robot_pose: [f64; 3],
     /// The ball.
@@ -117,6 +123,7 @@ impl Default for Settings {
             socket: None,
             physics: PhysicsChoice::default(),
             imperfections: Imperfections::default(),
+            robot: None,
             robot_pose: [2.0, 0.0, 0.0],
             ball: BallSettings::default(),
             robots: Vec::new(),

@@ -4,6 +4,7 @@
 //! Whoever owns it turns it step by step, in real time or as fast as lockstep goes.
 
 use std::collections::{BTreeSet, VecDeque};
+use std::sync::{Arc, MutexGuard};
 use std::time::Duration;
 
 use framework::{Error, Event, Result, Timestamp};
@@ -16,7 +17,8 @@ use crate::network::{Network, Received};
 use crate::server::LolaServer;
 use crate::settings::Settings;
 use crate::sound::{BLOCK_LENGTH, SAMPLE_RATE};
-use crate::world::{IMAGE_LATENCY, NO_ECHO, World};
+use crate::stage::{Broadcast, Scene, Stage};
+use crate::world::{IMAGE_LATENCY, NO_ECHO};
 
 /// LoLA's cycle.
 pub(crate) const TICK: Duration = Duration::from_millis(12);
@@ -83,9 +85,14 @@ const STEPS: [Step; 9] = [
     Step::Tick,
 ];
 
-/// World, LoLA, cameras, microphones and network at one moment.
+/// One robot's LoLA, cameras, microphones and network at one moment, in a world that may have others.
 pub(crate) struct Simulation {
-    world: World,
+    stage: Arc<Stage>,
+    /// Its place in the world.
+    robot: usize,
+    team: u8,
+    /// How many of the others' broadcasts are on their way.
+    heard: usize,
     server: LolaServer,
     pub(crate) network: Network,
     has_cameras: bool,
@@ -116,13 +123,17 @@ pub(crate) struct Simulation {
 impl Simulation {
     pub(crate) fn new(
         settings: &Settings,
+        stage: Arc<Stage>,
+        robot: usize,
         network: Network,
-        server: impl FnOnce(&World) -> Result<LolaServer>,
-    ) -> Result<Self> {
-        let world = World::new(settings);
-        Ok(Self {
-            server: server(&world)?,
-            world,
+        server: LolaServer,
+    ) -> Self {
+        Self {
+            server,
+            stage,
+            robot,
+            team: settings.team(),
+            heard: 0,
             network,
             has_cameras: settings.cameras,
             has_microphones: settings.microphones,
@@ -141,19 +152,50 @@ impl Simulation {
             is_behind: BTreeSet::new(),
             garble_state: false,
             garble_image: PerCamera::default(),
-        })
+        }
     }
 
-    pub(crate) fn world(&self) -> &World {
-        &self.world
+    /// The world and everybody in it.
+    pub(crate) fn scene(&self) -> MutexGuard<'_, Scene> {
+        self.stage.lock()
     }
 
-    pub(crate) fn world_mut(&mut self) -> &mut World {
-        &mut self.world
+    /// Its place in the world.
+    pub(crate) fn robot(&self) -> usize {
+        self.robot
+    }
+
+    /// Whether the world has come to the next step: with others in it, somebody else lets it go on.
+    pub(crate) fn can_step(&mut self) -> bool {
+        let scene = self.stage.lock();
+        for broadcast in scene.aired(self.heard) {
+            self.heard += 1;
+            if broadcast.team == self.team && broadcast.robot != self.robot {
+                self.network
+                    .mate_has_broadcast(broadcast.at, &broadcast.bytes);
+            }
+        }
+        let can = |time| scene.has_come_to(time);
+        can(self.next_time())
+    }
+
+    /// Tells the others of its team something.
+    pub(crate) fn broadcast(&mut self, at: Timestamp, bytes: &[u8]) {
+        self.network.robot_has_broadcast(at, bytes);
+        self.stage.lock().speak(Broadcast {
+            at,
+            robot: self.robot,
+            team: self.team,
+            bytes: bytes.to_vec(),
+        });
     }
 
     pub(crate) fn server(&self) -> &LolaServer {
         &self.server
+    }
+
+    pub(crate) fn server_mut(&mut self) -> &mut LolaServer {
+        &mut self.server
     }
 
     /// Waits for a client and sends it a state before time begins.
@@ -161,7 +203,7 @@ impl Simulation {
     /// # Errors
     /// Where nobody connects.
     pub(crate) fn greet(&mut self) -> Result<()> {
-        let sensors = self.world.sample();
+        let sensors = self.stage.lock().world.sample(self.robot);
         lola::state::encode(&sensors, &mut self.state).map_err(Error::from)?;
         self.server.wait_for_client(PATIENCE)?;
         self.server.send(&self.state);
@@ -213,7 +255,7 @@ impl Simulation {
         self.now = at;
         let instance = match step {
             Step::Expose(camera) => {
-                self.world.advance_to(at);
+                self.stage.lock().world.advance_to(at);
                 self.expose(camera);
                 None
             }
@@ -224,9 +266,16 @@ impl Simulation {
                     CameraPosition::Bottom => "VisionBottom",
                 })
             }
-            Step::RefereeSpeaks => self.network.referee_speaks(at)?.then_some("SplNetwork"),
+            Step::RefereeSpeaks => {
+                let played = self.stage.lock().world.game_message();
+                let has_arrived = self.network.referee_speaks(at, played)?;
+                has_arrived.then_some("SplNetwork")
+            }
             Step::MateSpeaks => {
-                let truth = || GroundTruth::new(&self.world, self.server.harmful());
+                let truth = || {
+                    let harmful = self.server.harmful();
+                    GroundTruth::new(&self.stage.lock().world, self.robot, harmful)
+                };
                 let has_arrived = self.network.mate_speaks(at, truth)?;
                 has_arrived.then_some("SplNetwork")
             }
@@ -236,7 +285,7 @@ impl Simulation {
                 Some("Audio")
             }
             Step::Tick => {
-                self.world.advance_to(at);
+                self.stage.lock().world.advance_to(at);
                 self.tick()?;
                 Some("Control")
             }
@@ -248,7 +297,7 @@ impl Simulation {
     pub(crate) fn skip_to(&mut self, now: Timestamp) {
         let passed = now - Timestamp::ZERO;
         self.ticks = self.ticks.max(count(passed, TICK));
-        self.world.skip_to(now);
+        self.stage.lock().world.skip_to(now);
         self.network.skip_to(now);
         while block_time(self.blocks) <= now {
             self.blocks += 1;
@@ -267,11 +316,13 @@ impl Simulation {
 
     fn tick(&mut self) -> Result<()> {
         self.ticks += 1;
-        let now = self.world.now();
+        let mut scene = self.stage.lock();
+        let now = scene.world.now();
         self.network.collect(now);
-        let mut sensors = self.world.sample();
+        let mut sensors = scene.world.sample(self.robot);
         let commands = self.server.receive();
-        self.world.command(commands);
+        scene.world.command(self.robot, commands);
+        drop(scene);
         // A sonar that does not send hears nothing.
         let [left, right] = self.server.command().sonars;
         if !left {
@@ -304,7 +355,7 @@ impl Simulation {
 
     fn expose(&mut self, camera: CameraPosition) {
         let number = self.exposures.of_mut(camera);
-        let exposure = self.world.expose(camera, *number);
+        let exposure = self.stage.lock().world.expose(self.robot, camera, *number);
         *number += 1;
         remember(self.exposed.of_mut(camera), exposure.clone());
         let waiting = self.waiting.of_mut(camera);
@@ -379,7 +430,8 @@ impl Simulation {
     }
 
     pub(crate) fn ground_truth(&self) -> GroundTruth {
-        GroundTruth::new(&self.world, self.server.harmful())
+        let harmful = self.server.harmful();
+        GroundTruth::new(&self.stage.lock().world, self.robot, harmful)
     }
 
     pub(crate) fn bodies(&self) -> Vec<BodyTruth> {
@@ -397,6 +449,20 @@ impl Simulation {
             .rfind(|exposure| exposure.captured_at == captured_at)
             .map(ImageTruth::from)
     }
+}
+
+/// When some robot looks at the world next after a time: all ticks and all exposures fall together.
+pub(crate) fn next_beat(after: Timestamp) -> Timestamp {
+    let next = |first: Duration, period: Duration| {
+        let passed = (after - Timestamp::ZERO).checked_sub(first);
+        let number = passed.map_or(0, |passed| count(passed, period) + 1);
+        Timestamp::ZERO + first + times(period, number)
+    };
+    let tick = next(TICK, TICK);
+    [FIRST_EXPOSURE.top, FIRST_EXPOSURE.bottom]
+        .into_iter()
+        .map(|first| next(first, IMAGE_PERIOD))
+        .fold(tick, Timestamp::min)
 }
 
 /// When the last sample of a block of sound is taken.

@@ -11,16 +11,20 @@ use tempfile::TempDir;
 use crate::ground_truth::GroundTruth;
 use crate::network::{Network, NetworkTruth, RobotSockets};
 use crate::physics::Disturbance;
+use crate::senses::Senses;
 use crate::server::LolaServer;
 use crate::settings::Settings;
 use crate::simulation::Simulation;
 use crate::sound::{Sound, SoundSettings};
+use crate::stage::Stage;
 
 /// Later than this the simulation leaves out what it has missed instead of catching up.
 const GREATEST_DELAY: Duration = Duration::from_millis(60);
 
 /// A simulation behind a lock.
 pub(crate) struct Shared {
+    /// The world, which others may be in.
+    pub(crate) stage: Arc<Stage>,
     simulation: Mutex<Simulation>,
     pub(crate) sound: Sound,
     pub(crate) sound_settings: SoundSettings,
@@ -38,6 +42,18 @@ impl Shared {
         is_stepped: bool,
     ) -> Result<Self> {
         settings.check()?;
+        let stage = Arc::new(Stage::new(settings));
+        Self::on(stage, 0, settings, robot, is_stepped)
+    }
+
+    /// The robot with that place in a world.
+    pub(crate) fn on(
+        stage: Arc<Stage>,
+        place: usize,
+        settings: &Settings,
+        robot: Option<Arc<RobotSockets>>,
+        is_stepped: bool,
+    ) -> Result<Self> {
         let network = Network::new(settings, robot, is_stepped)?;
         let (socket, folder) = match &settings.socket {
             Some(path) => (path.clone(), None),
@@ -48,10 +64,10 @@ impl Shared {
                 (folder.path().join("lola"), Some(folder))
             }
         };
-        let simulation = Simulation::new(settings, network, |world| {
-            LolaServer::new(socket, *world.commands())
-        })?;
+        let server = LolaServer::new(socket, *stage.lock().world.commands(place))?;
+        let simulation = Simulation::new(settings, Arc::clone(&stage), place, network, server);
         Ok(Self {
+            stage,
             simulation: Mutex::new(simulation),
             sound: Sound::new(&settings.sound),
             sound_settings: settings.sound.clone(),
@@ -76,6 +92,8 @@ impl Shared {
 ///
 /// Serves LoLA to whatever client connects: [`crate::Hardware`] is one, other programs may be.
 pub struct Simulator {
+    // Before the rest, so that its threads have ended when that goes.
+    senses: Option<Senses>,
     shared: Arc<Shared>,
     closing: Stop,
     thread: Option<JoinHandle<()>>,
@@ -92,6 +110,32 @@ impl Simulator {
         Self::run(Arc::new(Shared::new(settings, None, false)?), clock, |_| {})
     }
 
+    /// As [`Simulator::start`], with cameras and microphones on sockets beside LoLA's (`src/senses.rs` says how), and
+    /// with a report on stderr of who comes, goes, stalls or floods.
+    ///
+    /// # Errors
+    /// As [`Simulator::start`].
+    pub fn serve(settings: &Settings, clock: Clock) -> Result<Self> {
+        let shared = Arc::new(Shared::new(settings, None, false)?);
+        shared.lock().server_mut().report();
+        let senses = Senses::serve(&shared, &clock)?;
+        let mut simulator = Self::run(shared, clock, |_| {})?;
+        simulator.senses = Some(senses);
+        Ok(simulator)
+    }
+
+    /// Whether the world still turns.
+    pub fn is_running(&self) -> bool {
+        self.thread
+            .as_ref()
+            .is_some_and(|thread| !thread.is_finished())
+    }
+
+    /// How often a program that had connected to LoLA was dropped because it did not read or flooded, for tests.
+    pub fn dropped_clients(&self) -> u64 {
+        self.shared.lock().server().dropped()
+    }
+
     /// Where LoLA is served.
     pub fn socket(&self) -> PathBuf {
         self.shared.socket()
@@ -104,7 +148,7 @@ impl Simulator {
 
     /// Does to the world what no motor does, for tests and scenarios.
     pub fn disturb(&self, disturbance: &Disturbance) {
-        self.shared.lock().world_mut().disturb(disturbance);
+        self.shared.stage.lock().world.disturb(disturbance);
     }
 
     /// What the referee's computer and the team mate have said and heard, for tests.
@@ -131,6 +175,7 @@ impl Simulator {
                 move || turn(&shared, &clock, &closing, before_tick)
             })?;
         Ok(Self {
+            senses: None,
             shared,
             closing,
             thread: Some(thread),
@@ -140,6 +185,7 @@ impl Simulator {
 
 impl Drop for Simulator {
     fn drop(&mut self) {
+        self.senses = None;
         self.closing.request();
         if let Some(thread) = self.thread.take() {
             // A panic of the thread has been printed; the world simply stands still since.

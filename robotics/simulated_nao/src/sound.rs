@@ -3,7 +3,7 @@
 //! In reading order: what can be chosen ([`SoundSettings`]), noise out of nothing but a number
 //! ([`noise`]), the audience ([`crowd`], [`voices`]), the referee ([`whistle`]).
 //!
-//! Invariant: a block depends on settings and number alone. Blocks can be recorded in any order and
+//! Invariant: a block depends on settings, number and the whistles that were called alone. Blocks can be recorded in any order and
 //! any number of times, fit together without a step, and are the same on every run.
 
 mod crowd;
@@ -59,7 +59,8 @@ impl Sound {
 
     /// Block `number`, counted from 0; its last sample was taken at `(number + 1) * BLOCK_LENGTH` samples
     /// of [`SAMPLE_RATE`]. Allocates only while `block` has not had its size.
-    pub(crate) fn record(&self, number: u64, block: &mut AudioBlock) {
+    /// `called` are whistles beside those of the settings: when each begins, s.
+    pub(crate) fn record(&self, number: u64, called: &[f64], block: &mut AudioBlock) {
         let start = number * BLOCK_LENGTH as u64;
         let mut passage = Passage {
             seed: self.settings.seed,
@@ -69,10 +70,9 @@ impl Sound {
         let noise_level = self.settings.noise_level as f32;
         crowd::add(&mut passage, noise_level);
         voices::add(&mut passage, noise_level);
-        for truth in self
-            .settings
-            .whistles_between(passage.begin(), passage.end())
-        {
+        let (begin, end) = (passage.begin(), passage.end());
+        let called = self.settings.called_between(called, begin, end);
+        for truth in self.settings.whistles_between(begin, end).chain(called) {
             whistle::add(&mut passage, &truth);
         }
 
@@ -128,7 +128,7 @@ mod tests {
 
     fn record(settings: &SoundSettings, number: u64) -> AudioBlock {
         let mut block = AudioBlock::default();
-        Sound::new(settings).record(number, &mut block);
+        Sound::new(settings).record(number, &[], &mut block);
         block
     }
 
@@ -145,7 +145,7 @@ mod tests {
         let sound = Sound::new(&settings);
         let mut block = AudioBlock::default();
         for number in [12, 3, 14, 12] {
-            sound.record(number, &mut block);
+            sound.record(number, &[], &mut block);
             assert_eq!(block, record(&settings, number), "block {number}");
         }
         let other = SoundSettings {
@@ -176,10 +176,10 @@ mod tests {
     fn a_block_with_its_size_keeps_its_heap() {
         let sound = Sound::new(&whistling());
         let mut block = AudioBlock::default();
-        sound.record(0, &mut block);
+        sound.record(0, &[], &mut block);
         let heap = |block: &AudioBlock| block.channels.each_ref().map(|channel| channel.as_ptr());
         let before = heap(&block);
-        sound.record(1, &mut block);
+        sound.record(1, &[], &mut block);
         assert_eq!(heap(&block), before);
     }
 
@@ -191,7 +191,7 @@ mod tests {
         let (mut within, mut between) = (0.0_f64, 0.0_f64);
         let count = 2000;
         for number in 0..count {
-            sound.record(number, &mut block);
+            sound.record(number, &[], &mut block);
             let samples = &block.channels[0];
             if let Some(last) = last {
                 between += f64::from(samples[0] - last).powi(2);
@@ -214,7 +214,7 @@ mod tests {
         let mut power = [0.0_f64; MICROPHONE_COUNT];
         let count = 1000;
         for number in 0..count {
-            sound.record(number, &mut block);
+            sound.record(number, &[], &mut block);
             for (power, channel) in power.iter_mut().zip(&block.channels) {
                 let sum: f64 = channel
                     .iter()

@@ -1,7 +1,9 @@
-//! The simulated world at one moment: the robot's body, its motors and cameras, and the ball.
+//! The simulated world at one moment: the robots' bodies, their motors and cameras, and the ball.
 
+mod game;
 mod imperfections;
 mod inertial;
+mod inhabitant;
 mod motor_boards;
 mod power;
 mod sensors;
@@ -12,7 +14,7 @@ mod way;
 use std::sync::Arc;
 use std::time::Duration;
 
-use framework::Timestamp;
+use framework::{Error, Result, Timestamp};
 use kinematics::cameras::{
     FOCAL_LENGTH, IMAGE_SIZE, OPTICAL_CENTER, camera_to_head, optical_to_camera,
 };
@@ -21,19 +23,16 @@ use kinematics::links::LinkName;
 use nalgebra::{Isometry3, Point2, Point3, Vector2};
 use types::camera::{CameraPosition, Intrinsics};
 use types::motor_commands::MotorCommands;
-use types::sensor_data::{RobotConfiguration, SensorData, Touch};
+use types::sensor_data::{SensorData, Touch};
 
-use self::imperfections::Imperfections;
-use self::inertial::InertialUnit;
-use self::motor_boards::MotorBoards;
-use self::power::Power;
+use self::game::Game;
+use self::inhabitant::Inhabitant;
 pub(crate) use self::sonar::NO_ECHO;
-use self::way::Way;
 use crate::camera::{Exposure, OwnBody};
 use crate::field::Field;
 use crate::physics::{Body, Disturbance, Dynamic, Kinematic, Physics, STEP, Situation, Start};
 use crate::posture;
-use crate::scene::{self, ImageSettings, Robot, RobotSettings};
+use crate::scene::{self, Robot, RobotSettings};
 use crate::settings::{PhysicsChoice, Press, Settings};
 
 /// From exposure to the arrival of the image.
@@ -43,77 +42,98 @@ pub(crate) const IMAGE_LATENCY: Duration = Duration::from_millis(25);
 pub(crate) struct World {
     pub(crate) field: Arc<Field>,
     now: Timestamp,
+    situation: Situation,
+    choice: PhysicsChoice,
     physics: Box<dyn Physics>,
     /// When the last step of the physics was.
     stepped: Timestamp,
-    way: Way,
-    inertial: InertialUnit,
-    imperfections: Imperfections,
-    motors: MotorBoards,
-    power: Power,
-    presses: Vec<Press>,
-    configuration: RobotConfiguration,
-    others: Vec<RobotSettings>,
-    /// The others where they are now.
-    robots: Arc<[Robot]>,
-    images: ImageSettings,
+    inhabitants: Vec<Inhabitant>,
+    bystanders: Vec<RobotSettings>,
+    /// Where they are now.
+    statues: Arc<[Robot]>,
+    game: Option<Game>,
+    whistles: Vec<f64>,
 }
 
 impl World {
     pub(crate) fn new(settings: &Settings) -> Self {
         let situation = situation(settings);
-        let physics: Box<dyn Physics> = match settings.physics {
-            PhysicsChoice::Dynamic => Box::new(Dynamic::new(&situation)),
-            PhysicsChoice::Kinematic => Box::new(Kinematic::new(&situation)),
-        };
-        let joints = posture::sitting();
+        let physics = physics(settings.physics, &situation);
+        let statues = robots(&settings.robots, physics.bystanders());
         Self {
             field: Arc::default(),
             now: Timestamp::ZERO,
             stepped: Timestamp::ZERO,
-            way: Way::new(place(&physics.bodies()[0])),
-            inertial: InertialUnit::default(),
-            imperfections: Imperfections::new(&settings.imperfections),
-            motors: MotorBoards::new(&joints),
-            power: Power::new(),
-            presses: settings.buttons.clone(),
-            configuration: settings.configuration(),
-            others: settings.robots.clone(),
-            robots: robots(&settings.robots, physics.bystanders()),
-            images: settings.images,
+            situation,
+            choice: settings.physics,
+            inhabitants: vec![Inhabitant::new(settings, &physics.bodies()[0], Arc::clone(&statues))],
+            bystanders: settings.robots.clone(),
+            statues,
             physics,
+            game: Game::new(&settings.game),
+            whistles: Vec::new(),
         }
+    }
+
+    /// Takes one more robot in, before time begins; its place.
+    ///
+    /// # Errors
+    /// Where the field is full.
+    pub(crate) fn join(&mut self, settings: &Settings) -> Result<usize> {
+        let place = self.inhabitants.len();
+        if place + self.bystanders.len() > scene::MOST_ROBOTS {
+            return Err(Error::new(format!(
+                "the field holds at most {} robots",
+                scene::MOST_ROBOTS + 1
+            )));
+        }
+        self.situation.robots.push(start(settings));
+        self.physics = physics(self.choice, &self.situation);
+        let body = &self.physics.bodies()[place];
+        self.inhabitants
+            .push(Inhabitant::new(settings, body, Arc::clone(&self.statues)));
+        self.look_around();
+        Ok(place)
+    }
+
+    /// How many robots with programs there are.
+    pub(crate) fn robot_count(&self) -> usize {
+        self.inhabitants.len()
     }
 
     pub(crate) fn now(&self) -> Timestamp {
         self.now
     }
 
-    pub(crate) fn body(&self) -> &Body {
-        &self.physics.bodies()[0]
+    pub(crate) fn body(&self, robot: usize) -> &Body {
+        &self.physics.bodies()[robot]
     }
 
     /// What the motors were told last.
-    pub(crate) fn commands(&self) -> &MotorCommands {
-        self.motors.commands()
+    pub(crate) fn commands(&self, robot: usize) -> &MotorCommands {
+        self.inhabitants[robot].motors.commands()
     }
 
     pub(crate) fn ball(&self) -> Option<Point3<f64>> {
         self.physics.ball().map(|ball| ball.position)
     }
 
-    /// How far the robot has gone over the floor, m.
-    pub(crate) fn walked(&self) -> f64 {
-        self.way.length()
+    /// How far a robot has gone over the floor, m.
+    pub(crate) fn walked(&self, robot: usize) -> f64 {
+        self.inhabitants[robot].way.length()
     }
 
-    pub(crate) fn robots(&self) -> &[Robot] {
-        &self.robots
+    /// The others.
+    pub(crate) fn robots(&self, robot: usize) -> &[Robot] {
+        &self.inhabitants[robot].others
     }
 
     /// What the robot can run into: the middle of each obstacle in the field frame and its radius, m.
-    pub(crate) fn obstacles(&self) -> impl Iterator<Item = (Point2<f64>, f64)> + Clone {
-        scene::obstacles(&self.robots)
+    pub(crate) fn obstacles(
+        &self,
+        robot: usize,
+    ) -> impl Iterator<Item = (Point2<f64>, f64)> + Clone {
+        scene::obstacles(self.robots(robot))
     }
 
     /// Lets time pass; a time that is over already changes nothing.
@@ -121,22 +141,52 @@ impl World {
         if time <= self.now {
             return;
         }
-        // On a grid of its own, so that the body does not depend on who looks at it when.
+        // On a grid of its own, so that the bodies do not depend on who looks at them when.
         while self.stepped + STEP <= time {
             self.stepped = self.stepped + STEP;
-            let mut commands = self.motors.at(self.stepped);
-            self.imperfections
-                .push(&mut commands, &self.physics.bodies()[0].joints);
-            self.physics.step(&[commands]);
-            self.inertial.measure(&self.physics.bodies()[0]);
+            let bodies = self.physics.bodies().iter();
+            let commands: Vec<_> = bodies
+                .zip(&self.inhabitants)
+                .map(|(body, inhabitant)| inhabitant.push(body, self.stepped))
+                .collect();
+            self.physics.step(&commands);
+            for (body, inhabitant) in self.physics.bodies().iter().zip(&mut self.inhabitants) {
+                inhabitant.inertial.measure(body);
+            }
+            self.referee_looks();
         }
-        if has_moved(&self.robots, self.physics.bystanders()) {
-            self.robots = robots(&self.others, self.physics.bystanders());
+        self.look_around();
+        for inhabitant in &mut self.inhabitants {
+            let stiffnesses = inhabitant.motors.commands().stiffnesses;
+            inhabitant.power.advance(time - self.now, &stiffnesses);
         }
-        self.power
-            .advance(time - self.now, &self.motors.commands().stiffnesses);
         self.now = time;
-        self.way.go(time, place(self.body()));
+        for (body, inhabitant) in self.physics.bodies().iter().zip(&mut self.inhabitants) {
+            inhabitant.way.go(time, body);
+        }
+    }
+
+    /// Shows everybody where the others are.
+    fn look_around(&mut self) {
+        let have_moved = has_moved(&self.statues, self.physics.bystanders());
+        if have_moved {
+            self.statues = robots(&self.bystanders, self.physics.bystanders());
+        }
+        if let [only] = &mut self.inhabitants[..] {
+            if have_moved {
+                only.others = Arc::clone(&self.statues);
+            }
+            return;
+        }
+        let figures = self.physics.bodies().iter().zip(&self.inhabitants);
+        let figures: Vec<_> = figures
+            .map(|(body, inhabitant)| inhabitant.figure(body))
+            .collect();
+        for (place, inhabitant) in self.inhabitants.iter_mut().enumerate() {
+            let others = (0..figures.len()).filter(|other| *other != place);
+            let others = others.map(|other| figures[other].clone());
+            inhabitant.others = self.statues.iter().cloned().chain(others).collect();
+        }
     }
 
     /// Leaves out the time until `time`: nothing moves.
@@ -148,94 +198,90 @@ impl World {
     /// Does to the world what no motor does.
     pub(crate) fn disturb(&mut self, disturbance: &Disturbance) {
         self.physics.disturb(disturbance);
-        if let Disturbance::Kidnap { robot: 0, .. } = disturbance {
-            let place = place(self.body());
-            self.way.carry(place);
+        if let Disturbance::Kidnap { robot, .. } = disturbance
+            && let Some(inhabitant) = self.inhabitants.get_mut(*robot)
+        {
+            inhabitant.way.carry(&self.physics.bodies()[*robot]);
         }
     }
 
     /// Somebody presses a button.
-    pub(crate) fn press(&mut self, press: Press) {
-        self.presses.push(press);
+    pub(crate) fn press(&mut self, robot: usize, press: Press) {
+        self.inhabitants[robot].presses.push(press);
     }
 
     /// Tells the motors what to do from now on.
-    pub(crate) fn command(&mut self, commands: MotorCommands) {
-        if let Some(commands) = self.imperfections.delay(commands) {
-            self.motors
-                .command(commands, &self.physics.bodies()[0].joints, self.now);
-        }
+    pub(crate) fn command(&mut self, robot: usize, commands: MotorCommands) {
+        let joints = self.physics.bodies()[robot].joints;
+        self.inhabitants[robot].command(commands, &joints, self.now);
     }
 
-    /// Reads all sensors of the body.
-    pub(crate) fn sample(&mut self) -> SensorData {
-        let inertial = self.inertial.take(&self.physics.bodies()[0]);
-        let (body, commands) = (self.body(), self.commands());
-        let stiffnesses = commands.stiffnesses;
-        let mut sensors = SensorData {
-            currents: power::currents(&body.joints, commands),
-            temperatures: self.power.temperatures(),
-            status: self.power.status(),
-            touch: self.touch(),
-            sonar: sonar::echoes(&body.torso_to_field, self.obstacles()),
-            battery: self.power.battery(&stiffnesses),
-            ..sensors::sample(body, inertial, stiffnesses, self.configuration)
-        };
-        self.imperfections.spoil(&mut sensors);
-        sensors
+    /// Reads all sensors of a body.
+    pub(crate) fn sample(&mut self, robot: usize) -> SensorData {
+        let body = &self.physics.bodies()[robot];
+        let obstacles = scene::obstacles(&self.inhabitants[robot].others);
+        let sonar = sonar::echoes(&body.torso_to_field, obstacles);
+        self.inhabitants[robot].sample(body, sonar, self.now)
     }
 
     /// Everything that is pressed now.
-    pub(crate) fn touch(&self) -> Touch {
-        touch::touch(&self.presses, self.now)
+    pub(crate) fn touch(&self, robot: usize) -> Touch {
+        touch::touch(&self.inhabitants[robot].presses, self.now)
     }
 
     /// Takes what an image of one camera depends on.
-    pub(crate) fn expose(&self, camera: CameraPosition, number: u64) -> Exposure {
+    pub(crate) fn expose(&self, robot: usize, camera: CameraPosition, number: u64) -> Exposure {
+        let body = self.body(robot);
         Exposure {
             number,
             captured_at: self.now,
             ready_at: self.now + IMAGE_LATENCY,
-            camera_to_field: self.camera_to_field(camera),
-            ground_to_field: self.body().ground_to_field().cast(),
+            camera_to_field: camera_to_field(body, camera),
+            ground_to_field: body.ground_to_field().cast(),
             intrinsics: intrinsics(),
             ball: self.ball().map(|ball| ball.cast()),
-            robots: Arc::clone(&self.robots),
+            robots: Arc::clone(&self.inhabitants[robot].others),
             body: Some(OwnBody {
-                joints: self.body().joints.map(|angle| angle as f32),
-                torso_to_field: self.body().torso_to_field.cast(),
+                joints: body.joints.map(|angle| angle as f32),
+                torso_to_field: body.torso_to_field.cast(),
             }),
-            images: self.images,
+            images: self.inhabitants[robot].images,
         }
     }
+}
 
-    fn camera_to_field(&self, camera: CameraPosition) -> Isometry3<f32> {
-        let body = self.body();
-        let head = forward_kinematics(&body.joints).link(LinkName::Head);
-        let camera_to_field =
-            body.torso_to_field * head * camera_to_head::<f64>(camera) * optical_to_camera::<f64>();
-        camera_to_field.cast()
-    }
+fn camera_to_field(body: &Body, camera: CameraPosition) -> Isometry3<f32> {
+    let head = forward_kinematics(&body.joints).link(LinkName::Head);
+    let camera_to_field =
+        body.torso_to_field * head * camera_to_head::<f64>(camera) * optical_to_camera::<f64>();
+    camera_to_field.cast()
 }
 
 /// Nearer than this, m, a bystander is where it was: a body at rest trembles less.
 const STILL: f64 = 1e-4;
 
-/// Midway between its soles, in the field frame, m.
-fn place(body: &Body) -> Point2<f64> {
-    body.ground_to_field().translation.vector.xy().into()
+fn physics(choice: PhysicsChoice, situation: &Situation) -> Box<dyn Physics> {
+    match choice {
+        PhysicsChoice::Dynamic => Box::new(Dynamic::new(situation)),
+        PhysicsChoice::Kinematic => Box::new(Kinematic::new(situation)),
+    }
 }
 
-/// What the settings put on the field; the robot sits and waits.
+/// What the settings put on the field.
 fn situation(settings: &Settings) -> Situation {
     let others = settings.robots.iter();
     Situation {
-        robots: vec![Start {
-            joints: posture::sitting(),
-            pose: settings.robot_pose,
-        }],
+        robots: vec![start(settings)],
         bystanders: others.map(RobotSettings::start).collect(),
         ball: settings.ball_position(),
+    }
+}
+
+/// A robot sits and waits.
+fn start(settings: &Settings) -> Start {
+    Start {
+        joints: posture::sitting(),
+        pose: settings.robot_pose,
     }
 }
 
@@ -274,7 +320,7 @@ mod tests {
         };
         let mut world = World::new(&settings);
         world.advance_to(Timestamp::ZERO + Duration::from_millis(millis));
-        world.sample()
+        world.sample(0)
     }
 
     #[test]
@@ -300,14 +346,14 @@ mod tests {
                 imperfections,
                 ..Settings::default()
             });
-            let start = f64::from(world.sample().positions.left_hip_roll);
-            let mut commands = *world.commands();
+            let start = f64::from(world.sample(0).positions.left_hip_roll);
+            let mut commands = *world.commands(0);
             commands.stiffnesses = types::joints::Joints::filled(1.0);
             commands.positions.left_hip_roll += 0.03;
             let states = (1..=4).map(|tick| {
                 world.advance_to(Timestamp::ZERO + Duration::from_millis(12 * tick));
-                let position = f64::from(world.sample().positions.left_hip_roll);
-                world.command(commands);
+                let position = f64::from(world.sample(0).positions.left_hip_roll);
+                world.command(0, commands);
                 position - start
             });
             states.collect::<Vec<_>>()
@@ -343,7 +389,7 @@ mod tests {
             });
             let samples = (1..=400).map(|tick| {
                 world.advance_to(Timestamp::ZERO + Duration::from_millis(12 * tick));
-                world.sample().inertial.gyroscope.y
+                world.sample(0).inertial.gyroscope.y
             });
             samples.collect::<Vec<_>>()
         };
@@ -365,13 +411,13 @@ mod tests {
             physics: PhysicsChoice::Kinematic,
             ..Settings::default()
         });
-        let before = world.sample();
+        let before = world.sample(0);
         assert_eq!(before.currents.head_yaw, 0.0);
-        let mut commands = *world.commands();
+        let mut commands = *world.commands(0);
         commands.stiffnesses = types::joints::Joints::filled(1.0);
-        world.command(commands);
+        world.command(0, commands);
         world.advance_to(Timestamp::ZERO + Duration::from_secs(60));
-        let after = world.sample();
+        let after = world.sample(0);
         assert!(after.battery.charge < before.battery.charge);
         assert!(after.battery.current < before.battery.current);
         assert!(after.temperatures.head_yaw > before.temperatures.head_yaw);

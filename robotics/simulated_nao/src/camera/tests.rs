@@ -32,7 +32,7 @@ fn robot(position: [f64; 2], team: Team) -> RobotSettings {
 
 fn shot(settings: &Settings, number: u64) -> (YuyvImage, ImageTruth) {
     let world = World::new(settings);
-    let exposure = world.expose(CameraPosition::Top, number);
+    let exposure = world.expose(0, CameraPosition::Top, number);
     let mut image = YuyvImage::default();
     render(&exposure, &world.field, &mut image);
     (image, ImageTruth::from(&exposure))
@@ -83,13 +83,13 @@ fn an_image_is_made_in_the_heap_that_is_there() {
     let world = World::new(&settings());
     let mut image = YuyvImage::default();
     render(
-        &world.expose(CameraPosition::Top, 0),
+        &world.expose(0, CameraPosition::Top, 0),
         &world.field,
         &mut image,
     );
     let heap = image.data.as_ptr();
     render(
-        &world.expose(CameraPosition::Bottom, 0),
+        &world.expose(0, CameraPosition::Bottom, 0),
         &world.field,
         &mut image,
     );

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use framework::{NoEvent, Result, Timestamp, blocking};
 use hardware::{MessageInterface, NetworkInterface};
-use types::network::{Datagram, Endpoint};
+use types::network::{Channel, Datagram, Endpoint};
 
 use super::{Hardware, PATIENCE};
 use crate::network::{LONGEST_FLIGHT, Network};
@@ -24,6 +24,10 @@ impl NetworkInterface for Hardware {
         while begun.elapsed() < SILENCE {
             self.stop.check()?;
             if blocking(|| self.sockets.receive(datagram, PATIENCE))? {
+                if datagram.channel == Channel::GameController {
+                    let network = &mut self.shared.lock().network;
+                    network.overheard(self.clock.now(), &datagram.sender, &datagram.bytes);
+                }
                 return Ok(self.clock.now());
             }
         }
@@ -64,7 +68,7 @@ impl MessageInterface for Hardware {
         // Who broadcasts hears it, too.
         if is_stepped {
             let now = self.clock.now();
-            self.shared.lock().network.robot_has_broadcast(now, bytes);
+            self.shared.lock().broadcast(now, bytes);
             return Ok(());
         }
         let own = self.sockets.team_address()?;

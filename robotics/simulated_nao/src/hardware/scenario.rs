@@ -5,9 +5,11 @@ use nalgebra::{Isometry3, Point3, Vector3};
 use serde::Deserialize;
 use serde_json::{Value, json};
 use types::camera::CameraPosition;
+use types::game::Penalty;
 
 use crate::ground_truth::GroundTruth;
 use crate::physics::{Disturbance, heading};
+use crate::scene::Team;
 use crate::settings::{Button, Press};
 use crate::simulation::Simulation;
 
@@ -25,6 +27,10 @@ pub(super) struct Deed {
     kidnap: Option<[f64; 3]>,
     /// What somebody presses, as in `buttons`, for so many seconds.
     press: Option<Pressed>,
+    /// The referee takes the robot out for that; where a game is played.
+    penalise: Option<Penalty>,
+    /// Somebody whistles.
+    whistle: bool,
     /// The camera whose next image arrives garbled.
     garble_image: Option<CameraPosition>,
     /// The next state that LoLA sends arrives garbled.
@@ -62,8 +68,10 @@ impl Deed {
     /// Does it.
     pub(super) fn happen(&self, simulation: &mut Simulation) -> Result<()> {
         let truth = simulation.ground_truth();
-        for disturbance in self.disturbances(&truth)? {
-            simulation.world_mut().disturb(&disturbance);
+        let robot = simulation.robot();
+        let mut scene = simulation.scene();
+        for disturbance in self.disturbances(robot, &truth)? {
+            scene.world.disturb(&disturbance);
         }
         if let Some(Pressed { button, lasts }) = self.press {
             let press = Press {
@@ -72,8 +80,19 @@ impl Deed {
                 lasts,
             };
             press.check()?;
-            simulation.world_mut().press(press);
+            scene.world.press(robot, press);
         }
+        if let Some(penalty) = self.penalise
+            && !scene.world.penalise(robot, penalty)
+        {
+            return Err(Error::new(
+                "nobody can be penalised: there is no referee (hardware.simulated.game.play)",
+            ));
+        }
+        if self.whistle {
+            scene.world.whistle();
+        }
+        drop(scene);
         if let Some(camera) = self.garble_image {
             *simulation.garble_image.of_mut(camera) = true;
         }
@@ -81,12 +100,12 @@ impl Deed {
         Ok(())
     }
 
-    fn disturbances(&self, truth: &GroundTruth) -> Result<Vec<Disturbance>> {
+    fn disturbances(&self, robot: usize, truth: &GroundTruth) -> Result<Vec<Disturbance>> {
         let mut all = Vec::new();
         if let Some(impulse) = self.push {
             let ground: Isometry3<f64> = truth.ground_to_field.cast();
             all.push(Disturbance::Push {
-                robot: 0,
+                robot,
                 impulse: ground.rotation * Vector3::from(impulse),
             });
         }
@@ -103,7 +122,7 @@ impl Deed {
             });
         }
         if let Some(pose) = self.kidnap {
-            all.push(Disturbance::Kidnap { robot: 0, pose });
+            all.push(Disturbance::Kidnap { robot, pose });
         }
         Ok(all)
     }
@@ -112,7 +131,8 @@ impl Deed {
 /// What is really the case: lengths in m, angles in rad, in the field frame unless it says otherwise.
 ///
 /// `x`, `y`, `heading` of the robot, how far it `walked`, `tilt` and `height` of its torso; `harmful_commands`, how many
-/// wanted a joint beyond its limits; `ball.x`, `ball.y`, and from the robot `ball.ahead`, `ball.aside`, `ball.distance`.
+/// wanted a joint beyond its limits; `ball.x`, `ball.y`, and from the robot `ball.ahead`, `ball.aside`, `ball.distance`;
+/// `score.blue`, `score.red`, and where a game is played `game.state`, `game.set_play`, `game.kicking` (`blue` or `red`).
 pub(super) fn truth(truth: &GroundTruth) -> Value {
     let ground: Isometry3<f64> = truth.ground_to_field.cast();
     let torso: Isometry3<f64> = truth.torso_to_field.cast();
@@ -125,6 +145,14 @@ pub(super) fn truth(truth: &GroundTruth) -> Value {
             "ahead": seen.x, "aside": seen.y, "distance": seen.coords.xy().norm(),
         })
     });
+    let score = truth.game.map_or([0; 2], |game| game.score);
+    let game = truth.game.map(|game| {
+        let kicking = match game.kicking {
+            Team::Own => "blue",
+            Team::Opponent => "red",
+        };
+        json!({ "state": game.state, "set_play": game.set_play, "kicking": kicking })
+    });
     json!({
         "x": ground.translation.x,
         "y": ground.translation.y,
@@ -134,6 +162,8 @@ pub(super) fn truth(truth: &GroundTruth) -> Value {
         "tilt": up.z.clamp(-1.0, 1.0).acos(),
         "height": torso.translation.z,
         "ball": ball,
+        "score": { "blue": score[0], "red": score[1] },
+        "game": game,
     })
 }
 

@@ -21,7 +21,7 @@ impl Hardware {
 
     /// Does to the world what no motor does, for tests and scenarios.
     pub fn disturb(&self, disturbance: &Disturbance) {
-        self.shared.lock().world_mut().disturb(disturbance);
+        self.shared.stage.lock().world.disturb(disturbance);
     }
 
     /// The body at each of LoLA's last 512 states, oldest first, for tests.

@@ -48,9 +48,22 @@ pub(super) fn message_at(game: &GameSettings, seconds: f64) -> GameControllerMes
         },
         seconds_remaining: count_down(HALF, playing_seconds(&game.schedule, seconds)),
         secondary_seconds: secondary(current, since),
-        teams: [own_team(game, current, since), other_team(game, current)],
+        teams: teams(game, current, since),
         ..GameControllerMessage::default()
     }
+}
+
+fn teams(game: &GameSettings, current: &Announcement, since: f64) -> [TeamState; 2] {
+    let mut teams = [own_team(game, current), other_team(game, current)];
+    let team = &mut teams[usize::from(game.is_opponent)];
+    team.players[usize::from(game.player_number) - 1] = PlayerState {
+        penalty: current.penalty,
+        seconds_till_unpenalized: match current.penalty {
+            Penalty::None | Penalty::Substitute | Penalty::Manual => 0,
+            _ => count_down(REMOVAL, since).max(0) as u8,
+        },
+    };
+    teams
 }
 
 /// How long the half has been played.
@@ -80,21 +93,14 @@ fn count_down(duration: f64, passed: f64) -> i16 {
     (duration - passed).ceil() as i16
 }
 
-fn own_team(game: &GameSettings, current: &Announcement, since: f64) -> TeamState {
-    let mut team = TeamState {
+fn own_team(game: &GameSettings, current: &Announcement) -> TeamState {
+    TeamState {
         number: game.team,
         field_player_color: TeamColor::Blue,
         goalkeeper_color: TeamColor::Black,
         score: current.score[0],
         ..team_state()
-    };
-    let robot = &mut team.players[usize::from(game.player_number) - 1];
-    robot.penalty = current.penalty;
-    robot.seconds_till_unpenalized = match current.penalty {
-        Penalty::None | Penalty::Substitute | Penalty::Manual => 0,
-        _ => count_down(REMOVAL, since).max(0) as u8,
-    };
-    team
+    }
 }
 
 fn other_team(game: &GameSettings, current: &Announcement) -> TeamState {

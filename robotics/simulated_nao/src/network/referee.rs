@@ -54,11 +54,18 @@ impl Referee {
         self.message
     }
 
-    pub(super) fn speak(&mut self, now: Timestamp) -> [u8; control_data::LENGTH] {
+    /// What was `played` comes before what was planned.
+    pub(super) fn speak(
+        &mut self,
+        now: Timestamp,
+        played: Option<GameControllerMessage>,
+    ) -> [u8; control_data::LENGTH] {
+        let planned = || game::message_at(&self.game, (now - Timestamp::ZERO).as_secs_f64());
+        let message = played.unwrap_or_else(planned);
         let message = GameControllerMessage {
             // Counts on after 255 at 0.
             packet_number: self.rhythm.advance() as u8,
-            ..game::message_at(&self.game, (now - Timestamp::ZERO).as_secs_f64())
+            ..message
         };
         self.message = Some(message);
         control_data::encode(&message)
@@ -82,7 +89,11 @@ impl Referee {
     /// Answers of other teams or players are as wrong as those that are none.
     fn keep(&mut self, at: Timestamp, bytes: &[u8]) {
         let data = return_data::decode(bytes).ok();
-        let own = (self.game.team, self.game.player_number);
+        let team = match self.game.is_opponent {
+            false => self.game.team,
+            true => self.game.opponent,
+        };
+        let own = (team, self.game.player_number);
         let is_own = |data: &ReturnData| (data.team_number, data.player_number) == own;
         self.inbox.keep(at, data.filter(is_own));
     }

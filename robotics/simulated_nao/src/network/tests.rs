@@ -147,7 +147,7 @@ fn a_robot_that_listens_everywhere_hears_the_same() {
     let lockstep = Lockstep::with(&settings);
     assert_eq!(all_datagrams(&lockstep), datagrams(&["--no-cameras"]));
     // Its own broadcast comes back.
-    let now = lockstep.shared.lock().world().now();
+    let now = lockstep.shared.stage.lock().world.now();
     let mut simulation = lockstep.shared.lock();
     simulation.network.robot_has_broadcast(now, b"own");
     drop(simulation);

@@ -3,9 +3,13 @@
 //! Each robot is one articulated body of 25 links in reduced coordinates, so that its joints cannot come
 //! apart. Links of the same robot do not touch each other.
 
+#[cfg(test)]
+mod pendulum;
+
 mod articulation;
 mod ball;
 mod convert;
+mod mjcf;
 mod motor;
 mod scenery;
 mod shape;
@@ -19,6 +23,7 @@ use types::motor_commands::MotorCommands;
 use self::articulation::Articulation;
 pub use self::ball::ROLLING_DECELERATION;
 use self::ball::RollingBall;
+pub use self::mjcf::mjcf;
 use super::{Ball, Body, Disturbance, Physics, STEP, Situation, Start};
 
 /// Parts of a step, each of which moves the bodies. One more costs as much as the first.
@@ -43,13 +48,7 @@ pub struct Dynamic {
 impl Dynamic {
     /// The robots of a situation on the floor, at rest.
     pub fn new(situation: &Situation) -> Self {
-        let mut world = PhysicsWorld::new();
-        world.gravity = Vector::new(0.0, 0.0, -GRAVITY);
-        world.integration_parameters.dt = STEP.as_secs_f64();
-        world.integration_parameters.num_solver_iterations = SUBSTEPS;
-        world.integration_parameters.length_unit = LENGTH_UNIT;
-        world.integration_parameters.num_internal_pgs_iterations = SWEEPS;
-        world.integration_parameters.friction_in_bias_pass = true;
+        let mut world = empty_world();
         scenery::insert(&mut world);
         let robots: Vec<_> = situation
             .robots
@@ -99,6 +98,18 @@ impl Dynamic {
             *body = Body::new(*joints, *torso_to_field);
         }
     }
+}
+
+/// Nothing but gravity.
+fn empty_world() -> PhysicsWorld {
+    let mut world = PhysicsWorld::new();
+    world.gravity = Vector::new(0.0, 0.0, -GRAVITY);
+    world.integration_parameters.dt = STEP.as_secs_f64();
+    world.integration_parameters.num_solver_iterations = SUBSTEPS;
+    world.integration_parameters.length_unit = LENGTH_UNIT;
+    world.integration_parameters.num_internal_pgs_iterations = SWEEPS;
+    world.integration_parameters.friction_in_bias_pass = true;
+    world
 }
 
 impl Physics for Dynamic {

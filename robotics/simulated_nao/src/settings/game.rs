@@ -6,6 +6,9 @@ use serde::de::IntoDeserializer;
 use serde::de::value::Error as ValueError;
 use types::game::{GameState, KickingTeam, PLAYER_COUNT, Penalty, SetPlay};
 
+use super::PlaySettings;
+use crate::scene::Team;
+
 /// How many of a team are on the field (RoboCup SPL rules 2025, Champions Cup).
 pub(crate) const PLAYERS_PER_TEAM: u8 = 7;
 /// Longer than any game, s.
@@ -21,6 +24,11 @@ pub struct GameSettings {
     pub opponent: u8,
     /// Number of the robot's shirt.
     pub player_number: u8,
+    /// Whether the robot is one of the other team, as a scenario says.
+    #[serde(skip)]
+    pub is_opponent: bool,
+    /// A referee plays a game in place of `schedule`.
+    pub play: Option<PlaySettings>,
     /// What the referee's computer says, in the order of time.
     pub schedule: Vec<Announcement>,
 }
@@ -69,6 +77,8 @@ impl Default for GameSettings {
             team: 5,
             opponent: 6,
             player_number: 3,
+            is_opponent: false,
+            play: None,
             schedule: vec![
                 Announcement::of(0.0, GameState::Initial),
                 Announcement::of(3.0, GameState::Ready),
@@ -87,7 +97,16 @@ impl GameSettings {
         let state =
             state.map_err(|error| Error::from(error).context(format!("option `{option}`")))?;
         self.schedule = vec![Announcement::of(0.0, state)];
+        self.play = None;
         Ok(())
+    }
+
+    /// The number of a team.
+    pub(crate) fn team_of(&self, side: Team) -> u8 {
+        match side {
+            Team::Own => self.team,
+            Team::Opponent => self.opponent,
+        }
     }
 
     /// The number of the team mate's shirt.
@@ -116,6 +135,7 @@ impl GameSettings {
                 format!("shirts have numbers from 1 to {PLAYER_COUNT}, not {number}"),
             );
         }
+        self.play.iter().try_for_each(PlaySettings::check)?;
         let mut before = 0.0;
         for Announcement { at, state, .. } in &self.schedule {
             if !(before..LONGEST).contains(at) {

@@ -144,7 +144,7 @@ fn listen(settings: &SoundSettings, duration: f64) -> Report {
         ..Report::default()
     };
     for number in 0..(duration * f64::from(SAMPLE_RATE) / BLOCK_LENGTH as f64) as u64 {
-        sound.record(number, &mut block);
+        sound.record(number, &[], &mut block);
         let time = (number + 1) as f64 * BLOCK_LENGTH as f64 / f64::from(SAMPLE_RATE);
         let captured_at = Timestamp::ZERO + Duration::from_secs_f64(time);
         let (is_heard, margin) = listener.hear(captured_at, &block);

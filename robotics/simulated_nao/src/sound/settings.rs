@@ -104,6 +104,25 @@ impl SoundSettings {
             .take_while(move |truth| truth.begins_at < end)
     }
 
+    /// Of whistles that somebody called for, those that sound at any time from `begin` to `end`, s.
+    pub(super) fn called_between(
+        &self,
+        called: &[f64],
+        begin: f64,
+        end: f64,
+    ) -> impl Iterator<Item = WhistleTruth> {
+        let sounds = move |at: f64, duration: f64| at < end && begin <= at + duration;
+        (0..)
+            .zip(called)
+            .filter(move |(_, at)| sounds(**at, self.whistle_duration))
+            .map(|(number, at)| WhistleTruth {
+                number,
+                begins_at: *at,
+                duration: self.whistle_duration,
+                level: self.whistle_level,
+            })
+    }
+
     fn whistle(&self, number: u64) -> Option<WhistleTruth> {
         let begins_at = match self.whistle_every {
             Some(every) => every * (number as f64 + 1.0),

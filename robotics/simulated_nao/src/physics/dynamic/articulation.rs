@@ -238,7 +238,7 @@ fn target(commands: Option<&MotorCommands>, joint: JointName, angle: f64) -> (f6
 }
 
 /// One motor turns two hinges at the hips: each gets half of it.
-fn share(joint: JointName) -> f64 {
+pub(super) fn share(joint: JointName) -> f64 {
     if joint == JointName::HipYawPitch {
         0.5
     } else {

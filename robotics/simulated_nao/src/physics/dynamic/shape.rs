@@ -23,15 +23,39 @@ const LIMB_ENDS: f64 = -0.085;
 /// Every coefficient stands for one partner; the floor has 1.
 pub(super) const COMBINATION: CoefficientCombineRule = CoefficientCombineRule::Multiply;
 
+/// How much room a link takes, in its own frame, m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Volume {
+    Ball { center: [f64; 3], radius: f64 },
+    Box { center: [f64; 3], half: [f64; 3] },
+}
+
 /// What a link touches others with, in its own frame; `None` for small links within others.
 pub(super) fn collider(link: LinkName) -> Option<ColliderBuilder> {
+    let (volume, friction) = volume(link)?;
+    let part = match volume {
+        Volume::Ball { center, radius } => {
+            ColliderBuilder::ball(radius).translation(Vector::from_array(center))
+        }
+        Volume::Box {
+            center,
+            half: [x, y, z],
+        } => ColliderBuilder::cuboid(x, y, z).translation(Vector::from_array(center)),
+    };
+    Some(finish(part, friction))
+}
+
+/// The room of a link and its friction on carpet; `None` for small links within others.
+pub(super) fn volume(link: LinkName) -> Option<(Volume, f64)> {
     let (lowest, highest, friction) = match link {
         LinkName::LeftFoot => sole(1.0),
         LinkName::RightFoot => sole(-1.0),
         LinkName::Head => {
-            let center = Vector::new(0.0, 0.0, 0.0565);
-            let head = ColliderBuilder::ball(0.06).translation(center);
-            return Some(finish(head, SHELL_FRICTION));
+            let head = Volume::Ball {
+                center: [0.0, 0.0, 0.0565],
+                radius: 0.06,
+            };
+            return Some((head, SHELL_FRICTION));
         }
         LinkName::Neck
         | LinkName::LeftShoulder
@@ -50,12 +74,8 @@ pub(super) fn collider(link: LinkName) -> Option<ColliderBuilder> {
         }
     };
     let half: [f64; 3] = std::array::from_fn(|axis| (highest[axis] - lowest[axis]) / 2.0);
-    let center = Vector::from_array(std::array::from_fn(|axis| {
-        (highest[axis] + lowest[axis]) / 2.0
-    }));
-    let [x, y, z] = half;
-    let part = ColliderBuilder::cuboid(x, y, z).translation(center);
-    Some(finish(part, friction))
+    let center = std::array::from_fn(|axis| (highest[axis] + lowest[axis]) / 2.0);
+    Some((Volume::Box { center, half }, friction))
 }
 
 /// The mass of a link for the engine.

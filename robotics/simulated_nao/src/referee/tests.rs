@@ -1,0 +1,240 @@
+//! Games of a few moments.
+
+use nalgebra::{Point2, Point3};
+
+use types::game::GameControllerMessage;
+
+use super::*;
+use crate::settings::GameSettings;
+
+const QUICK: PlaySettings = PlaySettings {
+    initial: 1.0,
+    ready: 2.0,
+    set: 1.0,
+    half: 60.0,
+    delay: 3.0,
+    kick_off: 10.0,
+    free_kick: 30.0,
+    removal: 45.0,
+    fallen: 20.0,
+    penalties: true,
+};
+
+struct Game {
+    referee: Referee,
+    now: f64,
+    ball: Point3<f64>,
+    players: Vec<Player>,
+    whistles: usize,
+}
+
+impl Game {
+    fn new() -> Self {
+        Self {
+            referee: Referee::new(QUICK),
+            now: 0.0,
+            ball: Point3::new(0.0, 0.0, 0.05),
+            players: vec![
+                player(Team::Own, 1, [-1.0, 0.0, 0.0]),
+                player(Team::Opponent, 1, [1.0, 0.0, 3.14]),
+            ],
+            whistles: 0,
+        }
+    }
+
+    fn playing() -> Self {
+        let mut game = Self::new();
+        game.run_until(4.5);
+        assert_eq!(game.referee.state, GameState::Playing);
+        game
+    }
+
+    fn run_until(&mut self, end: f64) {
+        while self.now < end {
+            self.now += 0.012;
+            for ruling in self.referee.look(self.now, Some(self.ball), &self.players) {
+                match ruling {
+                    Ruling::Whistle => self.whistles += 1,
+                    Ruling::PlaceBall([x, y]) => self.ball = Point3::new(x, y, 0.05),
+                    Ruling::Carry(place, pose) => self.move_player(place, pose),
+                }
+            }
+        }
+    }
+
+    fn move_player(&mut self, place: usize, pose: [f64; 3]) {
+        let old = self.players[place];
+        self.players[place] = player(old.team, old.number, pose);
+    }
+
+    fn said(&self) -> GameControllerMessage {
+        message(
+            &self.referee,
+            &GameSettings::default(),
+            self.now,
+            &self.players,
+        )
+    }
+}
+
+fn player(team: Team, number: u8, pose: [f64; 3]) -> Player {
+    Player {
+        team,
+        number,
+        pose,
+        tilt: 0.0,
+        feet: [0.05, -0.05].map(|aside| Point2::new(pose[0], pose[1] + aside)),
+    }
+}
+
+#[test]
+fn the_game_begins_and_the_computer_tells_of_the_whistle_late() {
+    let mut game = Game::new();
+    for (time, really, said) in [
+        (0.9, GameState::Initial, GameState::Initial),
+        (1.1, GameState::Ready, GameState::Ready),
+        (3.1, GameState::Set, GameState::Set),
+        (4.1, GameState::Playing, GameState::Set),
+        (6.9, GameState::Playing, GameState::Set),
+        (7.2, GameState::Playing, GameState::Playing),
+        (64.2, GameState::Finished, GameState::Finished),
+    ] {
+        game.run_until(time);
+        assert_eq!(game.referee.state, really, "at {time} s");
+        assert_eq!(game.said().game_state, said, "at {time} s");
+    }
+    assert_eq!(game.whistles, 2, "kick-off and end");
+}
+
+#[test]
+fn a_goal_counts_and_the_others_kick_off() {
+    let mut game = Game::playing();
+    game.run_until(10.0);
+    game.ball.x = 4.57;
+    game.run_until(10.1);
+    assert_eq!(
+        game.referee.score,
+        [0, 0],
+        "not all of it is behind the line"
+    );
+    game.ball.x = 4.58;
+    game.run_until(10.2);
+    assert_eq!(game.referee.score, [1, 0]);
+    assert_eq!(game.referee.state, GameState::Ready);
+    let said = game.said();
+    assert_eq!(
+        (said.game_state, said.teams[0].score),
+        (GameState::Playing, 0)
+    );
+    game.run_until(13.3);
+    let said = game.said();
+    assert_eq!((said.teams[0].score, said.kicking_team), (1, Some(6)));
+    game.run_until(14.0);
+    game.ball = Point3::new(-4.7, -0.3, 0.05);
+    game.run_until(16.0);
+    assert_eq!(
+        game.referee.score,
+        [1, 1],
+        "an own goal or theirs is theirs"
+    );
+}
+
+#[test]
+fn whoever_touched_it_last_gives_the_ball_away() {
+    for (touched_by, place, set_play, kicks, ball) in [
+        (0, [1.0, 3.2], SetPlay::KickIn, Team::Opponent, [1.0, 3.0]),
+        (1, [1.0, -3.2], SetPlay::KickIn, Team::Own, [1.0, -3.0]),
+        (0, [4.7, 2.0], SetPlay::GoalKick, Team::Opponent, [3.9, 1.1]),
+        (1, [4.7, -2.0], SetPlay::CornerKick, Team::Own, [4.5, -3.0]),
+        (1, [-4.7, 2.0], SetPlay::GoalKick, Team::Own, [-3.9, 1.1]),
+        (
+            0,
+            [-4.7, 2.0],
+            SetPlay::CornerKick,
+            Team::Opponent,
+            [-4.5, 3.0],
+        ),
+    ] {
+        let mut game = Game::playing();
+        let [x, y, _] = game.players[touched_by].pose;
+        game.ball = Point3::new(x + 0.1, y, 0.05);
+        game.run_until(game.now + 0.1);
+        game.ball = Point3::new(place[0], place[1], 0.05);
+        game.run_until(game.now + 0.02);
+        let referee = &game.referee;
+        assert_eq!(
+            (referee.set_play, referee.kicking),
+            (set_play, kicks),
+            "{place:?}"
+        );
+        let is = game.ball.xy();
+        assert!(
+            (is.x - ball[0]).abs() + (is.y - ball[1]).abs() < 1e-6,
+            "{is}"
+        );
+        game.run_until(game.now + 30.1);
+        assert_eq!(
+            game.referee.set_play,
+            SetPlay::None,
+            "the ball is free in the end"
+        );
+    }
+}
+
+#[test]
+fn robots_are_removed_and_come_back() {
+    let mut game = Game::playing();
+    game.players[0].tilt = 1.5;
+    game.run_until(24.0);
+    assert_eq!(game.said().teams[0].players[0].penalty, Penalty::None);
+    game.run_until(25.0);
+    let state = game.said().teams[0].players[0];
+    assert_eq!(state.penalty, Penalty::InactivePlayer);
+    assert_eq!(state.seconds_till_unpenalized, 45);
+    let [x, y, _] = game.players[0].pose;
+    assert!(
+        x < -1.0 && (y - 3.5).abs() < 1e-9,
+        "it stands beside its own half"
+    );
+    assert_eq!(game.said().teams[1].players[1].penalty, Penalty::Substitute);
+    game.move_player(1, [2.0, 4.0, 0.0]);
+    game.run_until(26.0);
+    assert_eq!(
+        game.said().teams[1].players[0].penalty,
+        Penalty::LeavingTheField
+    );
+    game.move_player(1, [2.0, 3.2, 0.0]);
+    game.run_until(63.0);
+    assert_ne!(game.said().teams[0].players[0].penalty, Penalty::None);
+    let mut game = Game {
+        referee: Referee {
+            played: -100.0,
+            ..game.referee
+        },
+        ..game
+    };
+    game.run_until(72.0);
+    assert_eq!(game.said().teams[0].players[0].penalty, Penalty::None);
+}
+
+#[test]
+fn set_has_rules_of_its_own() {
+    let mut game = Game::new();
+    game.move_player(1, [-0.5, 2.0, 0.0]);
+    game.run_until(3.2);
+    let penalty = |game: &Game, team: usize| game.said().teams[team].players[0].penalty;
+    assert_eq!(penalty(&game, 1), Penalty::IllegalPositionInSet);
+    assert_eq!(penalty(&game, 0), Penalty::None);
+    game.move_player(0, [-1.3, 0.0, 0.0]);
+    game.run_until(3.4);
+    assert_eq!(penalty(&game, 0), Penalty::IllegalMotionInSet);
+    assert_eq!(
+        game.players[0].pose,
+        [-1.3, 0.0, 0.0],
+        "it stays where it is"
+    );
+    game.run_until(18.0);
+    assert_ne!(penalty(&game, 0), Penalty::None, "time stands still in Set");
+    game.run_until(20.0);
+    assert_eq!(penalty(&game, 0), Penalty::None);
+}

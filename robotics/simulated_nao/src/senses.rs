@@ -1,0 +1,229 @@
+//! Cameras and microphones for a program in another process, over Unix stream sockets beside LoLA's.
+//!
+//! | socket | what comes |
+//! |---|---|
+//! | `<lola>.top`, `<lola>.bottom` | images of a camera: 640x480, YUYV, 30 a second |
+//! | `<lola>.microphones` | blocks of sound: 2048 samples of 4 channels, 44.1 kHz, interleaved 32-bit floats |
+//!
+//! Everything is little endian. Each message has a header of 24 bytes: `NAOI` (image) or `NAOS` (sound); the length of what
+//! follows (u32); the time of the exposure or of the last sample, in ns of the simulator's clock (u64); for images width
+//! and height (2 u32), for sound samples and channels (2 u32). Nothing is ever sent to the simulator.
+//!
+//! Any number of programs may listen. One that does not read for [`PATIENCE`] is told of and dropped: the world does not
+//! wait for it, and reading again means connecting again, as with LoLA.
+
+use std::io::{ErrorKind, Write};
+use std::os::unix::net::{UnixListener, UnixStream};
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, PoisonError};
+use std::thread::JoinHandle;
+use std::time::Duration;
+
+use framework::{Clock, Error, Result, Stop, Timestamp};
+use types::audio::{AudioBlock, MICROPHONE_COUNT};
+use types::camera::CameraPosition;
+use types::image::YuyvImage;
+
+use crate::camera::{self, HEIGHT, WIDTH};
+use crate::server::listen;
+use crate::simulation::block_time;
+use crate::simulator::Shared;
+use crate::sound::BLOCK_LENGTH;
+
+/// How long one program may keep the others of its socket from the next message.
+const PATIENCE: Duration = Duration::from_millis(200);
+/// How long to wait before looking whether the simulator ends, or somebody has connected.
+const GLANCE: Duration = Duration::from_millis(50);
+/// What stands before each message.
+const HEADER_LENGTH: usize = 24;
+
+/// The sockets and their threads; both end with it.
+pub(crate) struct Senses {
+    closing: Stop,
+    paths: Vec<PathBuf>,
+    threads: Vec<JoinHandle<()>>,
+}
+
+/// Programs that listen at one socket.
+struct Audience {
+    listener: UnixListener,
+    name: &'static str,
+    clients: Vec<UnixStream>,
+}
+
+impl Senses {
+    /// Serves what the world of `shared` gives, beside LoLA's socket.
+    ///
+    /// # Errors
+    /// Names the socket that is in use or cannot be made.
+    pub(crate) fn serve(shared: &Arc<Shared>, clock: &Clock) -> Result<Self> {
+        let mut senses = Self {
+            closing: Stop::new(),
+            paths: Vec::new(),
+            threads: Vec::new(),
+        };
+        let lola = shared.socket();
+        for (name, camera) in [
+            ("top", CameraPosition::Top),
+            ("bottom", CameraPosition::Bottom),
+        ] {
+            let audience = senses.listen(&lola, name)?;
+            let (shared, clock) = (Arc::clone(shared), clock.clone());
+            senses.spawn(name, move |closing| {
+                show(&shared, &clock, camera, audience, closing);
+            })?;
+        }
+        let audience = senses.listen(&lola, "microphones")?;
+        let (shared, clock) = (Arc::clone(shared), clock.clone());
+        senses.spawn("microphones", move |closing| {
+            sound(&shared, &clock, audience, closing);
+        })?;
+        Ok(senses)
+    }
+
+    fn listen(&mut self, lola: &Path, name: &'static str) -> Result<Audience> {
+        let mut path = lola.as_os_str().to_owned();
+        path.push(format!(".{name}"));
+        let path = PathBuf::from(path);
+        let listener = listen(&path).map_err(|error| {
+            Error::from(error).context(format!("cannot serve {name} at {}", path.display()))
+        })?;
+        self.paths.push(path);
+        Ok(Audience {
+            listener,
+            name,
+            clients: Vec::new(),
+        })
+    }
+
+    fn spawn(&mut self, name: &str, serve: impl FnOnce(&Stop) + Send + 'static) -> Result<()> {
+        let closing = self.closing.clone();
+        let thread = std::thread::Builder::new().name(format!("simulated_nao.{name}"));
+        self.threads.push(thread.spawn(move || serve(&closing))?);
+        Ok(())
+    }
+}
+
+impl Drop for Senses {
+    fn drop(&mut self) {
+        self.closing.request();
+        for thread in self.threads.drain(..) {
+            // A panic of the thread has been printed.
+            let _ = thread.join();
+        }
+        for path in &self.paths {
+            // Somebody may have removed it already; nothing is left to do then.
+            let _ = std::fs::remove_file(path);
+        }
+    }
+}
+
+impl Audience {
+    /// Takes in whoever has come; whether anybody is there.
+    fn is_there(&mut self) -> bool {
+        while let Ok((client, _)) = self.listener.accept() {
+            let is_usable = client.set_nonblocking(false).is_ok()
+                && client.set_write_timeout(Some(PATIENCE)).is_ok();
+            if is_usable {
+                self.clients.push(client);
+            }
+        }
+        !self.clients.is_empty()
+    }
+
+    /// Sends a message to everybody; who does not take it is dropped.
+    fn tell(&mut self, message: &[u8]) {
+        let name = self.name;
+        self.clients
+            .retain_mut(|client| match client.write_all(message) {
+                Ok(()) => true,
+                Err(error) => {
+                    if matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut) {
+                        eprintln!("a program does not read what {name} sends; it is dropped");
+                    }
+                    false
+                }
+            });
+    }
+}
+
+fn show(
+    shared: &Shared,
+    clock: &Clock,
+    camera: CameraPosition,
+    mut audience: Audience,
+    closing: &Stop,
+) {
+    let field = Arc::clone(&shared.stage.lock().world.field);
+    let mut image = YuyvImage::default();
+    let mut message = Vec::new();
+    while closing.check().is_ok() {
+        let exposure = wait(shared, |simulation| {
+            simulation.take_image(camera, clock.now())
+        });
+        let (Some(exposure), true) = (exposure, audience.is_there()) else {
+            continue;
+        };
+        camera::render(&exposure, &field, &mut image);
+        if clock.wait_until(exposure.ready_at, closing).is_err() {
+            return;
+        }
+        let size = [WIDTH as u32, HEIGHT as u32];
+        begin(
+            &mut message,
+            b"NAOI",
+            image.data.len(),
+            exposure.captured_at,
+            size,
+        );
+        message.extend_from_slice(&image.data);
+        audience.tell(&message);
+    }
+}
+
+fn sound(shared: &Shared, clock: &Clock, mut audience: Audience, closing: &Stop) {
+    let mut block = AudioBlock::default();
+    let mut message = Vec::new();
+    while closing.check().is_ok() {
+        let taken = wait(shared, |simulation| simulation.take_block(clock.now()));
+        let (Some((number, _)), true) = (taken, audience.is_there()) else {
+            continue;
+        };
+        let called = shared.stage.lock().world.whistles().to_vec();
+        shared.sound.record(number, &called, &mut block);
+        let length = BLOCK_LENGTH * MICROPHONE_COUNT * size_of::<f32>();
+        let size = [BLOCK_LENGTH as u32, MICROPHONE_COUNT as u32];
+        begin(&mut message, b"NAOS", length, block_time(number), size);
+        for index in 0..BLOCK_LENGTH {
+            for channel in &block.channels {
+                let sample = channel.get(index).copied().unwrap_or_default();
+                message.extend_from_slice(&sample.to_le_bytes());
+            }
+        }
+        audience.tell(&message);
+    }
+}
+
+/// What there is to take, or nothing after a while.
+fn wait<T>(
+    shared: &Shared,
+    mut take: impl FnMut(&mut crate::simulation::Simulation) -> Option<T>,
+) -> Option<T> {
+    let mut simulation = shared.lock();
+    if let Some(taken) = take(&mut simulation) {
+        return Some(taken);
+    }
+    let waited = shared.stepped.wait_timeout(simulation, GLANCE);
+    take(&mut waited.unwrap_or_else(PoisonError::into_inner).0)
+}
+
+fn begin(message: &mut Vec<u8>, kind: &[u8; 4], length: usize, at: Timestamp, size: [u32; 2]) {
+    message.clear();
+    message.reserve(HEADER_LENGTH + length);
+    message.extend_from_slice(kind);
+    message.extend_from_slice(&(length as u32).to_le_bytes());
+    message.extend_from_slice(&at.as_nanos().to_le_bytes());
+    for number in size {
+        message.extend_from_slice(&number.to_le_bytes());
+    }
+}

@@ -1,0 +1,120 @@
+//! The game in the world: what the referee sees, and what becomes of the rulings.
+
+use framework::Timestamp;
+use nalgebra::{Point3, Vector3};
+use types::game::{GameControllerMessage, Penalty};
+
+use super::World;
+use crate::field::BALL_RADIUS;
+use crate::ground_truth::GameTruth;
+use crate::physics::{Disturbance, heading};
+use crate::referee::{self, Player, Referee, Ruling};
+use crate::settings::GameSettings;
+use crate::simulation::TICK;
+
+/// Before a whistle sounds, s: longer than anybody is ahead of the world, so that nobody misses its beginning.
+const BREATH: f64 = 0.05;
+
+/// A game that is played.
+pub(super) struct Game {
+    referee: Referee,
+    settings: GameSettings,
+}
+
+impl Game {
+    /// Where the settings ask for one.
+    pub(super) fn new(settings: &GameSettings) -> Option<Self> {
+        settings.play.map(|play| Self {
+            referee: Referee::new(play),
+            settings: settings.clone(),
+        })
+    }
+}
+
+impl World {
+    /// Lets the referee rule, as often as LoLA sends states.
+    pub(super) fn referee_looks(&mut self) {
+        let passed = self.stepped - Timestamp::ZERO;
+        if self.game.is_none() || !passed.as_nanos().is_multiple_of(TICK.as_nanos()) {
+            return;
+        }
+        let (now, ball, players) = (passed.as_secs_f64(), self.ball(), self.players());
+        let rulings = self
+            .game
+            .as_mut()
+            .map(|game| game.referee.look(now, ball, &players));
+        self.obey(now, rulings.unwrap_or_default());
+    }
+
+    /// Somebody takes a robot out; whether there is a game.
+    pub(crate) fn penalise(&mut self, robot: usize, penalty: Penalty) -> bool {
+        let players = self.players();
+        let Some(game) = &mut self.game else {
+            return false;
+        };
+        let rulings = game.referee.penalise(robot, penalty, &players);
+        self.obey((self.now - Timestamp::ZERO).as_secs_f64(), rulings);
+        true
+    }
+
+    /// Somebody whistles.
+    pub(crate) fn whistle(&mut self) {
+        self.obey(
+            (self.now - Timestamp::ZERO).as_secs_f64(),
+            vec![Ruling::Whistle],
+        );
+    }
+
+    /// When whistles of this world began that nobody had planned, s.
+    pub(crate) fn whistles(&self) -> &[f64] {
+        &self.whistles
+    }
+
+    /// What the referee's computer says, where a game is played; without its number.
+    pub(crate) fn game_message(&self) -> Option<GameControllerMessage> {
+        let now = (self.now - Timestamp::ZERO).as_secs_f64();
+        self.game
+            .as_ref()
+            .map(|game| referee::message(&game.referee, &game.settings, now, &self.players()))
+    }
+
+    /// How the game really stands, where one is played.
+    pub(crate) fn game_truth(&self) -> Option<GameTruth> {
+        self.game.as_ref().map(|Game { referee, .. }| GameTruth {
+            state: referee.state,
+            set_play: referee.set_play,
+            kicking: referee.kicking,
+            score: referee.score,
+        })
+    }
+
+    fn players(&self) -> Vec<Player> {
+        let robots = self.physics.bodies().iter().zip(&self.inhabitants);
+        robots
+            .map(|(body, inhabitant)| {
+                let ground = body.ground_to_field().translation.vector;
+                let soles = [body.soles_to_field.left, body.soles_to_field.right];
+                Player {
+                    team: inhabitant.team,
+                    number: inhabitant.number,
+                    pose: [ground.x, ground.y, heading(&body.torso_to_field)],
+                    tilt: body.tilt(),
+                    feet: soles.map(|sole| sole.translation.vector.xy().into()),
+                }
+            })
+            .collect()
+    }
+
+    fn obey(&mut self, now: f64, rulings: Vec<Ruling>) {
+        for ruling in rulings {
+            match ruling {
+                Ruling::Whistle => self.whistles.push(now + BREATH),
+                Ruling::PlaceBall([x, y]) => self.disturb(&Disturbance::MoveBall {
+                    position: Point3::new(x, y, f64::from(BALL_RADIUS)),
+                    velocity: Vector3::zeros(),
+                }),
+                Ruling::Carry(robot, pose) => self.disturb(&Disturbance::Kidnap { robot, pose }),
+            }
+        }
+    }
+}
