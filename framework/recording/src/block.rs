@@ -3,8 +3,7 @@
 use std::fmt;
 use std::io;
 
-use crate::file::ChannelId;
-use crate::format::{MESSAGE_HEAD, RECORD_HEAD, opcode};
+use hulkgen_mcap::{ChannelId, MESSAGE_HEAD, RECORD_HEAD, opcode};
 
 /// Whole frames of one instance, each some messages, as they will stand in a chunk.
 #[derive(Debug)]

@@ -9,21 +9,18 @@
 //! A cycler encodes what a cycle took and gave into a block that nobody else has, and hands the block over when it is full or
 //! old. It never waits: without an empty block its frames are dropped and counted. One thread owns the file.
 //!
-//! The file is an [MCAP](https://mcap.dev/spec) file. A block is never divided between two chunks, so a reader that has one
-//! chunk has everything that the frames in it refer to. A budget makes the file a ring: the oldest chunks become records of
-//! a private kind, which all readers skip, and give their place on the disk back.
+//! The file is that of [`hulkgen_mcap`]. A block is never divided between two chunks, so a reader that has one chunk has
+//! everything that the frames in it refer to.
 
 mod block;
-mod file;
-mod format;
 mod pool;
-mod read;
 mod recorder;
-mod ring;
 mod track;
 
 pub use block::{Full, Writing};
-pub use file::{Attachment, Channel, ChannelId, Description, Metadata, Schema};
-pub use read::{Chunk, Message, ReadError, Recording, Way};
+pub use hulkgen_mcap::{
+    Attachment, Channel, ChannelId, Chunk, Contents, Description, Message, Metadata, ReadError,
+    Recording, RecordingFile, Schema, Way,
+};
 pub use recorder::{Ended, Recorder, Settings};
 pub use track::{Counts, Frame, Recorded, Track};

@@ -7,9 +7,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-use crate::file::{Description, Metadata, Writer};
 use crate::pool::Pool;
 use crate::track::{Counts, Track};
+use hulkgen_mcap::{Description, Metadata, Writer};
 
 /// How often the writer looks for blocks: their memory must last so long.
 const LOOK: Duration = Duration::from_millis(5);

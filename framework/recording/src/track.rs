@@ -5,8 +5,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use crate::block::{Block, Full, Writing};
-use crate::file::ChannelId;
 use crate::pool::Pool;
+use hulkgen_mcap::ChannelId;
 
 /// What became of the frames of one instance so far, to be read while it runs.
 #[derive(Debug, Default)]

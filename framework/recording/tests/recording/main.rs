@@ -1,6 +1,7 @@
 //! What cyclers write is what readers find, however the file ended.
 
 mod description;
+mod files;
 mod readers;
 mod support;
 

@@ -6,6 +6,7 @@ use std::io::{self, Seek, SeekFrom, Write};
 use std::path::Path;
 
 use crate::format::{MAGIC, Put, RECORD_HEAD, Take, opcode};
+use crate::index::RING;
 use crate::ring::Ring;
 
 /// What there is to say before anything was recorded.
@@ -34,7 +35,7 @@ pub struct ChannelId(pub u16);
 
 impl ChannelId {
     /// Its number in the file, where they count from 1.
-    pub(crate) fn number(self) -> u16 {
+    pub fn number(self) -> u16 {
         self.0 + 1
     }
 }
@@ -91,7 +92,8 @@ impl ChunkIndex {
 }
 
 /// The writing end of a file.
-pub(crate) struct Writer {
+#[derive(Debug)]
+pub struct Writer {
     file: File,
     position: u64,
     description: Description,
@@ -109,7 +111,7 @@ pub(crate) struct Writer {
 
 impl Writer {
     /// Creates the file, which must not exist, with everything that is known before.
-    pub(crate) fn create(path: &Path, description: Description, budget: u64) -> io::Result<Self> {
+    pub fn create(path: &Path, description: Description, budget: u64) -> io::Result<Self> {
         let file = File::options().write(true).create_new(true).open(path)?;
         let mut writer = Self {
             file,
@@ -149,7 +151,7 @@ impl Writer {
         Ok(())
     }
 
-    pub(crate) fn write_metadata(&mut self, metadata: &Metadata) -> io::Result<()> {
+    pub fn write_metadata(&mut self, metadata: &Metadata) -> io::Result<()> {
         let mut record = Vec::new();
         record.put_record(opcode::METADATA, |content| {
             content.put_text(&metadata.name);
@@ -169,7 +171,7 @@ impl Writer {
     }
 
     /// Adds the messages of one block to the chunk that is open.
-    pub(crate) fn add(&mut self, messages: &[u8]) {
+    pub fn add(&mut self, messages: &[u8]) {
         let mut rest = Take(messages);
         loop {
             let before = rest.0;
@@ -200,12 +202,12 @@ impl Writer {
     }
 
     /// Bytes of the chunk that is open, not compressed.
-    pub(crate) fn open_bytes(&self) -> usize {
+    pub fn open_bytes(&self) -> usize {
         self.chunk.len()
     }
 
     /// Writes the open chunk; on an error nothing of it counts. It is empty afterwards in either case.
-    pub(crate) fn close_chunk(&mut self) -> io::Result<()> {
+    pub fn close_chunk(&mut self) -> io::Result<()> {
         let messages = std::mem::take(&mut self.messages);
         self.known.clear();
         let Some(times) = self.times.take() else {
@@ -239,8 +241,14 @@ impl Writer {
     }
 
     /// Writes what finds everything again; the file is whole afterwards.
-    pub(crate) fn finish(mut self) -> io::Result<()> {
+    pub fn finish(mut self) -> io::Result<()> {
         self.close_chunk()?;
+        if self.ring.gone() > 0 {
+            self.write_metadata(&Metadata {
+                name: RING.to_owned(),
+                entries: vec![("gone".to_owned(), self.ring.gone().to_string())],
+            })?;
+        }
         let mut end = Vec::new();
         end.put_record(opcode::DATA_END, |content| content.put_u32(0));
         let summary_start = self.position + end.len() as u64;

@@ -1,17 +1,18 @@
 //! Reading a recording, however it ended.
 
 use std::fmt;
-use std::fs;
 use std::io::{self, Read as _};
 use std::path::Path;
 
 use crate::file::{Attachment, Channel, Metadata, Schema};
-use crate::format::{MAGIC, Take, opcode};
+use crate::format::{Take, opcode};
+use crate::index;
+use crate::open::{Contents, RecordingFile};
 
 /// No chunk says that it is larger when it is not compressed.
 const LARGEST_CHUNK: u64 = 1 << 30;
 
-/// A file that was read: whole chunks in the order of the file.
+/// A file that was read into memory: whole chunks in the order of the file.
 #[derive(Debug, Default)]
 pub struct Recording {
     pub schemas: Vec<(u16, Schema)>,
@@ -61,41 +62,52 @@ pub enum ReadError {
     Disk(io::Error),
     /// It does not begin as an MCAP file does.
     Other,
+    /// The chunk at this place is not what was written.
+    Damaged {
+        offset: u64,
+    },
 }
 
 impl Recording {
-    /// Reads a file up to where it breaks off.
+    /// Reads a file up to where it breaks off, all of it into memory; [`RecordingFile`] does not.
     pub fn open(path: &Path) -> Result<Self, ReadError> {
-        let bytes = fs::read(path).map_err(ReadError::Disk)?;
-        Self::read(&bytes)
+        let file = RecordingFile::open(path)?;
+        let mut chunks = Vec::new();
+        let mut way = file.contents().way.clone();
+        for place in &file.contents().chunks {
+            match file.chunk(place) {
+                Ok(chunk) => chunks.push(chunk),
+                Err(ReadError::Damaged { offset }) => {
+                    way = Way::Cut { behind: offset };
+                    break;
+                }
+                Err(error) => return Err(error),
+            }
+        }
+        let contents = file.into_contents();
+        Ok(Self {
+            way,
+            ..Self::of(contents, chunks)
+        })
     }
 
     /// As [`open`](Self::open), of the file's bytes.
     pub fn read(bytes: &[u8]) -> Result<Self, ReadError> {
-        let mut rest = Take(bytes);
-        if rest.bytes(MAGIC.len()) != Some(&MAGIC) {
-            return Err(ReadError::Other);
+        let mut chunks = Vec::new();
+        let contents = index::scan(&bytes, &mut |chunk| chunks.push(chunk))?;
+        Ok(Self::of(contents, chunks))
+    }
+
+    fn of(contents: Contents, chunks: Vec<Chunk>) -> Self {
+        Self {
+            schemas: contents.schemas,
+            channels: contents.channels,
+            metadata: contents.metadata,
+            attachments: contents.attachments,
+            chunks,
+            gone: contents.gone,
+            way: contents.way,
         }
-        let mut recording = Self::default();
-        loop {
-            let behind = (bytes.len() - rest.0.len()) as u64;
-            let understood = rest
-                .record()
-                .and_then(|(opcode, content)| recording.add(opcode, content, behind));
-            match understood {
-                Some(opcode::DATA_END) => break,
-                Some(_) => {}
-                None => {
-                    recording.way = Way::Cut { behind };
-                    return Ok(recording);
-                }
-            }
-        }
-        if !bytes.ends_with(&MAGIC) {
-            let behind = (bytes.len() - rest.0.len()) as u64;
-            recording.way = Way::Cut { behind };
-        }
-        Ok(recording)
     }
 
     /// The metadata of this name that was written last.
@@ -105,47 +117,25 @@ impl Recording {
 
     /// Whether the run ended and everything was recorded.
     pub fn is_complete(&self) -> bool {
-        let state = self.metadata("end").and_then(|end| {
-            let state = end.entries.iter().find(|(key, _)| key == "state");
-            state.map(|(_, state)| state.as_str())
-        });
-        self.way == Way::Whole && state == Some("COMPLETE")
-    }
-
-    /// What kind of record it was; `None`: it cannot be understood.
-    fn add(&mut self, opcode: u8, content: &[u8], offset: u64) -> Option<u8> {
-        let mut rest = Take(content);
-        match opcode {
-            opcode::SCHEMA => {
-                let schema = schema(&mut rest)?;
-                self.schemas.push(schema);
-            }
-            opcode::CHANNEL => {
-                let channel = channel(&mut rest)?;
-                self.channels.push(channel);
-            }
-            opcode::METADATA => self.metadata.push(Metadata {
-                name: rest.text()?.to_owned(),
-                entries: rest.map()?,
-            }),
-            opcode::ATTACHMENT => {
-                let attachment = attachment(content)?;
-                self.attachments.push(attachment);
-            }
-            opcode::CHUNK => {
-                let bytes = chunk(&mut rest)?;
-                self.chunks.push(Chunk { offset, bytes });
-            }
-            opcode::GONE => self.gone += 1,
-            // No kind is 0: this is a hole.
-            0 => return None,
-            _ => {}
-        }
-        Some(opcode)
+        self.way == Way::Whole && is_said_complete(self.metadata("end"))
     }
 }
 
-fn schema(rest: &mut Take<'_>) -> Option<(u16, Schema)> {
+/// Whether the metadata `end` says that everything was recorded.
+pub(crate) fn is_said_complete(end: Option<&Metadata>) -> bool {
+    let state = end.and_then(|end| end.get("state"));
+    state == Some("COMPLETE")
+}
+
+impl Metadata {
+    /// The text of this name.
+    pub fn get(&self, name: &str) -> Option<&str> {
+        let entry = self.entries.iter().find(|(key, _)| key == name);
+        entry.map(|(_, value)| value.as_str())
+    }
+}
+
+pub(crate) fn schema(rest: &mut Take<'_>) -> Option<(u16, Schema)> {
     let id = rest.u16()?;
     let (name, encoding) = (rest.text()?.to_owned(), rest.text()?.to_owned());
     let length = rest.u32()?;
@@ -158,7 +148,7 @@ fn schema(rest: &mut Take<'_>) -> Option<(u16, Schema)> {
     Some((id, schema))
 }
 
-fn channel(rest: &mut Take<'_>) -> Option<(u16, Channel)> {
+pub(crate) fn channel(rest: &mut Take<'_>) -> Option<(u16, Channel)> {
     let (id, schema) = (rest.u16()?, rest.u16()?);
     let channel = Channel {
         topic: rest.text()?.to_owned(),
@@ -170,7 +160,7 @@ fn channel(rest: &mut Take<'_>) -> Option<(u16, Channel)> {
     Some((id, channel))
 }
 
-fn attachment(content: &[u8]) -> Option<Attachment> {
+pub(crate) fn attachment(content: &[u8]) -> Option<Attachment> {
     let (covered, sum) = content.split_at_checked(content.len().checked_sub(4)?)?;
     if crc32fast::hash(covered) != Take(sum).u32()? {
         return None;
@@ -187,7 +177,7 @@ fn attachment(content: &[u8]) -> Option<Attachment> {
 }
 
 /// The messages of a chunk whose check sum is right.
-fn chunk(rest: &mut Take<'_>) -> Option<Vec<u8>> {
+fn messages(rest: &mut Take<'_>) -> Option<Vec<u8>> {
     rest.bytes(16)?;
     let uncompressed = rest.u64().filter(|bytes| *bytes <= LARGEST_CHUNK)?;
     let sum = rest.u32()?;
@@ -212,6 +202,17 @@ fn chunk(rest: &mut Take<'_>) -> Option<Vec<u8>> {
 }
 
 impl Chunk {
+    /// From the content of its record, if the check sum is right.
+    pub(crate) fn understood(content: &[u8], offset: u64) -> Option<Self> {
+        let bytes = messages(&mut Take(content))?;
+        Some(Self { offset, bytes })
+    }
+
+    /// Bytes of its messages, not compressed.
+    pub fn bytes(&self) -> &[u8] {
+        &self.bytes
+    }
+
     /// In the order in which they were written.
     pub fn messages(&self) -> impl Iterator<Item = Message<'_>> {
         let mut rest = Take(&self.bytes);
@@ -240,8 +241,17 @@ impl fmt::Display for ReadError {
         match self {
             Self::Disk(error) => write!(formatter, "{error}"),
             Self::Other => formatter.write_str("it is no MCAP file"),
+            Self::Damaged { offset } => {
+                write!(formatter, "the chunk at byte {offset} is damaged")
+            }
         }
     }
 }
 
 impl std::error::Error for ReadError {}
+
+impl From<io::Error> for ReadError {
+    fn from(error: io::Error) -> Self {
+        Self::Disk(error)
+    }
+}

@@ -4,30 +4,30 @@
 pub(crate) const MAGIC: [u8; 8] = [0x89, b'M', b'C', b'A', b'P', b'0', b'\r', b'\n'];
 
 /// Bytes of a record before its content: opcode and length.
-pub(crate) const RECORD_HEAD: usize = 9;
+pub const RECORD_HEAD: usize = 9;
 
 /// Bytes of a message before its data: channel, sequence, two times.
-pub(crate) const MESSAGE_HEAD: usize = 2 + 4 + 8 + 8;
+pub const MESSAGE_HEAD: usize = 2 + 4 + 8 + 8;
 
 /// Kinds of records.
-pub(crate) mod opcode {
-    pub(crate) const HEADER: u8 = 0x01;
-    pub(crate) const FOOTER: u8 = 0x02;
-    pub(crate) const SCHEMA: u8 = 0x03;
-    pub(crate) const CHANNEL: u8 = 0x04;
-    pub(crate) const MESSAGE: u8 = 0x05;
-    pub(crate) const CHUNK: u8 = 0x06;
-    pub(crate) const MESSAGE_INDEX: u8 = 0x07;
-    pub(crate) const CHUNK_INDEX: u8 = 0x08;
-    pub(crate) const ATTACHMENT: u8 = 0x09;
-    pub(crate) const ATTACHMENT_INDEX: u8 = 0x0a;
-    pub(crate) const STATISTICS: u8 = 0x0b;
-    pub(crate) const METADATA: u8 = 0x0c;
-    pub(crate) const METADATA_INDEX: u8 = 0x0d;
-    pub(crate) const SUMMARY_OFFSET: u8 = 0x0e;
-    pub(crate) const DATA_END: u8 = 0x0f;
+pub mod opcode {
+    pub const HEADER: u8 = 0x01;
+    pub const FOOTER: u8 = 0x02;
+    pub const SCHEMA: u8 = 0x03;
+    pub const CHANNEL: u8 = 0x04;
+    pub const MESSAGE: u8 = 0x05;
+    pub const CHUNK: u8 = 0x06;
+    pub const MESSAGE_INDEX: u8 = 0x07;
+    pub const CHUNK_INDEX: u8 = 0x08;
+    pub const ATTACHMENT: u8 = 0x09;
+    pub const ATTACHMENT_INDEX: u8 = 0x0a;
+    pub const STATISTICS: u8 = 0x0b;
+    pub const METADATA: u8 = 0x0c;
+    pub const METADATA_INDEX: u8 = 0x0d;
+    pub const SUMMARY_OFFSET: u8 = 0x0e;
+    pub const DATA_END: u8 = 0x0f;
     /// Ours: what was a chunk before the ring closed. Everybody skips kinds from 0x80 on.
-    pub(crate) const GONE: u8 = 0x80;
+    pub const GONE: u8 = 0x80;
 }
 
 /// Appends to a text of bytes.

@@ -10,10 +10,12 @@ use crate::file::ChunkIndex;
 use crate::format::{RECORD_HEAD, opcode};
 
 /// The chunks that a file has, oldest first.
+#[derive(Debug)]
 pub(crate) struct Ring {
     chunks: VecDeque<ChunkIndex>,
     bytes: u64,
     budget: u64,
+    gone: u64,
 }
 
 impl Ring {
@@ -22,7 +24,13 @@ impl Ring {
             chunks: VecDeque::new(),
             bytes: 0,
             budget,
+            gone: 0,
         }
+    }
+
+    /// How many chunks it closed over.
+    pub(crate) fn gone(&self) -> u64 {
+        self.gone
     }
 
     pub(crate) fn chunks(&self) -> impl Iterator<Item = &ChunkIndex> {
@@ -39,6 +47,7 @@ impl Ring {
             };
             self.bytes -= oldest.bytes();
             remove(file, &oldest)?;
+            self.gone += 1;
         }
         Ok(())
     }
