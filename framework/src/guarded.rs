@@ -131,7 +131,7 @@ impl<N> Guarded<N> {
             return Err(self.ledger.failed(error, cycle));
         }
         if cycle.timed {
-            timing::start_lap(self.ledger.name);
+            timing::start_lap(self.ledger.name)?;
         }
         let unwinding = Unwinding {
             broken: &mut self.broken,

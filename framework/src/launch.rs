@@ -112,8 +112,8 @@ where
     if options.check_parameters {
         return check::parameters::<P>(&target, &options, output);
     }
-    if let Some(file) = &options.replay {
-        return replay::run(&target, file, &options, output);
+    if options.is_replay {
+        return replay::run::<P>(&target, &options, output);
     }
     let signals = Signals::new();
     let stop = Stop::new();

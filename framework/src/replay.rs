@@ -6,9 +6,16 @@
 //! Setup nodes are not called; what they wrote stands in the frame. What nodes command goes nowhere. A node that asks the
 //! hardware for something in a cycle cannot be replayed in that cycle; it is counted.
 
+mod compare;
+mod compared;
 mod difference;
+mod elsewhere;
+mod needed;
+mod other;
 mod play;
 mod report;
+mod source;
+mod tolerance;
 mod verify;
 
 use std::cell::Cell;
@@ -20,9 +27,14 @@ use crate::cycler::{Cycler, Finished, Instance};
 use crate::error::Result;
 use crate::recorded::{Head, Loading, Recorded, Stored, digest};
 
+pub use compare::{Change, Comparison, InstanceCompared, compare};
+pub use elsewhere::{Elsewhere, answer};
+pub use needed::Needed;
+pub use other::{Changed, OtherParameters, read_in_new_alone, with_settings};
 pub use play::{Frame, Player, Players, ValueChannels, value_channels};
 pub use report::Divergence;
-pub use verify::{InstanceVerified, Verification, verify};
+pub use source::{Digested, Played, Source};
+pub use verify::{How, InstanceVerified, Verification, verify, verify_how};
 
 /// An instance that can be replayed; a constant of the generated crate lists them.
 #[derive(Clone, Copy, Debug)]
@@ -40,8 +52,8 @@ pub trait Replay {
     /// If the bytes are none of such a frame, or a value is not found.
     fn load(&mut self, head: Head, from: &mut Loading<'_>, stored: &Stored<'_>) -> Result<()>;
 
-    /// Runs its nodes and finishes it.
-    fn run(&mut self) -> Ran;
+    /// Runs its nodes, up to the first that is none of these if some are named, and finishes it.
+    fn run(&mut self, nodes: Option<&[String]>) -> Ran;
 
     /// The instance.
     fn instance(&self) -> &dyn Instance;
@@ -81,9 +93,9 @@ where
         self.cycler.load(&mut self.outside, head, from, stored)
     }
 
-    fn run(&mut self) -> Ran {
+    fn run(&mut self, nodes: Option<&[String]>) -> Ran {
         HARDWARE_WAS_READ.set(false);
-        self.cycler.run();
+        self.cycler.run_only(nodes);
         let failure = self.cycler.failure().map(ToString::to_string);
         let finished = self.cycler.finish();
         match finished {

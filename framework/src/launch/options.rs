@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use lexopt::{Arg, Parser, ValueExt};
 
+use super::replay::Replaying;
 use super::{Listening, Target};
 use crate::error::{Error, Result};
 
@@ -17,7 +18,7 @@ pub(super) enum Command {
 }
 
 /// How to run.
-#[derive(Debug, Default, PartialEq, Eq)]
+#[derive(Debug, Default, PartialEq)]
 pub(super) struct Options {
     /// Until a signal if left out.
     pub(super) duration: Option<Duration>,
@@ -33,10 +34,9 @@ pub(super) struct Options {
     pub(super) record: Record,
     /// Bytes, instead of what the manifest says.
     pub(super) recording_budget: Option<u64>,
-    /// A recording, instead of running.
-    pub(super) replay: Option<PathBuf>,
-    /// With a replay: whether it gives the same bits.
-    pub(super) verify: bool,
+    /// Instead of running.
+    pub(super) is_replay: bool,
+    pub(super) replay: Replaying,
     /// Also on a simulated target, threads ask for their `scheduling`.
     pub(super) is_real_time: bool,
     /// Instead of running.
@@ -123,6 +123,14 @@ Usage: {name} [OPTIONS] [-- HARDWARE OPTIONS]
                       what the recording keeps, e.g. 512MiB, instead of {budget} MiB
   --replay FILE --verify
                       run the cycles of a recording again and compare, bit for bit
+  --tolerance NUMBER  with --verify: how much numbers may differ if it was recorded with other numerics, e.g. 1e-6
+  --node NAME         with --replay: only what this node needs, and its outputs
+  --replay FILE --set PATH=VALUE
+                      what would change under other parameters
+  --replay FILE --against PROGRAM [--against-name NAME]
+                      what another build of the robot computes otherwise
+  --replay FILE --answer
+                      be that other build: questions on standard input
   --real-time         apply the manifest's `scheduling` on a simulated target, too
   --help              this text
 ",
@@ -170,18 +178,18 @@ pub(super) fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Com
             Arg::Long("recording-budget") => {
                 options.recording_budget = Some(size(&parser.value()?.string()?)?);
             }
-            Arg::Long("replay") => options.replay = Some(parser.value()?.into()),
-            Arg::Long("verify") => options.verify = true,
             Arg::Long("real-time") => options.is_real_time = true,
             Arg::Long("help") | Arg::Short('h') => return Ok(Command::Help),
+            Arg::Long(other) => {
+                let other = other.to_owned();
+                if !options.replay.take(&other, &mut parser)? {
+                    return Err(Arg::Long(&other).unexpected().into());
+                }
+            }
             unexpected => return Err(unexpected.unexpected().into()),
         }
     }
-    if options.verify != options.replay.is_some() {
-        return Err(Error::new(
-            "--replay FILE and --verify go together: there is no other replay yet",
-        ));
-    }
+    options.is_replay = options.replay.is_asked(!options.settings.is_empty())?;
     Ok(Command::Run(Box::new(options)))
 }
 
@@ -290,7 +298,7 @@ mod tests {
             "--recording-budget",
             "3MiB",
             "--replay=old",
-            "--verify",
+            "--node=walk",
             "--real-time",
             "--scenario",
             "s.toml",
@@ -321,8 +329,12 @@ mod tests {
             run_folder: "there".into(),
             record: Record::Into("tape".into()),
             recording_budget: Some(3 << 20),
-            replay: Some("old".into()),
-            verify: true,
+            is_replay: true,
+            replay: Replaying {
+                file: "old".into(),
+                node: Some("walk".to_owned()),
+                ..Replaying::default()
+            },
             is_real_time: true,
             scenario: Some("s.toml".into()),
             seed: Some(7),
@@ -360,6 +372,11 @@ mod tests {
             &["--format", "xml"],
             &["--for"],
             &["--verify"],
+            &["--node", "walk"],
+            &["--replay", "old"],
+            &["--replay=old", "--verify", "--set", "a=1"],
+            &["--replay=old", "--against=other", "--tolerance=1e-6"],
+            &["--replay=old", "--verify", "--tolerance=-1"],
             &["--recording-budget", "2"],
         ] {
             assert!(parsed(wrong).is_err(), "{wrong:?}");

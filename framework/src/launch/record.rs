@@ -121,7 +121,8 @@ fn git_revision() -> String {
     }
 }
 
-fn digest_of(text: &str) -> String {
+/// As the metadata `graph` has it.
+pub(super) fn digest_of(text: &str) -> String {
     let mut digest = crate::digest::Digest::new();
     // A text can always be part of a digest.
     let _ = digest.add(text);

@@ -1,19 +1,108 @@
 //! `--replay`: recorded cycles run again, instead of the robot.
 
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use hulkgen_recording::Recording;
+use lexopt::{Parser, ValueExt};
 
 use super::options::{Format, Options};
+use super::record::digest_of;
 use super::{DONE, FAILED, Target};
+use crate::data::ParameterData;
 use crate::error::{Error, Result};
-use crate::replay::verify;
+use crate::replay::{
+    Comparison, Elsewhere, How, Needed, OtherParameters, Players, answer, compare,
+    read_in_new_alone, value_channels, verify_how, with_settings,
+};
 use crate::report::tell;
 
-/// Verifies a recording; gives the exit status.
-pub(super) fn run(target: &Target, file: &Path, options: &Options, output: &mut dyn Write) -> u8 {
-    match verified(target, file, options, output) {
+/// What is to be done with a recording.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Replaying {
+    /// The recording; empty: there is none.
+    pub(super) file: PathBuf,
+    /// Whether it gives the same bits.
+    pub(super) verify: bool,
+    /// What one node needs instead of everything.
+    pub(super) node: Option<String>,
+    pub(super) tolerance: Option<f64>,
+    /// Another program, whose outputs are compared.
+    pub(super) against: Option<PathBuf>,
+    /// What the other program is called in the answer.
+    pub(super) against_name: Option<String>,
+    /// Answer another program.
+    pub(super) answer: bool,
+}
+
+impl Replaying {
+    /// Takes an option if it is one of a replay; gives whether it is.
+    pub(super) fn take(&mut self, option: &str, parser: &mut Parser) -> Result<bool> {
+        match option {
+            "replay" => self.file = parser.value()?.into(),
+            "verify" => self.verify = true,
+            "node" => self.node = Some(parser.value()?.string()?),
+            "tolerance" => self.tolerance = Some(tolerance(&parser.value()?.string()?)?),
+            "against" => self.against = Some(parser.value()?.into()),
+            "against-name" => self.against_name = Some(parser.value()?.string()?),
+            "answer" => self.answer = true,
+            _ => return Ok(false),
+        }
+        Ok(true)
+    }
+
+    /// Whether there is something to replay.
+    ///
+    /// # Errors
+    /// If options do not go together; `changes`: parameters are set.
+    pub(super) fn is_asked(&self, changes: bool) -> Result<bool> {
+        let is_asked = !self.file.as_os_str().is_empty();
+        let deeds = [
+            (self.verify, "--verify"),
+            (is_asked && changes, "--set"),
+            (self.against.is_some(), "--against"),
+            (self.answer, "--answer"),
+        ];
+        let deeds: Vec<_> = deeds.iter().filter(|(is_there, _)| *is_there).collect();
+        if let [(_, one), (_, other), ..] = deeds.as_slice() {
+            return Err(Error::new(format!("{one} and {other} are two replays")));
+        }
+        let is_verified = self.verify || (self.node.is_some() && deeds.is_empty());
+        if self.tolerance.is_some() && !is_verified {
+            return Err(Error::new("--tolerance is for --verify"));
+        }
+        let options = !deeds.is_empty() || self.node.is_some();
+        if options && !is_asked {
+            return Err(Error::new(
+                "--verify, --node, --against and --answer are for --replay FILE",
+            ));
+        }
+        if is_asked && !options {
+            return Err(Error::new(
+                "--replay FILE needs to know what for: --verify, --set PATH=VALUE, --node NAME or --against PROGRAM",
+            ));
+        }
+        Ok(is_asked)
+    }
+}
+
+fn tolerance(text: &str) -> Result<f64> {
+    let number = text.parse().ok();
+    let number = number.filter(|number: &f64| number.is_finite() && *number >= 0.0);
+    number.ok_or_else(|| Error::new(format!("`{text}` is no tolerance: expected e.g. 1e-6")))
+}
+
+/// Replays; gives the exit status.
+pub(super) fn run<P: ParameterData>(
+    target: &Target,
+    options: &Options,
+    output: &mut dyn Write,
+) -> u8 {
+    let file = &options.replay.file;
+    let result = Recording::open(file)
+        .map_err(|error| Error::new(error.to_string()))
+        .and_then(|recording| replayed::<P>(target, &recording, options, output));
+    match result {
         Ok(true) => DONE,
         Ok(false) => FAILED,
         Err(error) => {
@@ -23,22 +112,122 @@ pub(super) fn run(target: &Target, file: &Path, options: &Options, output: &mut 
     }
 }
 
-fn verified(
+fn replayed<P: ParameterData>(
     target: &Target,
-    file: &Path,
+    recording: &Recording,
     options: &Options,
     output: &mut dyn Write,
 ) -> Result<bool> {
-    let recording = Recording::open(file).map_err(|error| Error::new(error.to_string()))?;
-    let verification = verify(&recording, target.replayables)?;
-    match options.format {
-        Format::Json => writeln!(output, "{}", verification.to_json())?,
-        Format::Text => write!(output, "{verification}")?,
+    let replay = &options.replay;
+    if replay.answer {
+        let values = value_channels(recording)?;
+        let mut players = Players::new(recording, &values, target.replayables)?;
+        answer(&mut players, std::io::stdin().lock(), output)?;
+        return Ok(true);
     }
+    let node = replay.node.as_deref();
+    let needed = node
+        .map(|name| Needed::new(name, target.graph))
+        .transpose()?;
+    let is_good = if let Some(program) = &replay.against {
+        let comparison = against(target, recording, (program, replay), needed.as_ref())?;
+        say(&comparison, comparison.to_json(), options.format, output)?;
+        comparison.is_good()
+    } else if !options.settings.is_empty() {
+        let comparison = under::<P>(target, recording, &options.settings, needed.as_ref())?;
+        say(&comparison, comparison.to_json(), options.format, output)?;
+        comparison.is_good()
+    } else {
+        let how = How {
+            needed,
+            tolerance: replay.tolerance,
+            graph: Some(digest_of(target.dataflow)),
+        };
+        let verification = verify_how(recording, target.replayables, &how)?;
+        say(
+            &verification,
+            verification.to_json(),
+            options.format,
+            output,
+        )?;
+        verification.is_good()
+    };
     if !recording.is_complete() {
         tell(format_args!(
             "the recording is INCOMPLETE: frames were dropped, or it was cut off"
         ));
     }
-    Ok(verification.is_good())
+    Ok(is_good)
+}
+
+fn say(
+    answer: &dyn std::fmt::Display,
+    json: serde_json::Value,
+    format: Format,
+    output: &mut dyn Write,
+) -> Result<()> {
+    match format {
+        Format::Json => writeln!(output, "{json}")?,
+        Format::Text => write!(output, "{answer}")?,
+    }
+    Ok(())
+}
+
+/// Another build beside this one.
+fn against(
+    target: &Target,
+    recording: &Recording,
+    (program, replay): (&Path, &Replaying),
+    needed: Option<&Needed>,
+) -> Result<Comparison> {
+    let values = value_channels(recording)?;
+    let mut here = Players::new(recording, &values, target.replayables)?;
+    if let Some(needed) = needed {
+        here = here.only(needed);
+    }
+    let mut there = Elsewhere::start(program, &replay.file)?;
+    let mut comparison = compare(&mut there, &mut here, needed)?;
+    let name = replay.against_name.clone();
+    let name = name.unwrap_or_else(|| program.display().to_string());
+    comparison.names = (name, "this build".to_owned());
+    Ok(comparison)
+}
+
+/// The recorded parameters beside others.
+fn under<P: ParameterData>(
+    target: &Target,
+    recording: &Recording,
+    settings: &[(String, String)],
+    needed: Option<&Needed>,
+) -> Result<Comparison> {
+    let values = value_channels(recording)?;
+    let mut unread = Vec::new();
+    let other = OtherParameters::new(recording, &values, &mut |recorded| {
+        unread = read_in_new_alone::<P>(recorded, settings)?;
+        with_settings::<P>(recorded, settings)
+    })?;
+    let players = || -> Result<Players<'_>> {
+        let players = Players::new(recording, &values, target.replayables)?;
+        Ok(match needed {
+            Some(needed) => players.only(needed),
+            None => players,
+        })
+    };
+    let mut after = players()?.under(&other);
+    let mut comparison = compare(&mut players()?, &mut after, needed)?;
+    let settings = settings.iter();
+    let settings: Vec<_> = settings
+        .map(|(path, value)| format!("{path}={value}"))
+        .collect();
+    comparison.names = ("as recorded".to_owned(), settings.join(" "));
+    comparison.notes.push(
+        "each cycle begins with the states that were recorded: what a change does over many cycles, only a run shows"
+            .to_owned(),
+    );
+    for path in unread {
+        comparison.notes.push(format!(
+            "`{path}` is read in `new` alone, which a replay does not call: it changes nothing here"
+        ));
+    }
+    Ok(comparison)
 }

@@ -52,15 +52,17 @@ pub(super) fn parse(path: &str, text: &str) -> Result<Tree, ParameterError> {
 
 /// A value as on the right of `key = …`, or else the text itself: for the environment and the command line.
 pub(super) fn parse_setting(text: &str, origin: &Origin) -> Tree {
+    Tree::from_value(&setting(text), origin)
+}
+
+/// The value itself: what is none is a text.
+pub(super) fn setting(text: &str) -> toml::Value {
     let value = toml::from_str::<toml::Table>(&format!("value = {text}"));
     let value = value
         .ok()
         .filter(|table| table.len() == 1)
         .and_then(|mut table| table.remove("value"));
-    Tree::from_value(
-        &value.unwrap_or_else(|| toml::Value::String(text.to_owned())),
-        origin,
-    )
+    value.unwrap_or_else(|| toml::Value::String(text.to_owned()))
 }
 
 impl Tree {

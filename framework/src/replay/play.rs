@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use hulkgen_recording::Recording;
 
-use super::{Ran, Replay, Replayable};
+use super::{Needed, OtherParameters, Ran, Replay, Replayable};
 use crate::error::{Error, Result};
 use crate::recorded::{BEGUN, FINISHED, FRAMES, Head, Loading, Stored, VALUES, VERSION};
 
@@ -22,6 +22,10 @@ pub struct Player<'r> {
     pub instance: &'static str,
     /// In the order of the file.
     pub frames: Vec<Frame<'r>>,
+    /// Whether the recording has a channel for its frames.
+    pub is_known: bool,
+    /// The only nodes that run; `None`: all.
+    nodes: Option<Vec<String>>,
     replayable: Replayable,
     replay: Option<Box<dyn Replay>>,
     /// Position of the frame that was loaded last.
@@ -123,6 +127,10 @@ impl<'r> Players<'r> {
             }
             chunks.push(stored);
         }
+        for player in &mut players {
+            let mut recorded = topics.frames.values();
+            player.is_known = recorded.any(|name| name == player.instance);
+        }
         let is_known = |name: &String| replayables.iter().any(|one| one.instance == name);
         let unknown = topics.frames.into_values().filter(|name| !is_known(name));
         Ok(Self {
@@ -130,6 +138,23 @@ impl<'r> Players<'r> {
             players,
             unknown: unknown.collect(),
         })
+    }
+
+    /// The same, with other values in place of the parameters that were recorded.
+    pub fn under(mut self, other: &'r OtherParameters) -> Self {
+        for (chunk, channel, version, bytes) in other.all() {
+            self.chunks[chunk].add(channel, version, bytes);
+        }
+        self
+    }
+
+    /// The same, without what this node does not need: instances that do not run it, and nodes that come after it.
+    pub fn only(mut self, needed: &Needed) -> Self {
+        self.players.retain_mut(|player| {
+            player.nodes = needed.of(player.instance).map(<[String]>::to_vec);
+            player.nodes.is_some()
+        });
+        self
     }
 
     /// The player of an instance, with the values that it needs.
@@ -152,6 +177,8 @@ impl<'r> Player<'r> {
         Self {
             instance: replayable.instance,
             frames: Vec::new(),
+            is_known: false,
+            nodes: None,
             replayable,
             replay: None,
             loaded: None,
@@ -201,7 +228,14 @@ impl<'r> Player<'r> {
             self.load(at, chunks)?;
         }
         let replay = self.replay.as_mut();
-        Ok(replay.map_or(Ran::NeedsHardware, |replay| replay.run()))
+        let nodes = self.nodes.as_deref();
+        Ok(replay.map_or(Ran::NeedsHardware, |replay| replay.run(nodes)))
+    }
+
+    /// Whether this node is run.
+    pub fn runs(&self, node: &str) -> bool {
+        let mut nodes = self.nodes.iter();
+        nodes.all(|nodes| nodes.iter().any(|one| one == node))
     }
 
     fn load(&mut self, at: usize, chunks: &[Stored<'_>]) -> Result<()> {

@@ -103,15 +103,6 @@ impl fmt::Display for Divergence {
         if !self.path.is_empty() {
             write!(out, ", first in `{}`", self.path)?;
         }
-        let shown = |value: &Option<Value>| {
-            let mut text = value.as_ref().map(Value::to_string)?;
-            if text.len() > SHOWN {
-                let end = (0..=SHOWN).rev().find(|end| text.is_char_boundary(*end));
-                text.truncate(end.unwrap_or_default());
-                text.push('…');
-            }
-            Some(text)
-        };
         let (recorded, recomputed) = self.digests;
         let recorded = recorded.map_or("none".to_owned(), |digest| format!("digest {digest:016x}"));
         let recorded = shown(&self.recorded).unwrap_or(recorded);
@@ -125,6 +116,27 @@ impl fmt::Display for Divergence {
             "\n  recorded:   {recorded}\n  recomputed: {recomputed}"
         )
     }
+}
+
+/// As much of a value as fits.
+pub(super) fn shown(value: &Option<Value>) -> Option<String> {
+    let mut text = value.as_ref().map(Value::to_string)?;
+    if text.len() > SHOWN {
+        let end = (0..=SHOWN).rev().find(|end| text.is_char_boundary(*end));
+        text.truncate(end.unwrap_or_default());
+        text.push('…');
+    }
+    Some(text)
+}
+
+/// Which nodes were run, where it was not all of them.
+pub(super) fn recomputed(
+    out: &mut fmt::Formatter<'_>,
+    recomputed: &[(String, Vec<String>)],
+) -> fmt::Result {
+    recomputed.iter().try_for_each(|(instance, nodes)| {
+        writeln!(out, "recomputed of {instance}: {}", nodes.join(", "))
+    })
 }
 
 impl Verification {
@@ -142,6 +154,8 @@ impl Verification {
                 "verified": one.verified,
                 "diverged": one.diverged,
                 "outputs": one.outputs,
+                "within_tolerance": one.within,
+                "not_compared": one.not_compared,
                 "unfinished": one.unfinished,
                 "needs_hardware": one.needs_hardware,
                 "unreadable": one.unreadable,
@@ -149,6 +163,11 @@ impl Verification {
             })).collect::<Vec<_>>(),
             "divergence": self.divergence.as_ref().map(Divergence::to_json),
             "unknown": self.unknown,
+            "recomputed": self.recomputed.iter().map(|(instance, nodes)| {
+                json!({ "instance": instance, "nodes": nodes })
+            }).collect::<Vec<_>>(),
+            "tolerance": self.tolerance,
+            "graph": self.graph.as_ref().map(|(there, here)| json!({ "recorded": there, "here": here })),
             "numerics": self.numerics.as_ref().map(|(there, here)| json!({ "recorded": there, "here": here })),
         })
     }
@@ -156,6 +175,7 @@ impl Verification {
 
 impl fmt::Display for Verification {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        recomputed(out, &self.recomputed)?;
         writeln!(
             out,
             "{:<16} {:>8} {:>8} {:>9} {:>9}",
@@ -179,11 +199,26 @@ impl fmt::Display for Verification {
                 "{unknown}: this robot has no such instance, or cannot replay it"
             )?;
         }
-        if let Some((there, here)) = &self.numerics {
+        if self.graph.is_some() {
             writeln!(
                 out,
-                "recorded with other numerics ({there}, here {here}): results may differ in their last bits"
+                "recorded with another graph: instances that it changed do not fit, the others were replayed; `hulkgen diff REV` says what changed"
             )?;
+        }
+        match (&self.numerics, self.tolerance) {
+            (Some((there, here)), None) => writeln!(
+                out,
+                "recorded with other numerics ({there}, here {here}): results may differ in their last bits, `--tolerance 1e-6` compares within a tolerance"
+            )?,
+            (Some((there, here)), Some(tolerance)) => writeln!(
+                out,
+                "recorded with other numerics ({there}, here {here}): compared within {tolerance:e} where the recording has values, else only bits can be compared"
+            )?,
+            (None, Some(_)) => writeln!(
+                out,
+                "recorded with the same numerics: compared bit for bit, without a tolerance"
+            )?,
+            (None, None) => {}
         }
         if let Some(divergence) = &self.divergence {
             writeln!(out, "{divergence}")?;
@@ -209,6 +244,11 @@ impl fmt::Display for Remarks<'_> {
         }
         for (count, what) in [
             (one.diverged, "diverged"),
+            (one.within, "outputs within the tolerance"),
+            (
+                one.not_compared,
+                "outputs not compared: only their digests were recorded",
+            ),
             (one.unfinished, "unfinished"),
             (one.needs_hardware, "needing hardware"),
         ] {

@@ -4,9 +4,21 @@ use hulkgen_recording::Recording;
 
 use super::difference::first_difference;
 use super::play::{self, Player, Players};
-use super::{Divergence, Ran, Replayable};
-use crate::error::Result;
+use super::tolerance::is_within;
+use super::{Divergence, Needed, Ran, Replayable};
+use crate::error::{Error, Result};
 use crate::recorded::Stored;
+
+/// How a recording is verified.
+#[derive(Clone, Debug, Default)]
+pub struct How {
+    /// Of one node and what it needs; `None`: of all nodes.
+    pub needed: Option<Needed>,
+    /// How much numbers may differ where it was recorded with other numerics: relative, absolute below 1.
+    pub tolerance: Option<f64>,
+    /// The digest of this robot's graph, as recordings have it; `None`: it does not matter.
+    pub graph: Option<String>,
+}
 
 /// What came of it.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -19,6 +31,12 @@ pub struct Verification {
     pub unknown: Vec<String>,
     /// Where it was recorded and where it was replayed, if numbers may differ.
     pub numerics: Option<(String, String)>,
+    /// Graphs where it was recorded and where it was replayed, if they are not the same.
+    pub graph: Option<(String, String)>,
+    /// That was asked for.
+    pub tolerance: Option<f64>,
+    /// By instance, if not all of it: which nodes were run.
+    pub recomputed: Vec<(String, Vec<String>)>,
 }
 
 /// What came of one instance.
@@ -38,6 +56,10 @@ pub struct InstanceVerified {
     pub diverged: u64,
     /// Digests that were compared.
     pub outputs: u64,
+    /// Outputs with other bits, the same within the tolerance.
+    pub within: u64,
+    /// Outputs with other bits whose values the recording does not have, so that the tolerance does not help.
+    pub not_compared: u64,
     /// Cycles that were abandoned when they were recorded: there is nothing to compare.
     pub unfinished: u64,
     /// Cycles in which a node asked the hardware for something.
@@ -72,23 +94,58 @@ impl Verification {
 /// # Errors
 /// If the recording is of another version, or damaged.
 pub fn verify(recording: &Recording, replayables: &[Replayable]) -> Result<Verification> {
+    verify_how(recording, replayables, &How::default())
+}
+
+/// Recomputes every cycle of a recording, or what one node needs of it.
+///
+/// # Errors
+/// As [`verify`].
+pub fn verify_how(
+    recording: &Recording,
+    replayables: &[Replayable],
+    how: &How,
+) -> Result<Verification> {
     let values = play::value_channels(recording)?;
     let mut players = Players::new(recording, &values, replayables)?;
     let mut verification = Verification {
         unknown: players.unknown.clone(),
         numerics: other_numerics(recording),
+        graph: other_graph(recording, how),
+        tolerance: how.tolerance,
         ..Verification::default()
     };
+    if let Some(needed) = &how.needed {
+        players = players.only(needed);
+        let all = needed.all();
+        verification.recomputed = all
+            .map(|(instance, nodes)| (instance.to_owned(), nodes.to_vec()))
+            .collect();
+    }
+    let tolerance = how.tolerance.filter(|_| verification.numerics.is_some());
     for (player, chunks) in players.each() {
-        let mut verified = described(recording, player.instance);
-        let mut first = None;
+        let mut comparing = Comparing {
+            node: how.needed.as_ref().map(|needed| needed.node.as_str()),
+            tolerance,
+            verified: described(recording, player.instance),
+            first: None,
+        };
         for position in 0..player.frames.len() {
-            verified.frames += 1;
-            if let Err(error) = one(player, position, chunks, &mut verified, &mut first) {
+            comparing.verified.frames += 1;
+            if let Err(error) = comparing.one(player, position, chunks) {
                 let cycle = player.frames[position].head.number;
-                verified.unreadable = Some(error.context(format!("cycle {cycle}")).to_string());
+                let reason = error.context(format!("cycle {cycle}")).to_string();
+                comparing.verified.unreadable = Some(reason);
                 break;
             }
+        }
+        let Comparing {
+            mut verified,
+            first,
+            ..
+        } = comparing;
+        if !player.is_known {
+            verified.unreadable = Some("the recording has no such instance".to_owned());
         }
         verification.instances.push(verified);
         let earlier = |other: &Divergence| {
@@ -104,57 +161,100 @@ pub fn verify(recording: &Recording, replayables: &[Replayable]) -> Result<Verif
     Ok(verification)
 }
 
-/// Recomputes one cycle and compares.
-fn one(
-    player: &mut Player<'_>,
-    position: usize,
-    chunks: &[Stored<'_>],
-    verified: &mut InstanceVerified,
-    first: &mut Option<Divergence>,
-) -> Result<()> {
-    let frame = player.frames[position];
-    let Some(digests) = frame.digests() else {
-        verified.unfinished += 1;
-        return Ok(());
-    };
-    match player.play(position, chunks)? {
-        Ran::NeedsHardware => verified.needs_hardware += 1,
-        Ran::Failed(error) => {
-            verified.diverged += 1;
-            first.get_or_insert_with(|| Divergence::failed(player.instance, frame.head, error));
-        }
-        Ran::Finished => {
-            let Some(replay) = player.replay() else {
+/// The comparison of one instance.
+struct Comparing<'a> {
+    /// The only node whose outputs are compared.
+    node: Option<&'a str>,
+    /// If it applies.
+    tolerance: Option<f64>,
+    verified: InstanceVerified,
+    first: Option<Divergence>,
+}
+
+/// What there is to say of an output whose bits differ.
+enum Differs {
+    Within,
+    /// Its value was not recorded.
+    Unknown,
+    Diverged(Box<Divergence>),
+}
+
+impl Comparing<'_> {
+    /// Recomputes one cycle and compares.
+    fn one(
+        &mut self,
+        player: &mut Player<'_>,
+        position: usize,
+        chunks: &[Stored<'_>],
+    ) -> Result<()> {
+        let frame = player.frames[position];
+        let Some(mut recorded) = frame.digests() else {
+            self.verified.unfinished += 1;
+            return Ok(());
+        };
+        match player.play(position, chunks)? {
+            Ran::NeedsHardware => {
+                self.verified.needs_hardware += 1;
                 return Ok(());
-            };
-            let mut recorded = digests;
-            let (mut same, mut outputs) = (true, 0);
-            let digested = replay.instance().digests(&mut |node, output, digest| {
-                outputs += 1;
-                let wanted = recorded.next();
-                if wanted == Some(digest) {
-                    return;
-                }
-                same = false;
-                first.get_or_insert_with(|| {
-                    let mut divergence =
-                        Divergence::of(player.instance, frame.head, (node, output), wanted, digest);
-                    compare(&mut divergence, replay, chunks);
-                    divergence
-                });
-            });
-            if let Err(error) = digested {
-                return Err(crate::error::Error::new(error.to_string()));
             }
-            verified.outputs += outputs;
-            *(if same {
-                &mut verified.verified
-            } else {
-                &mut verified.diverged
-            }) += 1;
+            Ran::Failed(error) => {
+                self.verified.diverged += 1;
+                let failed = || Divergence::failed(player.instance, frame.head, error);
+                self.first.get_or_insert_with(failed);
+                return Ok(());
+            }
+            Ran::Finished => {}
+        }
+        let Some(replay) = player.replay() else {
+            return Ok(());
+        };
+        let (mut diverged, mut not_compared) = (false, 0);
+        let digested = replay.instance().digests(&mut |node, output, digest| {
+            let wanted = recorded.next();
+            if self.node.is_some_and(|asked| asked != node) {
+                return;
+            }
+            self.verified.outputs += 1;
+            // Where it diverged already, one output says enough.
+            if wanted == Some(digest) || (diverged && self.tolerance.is_none()) {
+                return;
+            }
+            let found = Divergence::of(player.instance, frame.head, (node, output), wanted, digest);
+            match self.judged(found, replay, chunks) {
+                Differs::Within => self.verified.within += 1,
+                Differs::Unknown => not_compared += 1,
+                Differs::Diverged(found) => {
+                    diverged = true;
+                    self.first.get_or_insert(*found);
+                }
+            }
+        });
+        digested.map_err(|error| Error::new(error.to_string()))?;
+        self.verified.not_compared += not_compared;
+        self.verified.diverged += u64::from(diverged);
+        self.verified.verified += u64::from(!diverged && not_compared == 0);
+        Ok(())
+    }
+
+    fn judged(
+        &self,
+        mut found: Divergence,
+        replay: &dyn super::Replay,
+        chunks: &[Stored<'_>],
+    ) -> Differs {
+        if self.tolerance.is_some() || self.first.is_none() {
+            compare(&mut found, replay, chunks);
+        }
+        match (self.tolerance, &found.recorded, &found.recomputed) {
+            (Some(_), None, _) => Differs::Unknown,
+            (Some(tolerance), Some(recorded), Some(recomputed))
+                if is_within(recorded, recomputed, tolerance) =>
+            {
+                Differs::Within
+            }
+            _ => Differs::Diverged(Box::new(found)),
         }
     }
-    Ok(())
 }
 
 /// Adds both values, as far as they are known.
@@ -199,5 +299,12 @@ fn other_numerics(recording: &Recording) -> Option<(String, String)> {
     let here = crate::numerics::fingerprint();
     let run = &recording.metadata("run")?.entries;
     let (_, there) = run.iter().find(|(key, _)| key == "numerics")?;
+    (*there != here).then(|| (there.clone(), here))
+}
+
+fn other_graph(recording: &Recording, how: &How) -> Option<(String, String)> {
+    let here = how.graph.clone()?;
+    let run = &recording.metadata("run")?.entries;
+    let (_, there) = run.iter().find(|(key, _)| key == "graph")?;
     (*there != here).then(|| (there.clone(), here))
 }

@@ -5,6 +5,7 @@ use crate::cycler::{Cycle, Instance};
 use crate::error::{Error, Result};
 use crate::recorded::{Head, Loaded, Loading, Recorded, Stored};
 use crate::time::CycleTime;
+use crate::timing;
 
 impl<B: Recorded> Cycler<B> {
     /// Makes the cycle that a frame is of the one that has just begun.
@@ -43,6 +44,16 @@ impl<B: Recorded> Cycler<B> {
         };
         self.failure = None;
         Ok(())
+    }
+
+    /// Runs the nodes of the cycle, as far as they are among these; what they wrote is published by `finish`.
+    pub(crate) fn run_only(&mut self, nodes: Option<&[String]>) {
+        self.cycle.timed = nodes.is_some();
+        timing::only(nodes, || self.run());
+        if nodes.is_some() && self.failure.as_ref().is_some_and(Error::is_stopped) {
+            self.failure = None;
+        }
+        self.cycle.timed = false;
     }
 
     /// Why the cycle that ran will not be published.

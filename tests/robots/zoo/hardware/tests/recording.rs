@@ -1,5 +1,7 @@
 //! The generated zoo recorded and replayed: the same bits, or the place where they differ.
 
+#[path = "recording/asked.rs"]
+mod asked;
 #[path = "recording/cost.rs"]
 mod cost;
 #[path = "recording/divergence.rs"]

@@ -1,0 +1,104 @@
+//! Other parameters than those that were recorded.
+
+use std::collections::BTreeMap;
+
+use hulkgen_recording::Recording;
+
+use super::ValueChannels;
+use crate::buffer::buffer_of;
+use crate::clock::Clock;
+use crate::data::ParameterData;
+use crate::error::{Error, Result};
+use crate::parameters::{LiveParameters, setting_as_json};
+use crate::recorded::{Loading, PARAMETERS};
+
+/// What stands in place of each version of the parameters that a recording has.
+#[derive(Clone, Debug, Default)]
+pub struct OtherParameters {
+    /// By chunk and version.
+    versions: BTreeMap<(usize, u32), Vec<u8>>,
+    channel: u16,
+}
+
+/// A version of the parameters as it was recorded, and as it is to be.
+pub type Changed<'a> = &'a mut dyn FnMut(&[u8]) -> Result<Vec<u8>>;
+
+impl OtherParameters {
+    /// Every version of a recording, changed.
+    ///
+    /// # Errors
+    /// If one cannot be changed: the first reason, which mostly is that of all.
+    pub fn new(
+        recording: &Recording,
+        values: &ValueChannels,
+        changed: Changed<'_>,
+    ) -> Result<Self> {
+        let mut names = values.iter();
+        let Some((_, channel)) = names.find(|(name, _)| name == PARAMETERS) else {
+            return Err(Error::new("the recording has no parameters"));
+        };
+        let mut versions = BTreeMap::new();
+        for (chunk, content) in recording.chunks.iter().enumerate() {
+            for message in content.messages() {
+                if message.channel == *channel {
+                    versions.insert((chunk, message.sequence), changed(message.data)?);
+                }
+            }
+        }
+        Ok(Self {
+            versions,
+            channel: *channel,
+        })
+    }
+
+    /// Chunk, channel, version, bytes.
+    pub(super) fn all(&self) -> impl Iterator<Item = (usize, u16, u32, &[u8])> {
+        let versions = self.versions.iter();
+        versions.map(|((chunk, version), bytes)| (*chunk, self.channel, *version, &**bytes))
+    }
+}
+
+/// Recorded parameters with some values replaced: paths, and values as the parameter files write them.
+///
+/// # Errors
+/// If the bytes are none of these parameters, or a live change would be refused, too: with what would be right.
+pub fn with_settings<P: ParameterData>(
+    recorded: &[u8],
+    settings: &[(String, String)],
+) -> Result<Vec<u8>> {
+    let start: P = Loading::new(recorded).take().map_err(|error| {
+        error.context("the recorded parameters are not those of this robot: --set needs a build that has the same ones")
+    })?;
+    let (writer, [mut reader], []) = buffer_of(|| start.clone(), []);
+    let parameters = LiveParameters::new(writer, start.clone(), Clock::stepped());
+    let settings = settings.iter();
+    let changes: Vec<_> = settings
+        .map(|(path, text)| (path, setting_as_json(text)))
+        .collect();
+    parameters
+        .change(&changes)
+        .map_err(|refusals| Error::new(format!("--set: {refusals}")))?;
+    reader.take();
+    Ok(postcard::to_stdvec(reader.view().value())?)
+}
+
+/// Those of these paths that only `new` reads, which no replay calls.
+pub fn read_in_new_alone<'s, P: ParameterData>(
+    recorded: &[u8],
+    settings: &'s [(String, String)],
+) -> Result<Vec<&'s str>> {
+    let start: P = Loading::new(recorded).take()?;
+    let (writer, [], []) = buffer_of(|| start.clone(), []);
+    let parameters = LiveParameters::new(writer, start.clone(), Clock::stepped());
+    let creation_only = parameters.creation_only();
+    let within = |path: &str, other: &str| {
+        path == other
+            || path
+                .strip_prefix(other)
+                .is_some_and(|rest| rest.starts_with('.'))
+    };
+    let paths = settings.iter().map(|(path, _)| path.as_str());
+    Ok(paths
+        .filter(|path| creation_only.iter().any(|other| within(path, other)))
+        .collect())
+}
