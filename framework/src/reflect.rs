@@ -11,6 +11,7 @@ pub mod shape;
 
 mod collections;
 mod hashed;
+mod image;
 mod leaves;
 mod limits;
 mod nalgebra;
@@ -23,6 +24,7 @@ mod unknown;
 use std::borrow::Cow;
 
 pub use binary::EncodeError;
+pub use image::{Image, Pixels};
 pub use limits::{Limits, OutOfRange};
 pub use path::{InvalidPath, Path, Segment};
 pub use resolved::ResolvedPath;
@@ -34,6 +36,7 @@ pub use unknown::{Reason, UnknownPath};
 /// Derived: `#[derive(Reflect)]` beside `Serialize` and `Deserialize`, whose `rename`, `rename_all`, `skip`, `flatten`,
 /// `transparent`, `tag`, `content` and `untagged` it follows. On a field `#[reflect(unit = "m")]` tells its unit,
 /// `#[reflect(range = 0.0..=1.0)]` where its numbers must lie when it is a parameter, `#[reflect(skip)]` hides it.
+/// `#[reflect(image = "yuyv")]` on a struct says that its values are images: [`Pixels`].
 #[diagnostic::on_unimplemented(
     message = "`{Self}` does not implement `Reflect`",
     label = "cannot be shown, recorded or set by path",

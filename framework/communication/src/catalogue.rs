@@ -309,6 +309,7 @@ fn without_value(path: &str, kind: EntryKind, has_children: bool) -> Entry {
         has_children,
         length: None,
         choices: Vec::new(),
+        image: None,
     }
 }
 
@@ -327,6 +328,7 @@ fn entry(path: &str, kind: EntryKind, shape: &Shape, told: Told) -> Entry {
         }),
         length: length(shape),
         choices: choices(shape),
+        image: shape.image().map(|pixels| pixels.name().to_owned()),
         ..without_value(path, kind, has_children(shape))
     }
 }

@@ -11,6 +11,7 @@
 //! | `connection`, `outbox` | one client: what it says, and what waits for it |
 //! | `hub`, `requests` | all clients and the robot |
 //! | `sources`, `catalogue`, `parameters`, `timings`, `logs` | outputs, paths, parameters, durations, log messages |
+//! | `jpeg` | images as files |
 //! | [`limits`] | how much a client may ask |
 //!
 //! Invariant: instances never wait for it; it fetches what they leave, and they take what it leaves.
@@ -24,6 +25,7 @@ mod catalogue;
 mod connection;
 mod doorman;
 mod hub;
+mod jpeg;
 mod logs;
 mod nesting;
 mod origin;

@@ -21,6 +21,8 @@ pub struct Limits {
     pub path_bytes: usize,
     /// Subscriptions of one client.
     pub subscriptions: usize,
+    /// Images that are compressed at the same time, of all clients; those with the same image and quality share one.
+    pub jpegs: usize,
     /// Requests of one client that wait for a cycle or a node.
     pub waiting: usize,
     /// Updates of one subscription that wait to be sent: at 83 Hz a third of a second.
@@ -48,6 +50,7 @@ impl Default for Limits {
             nesting: 64,
             path_bytes: 1024,
             subscriptions: 1024,
+            jpegs: 16,
             waiting: 64,
             queued_updates: 32,
             queued_bytes: 16 << 20,

@@ -1,16 +1,18 @@
 //! What clients ask, and what becomes of it.
 
+mod subscribe;
+
 use std::time::{Duration, Instant};
 
 use framework::OutputKind;
-use protocol::{Ask, Change, Encoding, Failure, Good, Level, Request, Subscribed, Value};
+use protocol::{Ask, Change, Failure, Good, Level, Request, Value};
 use serde_json::Value as Json;
 
 use crate::catalogue;
-use crate::hub::{ClientId, Fail, Hub, Subscription, Waiting, WaitingFor};
+use crate::hub::{ClientId, Fail, Hub, Waiting, WaitingFor};
 use crate::nesting;
 use crate::parameters;
-use crate::sources::{Rate, resolve};
+use crate::sources::resolve;
 
 /// A call waits so long for its node unless the client says otherwise.
 const CALL: Duration = Duration::from_secs(5);
@@ -217,81 +219,6 @@ impl Hub {
         let answered = self.wait(client, request, WaitingFor::Read(source), None)?;
         self.sources[source].read(part, client, request);
         Ok(answered)
-    }
-
-    fn subscribe(
-        &mut self,
-        id: ClientId,
-        path: &str,
-        rate: Option<f64>,
-        encoding: Encoding,
-    ) -> Answered {
-        self.check_path(path)?;
-        if rate.is_some_and(|rate| !(rate.is_finite() && rate > 0.0)) {
-            let message = "a rate is a number of updates per second greater than 0";
-            return Err(Failure::new(message.to_owned()));
-        }
-        if matches!(encoding, Encoding::Jpeg { .. }) {
-            let message = format!("`{path}` is no image that this robot can compress");
-            return Err(Failure::new(message));
-        }
-        let most = self.limits.subscriptions;
-        let client = self.clients.get_mut(&id).ok_or_else(gone)?;
-        if client.subscriptions.len() >= most {
-            return Err(Failure::new(format!(
-                "this client has {most} subscriptions, which is the most: unsubscribe some"
-            )));
-        }
-        let number = client.next_subscription;
-        let subscription;
-        let mut layout = None;
-        let mut first = None;
-        if let Some(path) = below_parameters(path) {
-            if encoding != Encoding::Json {
-                let message = "parameters are told as JSON alone";
-                return Err(Failure::new(message.to_owned()));
-            }
-            parameters::read(&self.link.parameters, path)?;
-            let time = self.link.clock.now().as_nanos();
-            let mut rate = Rate::new(rate);
-            rate.is_due(time);
-            first = Some(parameters::update(&self.link.parameters, path, time));
-            subscription = Subscription::Parameters {
-                path: path.to_owned(),
-                rate,
-            };
-        } else {
-            let (source, below) = self.find(path)?;
-            let source_of = &mut self.sources[source];
-            let part = resolve(&source_of.shape, below)
-                .map_err(|message| Failure::new(format!("`{path}`: {message}")))?;
-            if encoding == Encoding::Binary {
-                layout = serde_json::to_value(part.shape().layout()).ok();
-            }
-            source_of.subscribe(part, encoding, id, number, Rate::new(rate));
-            subscription = Subscription::Output(source);
-        }
-        let client = self.clients.get_mut(&id).ok_or_else(gone)?;
-        client.next_subscription = client.next_subscription.wrapping_add(1);
-        client.subscriptions.insert(number, subscription);
-        if let Some(content) = first {
-            client.update(number, content, &self.limits);
-        }
-        Ok(Some(Good::Subscribed(Subscribed {
-            subscription: number,
-            encoding,
-            layout,
-        })))
-    }
-
-    fn unsubscribe(&mut self, id: ClientId, number: u32) -> Answered {
-        let client = self.clients.get_mut(&id).ok_or_else(gone)?;
-        let Some(subscription) = client.subscriptions.remove(&number) else {
-            return Err(Failure::new(format!("there is no subscription {number}")));
-        };
-        client.outbox.forget(number);
-        self.end(id, number, &subscription);
-        Ok(Some(Good::Done {}))
     }
 
     fn write(&mut self, changes: Vec<Change>) -> Answered {

@@ -3,11 +3,12 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use framework::reflect::{Path, Reflect, ResolvedPath, Shape, binary};
+use framework::reflect::{Image, Path, Reflect, ResolvedPath, Shape, binary};
 use framework::{OutputKind, Tap, Tapped};
 use protocol::{Encoding, Good, Value};
 
 use crate::hub::{Client, ClientId};
+use crate::jpeg;
 use crate::limits::Limits;
 use crate::outbox::Content;
 
@@ -108,6 +109,18 @@ impl Source {
 
     pub(crate) fn name(&self) -> &'static str {
         self.tap.name()
+    }
+
+    /// The JPEG files that are made of each of its values.
+    pub(crate) fn jpegs(&self) -> usize {
+        let is_jpeg = |stream: &&Stream| matches!(stream.encoding, Encoding::Jpeg { .. });
+        self.streams.iter().filter(is_jpeg).count()
+    }
+
+    /// Whether somebody has the part in this encoding already.
+    pub(crate) fn has(&self, part: &ResolvedPath, encoding: Encoding) -> bool {
+        let mut streams = self.streams.iter();
+        streams.any(|stream| stream.part.path() == part.path() && stream.encoding == encoding)
     }
 
     pub(crate) fn is_open(&self) -> bool {
@@ -240,7 +253,10 @@ impl Stream {
             if let Some(client) = clients.get_mut(&subscriber.client) {
                 let content = content.get_or_insert_with(|| match self.encoding {
                     Encoding::Binary => encode(&self.part, part, cycle, time),
-                    Encoding::Json | Encoding::Jpeg { .. } => write(part, cycle, time, is_injected),
+                    Encoding::Json => write(part, cycle, time, is_injected),
+                    Encoding::Jpeg { quality } => {
+                        compress(self.part.shape(), part, quality, cycle, time)
+                    }
                 });
                 client
                     .outbox
@@ -287,14 +303,36 @@ fn write(part: Option<&dyn Reflect>, cycle: u64, time: u64, is_injected: bool) -
 
 /// The rest of a binary frame; without a value where the part is not there.
 fn encode(path: &ResolvedPath, part: Option<&dyn Reflect>, cycle: u64, time: u64) -> Content {
-    let mut bytes = Vec::with_capacity(64);
-    bytes.extend_from_slice(&cycle.to_le_bytes());
-    bytes.extend_from_slice(&time.to_le_bytes());
+    let mut bytes = stamp(cycle, time);
     if let Some(part) = part {
         // On an error nothing is appended, which is as good as absent.
         let _ = binary::encode_as(path.shape(), part, &mut bytes);
     }
     Content::Bytes(Arc::new(bytes))
+}
+
+/// As [`encode`], with a JPEG file as the value; without one where there is no image, or one that is no whole image.
+fn compress(
+    shape: &Shape,
+    part: Option<&dyn Reflect>,
+    quality: u8,
+    cycle: u64,
+    time: u64,
+) -> Content {
+    let mut bytes = stamp(cycle, time);
+    let image = shape.image().zip(part);
+    let image = image.and_then(|(pixels, part)| Image::read(pixels, part));
+    bytes.extend(
+        image
+            .and_then(|image| jpeg::encode(&image, quality))
+            .unwrap_or_default(),
+    );
+    Content::Bytes(Arc::new(bytes))
+}
+
+/// What stands in front of the value in a binary frame, behind the subscription.
+fn stamp(cycle: u64, time: u64) -> Vec<u8> {
+    [cycle.to_le_bytes(), time.to_le_bytes()].concat()
 }
 
 /// A path below an output, looked up in its type.

@@ -1,6 +1,7 @@
 //! `#[derive(Reflect)]`.
 
 mod enums;
+mod image;
 mod parts;
 mod structs;
 
@@ -32,9 +33,10 @@ struct Walk {
 pub(crate) fn expand(item: &DeriveInput) -> syn::Result<Tokens> {
     let container = Container::read(&item.attrs)?;
     let docs = documentation(&item.attrs);
+    let pixels = image::read(item)?;
     let functions = match &item.data {
         _ if container.foreign => opaque(),
-        Data::Struct(data) => structs::functions(&data.fields, &container, &docs)?,
+        Data::Struct(data) => structs::functions(&data.fields, &container, &docs, pixels)?,
         Data::Enum(data) => enums::functions(data, &container, &docs)?,
         Data::Union(data) => {
             let message = "`Reflect` is for structs and enums";
@@ -172,6 +174,18 @@ mod tests {
             (
                 "enum E { A { #[reflect(unit = 5)] a: u8 } }",
                 "expected string literal",
+            ),
+            (
+                "#[reflect(image = \"bayer\")] struct S { width: u32, height: u32, data: Vec<u8> }",
+                "expected \"gray\", \"rgb\" or \"yuyv\"",
+            ),
+            (
+                "#[reflect(image = \"rgb\")] struct S { width: u32, rows: u32, data: Vec<u8> }",
+                "an image is a struct with the fields `width`, `height` and `data`",
+            ),
+            (
+                "#[reflect(unit = \"m\")] struct S { a: u8 }",
+                "expected `image = \"yuyv\"`; all else is said on fields",
             ),
         ] {
             assert_eq!(error(item), message, "{item}");

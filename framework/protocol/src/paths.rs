@@ -30,6 +30,9 @@ pub struct Entry {
     /// Of an enum whose variants are names alone: all of them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub choices: Vec<String>,
+    /// Of an image, which can be had as JPEG: its pixels, `gray`, `rgb` or `yuyv`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub image: Option<String>,
 }
 
 /// What can be done with something.

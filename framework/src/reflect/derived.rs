@@ -6,8 +6,8 @@ pub use serde::de::DeserializeOwned;
 
 pub use super::binary::{EncodeError, encode_any, encode_tag, encode_unless, skipped_variant};
 pub use super::{
-    Children, Content, FieldShape, Form, Leaf, Limits, Reflect, Segment, Shape, VariantContent,
-    VariantShape,
+    Children, Content, FieldShape, Form, Leaf, Limits, Pixels, Reflect, Segment, Shape,
+    VariantContent, VariantShape,
 };
 
 /// The fields of a struct, with those of its flattened fields.

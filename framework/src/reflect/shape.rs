@@ -4,7 +4,7 @@ use std::cell::RefCell;
 
 use serde::Serialize;
 
-use super::{Children, Limits, Path, Reflect, Segment, UnknownPath};
+use super::{Children, Limits, Path, Pixels, Reflect, Segment, UnknownPath};
 
 /// The name of no type: variants differ there.
 const UNTOLD: &str = "";
@@ -19,6 +19,9 @@ pub struct Shape {
     pub content: Content,
     #[serde(skip_serializing_if = "Form::is_plain")]
     pub form: Form,
+    /// Its values are images; [`Shape::image`] sees through an `Option`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pixels: Option<Pixels>,
 }
 
 /// How a serde form differs from what the content alone would tell.
@@ -168,6 +171,7 @@ impl Shape {
             docs: "",
             content,
             form: Form::Plain,
+            pixels: None,
         }
     }
 
@@ -257,6 +261,7 @@ impl Shape {
                     docs: "",
                     content: Content::Leaf(Leaf::Opaque),
                     form: Form::Plain,
+                    pixels: None,
                 })
             }
         }

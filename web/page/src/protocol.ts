@@ -166,6 +166,8 @@ export type Entry = {
   length?: number | null;
   /** Of an enum whose variants are names alone: all of them. */
   choices?: Array<string>;
+  /** Of an image, which can be had as JPEG: its pixels, `gray`, `rgb` or `yuyv`. */
+  image?: string | null;
 };
 
 /** What can be done with something. */

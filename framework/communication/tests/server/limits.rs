@@ -32,6 +32,7 @@ fn unlimited() -> Limits {
         nesting: usize::MAX,
         path_bytes: usize::MAX,
         subscriptions: usize::MAX,
+        jpegs: usize::MAX,
         waiting: usize::MAX,
         queued_updates: usize::MAX,
         queued_bytes: usize::MAX,
@@ -109,6 +110,26 @@ fn subscriptions_of_a_client_are_counted() {
             json!({ "unsubscribe": { "subscription": first } })
         ));
         assert!(is_ok(&mut client, subscribe));
+        all
+    });
+}
+
+#[test]
+fn images_that_are_compressed_are_counted() {
+    let limited = Limits {
+        jpegs: 2,
+        ..Limits::default()
+    };
+    with_and_without(limited, |zoo| {
+        let (mut client, mut other) = (zoo.client(), zoo.client());
+        let ask = |quality: u8| {
+            json!({ "subscribe": {
+                "path": "VisionTop.main_outputs.image", "encoding": { "jpeg": { "quality": quality } },
+            } })
+        };
+        let all = (1..4).all(|quality| is_ok(&mut client, ask(quality)));
+        // What is made already is for everybody.
+        assert!(is_ok(&mut other, ask(2)));
         all
     });
 }
@@ -258,7 +279,7 @@ fn updates_that_nobody_takes_are_lost_and_told() {
         let mut slow = zoo.client();
         // Megabytes, so that the buffers of the system are full soon.
         let pixels = vec![0_u8; 300_000];
-        let image = json!({ "width": 300_000, "pixels": pixels });
+        let image = json!({ "width": 300_000, "height": 1, "data": pixels });
         slow.ok(json!({ "inject": { "path": "VisionTop.main_outputs.image", "value": image } }));
         let answer = slow.ok(json!({ "subscribe": {
             "path": "VisionTop.main_outputs.image", "encoding": "binary",

@@ -185,7 +185,7 @@ fn an_output_is_replaced_until_it_is_released_or_its_client_leaves() {
         watching.update(speed)["value"] == json!(0.0)
     });
     // What a setup node wrote is replaced before any node reads it.
-    let image = json!({ "width": 3, "pixels": [1, 2, 3] });
+    let image = json!({ "width": 3, "height": 1, "data": [1, 2, 3] });
     watching.ok(json!({ "inject": { "path": "VisionTop.main_outputs.image", "value": image } }));
     eventually("the image is replaced", || {
         let image = watching.ok(json!({ "read": { "path": "VisionTop.main_outputs.image" } }));

@@ -4,6 +4,8 @@ use std::thread;
 use std::time::Duration;
 
 use serde_json::{Value, json};
+use zune_jpeg::JpegDecoder;
+use zune_jpeg::zune_core::bytestream::ZCursor;
 
 use crate::zoo::{Zoo, eventually, number};
 
@@ -135,6 +137,53 @@ fn binary_values_are_laid_out_as_the_answer_says() {
         let value = framework::reflect::binary::decode(&layout, value).expect("as laid out");
         assert_eq!(value.as_array().map(Vec::len), Some(3), "{value}");
     }
+}
+
+#[test]
+fn an_image_comes_as_a_file() {
+    let zoo = Zoo::new();
+    let mut client = zoo.client();
+    let path = "VisionTop.main_outputs.image";
+    let subscribe = |path: &str, quality: u32| json!({ "subscribe": { "path": path, "encoding": { "jpeg": { "quality": quality } } } });
+    let answer = client.ok(subscribe(path, 80));
+    assert_eq!(
+        answer["subscribed"]["encoding"],
+        json!({ "jpeg": { "quality": 80 } })
+    );
+    let number = number(&answer["subscribed"]["subscription"]);
+    let (head, file) = client.frame();
+    assert_eq!(head[..4], protocol::BINARY_MAGIC);
+    assert_eq!(head[4..8], number.to_le_bytes());
+    let mut decoder = JpegDecoder::new(ZCursor::new(&file));
+    let pixels = decoder.decode().expect("a JPEG file");
+    assert_eq!(decoder.dimensions(), Some((16, 1)));
+    // The decoder makes colours of gray.
+    assert_eq!(pixels.len(), 16 * 3);
+
+    client.ok(
+        json!({ "inject": { "path": path, "value": { "width": 16, "height": 2, "data": [1] } } }),
+    );
+    eventually("what is no whole image has no file", || {
+        client.frame().1.is_empty()
+    });
+
+    for (path, quality, expected) in [
+        ("VisionTop.main_outputs.image.data", 80, "is no image"),
+        ("parameters", 80, "parameters are told as JSON alone"),
+        (path, 0, "from 1 to 100"),
+        (path, 101, "from 1 to 100"),
+    ] {
+        let message = client.error(subscribe(path, quality));
+        assert!(message.contains(expected), "{message}");
+    }
+    let entries = client.ok(json!({ "paths": { "below": "VisionTop.main_outputs" } }));
+    let entries = entries["paths"].as_array().expect("a list").clone();
+    let images: Vec<_> = entries
+        .iter()
+        .filter(|entry| entry["image"] == json!("gray"))
+        .collect();
+    assert_eq!(images.len(), 1, "{entries:?}");
+    assert_eq!(images[0]["path"], json!(path));
 }
 
 #[test]

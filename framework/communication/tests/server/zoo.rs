@@ -177,6 +177,23 @@ impl Client {
         }
     }
 
+    /// The next binary frame, as its head and its value; others wait or are dropped.
+    pub(crate) fn frame(&mut self) -> (Vec<u8>, Vec<u8>) {
+        loop {
+            match self.socket.read().expect("the robot speaks") {
+                Message::Binary(bytes) => {
+                    let (head, value) = bytes.split_at(protocol::BINARY_HEADER);
+                    return (head.to_vec(), value.to_vec());
+                }
+                Message::Text(text) => {
+                    let message = serde_json::from_str(text.as_str());
+                    self.waiting.push(message.expect("JSON"));
+                }
+                _ => {}
+            }
+        }
+    }
+
     pub(crate) fn send(&mut self, text: &str) {
         self.socket
             .send(Message::text(text))

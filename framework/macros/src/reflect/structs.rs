@@ -1,5 +1,6 @@
 //! Structs: named, with indices, without fields, and those that stand for their one field.
 
+use proc_macro2::TokenStream as Tokens;
 use quote::quote;
 use syn::Fields;
 
@@ -14,6 +15,7 @@ pub(super) fn functions(
     fields: &Fields,
     container: &Container,
     docs: &str,
+    pixels: Option<Tokens>,
 ) -> syn::Result<Functions> {
     let Parts { parts, is_open } = read_parts(fields, container)?;
     if let [part] = &parts[..]
@@ -44,7 +46,10 @@ pub(super) fn functions(
     let children = quote_children(&parts, None);
     let encode = quote_encode(&parts);
     Ok(Functions {
-        shape: quote_shape(&content, &form, docs),
+        shape: match pixels {
+            Some(pixels) => quote_image(&quote_shape(&content, &form, docs), &pixels),
+            None => quote_shape(&content, &form, docs),
+        },
         parts: parts.iter().any(Part::is_seen).then(|| Walk {
             child: quote!(let Self #pattern = self; #child),
             child_mut: quote!(let Self #pattern = self; #child_mut),
@@ -52,6 +57,16 @@ pub(super) fn functions(
         }),
         encode: (!is_open).then(|| quote!(let Self #pattern = self; #encode)),
     })
+}
+
+/// The shape of a struct that says that it is an image.
+fn quote_image(shape: &Tokens, pixels: &Tokens) -> Tokens {
+    quote! {
+        framework_reflect::Shape {
+            pixels: ::core::option::Option::Some(#pixels),
+            ..#shape
+        }
+    }
 }
 
 /// serde writes the field instead of the struct.

@@ -57,5 +57,5 @@ export function isNumber(entry: Entry): boolean {
 
 /** Whether values of this type are pictures. */
 export function isImage(entry: Entry): boolean {
-  return /Image>?$/.test(entry.type ?? "");
+  return entry.image != null;
 }

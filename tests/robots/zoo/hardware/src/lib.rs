@@ -137,7 +137,8 @@ impl EyeInterface for Hardware {
             0
         };
         image.width = 16;
-        image.pixels.extend((0..16).map(|x| {
+        image.height = 1;
+        image.data.extend((0..16).map(|x| {
             if (x + number) % 5 == 0 {
                 light
             } else {

@@ -13,9 +13,11 @@ pub enum Camera {
 
 /// What an eye sees.
 #[derive(Clear, Clone, Debug, Default, Deserialize, Reflect, Serialize)]
+#[reflect(image = "gray")]
 pub struct Image {
     pub width: usize,
-    pub pixels: Vec<u8>,
+    pub height: usize,
+    pub data: Vec<u8>,
 }
 
 /// Something bright in an image.

@@ -31,7 +31,7 @@ impl Exposure {
     pub fn cycle(&mut self, context: CycleContext) -> Result<MainOutputs> {
         let brightest = context
             .image
-            .pixels
+            .data
             .iter()
             .max()
             .copied()

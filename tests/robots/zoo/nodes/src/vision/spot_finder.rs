@@ -46,10 +46,10 @@ impl SpotFinder {
     }
 
     pub fn cycle(&mut self, mut context: CycleContext) -> Result<MainOutputs, String> {
-        if context.image.pixels.iter().all(|pixel| *pixel == 0) {
+        if context.image.data.iter().all(|pixel| *pixel == 0) {
             return Err("it is too dark".to_owned());
         }
-        let mut spots: Vec<Spot> = (context.image.pixels.iter().enumerate())
+        let mut spots: Vec<Spot> = (context.image.data.iter().enumerate())
             .filter(|(x, pixel)| *x as f32 >= *context.horizon && *pixel >= context.threshold)
             .map(|(x, pixel)| Spot {
                 x: x as f32,
