@@ -258,7 +258,7 @@ impl<N> Guarded<N> {
             calls: self.calls,
             skipped: self.ledger.skipped,
             failures: self.ledger.failures,
-            histogram: Histogram::default(),
+            histogram: Histogram::nothing(),
             allocations: Allocations::default(),
         }
     }

@@ -60,7 +60,7 @@ pub struct SlotsReport {
 }
 
 /// Where the time of an instance's timed cycles went.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub struct Durations {
     /// From the capture point to the end of the cycle.
     pub cycle: Histogram,
@@ -143,7 +143,46 @@ impl RobotReport {
     }
 }
 
+/// [`Clone::clone_from`] keeps the memory of the histograms.
+impl Clone for Durations {
+    fn clone(&self) -> Self {
+        let mut durations = Self::default();
+        durations.clone_from(self);
+        durations
+    }
+
+    fn clone_from(&mut self, other: &Self) {
+        let Self {
+            cycle,
+            lateness,
+            wait,
+            setup,
+            framework,
+        } = self;
+        cycle.clone_from(&other.cycle);
+        lateness.clone_from(&other.lateness);
+        wait.clone_from(&other.wait);
+        setup.clone_from(&other.setup);
+        framework.clone_from(&other.framework);
+    }
+}
+
 impl InstanceReport {
+    /// Of an instance that has done nothing.
+    pub(crate) fn empty(description: InstanceDescription) -> Self {
+        Self {
+            description,
+            counts: Counts::default(),
+            granted: None,
+            slots: SlotsReport::default(),
+            slowest: Vec::new(),
+            durations: Durations::default(),
+            allocations: CycleAllocations::default(),
+            nodes: Vec::new(),
+            queues: Vec::new(),
+        }
+    }
+
     /// Finished cycles per second of the run.
     pub fn rate(&self, duration: Duration) -> f64 {
         if duration.is_zero() {
@@ -155,6 +194,14 @@ impl InstanceReport {
 }
 
 impl NodeReport {
+    /// Counts what `other` counted; histogram and allocations stay.
+    pub(crate) fn count_as(&mut self, other: &Self) {
+        self.node = other.node;
+        self.calls = other.calls;
+        self.skipped = other.skipped;
+        self.failures = other.failures;
+    }
+
     /// Adds what another copy of the same node did before.
     pub fn merge(&mut self, other: &Self) {
         self.calls += other.calls;

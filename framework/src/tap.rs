@@ -18,6 +18,7 @@ use crate::reflect::{Reflect, Shape};
 use crate::report::InstanceReport;
 use crate::subscriptions::Subscriptions;
 use crate::time::Timestamp;
+use crate::timing::{Span, Spans};
 
 /// Copies of one output that wait for the server: at 83 Hz it may come a quarter of a second late.
 pub const WINDOW: usize = 20;
@@ -63,6 +64,9 @@ pub struct Tapped<'a> {
 pub struct Reports {
     wishes: Arc<Wishes>,
     receiver: Receiver<Box<InstanceReport>>,
+    /// What the instance may write on.
+    blanks: SyncSender<Box<InstanceReport>>,
+    spans: Spans,
 }
 
 /// The instance's end of all its taps.
@@ -73,6 +77,7 @@ pub(crate) struct Taps {
     is_open: bool,
     ends: Vec<End>,
     reports: SyncSender<Box<InstanceReport>>,
+    blanks: Receiver<Box<InstanceReport>>,
 }
 
 /// What the server wants of one instance.
@@ -116,10 +121,12 @@ struct Copying<'taps> {
 impl Taps {
     /// Both ends of the taps of one instance, all closed.
     ///
-    /// `visit` shows the outputs of any cycle; `main` and `subscriptions` have their names.
+    /// `visit` shows the outputs of any cycle; `main` and `subscriptions` have their names; `first` is what the instance may
+    /// write its first report on.
     pub(crate) fn new(
         main: &[&'static str],
         subscriptions: &Subscriptions,
+        first: Box<InstanceReport>,
         visit: impl FnOnce(&mut TapBuilder<'_>),
     ) -> (Self, Vec<Tap>, Reports) {
         let mut builder = TapBuilder {
@@ -129,7 +136,7 @@ impl Taps {
             queues: Vec::new(),
         };
         visit(&mut builder);
-        builder.finish()
+        builder.finish(first)
     }
 
     /// Whether this cycle has to be copied: one atomic load while nothing changes.
@@ -157,9 +164,12 @@ impl Taps {
         }
     }
 
-    /// Gives the server what it asked for; if it did not fetch the last one, it has that.
-    pub(crate) fn report(&self, report: InstanceReport) {
-        let _ = self.reports.try_send(Box::new(report));
+    /// Gives the server what it asked for, on what it gave for that; if it gave nothing, it has not fetched the last one.
+    pub(crate) fn report(&self, fill: impl FnOnce(&mut InstanceReport)) {
+        if let Ok(mut report) = self.blanks.try_recv() {
+            fill(&mut report);
+            let _ = self.reports.try_send(report);
+        }
     }
 
     #[cold]
@@ -191,7 +201,7 @@ impl<'a> OutputVisitor<'a> for TapBuilder<'_> {
 }
 
 impl TapBuilder<'_> {
-    fn finish(self) -> (Taps, Vec<Tap>, Reports) {
+    fn finish(self, first: Box<InstanceReport>) -> (Taps, Vec<Tap>, Reports) {
         let wishes = Arc::new(Wishes::for_outputs(self.queues.len()));
         let main = self.main.iter().map(|name| (*name, OutputKind::Main));
         let additional = self.subscriptions.names().iter();
@@ -211,14 +221,24 @@ impl TapBuilder<'_> {
             });
         let taps = taps.collect();
         let (reports, receiver) = sync_channel(1);
+        let (blanks, given) = sync_channel(1);
+        // There is room for one.
+        let _ = blanks.try_send(first);
         let instance = Taps {
             wishes: wishes.clone(),
             seen: 0,
             is_open: false,
             ends: self.ends,
             reports,
+            blanks: given,
         };
-        (instance, taps, Reports { wishes, receiver })
+        let reports = Reports {
+            wishes,
+            receiver,
+            blanks,
+            spans: Spans::new(),
+        };
+        (instance, taps, reports)
     }
 }
 
@@ -303,11 +323,18 @@ impl Reports {
         Self {
             wishes: Arc::new(Wishes::for_outputs(0)),
             receiver: sync_channel(1).1,
+            blanks: sync_channel(1).0,
+            spans: Spans::new(),
         }
     }
 
-    /// The instance's next finished cycle tells what it did so far.
-    pub fn ask(&self) {
+    /// The instance's next finished cycle tells what it did so far, on the report that it gave before: so that it need not
+    /// allocate one.
+    pub fn ask(&self, last: Option<Box<InstanceReport>>) {
+        if let Some(last) = last {
+            // There is room, unless it is of another instance.
+            let _ = self.blanks.try_send(last);
+        }
         self.wishes.report.store(true, Ordering::Relaxed);
         self.wishes.change();
     }
@@ -315,6 +342,15 @@ impl Reports {
     /// What was asked for, once.
     pub fn take(&self) -> Option<Box<InstanceReport>> {
         self.receiver.try_recv().ok()
+    }
+
+    /// The oldest span that is kept of it, once. All of timed cycles are kept, as many as there is room for.
+    pub fn take_span(&self) -> Option<Span> {
+        self.spans.take()
+    }
+
+    pub(crate) fn spans(&self) -> &Spans {
+        &self.spans
     }
 }
 

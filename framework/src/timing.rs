@@ -5,6 +5,7 @@
 
 mod allocations;
 mod histogram;
+mod spans;
 mod ticks;
 
 use std::cell::{Cell, RefCell};
@@ -15,6 +16,8 @@ use crate::error::Stopped;
 pub use allocations::CountingAllocator;
 pub(crate) use allocations::so_far as allocations_so_far;
 pub use histogram::Histogram;
+pub use spans::{KEPT, Span};
+pub(crate) use spans::{SpanWriter, Spans};
 pub(crate) use ticks::Ticks;
 
 /// Every how many cycles is timed while nobody listens.
@@ -61,6 +64,8 @@ struct Lap {
 pub(crate) struct Took {
     /// Without what the thread was blocked.
     pub(crate) time: Duration,
+    pub(crate) begins: Ticks,
+    pub(crate) ends: Ticks,
     pub(crate) allocations: u64,
 }
 
@@ -156,6 +161,8 @@ pub(crate) fn end_laps(mut tell: impl FnMut(&'static str, Took)) {
             let blocked_in_lap = blocked.saturating_sub(lap.blocked);
             let took = Took {
                 time: ends.since(lap.begins).saturating_sub(blocked_in_lap),
+                begins: lap.begins,
+                ends,
                 allocations: allocations - lap.allocations,
             };
             tell(lap.node, took);

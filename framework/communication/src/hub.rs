@@ -309,11 +309,9 @@ impl Hub {
             .map_or_else(timing::current, |(_, before)| before);
         self.timed = Some((Instant::now(), before));
         timing::set(Timing::Complete);
-        self.reports.iter_mut().for_each(|report| *report = None);
-        self.link
-            .instances
-            .iter()
-            .for_each(|instance| instance.reports.ask());
+        for (instance, report) in self.link.instances.iter().zip(&mut self.reports) {
+            instance.reports.ask(report.take());
+        }
         WaitingFor::Timings((0..self.link.instances.len()).collect())
     }
 

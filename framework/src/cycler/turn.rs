@@ -24,7 +24,7 @@ use crate::report::{InstanceReport, NodeReport, SlotsReport};
 use crate::subscriptions::Subscriptions;
 use crate::tap::{Reports, Tap, Taps};
 use crate::time::{CycleTime, Timestamp};
-use crate::timing::{self, Tally};
+use crate::timing::{self, SpanWriter, Tally};
 use failure::Consequence;
 use stopwatch::Stopwatch;
 
@@ -131,7 +131,7 @@ impl<B: Recorded> Cycler<B> {
         self.finished = number;
         self.counters.cycles.add(1);
         self.counters.end();
-        let is_overrun = self.stopwatch.finish(timed);
+        let is_overrun = self.stopwatch.finish(number, timed);
         self.counters.overruns.add(u64::from(is_overrun));
         if self.phase.restarted() {
             self.phase = Phase::Between { restarted: false };
@@ -144,7 +144,43 @@ impl<B: Recorded> Cycler<B> {
     #[cold]
     fn send_report(&self) {
         if let Some(taps) = &self.taps {
-            taps.report(self.report());
+            taps.report(|report| self.fill(report));
+        }
+    }
+
+    /// What the instance did so far, in place of what the report said: in memory that it has already.
+    fn fill(&self, report: &mut InstanceReport) {
+        let mut known = 0;
+        self.body.nodes(&mut |mut node| {
+            self.add_retired(&mut node);
+            match report.nodes.get_mut(known) {
+                Some(there) => there.count_as(&node),
+                None => report.nodes.push(node),
+            }
+            known += 1;
+        });
+        report.nodes.truncate(known);
+        for node in &mut report.nodes {
+            self.stopwatch.complete(node);
+        }
+        report.queues.clear();
+        self.body.queues(&mut |queue| report.queues.push(queue));
+        let (number, bytes) = self.writer.size();
+        report.slots = SlotsReport { number, bytes };
+        report.counts = self.counters.read();
+        if report.granted.as_ref() != self.counters.granted() {
+            report.granted = self.counters.granted().cloned();
+        }
+        report.slowest.clear();
+        report.slowest.extend_from_slice(self.stopwatch.slowest());
+        report.durations.clone_from(self.stopwatch.durations());
+        report.allocations = self.stopwatch.allocations();
+    }
+
+    fn add_retired(&self, node: &mut NodeReport) {
+        let mut retired = self.retired.iter();
+        if let Some(retired) = retired.find(|retired| retired.node == node.node) {
+            node.merge(retired);
         }
     }
 
@@ -152,13 +188,7 @@ impl<B: Recorded> Cycler<B> {
     fn nodes_so_far(&self) -> Vec<NodeReport> {
         let mut nodes = Vec::new();
         self.body.nodes(&mut |mut node| {
-            if let Some(retired) = self
-                .retired
-                .iter()
-                .find(|retired| retired.node == node.node)
-            {
-                node.merge(retired);
-            }
+            self.add_retired(&mut node);
             nodes.push(node);
         });
         nodes
@@ -201,7 +231,7 @@ impl<B: Recorded> Instance for Cycler<B> {
             body.wait(Slots { current, previous }, cycle)
         });
         let tally = Tally::take();
-        stopwatch.end_waiting(&tally);
+        stopwatch.end_waiting(number, &tally);
         self.count(&tally);
         match result {
             Ok(captured) => {
@@ -276,7 +306,8 @@ impl<B: Recorded> Instance for Cycler<B> {
             self.failure = ran.err();
         }
         let tally = Tally::take();
-        self.stopwatch.end_running(self.cycle.timed, &tally);
+        self.stopwatch
+            .end_running(self.cycle.number, self.cycle.timed, &tally);
         self.count(&tally);
     }
 
@@ -365,24 +396,9 @@ impl<B: Recorded> Instance for Cycler<B> {
     }
 
     fn report(&self) -> InstanceReport {
-        let mut queues = Vec::new();
-        self.body.queues(&mut |queue| queues.push(queue));
-        let mut nodes = self.nodes_so_far();
-        for node in &mut nodes {
-            self.stopwatch.complete(node);
-        }
-        let (number, bytes) = self.writer.size();
-        InstanceReport {
-            description: self.description,
-            slots: SlotsReport { number, bytes },
-            counts: self.counters.read(),
-            granted: self.counters.granted().cloned(),
-            slowest: self.stopwatch.slowest().to_vec(),
-            durations: self.stopwatch.durations().clone(),
-            allocations: self.stopwatch.allocations(),
-            nodes,
-            queues,
-        }
+        let mut report = InstanceReport::empty(self.description);
+        self.fill(&mut report);
+        report
     }
 
     fn main_outputs(&self) -> &'static [&'static str] {
@@ -399,9 +415,13 @@ impl<B: Recorded> Instance for Cycler<B> {
 
     fn tap(&mut self, subscriptions: &Subscriptions) -> (Vec<Tap>, Reports) {
         let (body, shared) = (&self.body, &self.writer.newest().value);
-        let (ends, taps, reports) = Taps::new(body.main_outputs(), subscriptions, |builder| {
-            body.outputs(shared, 0, builder);
-        });
+        let first = Box::new(self.report());
+        let (ends, taps, reports) =
+            Taps::new(body.main_outputs(), subscriptions, first, |builder| {
+                body.outputs(shared, 0, builder);
+            });
+        let spans = SpanWriter::new(reports.spans().clone(), self.clock.clone());
+        self.stopwatch.trace(spans);
         self.taps = Some(ends);
         (taps, reports)
     }

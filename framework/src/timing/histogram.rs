@@ -10,8 +10,9 @@ const LARGEST: u64 = (1 << 40) - 1;
 const BUCKETS: usize = (40 - PRECISION as usize + 1) * PER_DOUBLING;
 
 /// Counts durations in log-linear buckets of nanoseconds.
-#[derive(Clone, PartialEq, Eq)]
+#[derive(PartialEq, Eq)]
 pub struct Histogram {
+    /// None where it is only filled by others.
     counts: Box<[u32]>,
     total: u64,
     longest: Duration,
@@ -27,7 +28,32 @@ impl Default for Histogram {
     }
 }
 
+/// [`Clone::clone_from`] keeps the memory.
+impl Clone for Histogram {
+    fn clone(&self) -> Self {
+        Self {
+            counts: self.counts.clone(),
+            total: self.total,
+            longest: self.longest,
+        }
+    }
+
+    fn clone_from(&mut self, other: &Self) {
+        self.counts.clone_from(&other.counts);
+        (self.total, self.longest) = (other.total, other.longest);
+    }
+}
+
 impl Histogram {
+    /// Owns no memory until it is filled from another one; it cannot record.
+    pub(crate) fn nothing() -> Self {
+        Self {
+            counts: Box::default(),
+            total: 0,
+            longest: Duration::ZERO,
+        }
+    }
+
     /// Counts one duration.
     #[inline]
     pub fn record(&mut self, duration: Duration) {
@@ -43,8 +69,12 @@ impl Histogram {
 
     /// Adds everything that `other` counted.
     pub fn merge(&mut self, other: &Self) {
-        for (count, more) in self.counts.iter_mut().zip(&other.counts) {
-            *count = count.saturating_add(*more);
+        if self.counts.is_empty() {
+            self.counts.clone_from(&other.counts);
+        } else {
+            for (count, more) in self.counts.iter_mut().zip(&other.counts) {
+                *count = count.saturating_add(*more);
+            }
         }
         self.total += other.total;
         self.longest = self.longest.max(other.longest);

@@ -215,7 +215,7 @@ fn a_cycle_allocates_nothing() {
 #[test]
 fn a_cycle_that_is_copied_for_a_server_allocates_nothing() {
     let mut cycler = cycler(0);
-    let (mut taps, _reports) = cycler.tap(&Subscriptions::new(&[]));
+    let (mut taps, reports) = cycler.tap(&Subscriptions::new(&[]));
     assert_eq!(taps.len(), 2);
     taps.iter_mut().for_each(Tap::open);
     let mut taken = 0;
@@ -228,13 +228,29 @@ fn a_cycle_that_is_copied_for_a_server_allocates_nothing() {
         turn(&mut cycler, 15);
         take_all(&mut taps);
     }
+    timing::set(timing::Timing::Complete);
+    reports.ask(None);
+    turn(&mut cycler, 15);
+    take_all(&mut taps);
+    let mut report = reports.take();
     let before = allocations();
     for _ in 0..100 {
+        reports.ask(report.take());
         turn(&mut cycler, 15);
         take_all(&mut taps);
+        report = reports.take();
+        assert!(report.is_some());
     }
     assert_eq!(allocations() - before, 0);
-    assert_eq!(taken, 2 * 110 * 15);
+    assert_eq!(taken, 2 * 111 * 15);
+    // More than there is room for, with each node of each of the last cycles.
+    turn(&mut cycler, timing::KEPT as u64 / NODES as u64);
+    let spans: Vec<_> = std::iter::from_fn(|| reports.take_span()).collect();
+    assert_eq!(spans.len(), timing::KEPT);
+    assert_eq!(
+        spans.last().map(|span| (span.node, span.cycle)),
+        Some((None, cycler.cycle().number))
+    );
 }
 
 #[test]

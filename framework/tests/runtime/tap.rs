@@ -124,8 +124,18 @@ fn an_instance_tells_what_it_did_when_it_is_asked() {
         let reports = &legs(link).reports;
         let report = reports.take();
         match number {
-            2 => reports.ask(),
-            3 => assert_eq!(report.expect("it was asked").counts.cycles, 3),
+            2 => reports.ask(None),
+            // It is written on again.
+            3 => {
+                let report = report.expect("it was asked");
+                assert_eq!(report.counts.cycles, 3);
+                reports.ask(Some(report));
+            }
+            4 => {
+                let report = report.expect("it was asked again");
+                assert_eq!(report.counts.cycles, 4);
+                assert_eq!(report.nodes[0].calls, 4);
+            }
             _ => assert!(report.is_none()),
         }
     });

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use crate::clock::Clock;
 use crate::report::{Allocations, CycleAllocations, Durations, NodeReport};
-use crate::timing::{self, Histogram, Tally, Ticks};
+use crate::timing::{self, Histogram, SpanWriter, Tally, Ticks};
 
 /// Measures the cycles that are timed, and all if there is a deadline.
 #[derive(Debug)]
@@ -30,6 +30,9 @@ pub(super) struct Stopwatch {
     durations: Durations,
     allocations: CycleAllocations,
     slowest: Vec<(&'static str, u64)>,
+    /// For a server that may be asked for a trace.
+    spans: Option<SpanWriter>,
+    began: Option<Ticks>,
 }
 
 #[derive(Debug)]
@@ -74,7 +77,14 @@ impl Stopwatch {
             durations: Durations::default(),
             allocations: CycleAllocations::default(),
             slowest: Vec::new(),
+            spans: None,
+            began: None,
         }
+    }
+
+    /// From now on timed cycles leave their spans, too.
+    pub(super) fn trace(&mut self, spans: SpanWriter) {
+        self.spans = Some(spans);
     }
 
     #[inline]
@@ -84,13 +94,16 @@ impl Stopwatch {
 
     pub(super) fn start_waiting(&mut self) {
         timing::prepare_laps(self.nodes.len());
+        if let Some(spans) = &mut self.spans {
+            spans.start();
+        }
         self.waiting.start();
     }
 
     #[inline]
-    pub(super) fn end_waiting(&mut self, tally: &Tally) {
+    pub(super) fn end_waiting(&mut self, cycle: u64, tally: &Tally) {
         if self.waiting.since.is_some() {
-            self.end_laps();
+            self.end_laps(cycle);
             self.waiting.pause();
             self.blocked += tally.blocked;
         }
@@ -107,13 +120,14 @@ impl Stopwatch {
             self.allocations_in_nodes = 0;
             self.longest = None;
             self.cycle.start();
+            self.began = self.cycle.since.map(|(began, _)| began);
         }
     }
 
     #[inline]
-    pub(super) fn end_running(&mut self, timed: bool, tally: &Tally) {
+    pub(super) fn end_running(&mut self, cycle: u64, timed: bool, tally: &Tally) {
         if timed {
-            self.end_laps();
+            self.end_laps(cycle);
             self.blocked_in_cycle = tally.blocked;
         }
         if self.stepped && self.cycle.since.is_some() {
@@ -122,7 +136,7 @@ impl Stopwatch {
     }
 
     #[cold]
-    fn end_laps(&mut self) {
+    fn end_laps(&mut self, cycle: u64) {
         let mut before = self.nodes.len();
         timing::end_laps(|node, took| {
             // Mostly nodes run in manifest order.
@@ -138,6 +152,9 @@ impl Stopwatch {
                 self.nodes[place].times.record(took.time);
                 self.nodes[place].allocations.record(took.allocations);
                 before = place;
+            }
+            if let Some(spans) = &self.spans {
+                spans.write(Some(node), cycle, took.begins, took.ends.since(took.begins));
             }
             self.in_nodes += took.time;
             self.allocations_in_nodes += took.allocations;
@@ -156,20 +173,23 @@ impl Stopwatch {
 
     /// The cycle was published; whether it took too long.
     #[inline]
-    pub(super) fn finish(&mut self, timed: bool) -> bool {
+    pub(super) fn finish(&mut self, cycle: u64, timed: bool) -> bool {
         if !timed && self.deadline.is_none() {
             self.overran = false;
             return false;
         }
-        self.end(timed)
+        self.end(cycle, timed)
     }
 
-    fn end(&mut self, timed: bool) -> bool {
+    fn end(&mut self, cycle: u64, timed: bool) -> bool {
         let (took, allocations) = self.cycle.take();
         let (waited, _) = self.waiting.take();
         let blocked = std::mem::take(&mut self.blocked);
         if timed {
             let elsewhere = self.in_nodes + self.blocked_in_cycle;
+            if let (Some(spans), Some(began)) = (&self.spans, self.began) {
+                spans.write(None, cycle, began, took);
+            }
             self.durations.cycle.record(took);
             self.durations
                 .framework
@@ -208,7 +228,7 @@ impl Stopwatch {
             times, allocations, ..
         }) = found
         {
-            report.histogram = times.clone();
+            report.histogram.clone_from(times);
             report.allocations = *allocations;
         }
     }
