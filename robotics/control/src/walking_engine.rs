@@ -77,7 +77,7 @@ impl WalkingEngine {
         let command = context.motion_command;
         let left = context.heat.left(context.temperatures);
         let walks = command.body == BodyMotion::Walk && left > 0.0;
-        let wanted = walks.then(|| Step {
+        let wanted = walks.then_some(Step {
             forward: left * command.step.forward,
             left: left * command.step.left,
             turn: left * command.step.turn,

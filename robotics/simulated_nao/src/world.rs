@@ -66,7 +66,11 @@ impl World {
             stepped: Timestamp::ZERO,
             situation,
             choice: settings.physics,
-            inhabitants: vec![Inhabitant::new(settings, &physics.bodies()[0], Arc::clone(&statues))],
+            inhabitants: vec![Inhabitant::new(
+                settings,
+                &physics.bodies()[0],
+                Arc::clone(&statues),
+            )],
             bystanders: settings.robots.clone(),
             statues,
             physics,

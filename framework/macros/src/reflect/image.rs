@@ -46,5 +46,5 @@ fn has_fields(data: &Data) -> bool {
         let mut fields = data.fields.iter();
         fields.any(|field| field.ident.as_ref().is_some_and(|known| known == name))
     };
-    FIELDS.iter().all(|name| has(&name))
+    FIELDS.iter().all(has)
 }

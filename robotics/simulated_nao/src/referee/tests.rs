@@ -36,7 +36,7 @@ impl Game {
             ball: Point3::new(0.0, 0.0, 0.05),
             players: vec![
                 player(Team::Own, 1, [-1.0, 0.0, 0.0]),
-                player(Team::Opponent, 1, [1.0, 0.0, 3.14]),
+                player(Team::Opponent, 1, [1.0, 0.0, std::f64::consts::PI]),
             ],
             whistles: 0,
         }

@@ -29,13 +29,7 @@ impl Exposure {
     }
 
     pub fn cycle(&mut self, context: CycleContext) -> Result<MainOutputs> {
-        let brightest = context
-            .image
-            .data
-            .iter()
-            .max()
-            .copied()
-            .unwrap_or_default();
+        let brightest = context.image.data.iter().max().copied().unwrap_or_default();
         let wanted = context.wanted * f32::from(brightest);
         *context.smoothed += 0.5 * (wanted - *context.smoothed);
         Ok(MainOutputs {
