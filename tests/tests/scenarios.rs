@@ -96,6 +96,8 @@ fn some_are_played() {
         ("sit_limp", 1),
         ("walk_a_curve", 2),
         ("push_from_the_left", 2),
+        ("stand_up_from_the_back", 1),
+        ("kick_right", 1),
     ] {
         let outcome = play(name, seeds);
         assert_eq!(outcome["passed"], true, "{outcome:#}");
