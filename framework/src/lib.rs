@@ -28,6 +28,7 @@
 extern crate self as framework;
 
 pub mod buffer;
+pub mod bytes;
 pub mod clear;
 pub mod clock;
 pub mod context;
@@ -36,6 +37,7 @@ pub mod data;
 pub mod digest;
 pub mod driver;
 pub mod error;
+pub mod foxglove;
 pub mod guarded;
 pub mod hardware;
 pub mod history;

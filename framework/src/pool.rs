@@ -21,6 +21,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use crate::clear::Clear;
+use crate::foxglove::Form;
 use crate::reflect::{Children, EncodeError, Reflect, Segment, Shape};
 
 /// Values that are filled again and again; none is made after the start.
@@ -143,6 +144,13 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for Leased<T> {
 impl<T: Reflect + Clone> Reflect for Leased<T> {
     fn shape() -> Shape {
         T::shape()
+    }
+
+    fn foxglove() -> Option<Form<Self>> {
+        Some(Form {
+            schema: T::foxglove()?.schema,
+            write: |value, timestamp| (T::foxglove()?.write)(value, timestamp),
+        })
     }
 
     fn child(&self, segment: &Segment) -> Option<&dyn Reflect> {

@@ -23,6 +23,8 @@ mod unknown;
 
 use std::borrow::Cow;
 
+use crate::foxglove::Form as WellKnownForm;
+
 pub use binary::EncodeError;
 pub use image::{Image, Pixels};
 pub use limits::{Limits, OutOfRange};
@@ -37,6 +39,7 @@ pub use unknown::{Reason, UnknownPath};
 /// `transparent`, `tag`, `content` and `untagged` it follows. On a field `#[reflect(unit = "m")]` tells its unit,
 /// `#[reflect(range = 0.0..=1.0)]` where its numbers must lie when it is a parameter, `#[reflect(skip)]` hides it.
 /// `#[reflect(image = "yuyv")]` on a struct says that its values are images: [`Pixels`].
+/// On the type `#[reflect(foxglove = FUNCTION)]` tells how it is drawn ([`crate::foxglove`]).
 #[diagnostic::on_unimplemented(
     message = "`{Self}` does not implement `Reflect`",
     label = "cannot be shown, recorded or set by path",
@@ -47,6 +50,14 @@ pub trait Reflect {
     fn shape() -> Shape
     where
         Self: Sized;
+
+    /// The form in which tools draw it, where the type says that it has one.
+    fn foxglove() -> Option<WellKnownForm<Self>>
+    where
+        Self: Sized,
+    {
+        None
+    }
 
     /// The part with that name or index; of an enum, of its active variant.
     fn child(&self, _segment: &Segment) -> Option<&dyn Reflect> {

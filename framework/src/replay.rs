@@ -16,6 +16,7 @@ mod play;
 mod report;
 mod source;
 mod tolerance;
+mod types;
 mod verify;
 
 use std::cell::Cell;
@@ -25,7 +26,7 @@ use serde_json::Value;
 
 use crate::cycler::{Cycler, Finished, Instance};
 use crate::error::Result;
-use crate::recorded::{Head, Loading, Recorded, Stored, digest};
+use crate::recorded::{Head, Loading, Recorded, Stored, Types, digest};
 
 pub use compare::{Change, Comparison, InstanceCompared, compare};
 pub use elsewhere::{Elsewhere, answer};
@@ -42,6 +43,8 @@ pub struct Replayable {
     pub instance: &'static str,
     /// Makes it, with the states of its nodes as in a frame.
     pub create: fn(&mut Loading<'_>, &Stored<'_>) -> Result<Box<dyn Replay>>,
+    /// The types of its frames.
+    pub types: fn() -> Types,
 }
 
 /// One instance whose cycles come from a recording.

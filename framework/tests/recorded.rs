@@ -187,13 +187,13 @@ fn record(steps: &[Step], path: &std::path::Path) -> Vec<(Timestamp, String)> {
         let written = recorded.then(|| {
             track.frame::<SaveError>(now, 0, |frame| {
                 for (place, consumer) in inputs.consumers.iter().enumerate() {
-                    consumer.values(&mut |cycle, value| {
+                    consumer.values(&mut |cycle, _, value| {
                         frame.message(value_channel(place), cycle as u32, now, |writing| {
                             Saving::new(writing).put(value)
                         })
                     })?;
                 }
-                inputs.newest.values(&mut |cycle, value| {
+                inputs.newest.values(&mut |cycle, _, value| {
                     frame.message(value_channel(2), cycle as u32, now, |writing| {
                         Saving::new(writing).put(value)
                     })

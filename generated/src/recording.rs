@@ -4,6 +4,7 @@
 
 use framework::Result;
 use framework::Timestamp;
+use framework::recorded::describe;
 use framework::replay::Replayable;
 use framework::replay::no_hardware;
 use hardware::ActuatorInterface;
@@ -23,6 +24,11 @@ use types::network::Datagram;
 use types::network::Endpoint;
 use types::sensor_data::SensorData;
 
+use crate::runtime::audio::Audio;
+use crate::runtime::control::Control;
+use crate::runtime::spl_network::SplNetwork;
+use crate::runtime::vision::Vision;
+
 pub mod audio;
 pub mod control;
 pub mod spl_network;
@@ -33,22 +39,27 @@ pub const INSTANCES: &[Replayable] = &[
     Replayable {
         instance: "VisionTop",
         create: vision::replay_vision_top,
+        types: describe::<Vision<Sink>>,
     },
     Replayable {
         instance: "VisionBottom",
         create: vision::replay_vision_bottom,
+        types: describe::<Vision<Sink>>,
     },
     Replayable {
         instance: "SplNetwork",
         create: spl_network::replay_spl_network,
+        types: describe::<SplNetwork<Sink>>,
     },
     Replayable {
         instance: "Audio",
         create: audio::replay_audio,
+        types: describe::<Audio<Sink>>,
     },
     Replayable {
         instance: "Control",
         create: control::replay_control,
+        types: describe::<Control<Sink>>,
     },
 ];
 

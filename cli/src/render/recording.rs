@@ -34,7 +34,18 @@ pub(super) fn render_recording(model: &RuntimeModel) -> String {
     let replayed = replay::replayed(model).map(|(instance, cycler)| {
         let (name, module) = (&instance.name, ident(&cycler.module));
         let create = replay::function(instance);
-        quote!(::framework::replay::Replayable { instance: #name, create: #module::#create },)
+        let body = path(&format!(
+            "crate::runtime::{}::{}",
+            cycler.module, cycler.body
+        ));
+        let arguments = cycler.is_generic().then(|| quote!(<Sink>));
+        quote! {
+            ::framework::replay::Replayable {
+                instance: #name,
+                create: #module::#create,
+                types: ::framework::recorded::describe::<#body #arguments>,
+            },
+        }
     });
     let about = doc("All instances that a recording can be replayed with, in manifest order.");
     let items = quote! {
@@ -68,6 +79,7 @@ fn quote_recorded(cycler: &CyclerModel) -> TokenStream {
     ));
     let values = quote_values(cycler);
     let save = quote_save(cycler);
+    let describe = quote_describe(cycler);
     let load = quote_load(cycler);
     let digests = quote_digests(cycler);
     quote! {
@@ -76,6 +88,7 @@ fn quote_recorded(cycler: &CyclerModel) -> TokenStream {
 
             #values
             #save
+            #describe
             #load
             #digests
         }
@@ -132,6 +145,25 @@ fn quote_save(cycler: &CyclerModel) -> TokenStream {
             #(#nodes)*
             #tape
             Ok(())
+        }
+    }
+}
+
+/// The types of what is saved, in the same order.
+fn quote_describe(cycler: &CyclerModel) -> TokenStream {
+    let parameters = cycler
+        .has_parameters()
+        .then(|| quote!(types.parameters(|body| &body.parameters);));
+    let nodes = cycler.nodes.iter().map(|node| {
+        let (name, node_path) = (ident(&node.name), &node.path);
+        quote!(types.node(#node_path, |body| &body.nodes.#name);)
+    });
+    let tape = quote_tape(cycler, Tape::Describe);
+    let body = quote!(#parameters #(#nodes)* #tape);
+    let types = argument("types", !body.is_empty());
+    quote! {
+        fn describe(#types: &mut ::framework::recorded::Describing<Self>) {
+            #body
         }
     }
 }

@@ -8,7 +8,7 @@ mod structs;
 use grammar::documentation;
 use proc_macro2::TokenStream as Tokens;
 use quote::quote;
-use syn::{Data, DeriveInput, parse_quote};
+use syn::{Attribute, Data, DeriveInput, ExprPath, parse_quote};
 
 use crate::serde_names::Container;
 
@@ -43,7 +43,35 @@ pub(crate) fn expand(item: &DeriveInput) -> syn::Result<Tokens> {
             return Err(syn::Error::new(data.union_token.span, message));
         }
     };
-    Ok(quote_implementation(item, &functions))
+    let foxglove = read_foxglove(&item.attrs)?;
+    Ok(quote_implementation(item, &functions, foxglove.as_ref()))
+}
+
+/// The function that `#[reflect(foxglove = …)]` names.
+fn read_foxglove(attributes: &[Attribute]) -> syn::Result<Option<ExprPath>> {
+    let mut function = None;
+    let own = attributes.iter();
+    for attribute in own.filter(|attribute| attribute.path().is_ident("reflect")) {
+        attribute.parse_nested_meta(|meta| {
+            if !meta.path.is_ident("foxglove") {
+                return Err(meta.error("a type may say `foxglove = FUNCTION`"));
+            }
+            function = Some(meta.value()?.parse()?);
+            Ok(())
+        })?;
+    }
+    Ok(function)
+}
+
+fn quote_foxglove(function: &ExprPath) -> Tokens {
+    quote! {
+        fn foxglove() -> ::core::option::Option<framework_reflect::WellKnownForm<Self>> {
+            ::core::option::Option::Some(framework_reflect::WellKnownForm {
+                schema: framework_reflect::schema_of::<Self, _>(#function),
+                write: |value, timestamp| framework_reflect::written(&#function(value, timestamp)),
+            })
+        }
+    }
 }
 
 /// A type whose serde form is not that of its parts: shown as a whole.
@@ -68,7 +96,12 @@ fn quote_shape(content: &Tokens, form: &Tokens, docs: &str) -> Tokens {
     }
 }
 
-fn quote_implementation(item: &DeriveInput, functions: &Functions) -> Tokens {
+fn quote_implementation(
+    item: &DeriveInput,
+    functions: &Functions,
+    foxglove: Option<&ExprPath>,
+) -> Tokens {
+    let foxglove = foxglove.map(quote_foxglove);
     let name = &item.ident;
     let mut generics = item.generics.clone();
     for parameter in generics.type_params_mut() {
@@ -100,6 +133,8 @@ fn quote_implementation(item: &DeriveInput, functions: &Functions) -> Tokens {
                 }
 
                 #walk
+
+                #foxglove
 
                 fn encode(
                     &self,

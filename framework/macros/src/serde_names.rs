@@ -91,6 +91,9 @@ impl Container {
     }
 }
 
+/// What writes a list of bytes in one piece.
+const BYTES: &str = "framework::bytes";
+
 impl Member {
     pub(crate) fn read(attributes: &[Attribute]) -> syn::Result<Self> {
         let mut member = Self::default();
@@ -104,7 +107,14 @@ impl Member {
                 member.is_left_out = Some(function.parse()?);
                 return Ok(());
             }
-            let own_form = ["getter", "serialize_with", "untagged", "with"];
+            if meta.path.is_ident("with") {
+                let module: LitStr = meta.value()?.parse()?;
+                // Another way to write the same.
+                member.own_form |= module.value().trim_start_matches("::") != BYTES
+                    && module.value() != "crate::bytes";
+                return Ok(());
+            }
+            let own_form = ["getter", "serialize_with", "untagged"];
             member.own_form |= own_form.iter().any(|name| meta.path.is_ident(name));
             member.skip |= meta.path.is_ident("skip") || meta.path.is_ident("skip_serializing");
             member.flatten |= meta.path.is_ident("flatten");

@@ -8,7 +8,11 @@ mod read;
 #[cfg(test)]
 mod tests;
 
+use std::collections::BTreeMap;
+
 use serde::{Deserialize, Serialize};
+
+use crate::file::Attachment;
 
 pub use difference::first_difference;
 pub use read::{Unreadable, Values};
@@ -92,6 +96,29 @@ pub enum PartKind {
     Input,
     /// Anything else: version of parameters, injections, calls, who listens.
     Other,
+}
+
+/// The attachment that holds [`Layouts`].
+pub const ATTACHMENT: &str = "types.json";
+
+/// Everything that a recording tells of its types.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Layouts {
+    /// Parts of frames, by the metadata `types` of their channel.
+    pub frames: BTreeMap<String, Vec<Part>>,
+    /// What others read of an instance, and the parameters, by name.
+    pub values: BTreeMap<String, Layout>,
+}
+
+impl Layouts {
+    /// Those of a recording; none where it has none.
+    pub fn of(attachments: &[Attachment]) -> Self {
+        let mut attachments = attachments.iter();
+        let found = attachments.find(|attachment| attachment.name == ATTACHMENT);
+        found
+            .and_then(|found| serde_json::from_slice(&found.data).ok())
+            .unwrap_or_default()
+    }
 }
 
 impl Layout {

@@ -11,6 +11,7 @@ mod index;
 pub mod layout;
 mod open;
 mod read;
+mod recover;
 mod ring;
 
 pub use file::{Attachment, Channel, ChannelId, Description, Metadata, Schema, Writer};
@@ -18,3 +19,4 @@ pub use format::{MESSAGE_HEAD, RECORD_HEAD, opcode};
 pub use layout::Layout;
 pub use open::{ChunkPlace, Contents, RecordingFile};
 pub use read::{Chunk, Message, ReadError, Recording, Way};
+pub use recover::{Recovered, recover};

@@ -59,6 +59,14 @@ impl RecordingFile {
         Ok(Self { file, contents })
     }
 
+    /// Bytes of the file.
+    ///
+    /// # Errors
+    /// If the disk fails.
+    pub fn length(&self) -> io::Result<u64> {
+        Source::length(&self.file)
+    }
+
     /// All of it but the messages.
     pub fn contents(&self) -> &Contents {
         &self.contents

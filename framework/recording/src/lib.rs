@@ -15,12 +15,14 @@
 mod block;
 mod pool;
 mod recorder;
+mod rewrite;
 mod track;
 
 pub use block::{Full, Writing};
 pub use hulkgen_mcap::{
     Attachment, Channel, ChannelId, Chunk, Contents, Description, Message, Metadata, ReadError,
-    Recording, RecordingFile, Schema, Way,
+    Recording, RecordingFile, Schema, Way, layout,
 };
 pub use recorder::{Ended, Recorder, Settings};
+pub use rewrite::{Rewrite, Rewrites};
 pub use track::{Counts, Frame, Recorded, Track};

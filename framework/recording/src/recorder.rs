@@ -8,6 +8,7 @@ use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 use crate::pool::Pool;
+use crate::rewrite::{Rewrites, rewritten};
 use crate::track::{Counts, Track};
 use hulkgen_mcap::{Description, Metadata, Writer};
 
@@ -71,6 +72,17 @@ impl Recorder {
         instances: &[&str],
         settings: Settings,
     ) -> io::Result<(Self, Vec<Track>)> {
+        Self::start_rewriting(path, description, instances, settings, Rewrites::new())
+    }
+
+    /// As [`start`](Self::start), with channels whose messages become others before they are written.
+    pub fn start_rewriting(
+        path: &Path,
+        description: Description,
+        instances: &[&str],
+        settings: Settings,
+        rewrites: Rewrites,
+    ) -> io::Result<(Self, Vec<Track>)> {
         let writer = Writer::create(path, description, settings.budget)?;
         let pool = Arc::new(Pool::new(settings.blocks, settings.block_bytes));
         let counts: Vec<_> = instances
@@ -91,6 +103,8 @@ impl Recorder {
             is_ending: is_ending.clone(),
             last: last.clone(),
             open: Vec::new(),
+            rewrites,
+            rewritten: Vec::new(),
             since: Instant::now(),
             error: None,
         };
@@ -161,6 +175,9 @@ struct Thread {
     last: Arc<Mutex<Vec<Metadata>>>,
     /// Tracks and frames in the chunk that is open.
     open: Vec<(usize, u64)>,
+    rewrites: Rewrites,
+    /// The messages of a block that became others.
+    rewritten: Vec<u8>,
     /// When the chunk that is open got its first block.
     since: Instant,
     error: Option<io::Error>,
@@ -195,7 +212,13 @@ impl Thread {
                 self.since = Instant::now();
             }
             self.open.push((block.track, block.frames));
-            self.writer.add(block.whole());
+            match self.rewrites.is_empty() {
+                true => self.writer.add(block.whole()),
+                false => {
+                    rewritten(block.whole(), &self.rewrites, &mut self.rewritten);
+                    self.writer.add(&self.rewritten);
+                }
+            }
             self.pool.give_back(block);
             if self.writer.open_bytes() >= self.settings.chunk_bytes {
                 self.close_chunk();

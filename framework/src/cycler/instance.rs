@@ -7,7 +7,7 @@ use super::{Counters, Cycle, InstanceDescription, Reference};
 use crate::digest::DigestError;
 use crate::error::Result;
 use crate::guarded::State;
-use crate::recorded::{Capture, SaveError, Visit};
+use crate::recorded::{Capture, Forms, SaveError, Types, Visit};
 use crate::reflect::Reflect;
 use crate::report::InstanceReport;
 use crate::subscriptions::Subscriptions;
@@ -62,6 +62,9 @@ pub trait Instance: Send {
     /// Ends for a server: one for each output, and one for reports. Taps that it gave before have nothing any more.
     fn tap(&mut self, subscriptions: &Subscriptions) -> (Vec<Tap>, Reports);
 
+    /// How each output is written, whatever its type: main outputs, then additional ones.
+    fn forms(&self, forms: &mut Forms);
+
     /// Everything that the cycle read from other instances.
     fn references(&self, visit: &mut dyn FnMut(Reference));
 
@@ -76,6 +79,9 @@ pub trait Instance: Send {
     /// # Errors
     /// If there is no room, or a value cannot be serialised.
     fn save(&mut self, capture: &mut Capture<'_, '_>) -> Result<(), SaveError>;
+
+    /// The types of what [`Instance::save`] writes.
+    fn types(&self) -> Types;
 
     /// Digests of what the nodes wrote in the last finished cycle, in the order of their calls.
     ///

@@ -18,7 +18,7 @@ use crate::digest::DigestError;
 use crate::error::{Error, Result};
 use crate::guarded::{OnFailure, State, contain};
 use crate::logs;
-use crate::recorded::{Capture, Head, Recorded, SaveError, Visit};
+use crate::recorded::{self, Capture, Forms, Head, Recorded, SaveError, Types, Visit};
 use crate::reflect::Reflect;
 use crate::report::{InstanceReport, NodeReport, SlotsReport};
 use crate::subscriptions::Subscriptions;
@@ -426,6 +426,10 @@ impl<B: Recorded> Instance for Cycler<B> {
         (taps, reports)
     }
 
+    fn forms(&self, forms: &mut Forms) {
+        self.body.outputs(&self.writer.newest().value, 0, forms);
+    }
+
     fn references(&self, visit: &mut dyn FnMut(Reference)) {
         self.body.references(visit);
     }
@@ -458,6 +462,10 @@ impl<B: Recorded> Instance for Cycler<B> {
         capture.frame(head, |since, out| {
             body.save(Slots { current, previous }, since, out)
         })
+    }
+
+    fn types(&self) -> Types {
+        recorded::describe::<B>()
     }
 
     fn digests(&self, visit: Visit<'_>) -> Result<(), DigestError> {

@@ -32,6 +32,8 @@ pub(super) struct Options {
     /// For files of this run.
     pub(super) run_folder: PathBuf,
     pub(super) record: Record,
+    /// Outputs that are recorded in channels of their own.
+    pub(super) record_outputs: Vec<String>,
     /// Bytes, instead of what the manifest says.
     pub(super) recording_budget: Option<u64>,
     /// Instead of running.
@@ -119,6 +121,8 @@ Usage: {name} [OPTIONS] [-- HARDWARE OPTIONS]
   --read-only         no client may change anything
   --web-root DIR      files of the page from there instead of those in the program
   --record FILE       record into this file, which must not be there; on: into the run folder; off (default: on if simulated)
+  --record-output PATH
+                      record this output in a channel of its own, as JSON; may be repeated
   --recording-budget SIZE
                       what the recording keeps, e.g. 512MiB, instead of {budget} MiB
   --replay FILE --verify
@@ -175,6 +179,7 @@ pub(super) fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Com
             Arg::Long("web-root") => options.web_root = Some(parser.value()?.into()),
             Arg::Long("run-folder") => options.run_folder = parser.value()?.into(),
             Arg::Long("record") => options.record = record(parser.value()?),
+            Arg::Long("record-output") => options.record_outputs.push(parser.value()?.string()?),
             Arg::Long("recording-budget") => {
                 options.recording_budget = Some(size(&parser.value()?.string()?)?);
             }
@@ -295,6 +300,8 @@ mod tests {
             "there",
             "--record",
             "tape",
+            "--record-output",
+            "Control.main_outputs.ball",
             "--recording-budget",
             "3MiB",
             "--replay=old",
@@ -328,6 +335,7 @@ mod tests {
             ],
             run_folder: "there".into(),
             record: Record::Into("tape".into()),
+            record_outputs: vec!["Control.main_outputs.ball".to_owned()],
             recording_budget: Some(3 << 20),
             is_replay: true,
             replay: Replaying {

@@ -92,6 +92,7 @@ fn about<P: ParameterData>(
         (name.to_owned(), media_type.to_owned(), text.to_owned())
     };
     About {
+        outputs: options.record_outputs.clone(),
         run: entries,
         files: vec![
             file("hulk.toml", "application/toml", target.manifest),

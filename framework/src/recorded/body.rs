@@ -1,6 +1,6 @@
 //! The generated part: what a recording takes of one instance, and how a replay gives it back.
 
-use super::{Loading, SaveError, Saving, Stored, Values};
+use super::{Describing, Loading, SaveError, Saving, Stored, Values};
 use crate::cycler::{Body, Slots};
 use crate::digest::{Digest, DigestError};
 use crate::error::Result;
@@ -28,6 +28,11 @@ pub trait Recorded: Body {
         since: Option<Timestamp>,
         out: &mut Saving<'_, '_>,
     ) -> Result<(), SaveError>;
+
+    /// The types of what [`Recorded::save`] writes, in its order.
+    fn describe(types: &mut Describing<Self>)
+    where
+        Self: Sized;
 
     /// Makes all of it what was saved.
     ///

@@ -138,10 +138,10 @@ impl Values<'_, '_> {
     ) -> Result<(), SaveError> {
         let before = self.before();
         input
-            .values(&mut |cycle, value| {
+            .values(&mut |cycle, timestamp, value| {
                 // Cycles of an instance come in order.
                 if before.is_none_or(|before| cycle > before) {
-                    self.put(instance, cycle, value)?;
+                    self.put(instance, (cycle, timestamp), value)?;
                 }
                 Ok(())
             })
@@ -155,7 +155,7 @@ impl Values<'_, '_> {
     pub fn parameters<P: Serialize>(&mut self, parameters: &Reader<P>) -> Result<(), SaveError> {
         let view = parameters.view();
         if self.before() != Some(view.cycle()) {
-            self.put(PARAMETERS, view.cycle(), view.value())?;
+            self.put(PARAMETERS, (view.cycle(), self.time), view.value())?;
         }
         self.position += 1;
         Ok(())
@@ -168,13 +168,18 @@ impl Values<'_, '_> {
         self.written.next[self.position]
     }
 
-    fn put(&mut self, name: &str, cycle: u64, value: &impl Serialize) -> Result<(), SaveError> {
+    fn put(
+        &mut self,
+        name: &str,
+        (cycle, timestamp): (u64, Timestamp),
+        value: &impl Serialize,
+    ) -> Result<(), SaveError> {
         let mut channels = self.channels.iter();
         let channel = channels.find(|(known, _)| *known == name);
         let (_, channel) = channel
             .ok_or_else(|| SaveError::Value(format!("`{name}` has no channel of values")))?;
         self.written.next[self.position] = Some(cycle);
-        let time = self.time.as_nanos();
+        let time = timestamp.as_nanos();
         self.frame.message(*channel, cycle as u32, time, |writing| {
             Saving::new(writing).put(value)
         })

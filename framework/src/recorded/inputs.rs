@@ -1,7 +1,9 @@
 //! Values of other instances: the newest one, and all in order of time.
 
+use hulkgen_mcap::Layout;
 use serde::{Deserialize, Serialize};
 
+use super::trace::layout_of;
 use super::{Loading, SaveError, Saving};
 use crate::buffer::{Reader, Writer};
 use crate::error::{Error, Result};
@@ -13,10 +15,10 @@ pub type Found<'a, T> = &'a mut dyn FnMut(u64) -> Result<T>;
 
 /// An input from another instance.
 pub trait Foreign<T> {
-    /// Every cycle of the instance that the taking cycle sees, by its number, oldest first.
+    /// Every cycle of the instance that the taking cycle sees, by its number and timestamp, oldest first.
     fn values(
         &self,
-        visit: &mut dyn FnMut(u64, &T) -> Result<(), SaveError>,
+        visit: &mut dyn FnMut(u64, Timestamp, &T) -> Result<(), SaveError>,
     ) -> Result<(), SaveError>;
 
     /// Saves which cycles these are and how they are seen.
@@ -24,6 +26,11 @@ pub trait Foreign<T> {
     /// # Errors
     /// If there is no room.
     fn save(&self, out: &mut Saving<'_, '_>) -> Result<(), SaveError>;
+
+    /// How [`Foreign::save`] writes it.
+    fn layout() -> Layout
+    where
+        Self: Sized;
 
     /// Makes the input what was saved, by way of a buffer that nobody else writes.
     ///
@@ -49,11 +56,11 @@ struct Named {
 impl<T> Foreign<T> for Reader<T> {
     fn values(
         &self,
-        visit: &mut dyn FnMut(u64, &T) -> Result<(), SaveError>,
+        visit: &mut dyn FnMut(u64, Timestamp, &T) -> Result<(), SaveError>,
     ) -> Result<(), SaveError> {
         let view = self.view();
         match view.written() {
-            Some(value) => visit(view.cycle(), value),
+            Some(value) => visit(view.cycle(), view.timestamp(), value),
             None => Ok(()),
         }
     }
@@ -66,6 +73,10 @@ impl<T> Foreign<T> for Reader<T> {
             order: view.timestamp(),
         })?;
         out.put(&view.is_new())
+    }
+
+    fn layout() -> Layout {
+        layout_of::<(Named, bool)>()
     }
 
     fn load(
@@ -92,17 +103,17 @@ impl<T> Foreign<T> for Reader<T> {
 impl<T> Foreign<T> for Consumer<T> {
     fn values(
         &self,
-        visit: &mut dyn FnMut(u64, &T) -> Result<(), SaveError>,
+        visit: &mut dyn FnMut(u64, Timestamp, &T) -> Result<(), SaveError>,
     ) -> Result<(), SaveError> {
         (0..self.visible()).try_for_each(|index| match self.entry(index) {
-            Some((entry, _)) => visit(entry.cycle, &entry.value),
+            Some((entry, _)) => visit(entry.cycle, entry.timestamp, &entry.value),
             None => Ok(()),
         })
     }
 
     fn save(&self, out: &mut Saving<'_, '_>) -> Result<(), SaveError> {
-        out.put(&(self.visible() as u32))?;
         out.put(&(self.persistent() as u32))?;
+        out.put(&(self.visible() as u32))?;
         for (entry, order) in (0..self.visible()).filter_map(|index| self.entry(index)) {
             out.put(&Named {
                 cycle: entry.cycle,
@@ -113,14 +124,18 @@ impl<T> Foreign<T> for Consumer<T> {
         Ok(())
     }
 
+    fn layout() -> Layout {
+        layout_of::<(u32, Vec<Named>)>()
+    }
+
     fn load(
         &mut self,
         from: &mut Loading<'_>,
         buffer: &mut Writer<T>,
         value: Found<'_, T>,
     ) -> Result<()> {
-        let seen: u32 = from.take()?;
         let persistent: u32 = from.take()?;
+        let seen: u32 = from.take()?;
         self.forget();
         for _ in 0..seen {
             let Named {

@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use hulkgen_recording::{ChannelId, Recorded, Track};
 
+use super::output::OutputRecorder;
 use super::{Capture, FINISHED, SaveError, Written};
 use crate::cycler::{Instance, Record};
 use crate::digest::DigestError;
@@ -23,8 +24,6 @@ pub(super) struct CycleRecorder {
     pub(super) own: ChannelId,
     pub(super) channels: Arc<[(&'static str, ChannelId)]>,
     pub(super) wanted: Wanted,
-    /// What the conditions of instances, this one among them, ask of its outputs.
-    pub(super) conditions: Vec<Condition>,
     pub(super) wanted_cycles: Arc<AtomicU64>,
     written: Written,
     /// When the last recorded cycle started.
@@ -115,7 +114,6 @@ impl CycleRecorder {
             own,
             channels,
             wanted,
-            conditions: Vec::new(),
             wanted_cycles,
             written: Written::default(),
             since: None,
@@ -134,7 +132,7 @@ impl CycleRecorder {
     }
 }
 
-impl Observer for CycleRecorder {
+impl CycleRecorder {
     fn begun(&mut self, instance: &mut dyn Instance) {
         self.open = None;
         if !self.wanted.next() {
@@ -194,19 +192,40 @@ impl Observer for CycleRecorder {
                 self.tell(instance, &error.to_string());
             }
         }
-        for condition in &mut self.conditions {
-            condition.look(instance);
-        }
     }
 }
 
-/// Only looks at outputs on behalf of others: the instance itself is not recorded.
-pub(super) struct ConditionsAlone(pub(super) Vec<Condition>);
+/// All that a recording wants of one instance.
+pub(super) struct CycleObserver {
+    pub(super) frames: Option<CycleRecorder>,
+    pub(super) outputs: Option<OutputRecorder>,
+    /// What the conditions of instances, this one among them, ask of its outputs.
+    pub(super) conditions: Vec<Condition>,
+}
 
-impl Observer for ConditionsAlone {
+impl CycleObserver {
+    /// Whether there is nothing to do.
+    pub(super) fn is_idle(&self) -> bool {
+        self.frames.is_none() && self.outputs.is_none() && self.conditions.is_empty()
+    }
+}
+
+impl Observer for CycleObserver {
+    fn begun(&mut self, instance: &mut dyn Instance) {
+        if let Some(frames) = &mut self.frames {
+            frames.begun(instance);
+        }
+    }
+
     fn finished(&mut self, instance: &dyn Instance) {
-        self.0
-            .iter_mut()
-            .for_each(|condition| condition.look(instance));
+        if let Some(frames) = &mut self.frames {
+            frames.finished(instance);
+        }
+        if let Some(outputs) = &mut self.outputs {
+            outputs.finished(instance);
+        }
+        for condition in &mut self.conditions {
+            condition.look(instance);
+        }
     }
 }

@@ -1,25 +1,31 @@
 //! A recording of a whole robot.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
+use hulkgen_mcap::layout::{self, Layouts};
 use hulkgen_recording::{
-    Attachment, Channel, ChannelId, Counts, Description, Metadata, Recorder, Settings,
+    Attachment, Channel, ChannelId, Counts, Description, Metadata, Recorder, Rewrites, Settings,
 };
 
-use super::recorder::{Condition, ConditionsAlone, CycleRecorder, Wanted};
-use super::{InstanceRecorded, PARAMETERS, RecordingReport, VERSION};
-use crate::cycler::{InstanceDescription, Record};
+use super::output::{self, OutputRecorder};
+use super::recorder::{Condition, CycleObserver, CycleRecorder, Wanted};
+use super::{InstanceRecorded, PARAMETERS, RecordingReport, Types, VERSION};
+use crate::cycler::{Instance, InstanceDescription, Record};
 use crate::driver::Observer;
 use crate::error::{Error, Result};
 use crate::numerics;
 use crate::robot::Robot;
+use crate::subscriptions::Subscriptions;
 
 /// Encoding of frames, and of values that they name.
 pub(crate) const FRAMES: &str = "hulkgen-frames";
 pub(crate) const VALUES: &str = "hulkgen-values";
+
+/// The metadata entry of a channel of frames that names their types.
+pub(crate) const TYPES: &str = "types";
 
 /// What a recording says of its run.
 #[derive(Clone, Debug, Default)]
@@ -28,6 +34,8 @@ pub struct About {
     pub run: Vec<(String, String)>,
     /// Files: name, media type, content.
     pub files: Vec<(String, String, String)>,
+    /// Outputs that get a channel of their own, as clients name them.
+    pub outputs: Vec<String>,
 }
 
 /// A recording of a robot that runs.
@@ -72,11 +80,55 @@ impl Recording {
             .collect();
         let names: Vec<_> = descriptions.iter().map(|one| one.name).collect();
         let written: Vec<_> = names.iter().chain(robot.left_out).copied().collect();
-        let description = describe(&descriptions, &written, about);
-        let (recorder, tracks) =
-            Recorder::start(path, description, &names, settings).map_err(|error| {
-                Error::from(error).context(format!("cannot record into {}", path.display()))
-            })?;
+        let types = robot.instances.iter().map(|instance| instance.types());
+        let types: Vec<_> = types.collect();
+        let outputs = output::find(&about.outputs, described(robot))?;
+        let mut description = describe(&descriptions, &types, &written, about);
+        let first = description.channels.len();
+        let channels_of_outputs: Vec<_> = (first..)
+            .map(|index| ChannelId(index as u16))
+            .zip(&outputs)
+            .collect();
+        let mut rewrites = Rewrites::new();
+        for (channel, output) in &channels_of_outputs {
+            rewrites.insert(*channel, output.rewrite());
+            description.schemas.push(output.schema());
+            description.channels.push(Channel {
+                topic: output.topic(),
+                schema: Some((description.schemas.len() - 1) as u16),
+                encoding: output::JSON.to_owned(),
+                metadata: Vec::new(),
+                once_per_chunk: false,
+            });
+        }
+        let with_outputs: BTreeSet<_> = outputs.iter().map(|output| output.instance).collect();
+        let names_of_tracks = with_outputs.iter().map(|name| format!("{name}.outputs"));
+        let names_of_tracks: Vec<_> = names_of_tracks.collect();
+        let all: Vec<_> = names
+            .iter()
+            .copied()
+            .chain(names_of_tracks.iter().map(String::as_str))
+            .collect();
+        let (recorder, mut tracks) =
+            Recorder::start_rewriting(path, description, &all, settings, rewrites).map_err(
+                |error| {
+                    Error::from(error).context(format!("cannot record into {}", path.display()))
+                },
+            )?;
+        let of_outputs = tracks.split_off(names.len());
+        let mut of_outputs: BTreeMap<_, _> = with_outputs
+            .into_iter()
+            .zip(of_outputs)
+            .map(|(name, track)| {
+                let own = channels_of_outputs
+                    .iter()
+                    .filter(|(_, output)| output.instance == name);
+                let outputs = own
+                    .map(|(channel, output)| ((*output).clone(), *channel))
+                    .collect();
+                (name, OutputRecorder { track, outputs })
+            })
+            .collect();
         // Channels: frames of all instances, then values.
         let values = (names.len()..).map(|index| ChannelId(index as u16));
         let sources = written.into_iter().chain([PARAMETERS]);
@@ -88,18 +140,17 @@ impl Recording {
             let count = Arc::<AtomicU64>::default();
             wanted.push((one.name, count.clone()));
             let asked = conditions.asked.remove(one.name).unwrap_or_default();
-            match Wanted::new(one.record, &conditions.of(one.name)) {
-                Some(which) => {
-                    let own = ChannelId(index as u16);
-                    let mut recorder =
-                        CycleRecorder::new(track, own, channels.clone(), which, count);
-                    recorder.conditions = asked;
-                    observers.insert(one.name, Box::new(recorder));
-                }
-                None if asked.is_empty() => {}
-                None => {
-                    observers.insert(one.name, Box::new(ConditionsAlone(asked)));
-                }
+            let frames = Wanted::new(one.record, &conditions.of(one.name)).map(|which| {
+                let own = ChannelId(index as u16);
+                CycleRecorder::new(track, own, channels.clone(), which, count)
+            });
+            let observer = CycleObserver {
+                frames,
+                outputs: of_outputs.remove(one.name),
+                conditions: asked,
+            };
+            if !observer.is_idle() {
+                observers.insert(one.name, Box::new(observer));
             }
         }
         Ok(Self {
@@ -163,6 +214,15 @@ impl Recording {
     }
 }
 
+/// The instances with who listens to their additional outputs.
+fn described<P>(robot: &Robot<P>) -> impl Iterator<Item = (&dyn Instance, &Subscriptions)> + Clone {
+    robot.instances.iter().filter_map(|instance| {
+        let name = instance.description().name;
+        let access = robot.access.iter().find(|access| access.instance == name)?;
+        Some((&**instance as &dyn Instance, &access.subscriptions))
+    })
+}
+
 /// The conditions of all instances.
 struct Conditions {
     /// By the instance whose cycles depend on it.
@@ -209,8 +269,9 @@ fn conditions<P>(robot: &Robot<P>, all: &[InstanceDescription]) -> Result<Condit
 
 fn describe(
     instances: &[InstanceDescription],
+    types: &[Types],
     written: &[&'static str],
-    About { mut run, files }: About,
+    About { mut run, files, .. }: About,
 ) -> Description {
     let channel = |topic: String, encoding: &str, once_per_chunk| Channel {
         topic,
@@ -219,9 +280,12 @@ fn describe(
         metadata: vec![("version".to_owned(), VERSION.to_string())],
         once_per_chunk,
     };
-    let frames = instances
-        .iter()
-        .map(|one| channel(format!("frames/{}", one.name), FRAMES, false));
+    let frames = instances.iter().zip(types).map(|(one, types)| {
+        let mut channel = channel(format!("frames/{}", one.name), FRAMES, false);
+        let digest = (TYPES.to_owned(), types.digest());
+        channel.metadata.push(digest);
+        channel
+    });
     let values = written.iter().chain([&PARAMETERS]);
     let values = values.map(|name| channel(format!("values/{name}"), VALUES, true));
     run.push(("numerics".to_owned(), numerics::fingerprint()));
@@ -244,6 +308,7 @@ fn describe(
         ],
         attachments: files
             .into_iter()
+            .chain([types_file(types)])
             .map(|(name, media_type, text)| Attachment {
                 name,
                 media_type,
@@ -251,6 +316,21 @@ fn describe(
             })
             .collect(),
     }
+}
+
+/// All types, once.
+fn types_file(types: &[Types]) -> (String, String, String) {
+    let mut layouts = Layouts::default();
+    for one in types {
+        layouts.frames.insert(one.digest(), one.parts.clone());
+        let values = one.values.iter();
+        let values = values.map(|(name, layout)| ((*name).to_owned(), layout.clone()));
+        layouts.values.extend(values);
+    }
+    // Names and numbers alone: they can always be written.
+    let text = serde_json::to_string(&layouts).unwrap_or_default();
+    let name = layout::ATTACHMENT.to_owned();
+    (name, "application/json".to_owned(), text)
 }
 
 fn text_of(record: Record) -> String {

@@ -4,6 +4,8 @@ pub use erased_serde;
 pub use serde::Serialize;
 pub use serde::de::DeserializeOwned;
 
+pub use crate::foxglove::{Form as WellKnownForm, schema_of, written};
+
 pub use super::binary::{EncodeError, encode_any, encode_tag, encode_unless, skipped_variant};
 pub use super::{
     Children, Content, FieldShape, Form, Leaf, Limits, Pixels, Reflect, Segment, Shape,

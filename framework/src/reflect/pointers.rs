@@ -7,10 +7,18 @@ use serde::de::DeserializeOwned;
 
 use super::binary::EncodeError;
 use super::{Children, Content, Reflect, Segment, Shape, whole};
+use crate::foxglove::Form;
 
 impl<T: Reflect + Serialize + DeserializeOwned> Reflect for Option<T> {
     fn shape() -> Shape {
         Shape::new::<Self>(Content::Option(Box::new(T::shape())))
+    }
+
+    fn foxglove() -> Option<Form<Self>> {
+        Some(Form {
+            schema: T::foxglove()?.schema,
+            write: |value, timestamp| (T::foxglove()?.write)(value.as_ref()?, timestamp),
+        })
     }
 
     fn child(&self, segment: &Segment) -> Option<&dyn Reflect> {
@@ -52,6 +60,13 @@ impl<T: Reflect> Reflect for Box<T> {
         T::shape()
     }
 
+    fn foxglove() -> Option<Form<Self>> {
+        Some(Form {
+            schema: T::foxglove()?.schema,
+            write: |value, timestamp| (T::foxglove()?.write)(value, timestamp),
+        })
+    }
+
     fn child(&self, segment: &Segment) -> Option<&dyn Reflect> {
         (**self).child(segment)
     }
@@ -84,6 +99,13 @@ impl<T: Reflect> Reflect for Box<T> {
 impl<T: Reflect + Clone> Reflect for Arc<T> {
     fn shape() -> Shape {
         T::shape()
+    }
+
+    fn foxglove() -> Option<Form<Self>> {
+        Some(Form {
+            schema: T::foxglove()?.schema,
+            write: |value, timestamp| (T::foxglove()?.write)(value, timestamp),
+        })
     }
 
     fn child(&self, segment: &Segment) -> Option<&dyn Reflect> {

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use hulkgen_recording::Recording;
 
-use super::{Needed, OtherParameters, Ran, Replay, Replayable};
+use super::{Needed, OtherParameters, Ran, Replay, Replayable, types};
 use crate::error::{Error, Result};
 use crate::recorded::{BEGUN, FINISHED, FRAMES, Head, Loading, Stored, VALUES, VERSION};
 
@@ -28,6 +28,8 @@ pub struct Player<'r> {
     nodes: Option<Vec<String>>,
     replayable: Replayable,
     replay: Option<Box<dyn Replay>>,
+    /// What is of another type than it was when the recording was made.
+    other_types: Option<String>,
     /// Position of the frame that was loaded last.
     loaded: Option<usize>,
 }
@@ -112,7 +114,11 @@ impl<'r> Players<'r> {
         replayables: &[Replayable],
     ) -> Result<Self> {
         let topics = topics(recording)?;
-        let mut players: Vec<_> = replayables.iter().map(|one| Player::new(*one)).collect();
+        let players = replayables.iter().map(|one| Player {
+            other_types: types::difference(recording, one),
+            ..Player::new(*one)
+        });
+        let mut players: Vec<_> = players.collect();
         let mut chunks = Vec::new();
         for (index, chunk) in recording.chunks.iter().enumerate() {
             let mut stored = Stored::new(values);
@@ -181,6 +187,7 @@ impl<'r> Player<'r> {
             nodes: None,
             replayable,
             replay: None,
+            other_types: None,
             loaded: None,
         }
     }
@@ -239,6 +246,11 @@ impl<'r> Player<'r> {
     }
 
     fn load(&mut self, at: usize, chunks: &[Stored<'_>]) -> Result<()> {
+        if let Some(difference) = &self.other_types {
+            return Err(Error::new(format!(
+                "the recording is of other types: {difference}"
+            )));
+        }
         // Until it is there, nothing can go on from it.
         self.loaded = None;
         let Frame {

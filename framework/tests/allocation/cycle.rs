@@ -5,7 +5,7 @@ use std::time::Duration;
 use framework::cycler::Reference;
 use framework::digest::DigestError;
 use framework::recorded::{
-    self, Loaded, Loading, Recorded, SaveError, Saving, Stored, Values, Visit,
+    self, Describing, Loaded, Loading, Recorded, SaveError, Saving, Stored, Values, Visit,
 };
 use framework::report::Allocations;
 use framework::{
@@ -132,6 +132,10 @@ impl Recorded for Adding {
         self.injections.save_injected(out)?;
         self.procedure.save(out)?;
         out.put(slots.previous)
+    }
+
+    fn describe(types: &mut Describing<Self>) {
+        types.shared_previous("sums", |sums| sums);
     }
 
     fn load(

@@ -6,7 +6,9 @@ use std::time::{Duration, Instant};
 use framework::LiveParameters;
 use framework::cycler::{Reference, ReferenceKind};
 use framework::digest::DigestError;
-use framework::recorded::{Loaded, Loading, Recorded, SaveError, Saving, Stored, Values, Visit};
+use framework::recorded::{
+    Describing, Loaded, Loading, Recorded, SaveError, Saving, Stored, Values, Visit,
+};
 use framework::{
     Access, AdditionalOutput, AdditionalSlot, Answerer, Body, Consumer, Cycle, Cycler, Guarded,
     Held, Horizon, InNode, Injected, Injection, InjectionCell, InjectionTable, Injector, Instance,
@@ -218,6 +220,8 @@ impl Recorded for TestBody {
     ) -> Result<(), SaveError> {
         Ok(())
     }
+
+    fn describe(_: &mut Describing<Self>) {}
 
     fn load(
         &mut self,

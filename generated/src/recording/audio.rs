@@ -19,6 +19,7 @@ use framework::Writer;
 use framework::buffer;
 use framework::buffer_of;
 use framework::digest::DigestError;
+use framework::recorded::Describing;
 use framework::recorded::Loaded;
 use framework::recorded::Loading;
 use framework::recorded::Recorded;
@@ -70,6 +71,15 @@ impl<Hardware: MicrophoneInterface + Send + Sync> Recorded for Audio<Hardware> {
         out.put(&self.own.current().audio_block)?;
         out.put(&self.subscribed)?;
         Ok(())
+    }
+
+    fn describe(types: &mut Describing<Self>) {
+        types.parameters(|body| &body.parameters);
+        types.node("audio::microphone_recorder", |body| &body.nodes.microphone_recorder);
+        types.node("audio::whistle_detection", |body| &body.nodes.whistle_detection);
+        types.injections(|body| &body.injections);
+        types.output("audio_block", |body| &body.own.current().audio_block);
+        types.subscribed(|body| &body.subscribed);
     }
 
     fn load(

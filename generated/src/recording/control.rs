@@ -24,6 +24,7 @@ use framework::buffer;
 use framework::buffer_of;
 use framework::digest::DigestError;
 use framework::procedure;
+use framework::recorded::Describing;
 use framework::recorded::Foreign;
 use framework::recorded::Loaded;
 use framework::recorded::Loading;
@@ -146,6 +147,104 @@ impl<
         self.procedures.walk.save(out)?;
         out.put(&self.subscribed)?;
         Ok(())
+    }
+
+    fn describe(types: &mut Describing<Self>) {
+        types.parameters(|body| &body.parameters);
+        types
+            .node(
+                "control::sensor_data_receiver",
+                |body| &body.nodes.sensor_data_receiver,
+            );
+        types.node("control::button_filter", |body| &body.nodes.button_filter);
+        types.node("control::sonar_filter", |body| &body.nodes.sonar_filter);
+        types.node("control::orientation_filter", |body| &body.nodes.orientation_filter);
+        types
+            .node(
+                "control::foot_pressure_filter",
+                |body| &body.nodes.foot_pressure_filter,
+            );
+        types
+            .node(
+                "control::ground_contact_filter",
+                |body| &body.nodes.ground_contact_filter,
+            );
+        types
+            .node(
+                "control::support_foot_filter",
+                |body| &body.nodes.support_foot_filter,
+            );
+        types.node("control::forward_kinematics", |body| &body.nodes.forward_kinematics);
+        types.node("control::center_of_mass", |body| &body.nodes.center_of_mass);
+        types.node("control::fall_state_filter", |body| &body.nodes.fall_state_filter);
+        types.node("control::odometry", |body| &body.nodes.odometry);
+        types.node("control::camera_matrices", |body| &body.nodes.camera_matrices);
+        types
+            .node(
+                "control::game_controller_filter",
+                |body| &body.nodes.game_controller_filter,
+            );
+        types
+            .node(
+                "control::team_message_filter",
+                |body| &body.nodes.team_message_filter,
+            );
+        types.node("control::whistle_filter", |body| &body.nodes.whistle_filter);
+        types.node("control::game_state_filter", |body| &body.nodes.game_state_filter);
+        types.node("control::ball_filter", |body| &body.nodes.ball_filter);
+        types.node("control::obstacle_filter", |body| &body.nodes.obstacle_filter);
+        types
+            .node(
+                "control::world_state_composer",
+                |body| &body.nodes.world_state_composer,
+            );
+        types.node("control::client_wishes", |body| &body.nodes.client_wishes);
+        types.node("control::behavior", |body| &body.nodes.behavior);
+        types.node("control::recording_switch", |body| &body.nodes.recording_switch);
+        types.node("control::motion_selector", |body| &body.nodes.motion_selector);
+        types.node("control::motion_dispatcher", |body| &body.nodes.motion_dispatcher);
+        types.node("control::stand", |body| &body.nodes.stand);
+        types.node("control::penalized_pose", |body| &body.nodes.penalized_pose);
+        types.node("control::sit_down", |body| &body.nodes.sit_down);
+        types.node("control::walking_engine", |body| &body.nodes.walking_engine);
+        types.node("control::scripted_motion", |body| &body.nodes.scripted_motion);
+        types.node("control::look_around", |body| &body.nodes.look_around);
+        types.node("control::look_at", |body| &body.nodes.look_at);
+        types.node("control::head_motion", |body| &body.nodes.head_motion);
+        types
+            .node(
+                "control::motor_commands_collector",
+                |body| &body.nodes.motor_commands_collector,
+            );
+        types.node("control::led_status", |body| &body.nodes.led_status);
+        types.node("control::tone_selector", |body| &body.nodes.tone_selector);
+        types.node("control::tone_player", |body| &body.nodes.tone_player);
+        types.node("control::self_report", |body| &body.nodes.self_report);
+        types
+            .node(
+                "control::game_controller_responder",
+                |body| &body.nodes.game_controller_responder,
+            );
+        types
+            .node(
+                "control::team_message_sender",
+                |body| &body.nodes.team_message_sender,
+            );
+        types.node("control::command_sender", |body| &body.nodes.command_sender);
+        types.state(|body| &body.cycler_state);
+        types.history("odometry", |body| &body.historic.odometry);
+        types.injections(|body| &body.injections);
+        types.output("sensor_data", |body| &body.own.current().sensor_data);
+        types.foreign("VisionTop", |body| &body.perception.vision_top);
+        types.foreign("VisionBottom", |body| &body.perception.vision_bottom);
+        types.foreign("SplNetwork", |body| &body.perception.spl_network);
+        types.foreign("Audio", |body| &body.perception.audio);
+        types.previous("head_command", |body| &body.own.previous().head_command);
+        types.previous("motor_commands", |body| &body.own.previous().motor_commands);
+        types.procedure("look_at", |body| &body.procedures.look_at);
+        types.procedure("motion", |body| &body.procedures.motion);
+        types.procedure("walk", |body| &body.procedures.walk);
+        types.subscribed(|body| &body.subscribed);
     }
 
     fn load(

@@ -18,6 +18,7 @@ use framework::Writer;
 use framework::buffer;
 use framework::buffer_of;
 use framework::digest::DigestError;
+use framework::recorded::Describing;
 use framework::recorded::Loaded;
 use framework::recorded::Loading;
 use framework::recorded::Recorded;
@@ -70,6 +71,24 @@ impl<Hardware: NetworkInterface + Send + Sync> Recorded for SplNetwork<Hardware>
         out.put(&self.own.current().datagram)?;
         out.put(&self.subscribed)?;
         Ok(())
+    }
+
+    fn describe(types: &mut Describing<Self>) {
+        types.parameters(|body| &body.parameters);
+        types.node("spl_network::message_receiver", |body| &body.nodes.message_receiver);
+        types
+            .node(
+                "spl_network::game_controller_parser",
+                |body| &body.nodes.game_controller_parser,
+            );
+        types
+            .node(
+                "spl_network::team_message_parser",
+                |body| &body.nodes.team_message_parser,
+            );
+        types.injections(|body| &body.injections);
+        types.output("datagram", |body| &body.own.current().datagram);
+        types.subscribed(|body| &body.subscribed);
     }
 
     fn load(

@@ -18,6 +18,7 @@ use framework::Writer;
 use framework::buffer;
 use framework::buffer_of;
 use framework::digest::DigestError;
+use framework::recorded::Describing;
 use framework::recorded::Foreign;
 use framework::recorded::Loaded;
 use framework::recorded::Loading;
@@ -82,6 +83,31 @@ impl<Hardware: CameraInterface + Send + Sync> Recorded for Vision<Hardware> {
         out.put(&self.own.current().image)?;
         out.put(&self.subscribed)?;
         Ok(())
+    }
+
+    fn describe(types: &mut Describing<Self>) {
+        types.parameters(|body| &body.parameters);
+        types.node("vision::image_receiver", |body| &body.nodes.image_receiver);
+        types
+            .node(
+                "vision::camera_matrix_extractor",
+                |body| &body.nodes.camera_matrix_extractor,
+            );
+        types.node("vision::limb_projector", |body| &body.nodes.limb_projector);
+        types.node("vision::image_segmenter", |body| &body.nodes.image_segmenter);
+        types.node("vision::field_border", |body| &body.nodes.field_border);
+        types.node("vision::line_detection", |body| &body.nodes.line_detection);
+        types
+            .node(
+                "vision::penalty_mark_detection",
+                |body| &body.nodes.penalty_mark_detection,
+            );
+        types.node("vision::ball_detection", |body| &body.nodes.ball_detection);
+        types.node("vision::obstacle_detection", |body| &body.nodes.obstacle_detection);
+        types.injections(|body| &body.injections);
+        types.foreign("Control", |body| &body.control);
+        types.output("image", |body| &body.own.current().image);
+        types.subscribed(|body| &body.subscribed);
     }
 
     fn load(

@@ -1,6 +1,7 @@
 //! Owns camera images as the cameras deliver them.
 
-use framework::{Clear, Reflect};
+use framework::foxglove::{Base64, RawImage};
+use framework::{Clear, Reflect, Timestamp};
 use serde::{Deserialize, Serialize};
 
 /// An image in YUYV 4:2:2: bytes Y0 Cb Y1 Cr for two neighbouring pixels, rows from the top.
@@ -9,12 +10,14 @@ use serde::{Deserialize, Serialize};
 /// than `width * height * 2` bytes.
 #[derive(Clear, Clone, Debug, Default, Deserialize, Eq, PartialEq, Reflect, Serialize)]
 #[reflect(image = "yuyv")]
+#[reflect(foxglove = Self::to_raw_image)]
 pub struct YuyvImage {
     /// Pixels in a row, even.
     pub width: u32,
     /// Rows.
     pub height: u32,
     /// `width * height * 2` bytes.
+    #[serde(with = "framework::bytes")]
     pub data: Vec<u8>,
 }
 
@@ -72,6 +75,19 @@ impl YuyvImage {
     /// Red, green, and blue of a pixel.
     pub fn rgb(&self, x: u32, y: u32) -> Option<[u8; 3]> {
         self.yuv(x, y).map(Yuv::to_rgb)
+    }
+
+    /// As tools draw it.
+    fn to_raw_image(&self, timestamp: Timestamp) -> RawImage {
+        RawImage {
+            timestamp: timestamp.into(),
+            frame_id: "camera".to_owned(),
+            width: self.width,
+            height: self.height,
+            encoding: "yuyv",
+            step: self.width * 2,
+            data: Base64(self.data.clone()),
+        }
     }
 
     fn pixel(&self, x: u32, y: u32) -> Option<usize> {

@@ -11,6 +11,7 @@ pub struct Datagram {
     /// Who sent it.
     pub sender: Endpoint,
     /// What it says; may be anything.
+    #[serde(with = "framework::bytes")]
     pub bytes: Vec<u8>,
 }
 

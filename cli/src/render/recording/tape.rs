@@ -13,6 +13,8 @@ use crate::render::spelling::ident;
 pub(super) enum Tape {
     Save,
     Load,
+    /// Takes down the types.
+    Describe,
 }
 
 /// One statement, or some, for each field of what nodes may touch.
@@ -21,6 +23,7 @@ pub(super) fn quote_tape(cycler: &CyclerModel, tape: Tape) -> TokenStream {
     let states = cycler.has_states().then(|| match tape {
         Tape::Save => quote!(out.put(&self.cycler_state)?;),
         Tape::Load => quote!(self.cycler_state = from.take()?;),
+        Tape::Describe => quote!(types.state(|body| &body.cycler_state);),
     });
     let fields = cycler.frame.iter().map(|field| match field {
         // The head of the frame; what nodes only write; what nobody can keep.
@@ -36,6 +39,7 @@ pub(super) fn quote_tape(cycler: &CyclerModel, tape: Tape) -> TokenStream {
             Tape::Load => {
                 quote!(self.injections.load_injected(from, &mut outside.injections)?;)
             }
+            Tape::Describe => quote!(types.injections(|body| &body.injections);),
         },
         FrameField::Latest => latest(cycler, tape),
         FrameField::Own => outputs(cycler, tape, false, |output| output.setup, "current"),
@@ -50,6 +54,7 @@ pub(super) fn quote_tape(cycler: &CyclerModel, tape: Tape) -> TokenStream {
         FrameField::Subscribed => match tape {
             Tape::Save => quote!(out.put(&self.subscribed)?;),
             Tape::Load => quote!(self.subscribed = from.take()?;),
+            Tape::Describe => quote!(types.subscribed(|body| &body.subscribed);),
         },
     });
     quote!(#states #(#fields)*)
@@ -67,6 +72,10 @@ fn historic(cycler: &CyclerModel, tape: Tape) -> TokenStream {
         match tape {
             Tape::Save => quote!(self.historic.#name.save(since, out)?;),
             Tape::Load => quote!(self.historic.#name.load(from)?;),
+            Tape::Describe => {
+                let text = &output.name;
+                quote!(types.history(#text, |body| &body.historic.#name);)
+            }
         }
     });
     outputs.collect()
@@ -76,7 +85,7 @@ fn latest(cycler: &CyclerModel, tape: Tape) -> TokenStream {
     let sources = cycler.latest.iter().map(|source| {
         let (instance, reader) = (&source.instance, ident(&source.reader));
         let writer = ident(&source.writer);
-        foreign(tape, instance, &quote!(self.#reader), &writer)
+        foreign(tape, instance, &quote!(#reader), &writer)
     });
     sources.collect()
 }
@@ -88,7 +97,7 @@ fn perception(cycler: &CyclerModel, tape: Tape) -> TokenStream {
     let lanes = perception.lanes.iter().map(|lane| {
         let (instance, field) = (&lane.instance, ident(&lane.field));
         let writer = ident(&lane.writer);
-        foreign(tape, instance, &quote!(self.perception.#field), &writer)
+        foreign(tape, instance, &quote!(perception.#field), &writer)
     });
     let merges = perception.interleavings.iter().map(|interleaving| {
         let order = ident(&interleaving.field);
@@ -106,15 +115,16 @@ fn foreign(
     writer: &proc_macro2::Ident,
 ) -> TokenStream {
     match tape {
-        Tape::Save => quote!(::framework::recorded::Foreign::save(&#input, out)?;),
+        Tape::Save => quote!(::framework::recorded::Foreign::save(&self.#input, out)?;),
         Tape::Load => quote! {
             ::framework::recorded::Foreign::load(
-                &mut #input,
+                &mut self.#input,
                 from,
                 &mut outside.#writer,
                 &mut |cycle| stored.value(#instance, cycle),
             )?;
         },
+        Tape::Describe => quote!(types.foreign(#instance, |body| &body.#input);),
     }
 }
 
@@ -124,6 +134,10 @@ fn procedures(cycler: &CyclerModel, tape: Tape) -> TokenStream {
         match tape {
             Tape::Save => quote!(self.procedures.#name.save(out)?;),
             Tape::Load => quote!(self.procedures.#name.load(from)?;),
+            Tape::Describe => {
+                let text = &procedure.name;
+                quote!(types.procedure(#text, |body| &body.procedures.#name);)
+            }
         }
     });
     procedures.collect()
@@ -141,7 +155,9 @@ fn outputs(
     let kept = kept.filter(|output| output.shared == shared && is_kept(output));
     let of = ident(of);
     let place = match (shared, tape) {
+        (true, Tape::Describe) => quote!(outputs),
         (true, _) => quote!(slots.#of),
+        (false, Tape::Describe) => quote!(body.own.#of()),
         (false, Tape::Save) => quote!(self.own.#of()),
         (false, Tape::Load) if of == "current" => quote!(self.own.both_to_load().0),
         (false, Tape::Load) => quote!(self.own.both_to_load().1),
@@ -151,7 +167,21 @@ fn outputs(
         match tape {
             Tape::Save => quote!(out.put(&#place.#name)?;),
             Tape::Load => quote!(#place.#name = from.take()?;),
+            Tape::Describe => {
+                let function = describe_output(shared, of == "current");
+                let (text, holder) = (&output.name, ident(if shared { "outputs" } else { "body" }));
+                quote!(types.#function(#text, |#holder| &#place.#name);)
+            }
         }
     });
     statements.collect()
+}
+
+fn describe_output(shared: bool, is_current: bool) -> proc_macro2::Ident {
+    ident(match (shared, is_current) {
+        (false, true) => "output",
+        (true, true) => "shared_output",
+        (false, false) => "previous",
+        (true, false) => "shared_previous",
+    })
 }

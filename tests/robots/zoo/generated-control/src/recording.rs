@@ -4,10 +4,13 @@
 
 use framework::Result;
 use framework::Timestamp;
+use framework::recorded::describe;
 use framework::replay::Replayable;
 use framework::replay::no_hardware;
 use zoo_nodes::interfaces::BodyInterface;
 use zoo_nodes::interfaces::LegInterface;
+
+use crate::runtime::control::Control;
 
 pub mod control;
 
@@ -16,6 +19,7 @@ pub const INSTANCES: &[Replayable] = &[
     Replayable {
         instance: "Control",
         create: control::replay_control,
+        types: describe::<Control<Sink>>,
     },
 ];
 

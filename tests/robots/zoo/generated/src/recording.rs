@@ -4,6 +4,7 @@
 
 use framework::Result;
 use framework::Timestamp;
+use framework::recorded::describe;
 use framework::replay::Replayable;
 use framework::replay::no_hardware;
 use zoo_nodes::interfaces::BodyInterface;
@@ -16,6 +17,12 @@ use zoo_nodes::interfaces::MetronomeInterface;
 use zoo_nodes::types::Camera;
 use zoo_nodes::types::Image;
 
+use crate::runtime::control::Control;
+use crate::runtime::hearing::Hearing;
+use crate::runtime::lights::Lights;
+use crate::runtime::reflexes::Reflexes;
+use crate::runtime::vision::Vision;
+
 pub mod control;
 pub mod hearing;
 pub mod lights;
@@ -27,26 +34,32 @@ pub const INSTANCES: &[Replayable] = &[
     Replayable {
         instance: "VisionTop",
         create: vision::replay_vision_top,
+        types: describe::<Vision<Sink>>,
     },
     Replayable {
         instance: "VisionBottom",
         create: vision::replay_vision_bottom,
+        types: describe::<Vision<Sink>>,
     },
     Replayable {
         instance: "Hearing",
         create: hearing::replay_hearing,
+        types: describe::<Hearing<Sink>>,
     },
     Replayable {
         instance: "Control",
         create: control::replay_control,
+        types: describe::<Control<Sink>>,
     },
     Replayable {
         instance: "Reflexes",
         create: reflexes::replay_reflexes,
+        types: describe::<Reflexes<Sink>>,
     },
     Replayable {
         instance: "Lights",
         create: lights::replay_lights,
+        types: describe::<Lights<Sink>>,
     },
 ];
 

@@ -6,8 +6,12 @@ mod asked;
 mod cost;
 #[path = "recording/divergence.rs"]
 mod divergence;
+#[path = "recording/outputs.rs"]
+mod outputs;
 #[path = "recording/some.rs"]
 mod some;
+#[path = "recording/types.rs"]
+mod types;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

@@ -14,6 +14,7 @@ use framework::Timestamp;
 use framework::Writer;
 use framework::buffer;
 use framework::digest::DigestError;
+use framework::recorded::Describing;
 use framework::recorded::Foreign;
 use framework::recorded::Loaded;
 use framework::recorded::Loading;
@@ -62,6 +63,14 @@ for Lights<Hardware> {
         out.put(&self.cycler_state)?;
         Foreign::save(&self.control, out)?;
         Ok(())
+    }
+
+    fn describe(types: &mut Describing<Self>) {
+        types.node("zoo_nodes::lights::setup", |body| &body.nodes.setup_node);
+        types.node("zoo_nodes::lights::lamp", |body| &body.nodes.lamp);
+        types.node("zoo_nodes::lights::cycle", |body| &body.nodes.cycle_node);
+        types.state(|body| &body.cycler_state);
+        types.foreign("Control", |body| &body.control);
     }
 
     fn load(

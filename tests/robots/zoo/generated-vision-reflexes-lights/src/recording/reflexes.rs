@@ -21,6 +21,7 @@ use framework::buffer;
 use framework::buffer_of;
 use framework::digest::DigestError;
 use framework::procedure;
+use framework::recorded::Describing;
 use framework::recorded::Foreign;
 use framework::recorded::Loaded;
 use framework::recorded::Loading;
@@ -83,6 +84,19 @@ for Reflexes<Hardware> {
         Foreign::save(&self.perception.vision_bottom, out)?;
         self.procedures.type_.save(out)?;
         Ok(())
+    }
+
+    fn describe(types: &mut Describing<Self>) {
+        types.parameters(|body| &body.parameters);
+        types.node("zoo_nodes::reflexes::bumper", |body| &body.nodes.bumper);
+        types.node("zoo_nodes::reflexes::flinch", |body| &body.nodes.flinch);
+        types.node("zoo_nodes::reflexes::create", |body| &body.nodes.create_node2);
+        types.node("zoo_nodes::reflexes::node", |body| &body.nodes.node);
+        types.injections(|body| &body.injections);
+        types.foreign("Control", |body| &body.control);
+        types.output("pressed", |body| &body.own.current().pressed);
+        types.foreign("VisionBottom", |body| &body.perception.vision_bottom);
+        types.procedure("type_", |body| &body.procedures.type_);
     }
 
     fn load(

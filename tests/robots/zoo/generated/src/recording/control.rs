@@ -25,6 +25,7 @@ use framework::buffer;
 use framework::buffer_of;
 use framework::digest::DigestError;
 use framework::procedure;
+use framework::recorded::Describing;
 use framework::recorded::Foreign;
 use framework::recorded::Loaded;
 use framework::recorded::Loading;
@@ -107,6 +108,31 @@ for Control<Hardware> {
         self.procedures.walk.save(out)?;
         out.put(&self.subscribed)?;
         Ok(())
+    }
+
+    fn describe(types: &mut Describing<Self>) {
+        types.parameters(|body| &body.parameters);
+        types.node("zoo_nodes::control::body", |body| &body.nodes.body);
+        types.node("zoo_nodes::control::watcher", |body| &body.nodes.watcher);
+        types.node("zoo_nodes::control::pose_filter", |body| &body.nodes.pose_filter);
+        types.node("zoo_nodes::control::spot_filter", |body| &body.nodes.spot_filter);
+        types.node("zoo_nodes::control::gait", |body| &body.nodes.gait);
+        types.node("zoo_nodes::control::legs", |body| &body.nodes.legs);
+        types.node("zoo_nodes::shared::counter", |body| &body.nodes.counter);
+        types.state(|body| &body.cycler_state);
+        types.history("pose", |body| &body.historic.pose);
+        types.injections(|body| &body.injections);
+        types.output("joints", |body| &body.own.current().joints);
+        types.foreign("VisionTop", |body| &body.perception.vision_top);
+        types.foreign("VisionBottom", |body| &body.perception.vision_bottom);
+        types.foreign("Hearing", |body| &body.perception.hearing);
+        types.previous("plan", |body| &body.own.previous().plan);
+        types.previous("report", |body| &body.own.previous().report);
+        types.previous("speed", |body| &body.own.previous().speed);
+        types.shared_previous("target", |outputs| &outputs.target);
+        types.procedure("stop", |body| &body.procedures.stop);
+        types.procedure("walk", |body| &body.procedures.walk);
+        types.subscribed(|body| &body.subscribed);
     }
 
     fn load(

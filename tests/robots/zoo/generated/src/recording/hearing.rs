@@ -15,6 +15,7 @@ use framework::Timestamp;
 use framework::Writer;
 use framework::buffer;
 use framework::digest::DigestError;
+use framework::recorded::Describing;
 use framework::recorded::Loaded;
 use framework::recorded::Loading;
 use framework::recorded::Recorded;
@@ -60,6 +61,15 @@ impl<Hardware: EarInterface + Send + Sync> Recorded for Hearing<Hardware> {
         out.put(&slots.previous.whistle)?;
         out.put(&slots.current.loudness)?;
         Ok(())
+    }
+
+    fn describe(types: &mut Describing<Self>) {
+        types.node("zoo_nodes::hearing::ear", |body| &body.nodes.ear);
+        types.node("zoo_nodes::hearing::whistle", |body| &body.nodes.whistle);
+        types.injections(|body| &body.injections);
+        types.shared_previous("loudness", |outputs| &outputs.loudness);
+        types.shared_previous("whistle", |outputs| &outputs.whistle);
+        types.shared_output("loudness", |outputs| &outputs.loudness);
     }
 
     fn load(

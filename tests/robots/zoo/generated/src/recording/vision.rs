@@ -18,6 +18,7 @@ use framework::Writer;
 use framework::buffer;
 use framework::buffer_of;
 use framework::digest::DigestError;
+use framework::recorded::Describing;
 use framework::recorded::Foreign;
 use framework::recorded::Loaded;
 use framework::recorded::Loading;
@@ -89,6 +90,30 @@ impl<Hardware: EyeInterface + Send + Sync> Recorded for Vision<Hardware> {
         out.put(&slots.previous.spots)?;
         out.put(&self.subscribed)?;
         Ok(())
+    }
+
+    fn describe(types: &mut Describing<Self>) {
+        types.parameters(|body| &body.parameters);
+        types.node("zoo_nodes::vision::eye", |body| &body.nodes.eye);
+        types.node("zoo_nodes::vision::exposure", |body| &body.nodes.exposure);
+        types.node("zoo_nodes::vision::spot_finder", |body| &body.nodes.spot_finder);
+        types
+            .node(
+                "zoo_nodes::vision::horizon_finder",
+                |body| &body.nodes.horizon_finder,
+            );
+        types.node("zoo_nodes::vision::other_eye", |body| &body.nodes.other_eye);
+        types.node("zoo_nodes::shared::counter", |body| &body.nodes.counter);
+        types.state(|body| &body.cycler_state);
+        types.injections(|body| &body.injections);
+        types.foreign("VisionTop", |body| &body.vision_top);
+        types.foreign("VisionBottom", |body| &body.vision_bottom);
+        types.foreign("Control", |body| &body.control);
+        types.output("exposure", |body| &body.own.current().exposure);
+        types.output("image", |body| &body.own.current().image);
+        types.previous("agreement", |body| &body.own.previous().agreement);
+        types.shared_previous("spots", |outputs| &outputs.spots);
+        types.subscribed(|body| &body.subscribed);
     }
 
     fn load(

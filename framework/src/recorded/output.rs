@@ -1,0 +1,182 @@
+//! Outputs in channels of their own, for whoever reads the recording without hulkgen.
+//!
+//! The cycler writes the value as frames are written; the thread that owns the file makes JSON of it.
+
+use std::sync::Arc;
+
+use hulkgen_recording::{ChannelId, Recorded, Rewrite, Schema, Track};
+use serde_json::Value;
+
+use super::{Loading, SaveError, Saving};
+use crate::cycler::Instance;
+use crate::data::Data;
+use crate::error::{Error, Result};
+use crate::reflect::Reflect;
+use crate::subscriptions::Subscriptions;
+use crate::tap::{OutputKind, OutputVisitor};
+use crate::time::Timestamp;
+
+/// Encoding of channels of outputs.
+pub(crate) const JSON: &str = "json";
+
+/// Tells how each output of an instance is written, whatever its type.
+#[derive(Default)]
+pub struct Forms {
+    forms: Vec<Form>,
+}
+
+#[derive(Clone, Copy)]
+struct Form {
+    schema: fn() -> Schema,
+    rewrite: fn(u64, &[u8], &mut Vec<u8>) -> bool,
+}
+
+impl<'a> OutputVisitor<'a> for Forms {
+    fn output<T: Data>(&mut self, _: Option<&'a T>) {
+        self.forms.push(Form {
+            schema: schema::<T>,
+            rewrite: rewrite::<T>,
+        });
+    }
+}
+
+fn schema<T: Data>() -> Schema {
+    let (name, json): (String, Value) = match T::foxglove() {
+        Some(form) => (form.schema.name.to_owned(), (form.schema.json)()),
+        None => {
+            let shape = T::shape();
+            (shape.type_name.to_owned(), shape.json_schema())
+        }
+    };
+    Schema {
+        name,
+        encoding: "jsonschema".to_owned(),
+        data: json.to_string().into_bytes(),
+    }
+}
+
+/// Makes JSON of a recorded value; false: it has no JSON form, or none now.
+fn rewrite<T: Data>(time: u64, recorded: &[u8], json: &mut Vec<u8>) -> bool {
+    let Ok(value) = Loading::new(recorded).take::<T>() else {
+        return false;
+    };
+    match T::foxglove() {
+        None => serde_json::to_writer(json, &value).is_ok(),
+        Some(form) => (form.write)(&value, Timestamp::from_nanos(time))
+            .is_some_and(|form| serde_json::to_writer(json, &form).is_ok()),
+    }
+}
+
+/// Some outputs of one instance on their way into the recording.
+pub(super) struct OutputRecorder {
+    pub(super) track: Track,
+    /// With the channel of each.
+    pub(super) outputs: Arc<[(Wanted, ChannelId)]>,
+}
+
+/// An output that is to be recorded.
+#[derive(Clone)]
+pub(super) struct Wanted {
+    pub(super) instance: &'static str,
+    name: &'static str,
+    kind: OutputKind,
+    form: Form,
+}
+
+/// The outputs that these paths name: `Control.main_outputs.ball`.
+///
+/// # Errors
+/// If there is no such output.
+pub(super) fn find<'a>(
+    paths: &[String],
+    instances: impl Iterator<Item = (&'a dyn Instance, &'a Subscriptions)> + Clone,
+) -> Result<Vec<Wanted>> {
+    let mut found = Vec::new();
+    for path in paths {
+        let mut known = Vec::new();
+        for (instance, subscriptions) in instances.clone() {
+            known.extend(all(instance, subscriptions));
+        }
+        let place = known.iter().position(|one| one.topic() == *path);
+        let wanted = place.map(|place| known.swap_remove(place)).ok_or_else(|| {
+            let mut names: Vec<_> = known.iter().map(Wanted::topic).collect();
+            names.sort();
+            Error::new(format!(
+                "no output is called `{path}`; there are {}",
+                names.join(", ")
+            ))
+        })?;
+        if wanted.kind == OutputKind::Additional {
+            let mut instances = instances.clone();
+            let own = instances.find(|(one, _)| one.description().name == wanted.instance);
+            if let Some((_, subscriptions)) = own {
+                subscriptions.subscribe(wanted.name);
+            }
+        }
+        found.push(wanted);
+    }
+    Ok(found)
+}
+
+fn all(instance: &dyn Instance, subscriptions: &Subscriptions) -> Vec<Wanted> {
+    let mut forms = Forms::default();
+    instance.forms(&mut forms);
+    let main = instance.main_outputs().iter();
+    let main = main.map(|name| (*name, OutputKind::Main));
+    let additional = subscriptions.names().iter();
+    let names = main.chain(additional.map(|name| (*name, OutputKind::Additional)));
+    names
+        .zip(forms.forms)
+        .map(|((name, kind), form)| Wanted {
+            instance: instance.description().name,
+            name,
+            kind,
+            form,
+        })
+        .collect()
+}
+
+impl Wanted {
+    /// What its channel is called, as clients name it.
+    pub(super) fn topic(&self) -> String {
+        let kind = match self.kind {
+            OutputKind::Main => "main_outputs",
+            OutputKind::Additional => "additional_outputs",
+        };
+        format!("{}.{kind}.{}", self.instance, self.name)
+    }
+
+    pub(super) fn schema(&self) -> Schema {
+        (self.form.schema)()
+    }
+
+    pub(super) fn rewrite(&self) -> Rewrite {
+        self.form.rewrite
+    }
+
+    fn value<'i>(&self, instance: &'i dyn Instance) -> Option<&'i dyn Reflect> {
+        match self.kind {
+            OutputKind::Main => instance.main_output(self.name),
+            OutputKind::Additional => instance.additional_output(self.name),
+        }
+    }
+}
+
+impl OutputRecorder {
+    /// Writes the outputs of the cycle that has just finished, each in a frame of its own.
+    pub(super) fn finished(&mut self, instance: &dyn Instance) {
+        let cycle = instance.cycle();
+        let time = cycle.time.start.as_nanos();
+        for (wanted, channel) in self.outputs.iter() {
+            let Some(value) = wanted.value(instance) else {
+                continue;
+            };
+            // Counted where it is dropped or cannot be written.
+            let _: Recorded<SaveError> = self.track.frame(time, 0, |frame| {
+                frame.message(*channel, cycle.number as u32, time, |writing| {
+                    Saving::new(writing).put(value.as_serialize())
+                })
+            });
+        }
+    }
+}

@@ -1,0 +1,132 @@
+use std::collections::BTreeMap;
+use std::time::Duration;
+
+use hulkgen_mcap::layout::Values;
+use nalgebra::{Isometry3, UnitQuaternion, Vector3};
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use super::layout_of;
+
+/// What is read of a value by its layout is what serde has in JSON.
+fn assert_read<T: Serialize + DeserializeOwned>(values: impl IntoIterator<Item = T>) {
+    let layout = layout_of::<T>();
+    assert!(layout.is_known(), "{layout:?}");
+    for value in values {
+        let bytes = postcard::to_stdvec(&value).expect("it can be written");
+        let expected: Value = serde_json::to_value(&value).expect("it has a JSON form");
+        let mut read = Values::new(&bytes);
+        assert_eq!(read.take(&layout), Ok(expected), "{layout:?}");
+        assert!(read.is_empty());
+    }
+}
+
+#[derive(Clone, Serialize, Deserialize)]
+enum Motion {
+    Stand,
+    Walk { speed: f32, steps: Vec<Step> },
+    Kick(Side, u8),
+    Look(Option<Box<Motion>>),
+}
+
+#[derive(Clone, Copy, Serialize, Deserialize)]
+enum Side {
+    Left,
+    Right,
+}
+
+#[derive(Clone, Serialize, Deserialize)]
+struct Step {
+    side: Side,
+    #[serde(rename = "to")]
+    target: (i16, i16),
+    #[serde(skip)]
+    _cache: u64,
+}
+
+#[derive(Clone, Serialize, Deserialize)]
+struct Tree {
+    weight: u64,
+    below: Vec<Tree>,
+    names: BTreeMap<String, Tree>,
+}
+
+/// Refuses what it is offered first.
+#[derive(Serialize, Deserialize)]
+#[serde(try_from = "f32", into = "f32")]
+#[derive(Clone)]
+struct Positive(f32);
+
+impl TryFrom<f32> for Positive {
+    type Error = String;
+
+    fn try_from(value: f32) -> Result<Self, String> {
+        (value > 0.0)
+            .then_some(Self(value))
+            .ok_or_else(|| "not positive".to_owned())
+    }
+}
+
+impl From<Positive> for f32 {
+    fn from(Positive(value): Positive) -> Self {
+        value
+    }
+}
+
+#[test]
+fn every_variant_is_found() {
+    let step = Step {
+        side: Side::Right,
+        target: (-300, 4),
+        _cache: 0,
+    };
+    let walk = Motion::Walk {
+        speed: 0.5,
+        steps: vec![step.clone(), step],
+    };
+    assert_read([
+        Motion::Stand,
+        walk.clone(),
+        Motion::Kick(Side::Left, 200),
+        Motion::Look(None),
+        Motion::Look(Some(Box::new(walk))),
+    ]);
+}
+
+#[test]
+fn what_contains_itself_has_a_layout() {
+    let leaf = Tree {
+        weight: u64::MAX,
+        below: Vec::new(),
+        names: BTreeMap::new(),
+    };
+    let tree = Tree {
+        weight: 1,
+        below: vec![leaf.clone(), leaf.clone()],
+        names: BTreeMap::from([("one".to_owned(), leaf)]),
+    };
+    assert_read([vec![tree.clone()], vec![tree]]);
+}
+
+#[test]
+fn types_of_others_have_a_layout() {
+    let pose = Isometry3::from_parts(
+        Vector3::new(1.0, 2.0, 3.0).into(),
+        UnitQuaternion::from_euler_angles(0.1, 0.2, 0.3),
+    );
+    assert_read([pose]);
+    assert_read([(Duration::from_millis(1500), 'x', [1_i8, -2], Some(()))]);
+}
+
+#[test]
+fn a_type_that_refuses_a_value_is_offered_another() {
+    assert_read([(Positive(2.5), 3_u8)]);
+}
+
+#[test]
+fn what_no_type_tells_stays_unknown() {
+    let layout = layout_of::<(u8, Value, u8)>();
+    assert!(!layout.is_known());
+    assert_eq!(layout.to_string(), "a tuple of 3");
+}

@@ -1,0 +1,144 @@
+//! Of which types the frames of an instance are.
+
+use std::marker::PhantomData;
+
+use hulkgen_mcap::Layout;
+use hulkgen_mcap::layout::{Part, PartKind, first_difference};
+use serde::de::DeserializeOwned;
+
+use super::trace::layout_of;
+use super::{Foreign, Head, PARAMETERS, Recorded};
+use crate::buffer::Reader;
+use crate::guarded::{Condition, Guarded};
+use crate::history::History;
+use crate::injection::Injected;
+use crate::procedure::Answerer;
+use crate::time::Timestamp;
+
+/// The parts of a frame, and the values that it names.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Types {
+    /// In the order of the frame.
+    pub parts: Vec<Part>,
+    /// Of other instances that are read, by name.
+    pub values: Vec<(&'static str, Layout)>,
+}
+
+/// Takes down the types of a body's fields; generated beside what saves and loads them.
+#[derive(Debug)]
+pub struct Describing<B: ?Sized> {
+    types: Types,
+    body: PhantomData<fn(&B)>,
+}
+
+/// The types of what a recording takes of this body.
+pub fn describe<B: Recorded>() -> Types {
+    let mut describing = Describing {
+        types: Types::default(),
+        body: PhantomData,
+    };
+    describing.add(PartKind::Other, "head", layout_of::<Head>());
+    B::describe(&mut describing);
+    describing.types
+}
+
+impl Types {
+    /// The same for the same parts.
+    pub fn digest(&self) -> String {
+        format!("{:016x}", Layout::digest(&self.parts))
+    }
+
+    /// What is of another type than it was, in words.
+    pub fn difference(&self, recorded: &[Part]) -> Option<String> {
+        first_difference(recorded, &self.parts)
+    }
+}
+
+impl<B: Recorded> Describing<B> {
+    fn add(&mut self, kind: PartKind, name: &str, layout: Layout) {
+        self.types.parts.push(Part {
+            name: name.to_owned(),
+            kind,
+            layout,
+        });
+    }
+
+    /// What another instance wrote, for whoever reads the recording.
+    fn value<T: DeserializeOwned>(&mut self, name: &'static str) {
+        let mut known = self.types.values.iter();
+        if !known.any(|(known, _)| *known == name) {
+            self.types.values.push((name, layout_of::<T>()));
+        }
+    }
+
+    /// The version of the parameters.
+    pub fn parameters<P: DeserializeOwned>(&mut self, _: fn(&B) -> &Reader<P>) {
+        self.add(PartKind::Other, PARAMETERS, layout_of::<u64>());
+        self.value::<P>(PARAMETERS);
+    }
+
+    /// A node's state, and what its failures left behind.
+    pub fn node<N: DeserializeOwned>(&mut self, path: &str, _: fn(&B) -> &Guarded<N>) {
+        self.add(PartKind::Node, path, layout_of::<(N, Condition)>());
+    }
+
+    /// What nodes share.
+    pub fn state<T: DeserializeOwned>(&mut self, _: fn(&B) -> &T) {
+        self.add(PartKind::State, "cycler_state", layout_of::<T>());
+    }
+
+    /// An output of the cycle, as setup nodes wrote it.
+    pub fn output<T: DeserializeOwned>(&mut self, name: &str, _: fn(&B) -> &T) {
+        self.add(PartKind::Output, name, layout_of::<T>());
+    }
+
+    /// As [`Self::output`], of what others read.
+    pub fn shared_output<T: DeserializeOwned>(&mut self, name: &str, _: fn(&B::Shared) -> &T) {
+        self.add(PartKind::Output, name, layout_of::<T>());
+    }
+
+    /// An output of the cycle before.
+    pub fn previous<T: DeserializeOwned>(&mut self, name: &str, _: fn(&B) -> &T) {
+        self.add(PartKind::Previous, name, layout_of::<T>());
+    }
+
+    /// As [`Self::previous`], of what others read.
+    pub fn shared_previous<T: DeserializeOwned>(&mut self, name: &str, _: fn(&B::Shared) -> &T) {
+        self.add(PartKind::Previous, name, layout_of::<T>());
+    }
+
+    /// An output by time.
+    pub fn history<T: Clone + DeserializeOwned>(&mut self, name: &str, _: fn(&B) -> &History<T>) {
+        let layout = layout_of::<(bool, Vec<(Timestamp, T)>)>();
+        self.add(PartKind::History, name, layout);
+    }
+
+    /// What is read of another instance.
+    pub fn foreign<T: DeserializeOwned, F: Foreign<T>>(
+        &mut self,
+        instance: &'static str,
+        _: fn(&B) -> &F,
+    ) {
+        self.add(PartKind::Input, instance, F::layout());
+        self.value::<T>(instance);
+    }
+
+    /// What clients replaced.
+    pub fn injections<I: DeserializeOwned>(&mut self, _: fn(&B) -> &Reader<Injected<I>>) {
+        self.add(PartKind::Other, "injections", layout_of::<Option<I>>());
+    }
+
+    /// The call of a procedure.
+    pub fn procedure<Request: DeserializeOwned, Response>(
+        &mut self,
+        name: &str,
+        _: fn(&B) -> &Answerer<Request, Response>,
+    ) {
+        self.add(PartKind::Other, name, layout_of::<Option<Request>>());
+    }
+
+    /// Who listens to additional outputs.
+    pub fn subscribed<T: DeserializeOwned>(&mut self, _: fn(&B) -> &T) {
+        self.add(PartKind::Other, "subscribed", layout_of::<T>());
+    }
+}
