@@ -1,6 +1,7 @@
 //! What may stand on the command line: types for clap, no behaviour.
 
 mod answers;
+mod recording;
 mod running;
 mod scaffold;
 mod simulate;
@@ -11,6 +12,7 @@ use camino::Utf8PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 pub use answers::{Completions, Diff, Doctor, Explain, Man, Show, Stage};
+pub use recording::{ExportKind, Recording, RecordingCommand, Selection};
 pub use running::{Call, Log, LogLevel, Param, ParamCommand, Running, Top, Topic, TopicCommand};
 pub use scaffold::{
     AddCycler, AddNode, CyclerKind, MergeDriver, New, RemoveNode, RenameOutput, Template,
@@ -80,6 +82,7 @@ pub enum Command {
     Log(Log),
     Top(Top),
     Replay(Replay),
+    Recording(Recording),
     New(New),
     AddNode(AddNode),
     AddCycler(AddCycler),
@@ -252,6 +255,9 @@ pub struct Run {
     /// Record into this file, which must not be there; `on`: into the run folder; `off` [default: `on` if simulated]
     #[arg(long, value_name = "FILE|on|off")]
     pub record: Option<Utf8PathBuf>,
+    /// Record an output in a channel of its own, as JSON; may be repeated, for example `Control.main_outputs.ball`
+    #[arg(long, value_name = "PATH")]
+    pub record_output: Vec<String>,
     /// What the recording keeps, for example `512MiB` [default: the manifest's `recording_budget`]
     #[arg(long, value_name = "SIZE")]
     pub recording_budget: Option<String>,

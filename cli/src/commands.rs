@@ -13,6 +13,7 @@ mod graph;
 mod man;
 mod merge_driver;
 mod new;
+mod recording;
 mod run;
 mod running;
 mod scaffold;
@@ -47,6 +48,9 @@ pub fn run(arguments: &Arguments) -> Outcome {
             completions::run(&terminal, completions).map_err(Failure::Refused)
         }
         Command::Man(man) => man::run(&terminal, man).map_err(Failure::Refused),
+        Command::Recording(recording) => {
+            recording::run(&terminal, recording).map_err(Failure::Refused)
+        }
         Command::Topic(topic) => running::topic(&terminal, topic).map_err(Failure::Refused),
         Command::Param(param) => running::param(&terminal, param).map_err(Failure::Refused),
         Command::Call(call) => running::call(&terminal, call).map_err(Failure::Refused),
@@ -104,6 +108,7 @@ fn with_session(
         | Command::MergeDriver(_)
         | Command::Completions(_)
         | Command::Man(_)
+        | Command::Recording(_)
         | Command::Topic(_)
         | Command::Param(_)
         | Command::Call(_)

@@ -15,6 +15,8 @@
 //! | – | door out | `Drift`: what differs on disk; written or only shown | `drift.rs` |
 //! | – | third door | [`cache::Cache`]: answers of earlier runs, outside of the robot's folder | `cache.rs` |
 //!
+//! [`recording`] is a door of its own, to recordings: nothing of a robot is known behind it.
+//!
 //! What rustc finds in the generated crate is brought home by [`late`].
 //!
 //! Stages ① to ④ add what they find to one [`diagnostics::Diagnostics`] and stop where the next cannot go on; ⑤ and ⑥
@@ -37,6 +39,7 @@ pub mod model;
 pub mod outcome;
 pub mod partial;
 pub mod pipeline;
+pub mod recording;
 pub mod render;
 pub mod resolve;
 pub mod scaffold;

@@ -54,6 +54,9 @@ pub(super) fn arguments(run: &Run) -> Result<Vec<OsString>, Refusal> {
     if let Some(budget) = &run.recording_budget {
         add("--recording-budget", budget);
     }
+    for output in &run.record_output {
+        add("--record-output", output);
+    }
     for assignment in &run.set {
         add("--set", assignment);
     }

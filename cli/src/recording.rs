@@ -1,0 +1,63 @@
+//! What recordings say, without a robot and its types: the files tell how their values are laid out.
+//!
+//! Invariant: one chunk at a time is in memory, however large a file is. This is the door to recordings: only it reads them,
+//! and writes what is made of them; nothing that exists is overwritten.
+
+mod export;
+mod info;
+mod list;
+mod values;
+
+#[cfg(test)]
+mod tests;
+
+use camino::{Utf8Path, Utf8PathBuf};
+use hulkgen_mcap::RecordingFile;
+
+use crate::outcome::Refusal;
+
+pub use export::{Export, Exported, export};
+pub use info::{Info, InstanceInfo, info};
+pub use list::{Run, list};
+pub use values::{Found, Selection, Span, cat};
+
+/// Encodings of the channels that a robot's recording has; all others are JSON or nothing that hulkgen knows.
+const FRAMES: &str = "hulkgen-frames";
+const VALUES: &str = "hulkgen-values";
+const JSON: &str = "json";
+
+/// The metadata entry of a channel of frames that names their types.
+const TYPES: &str = "types";
+
+/// A file that can be read, or why it cannot.
+pub fn open(path: &Utf8Path) -> Result<RecordingFile, Refusal> {
+    RecordingFile::open(path.as_std_path())
+        .map_err(|error| Refusal::bad(format!("cannot read `{path}`: {error}")))
+}
+
+/// What became of a file that breaks off.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Recovered {
+    pub into: Utf8PathBuf,
+    /// In the new file.
+    pub chunks: u64,
+    /// Bytes behind the last whole chunk.
+    pub lost: u64,
+}
+
+/// Writes a whole file with all whole chunks of this one.
+pub fn recover(path: &Utf8Path, into: Option<&Utf8Path>) -> Result<Recovered, Refusal> {
+    let into = into.map_or_else(|| path.with_extension("recovered.mcap"), Utf8Path::to_owned);
+    if into.exists() {
+        let refusal = Refusal::wrong_usage(format!("`{into}` exists"));
+        return Err(refusal.help("name another file with `--into FILE`"));
+    }
+    let file = open(path)?;
+    let recovered = hulkgen_mcap::recover(&file, into.as_std_path())
+        .map_err(|error| Refusal::bad(format!("cannot recover `{path}` into `{into}`: {error}")))?;
+    Ok(Recovered {
+        into,
+        chunks: recovered.chunks,
+        lost: recovered.lost,
+    })
+}

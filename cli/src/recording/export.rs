@@ -1,0 +1,94 @@
+//! Values of a recording as files of other kinds.
+
+mod png;
+mod table;
+
+use std::fs;
+use std::io::{BufWriter, Write};
+
+use camino::Utf8Path;
+use serde_json::{Value, json};
+
+use super::values::{Found, Selection, cat};
+use crate::outcome::Refusal;
+
+/// What is made of the values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Export {
+    /// A table of one output: a row for each cycle.
+    Csv,
+    /// An object a line.
+    Json,
+    /// A file for each image of one output.
+    Png,
+}
+
+/// What was written.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Exported {
+    pub files: u64,
+    pub values: u64,
+}
+
+/// Writes values of a recording into a file, or into a folder of images; neither may exist.
+pub fn export(
+    path: &Utf8Path,
+    selection: &Selection,
+    kind: Export,
+    into: &Utf8Path,
+) -> Result<Exported, Refusal> {
+    if kind != Export::Json && selection.paths.len() != 1 {
+        return Err(Refusal::wrong_usage("name one output, or a part of one"));
+    }
+    let file = super::open(path)?;
+    let failed = |error: std::io::Error| Refusal::bad(format!("cannot write `{into}`: {error}"));
+    if into.exists() {
+        return Err(Refusal::wrong_usage(format!("`{into}` exists")).help("name another place"));
+    }
+    let mut exported = Exported::default();
+    if kind == Export::Png {
+        fs::create_dir_all(into).map_err(failed)?;
+        cat(&file, selection, &mut |found| {
+            let image = png::image(&found.value).ok_or_else(|| no_image(&found))?;
+            let name = format!("{:08}.{}", found.cycle, image.extension);
+            fs::write(into.join(name), image.bytes).map_err(failed)?;
+            exported.files += 1;
+            exported.values += 1;
+            Ok(true)
+        })?;
+        return Ok(exported);
+    }
+    let out = fs::File::create_new(into).map_err(failed)?;
+    let mut out = BufWriter::new(out);
+    exported.files = 1;
+    let mut table = table::Table::default();
+    cat(&file, selection, &mut |found| {
+        let text = match kind {
+            Export::Csv => table.row(&found),
+            Export::Json | Export::Png => format!("{}\n", found.to_json()),
+        };
+        out.write_all(text.as_bytes()).map_err(failed)?;
+        exported.values += 1;
+        Ok(true)
+    })?;
+    out.flush().map_err(failed)?;
+    Ok(exported)
+}
+
+fn no_image(found: &Found) -> Refusal {
+    Refusal::wrong_usage(format!("`{}` is no image", found.path)).help(
+        "images are recorded with `hulkgen run --record-output PATH` where their type says that it is one",
+    )
+}
+
+impl Found {
+    /// As `cat` and `export` write it.
+    pub fn to_json(&self) -> Value {
+        json!({
+            "path": self.path,
+            "cycle": self.cycle,
+            "time": self.time as f64 / 1e9,
+            "value": self.value,
+        })
+    }
+}

@@ -1,0 +1,334 @@
+//! Values of a recording by path: outputs, states of nodes, parameters.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
+
+use hulkgen_mcap::layout::{Layout, Layouts, Part, PartKind, Values};
+use hulkgen_mcap::{Channel, Message, RecordingFile};
+use serde_json::Value;
+
+use super::{FRAMES, JSON, TYPES, VALUES};
+use crate::diagnostics::suggestion;
+use crate::outcome::Refusal;
+
+/// What is wanted of a recording.
+#[derive(Clone, Debug, Default)]
+pub struct Selection {
+    /// Outputs or parts of them; none: all outputs.
+    pub paths: Vec<String>,
+    pub span: Span,
+}
+
+/// Cycles and times that are wanted.
+#[derive(Clone, Debug, Default)]
+pub struct Span {
+    /// By the cycles of each instance.
+    pub cycles: Option<Range<u64>>,
+    /// In nanoseconds of the run.
+    pub times: Option<Range<u64>>,
+}
+
+/// One value.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Found {
+    /// `Control.main_outputs.ball.position`.
+    pub path: String,
+    /// Of the instance; of parameters their version.
+    pub cycle: u64,
+    /// In nanoseconds of the run.
+    pub time: u64,
+    pub value: Value,
+}
+
+/// `Control` of `frames/Control`.
+pub(super) fn instance_of(topic: &str) -> &str {
+    topic
+        .split_once('/')
+        .map_or(topic, |(_, instance)| instance)
+}
+
+/// Shows every value that is wanted, in the order of the file, until nobody wants more.
+///
+/// # Errors
+/// If a path names nothing that is recorded, or the file cannot be read.
+pub fn cat(
+    file: &RecordingFile,
+    selection: &Selection,
+    show: &mut dyn FnMut(Found) -> Result<bool, Refusal>,
+) -> Result<(), Refusal> {
+    let contents = file.contents();
+    let layouts = Layouts::of(&contents.attachments);
+    let mut channels = BTreeMap::new();
+    for (number, channel) in &contents.channels {
+        let sources = sources(channel, &layouts);
+        channels.insert(*number, Read::new(channel, sources));
+    }
+    // What has a channel of its own need not be read twice.
+    let own: BTreeSet<String> = channels
+        .values()
+        .filter(|read| read.encoding == JSON)
+        .flat_map(|read| read.sources.iter().map(|source| source.path.clone()))
+        .collect();
+    for read in channels.values_mut().filter(|read| read.encoding != JSON) {
+        read.sources.retain(|source| !own.contains(&source.path));
+    }
+    let known: BTreeSet<&str> = channels
+        .values()
+        .flat_map(|read| read.sources.iter().map(|source| source.path.as_str()))
+        .collect();
+    check(&selection.paths, &known)?;
+    for place in &contents.chunks {
+        if !overlaps(&selection.span.times, place.times) {
+            continue;
+        }
+        let chunk = file
+            .chunk(place)
+            .map_err(|error| Refusal::bad(error.to_string()))?;
+        for message in chunk.messages() {
+            let Some(read) = channels.get_mut(&message.channel) else {
+                continue;
+            };
+            if !read.show(&message, selection, show)? {
+                return Ok(());
+            }
+        }
+    }
+    Ok(())
+}
+
+fn overlaps(wanted: &Option<Range<u64>>, (first, last): (u64, u64)) -> bool {
+    let Some(wanted) = wanted else {
+        return true;
+    };
+    wanted.start <= last && first < wanted.end
+}
+
+/// Every path must lead to something.
+fn check(paths: &[String], known: &BTreeSet<&str>) -> Result<(), Refusal> {
+    for path in paths {
+        let is_known = known
+            .iter()
+            .any(|known| below(known, path) || below(path, known));
+        if is_known {
+            continue;
+        }
+        let refusal = Refusal::wrong_usage(format!("the recording has no values of `{path}`"));
+        let near = suggestion(
+            path,
+            known.iter().copied(),
+            "outputs that no other instance reads are recorded with `hulkgen run --record-output PATH`; the recording has",
+        );
+        return Err(refusal.help(near));
+    }
+    Ok(())
+}
+
+/// Whether a path is `above` or lies below it.
+fn below(path: &str, above: &str) -> bool {
+    path.strip_prefix(above)
+        .is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+}
+
+/// What one channel holds under a path.
+struct Source {
+    path: String,
+    /// Whether it is shown where no path is named.
+    is_output: bool,
+    layout: Layout,
+}
+
+/// The paths of a channel, in the order of its messages' bytes.
+fn sources(channel: &Channel, layouts: &Layouts) -> Vec<Source> {
+    let instance = instance_of(&channel.topic);
+    match &*channel.encoding {
+        JSON => vec![Source {
+            path: channel.topic.clone(),
+            is_output: true,
+            layout: Layout::Unknown,
+        }],
+        VALUES => match layouts.values.get(instance) {
+            Some(Layout::Struct(shared)) if instance != "parameters" => shared
+                .fields
+                .iter()
+                .map(|(name, layout)| Source {
+                    path: format!("{instance}.main_outputs.{name}"),
+                    is_output: true,
+                    layout: layout.clone(),
+                })
+                .collect(),
+            Some(layout) => vec![Source {
+                path: instance.to_owned(),
+                is_output: false,
+                layout: layout.clone(),
+            }],
+            None => Vec::new(),
+        },
+        FRAMES => {
+            let types = channel.metadata.iter().find(|(key, _)| key == TYPES);
+            let parts = types.and_then(|(_, types)| layouts.frames.get(types));
+            let parts = parts.map_or(&[][..], Vec::as_slice);
+            parts
+                .iter()
+                .map(|part| frame_source(instance, part))
+                .collect()
+        }
+        _ => Vec::new(),
+    }
+}
+
+fn frame_source(instance: &str, part: &Part) -> Source {
+    let name = &part.name;
+    let path = match part.kind {
+        PartKind::Output => format!("{instance}.main_outputs.{name}"),
+        PartKind::Node => format!("{instance}.states.{name}"),
+        PartKind::State => format!("{instance}.{name}"),
+        PartKind::Previous => format!("{instance}.previous.{name}"),
+        PartKind::History => format!("{instance}.history.{name}"),
+        PartKind::Input => format!("{instance}.inputs.{name}"),
+        PartKind::Other => format!("{instance}.frame.{name}"),
+    };
+    Source {
+        path,
+        is_output: part.kind == PartKind::Output,
+        layout: part.layout.clone(),
+    }
+}
+
+/// A channel while it is read.
+struct Read {
+    encoding: String,
+    sources: Vec<Source>,
+    /// Cycles of values that were shown: other chunks have them, too.
+    seen: BTreeSet<u32>,
+}
+
+impl Read {
+    fn new(channel: &Channel, sources: Vec<Source>) -> Self {
+        Self {
+            encoding: channel.encoding.clone(),
+            sources,
+            seen: BTreeSet::new(),
+        }
+    }
+
+    /// Whether more is wanted.
+    fn show(
+        &mut self,
+        message: &Message<'_>,
+        selection: &Selection,
+        show: &mut dyn FnMut(Found) -> Result<bool, Refusal>,
+    ) -> Result<bool, Refusal> {
+        let (cycle, time) = (u64::from(message.sequence), message.time);
+        let Span { cycles, times } = &selection.span;
+        let is_in = |wanted: &Option<Range<u64>>, number: &u64| {
+            wanted.as_ref().is_none_or(|wanted| wanted.contains(number))
+        };
+        if !is_in(cycles, &cycle) || !is_in(times, &time) {
+            return Ok(true);
+        }
+        let data = match &*self.encoding {
+            JSON => return self.show_json(message, selection, show),
+            VALUES if self.seen.insert(message.sequence) => message.data,
+            FRAMES => match message.data.split_first() {
+                Some((0, frame)) => frame,
+                _ => return Ok(true),
+            },
+            _ => return Ok(true),
+        };
+        let mut values = Values::new(data);
+        let last = self
+            .sources
+            .iter()
+            .rposition(|one| is_wanted(one, selection));
+        for source in self.sources.iter().take(last.map_or(0, |last| last + 1)) {
+            let unreadable = |error| {
+                Refusal::bad(format!(
+                    "cycle {cycle} of `{}` cannot be read: {error}",
+                    source.path
+                ))
+            };
+            if !is_wanted(source, selection) {
+                values.skip(&source.layout).map_err(unreadable)?;
+                continue;
+            }
+            let value = values.take(&source.layout).map_err(unreadable)?;
+            for found in select(source, value, selection) {
+                let found = Found {
+                    cycle,
+                    time,
+                    ..found
+                };
+                if !show(found)? {
+                    return Ok(false);
+                }
+            }
+        }
+        Ok(true)
+    }
+
+    fn show_json(
+        &self,
+        message: &Message<'_>,
+        selection: &Selection,
+        show: &mut dyn FnMut(Found) -> Result<bool, Refusal>,
+    ) -> Result<bool, Refusal> {
+        let Some(source) = self.sources.first().filter(|one| is_wanted(one, selection)) else {
+            return Ok(true);
+        };
+        let value = serde_json::from_slice(message.data)
+            .map_err(|error| Refusal::bad(format!("a value of `{}`: {error}", source.path)))?;
+        for found in select(source, value, selection) {
+            let found = Found {
+                cycle: u64::from(message.sequence),
+                time: message.time,
+                ..found
+            };
+            if !show(found)? {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+}
+
+fn is_wanted(source: &Source, selection: &Selection) -> bool {
+    let mut paths = selection.paths.iter();
+    match selection.paths.is_empty() {
+        true => source.is_output,
+        false => paths.any(|path| below(path, &source.path) || below(&source.path, path)),
+    }
+}
+
+/// The parts of a value that paths name.
+fn select(source: &Source, value: Value, selection: &Selection) -> Vec<Found> {
+    let found = |path: &str, value: Value| Found {
+        path: path.to_owned(),
+        cycle: 0,
+        time: 0,
+        value,
+    };
+    let is_whole = |path: &String| below(&source.path, path);
+    if selection.paths.is_empty() || selection.paths.iter().any(is_whole) {
+        return vec![found(&source.path, value)];
+    }
+    let mut parts = Vec::new();
+    for path in selection
+        .paths
+        .iter()
+        .filter(|path| below(path, &source.path))
+    {
+        let rest = path[source.path.len()..].trim_start_matches('.');
+        // What is absent now has no value.
+        if let Some(part) = part(&value, rest) {
+            parts.push(found(path, part.clone()));
+        }
+    }
+    parts
+}
+
+fn part<'value>(value: &'value Value, path: &str) -> Option<&'value Value> {
+    path.split('.').try_fold(value, |value, name| match value {
+        Value::Array(items) => items.get(name.parse::<usize>().ok()?),
+        value => value.get(name),
+    })
+}
