@@ -113,7 +113,7 @@ where
         return check::parameters::<P>(&target, &options, output);
     }
     if options.is_replay {
-        return replay::run::<P>(&target, &options, output);
+        return replay::run::<P>(&target, &options, output, serve);
     }
     let signals = Signals::new();
     let stop = Stop::new();

@@ -14,7 +14,9 @@ mod needed;
 mod other;
 mod play;
 mod report;
+mod snapshot;
 mod source;
+mod timeline;
 mod tolerance;
 mod types;
 mod verify;
@@ -29,12 +31,15 @@ use crate::error::Result;
 use crate::recorded::{Head, Loading, Recorded, Stored, Types, digest};
 
 pub use compare::{Change, Comparison, InstanceCompared, compare};
+pub(crate) use difference::first_difference;
 pub use elsewhere::{Elsewhere, answer};
 pub use needed::Needed;
-pub use other::{Changed, OtherParameters, read_in_new_alone, with_settings};
+pub use other::{Changed, OtherParameters, first_parameters, read_in_new_alone, with_settings};
 pub use play::{Frame, Player, Players, ValueChannels, value_channels};
 pub use report::Divergence;
+pub use snapshot::{Call, ParametersAsJson, SNAPSHOT_VERSION, snapshot};
 pub use source::{Digested, Played, Source};
+pub use timeline::{InstancePlace, Move, PROCEDURE, Place, TIMELINE, Timeline};
 pub use verify::{How, InstanceVerified, Verification, verify, verify_how};
 
 /// An instance that can be replayed; a constant of the generated crate lists them.
@@ -60,6 +65,15 @@ pub trait Replay {
 
     /// The instance.
     fn instance(&self) -> &dyn Instance;
+
+    /// The instance, for its states.
+    fn instance_mut(&mut self) -> &mut dyn Instance;
+
+    /// What others read of a cycle, by the names of the outputs, out of its bytes; of outputs that they do not read, anything.
+    ///
+    /// # Errors
+    /// If the bytes are of another instance.
+    fn shared(&self, bytes: &[u8]) -> Result<Vec<(String, Value)>>;
 
     /// An output out of the bytes of all that others read of a cycle, if it is the one with this digest.
     fn recorded(&self, shared: &[u8], output: &str, digest: u64) -> Option<Value>;
@@ -115,6 +129,21 @@ where
         &self.cycler
     }
 
+    fn instance_mut(&mut self) -> &mut dyn Instance {
+        &mut self.cycler
+    }
+
+    fn shared(&self, bytes: &[u8]) -> Result<Vec<(String, Value)>> {
+        let shared: B::Shared = Loading::new(bytes).take()?;
+        let body = self.cycler.body();
+        let names = body.main_outputs().iter();
+        let values = names.filter_map(|name| {
+            let value = body.main_output(&shared, name)?;
+            Some(((*name).to_owned(), as_json(value.as_serialize())?))
+        });
+        Ok(values.collect())
+    }
+
     fn recorded(&self, shared: &[u8], output: &str, wanted: u64) -> Option<Value> {
         let shared: B::Shared = Loading::new(shared).take().ok()?;
         let value = self
@@ -124,6 +153,11 @@ where
             .as_serialize();
         (digest(&value).ok()? == wanted).then(|| serde_json::to_value(value).ok())?
     }
+}
+
+/// A value as JSON; `None`: JSON cannot say it.
+fn as_json(value: &dyn erased_serde::Serialize) -> Option<Value> {
+    serde_json::to_value(value).ok()
 }
 
 thread_local! {

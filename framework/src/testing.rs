@@ -21,6 +21,7 @@
 //! assert_eq!(candidates.value(), Some(&vec![0.05]));
 //! ```
 
+mod captured;
 mod generated;
 mod parameter_file;
 mod skipped;
@@ -35,6 +36,7 @@ use crate::launch::Target;
 use crate::parameters;
 use crate::time::{CycleTime, Timestamp};
 
+pub use captured::{Captured, CapturedSeries};
 pub use generated::{assert_generated, assert_generated_with};
 pub use parameter_file::ParameterFile;
 pub use skipped::skip;

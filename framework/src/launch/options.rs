@@ -125,6 +125,7 @@ Usage: {name} [OPTIONS] [-- HARDWARE OPTIONS]
                       record this output in a channel of its own, as JSON; may be repeated
   --recording-budget SIZE
                       what the recording keeps, e.g. 512MiB, instead of {budget} MiB
+  --replay FILE       show a recording to clients as if the robot ran, as long as --for says
   --replay FILE --verify
                       run the cycles of a recording again and compare, bit for bit
   --tolerance NUMBER  with --verify: how much numbers may differ if it was recorded with other numerics, e.g. 1e-6
@@ -135,6 +136,8 @@ Usage: {name} [OPTIONS] [-- HARDWARE OPTIONS]
                       what another build of the robot computes otherwise
   --replay FILE --answer
                       be that other build: questions on standard input
+  --replay FILE --capture NODE --instance NAME --at CYCLE
+                      what the node took and wrote in this cycle, as JSON
   --real-time         apply the manifest's `scheduling` on a simulated target, too
   --help              this text
 ",
@@ -381,7 +384,6 @@ mod tests {
             &["--for"],
             &["--verify"],
             &["--node", "walk"],
-            &["--replay", "old"],
             &["--replay=old", "--verify", "--set", "a=1"],
             &["--replay=old", "--against=other", "--tolerance=1e-6"],
             &["--replay=old", "--verify", "--tolerance=-1"],

@@ -8,14 +8,16 @@ use lexopt::{Parser, ValueExt};
 
 use super::options::{Format, Options};
 use super::record::digest_of;
-use super::{DONE, FAILED, Target};
+use super::{DONE, FAILED, Serve, Target};
 use crate::data::ParameterData;
 use crate::error::{Error, Result};
+use crate::recorded::Loading;
 use crate::replay::{
-    Comparison, Elsewhere, How, Needed, OtherParameters, Players, answer, compare,
-    read_in_new_alone, value_channels, verify_how, with_settings,
+    Call, Comparison, Elsewhere, How, Needed, OtherParameters, Players, Timeline, answer, compare,
+    first_parameters, read_in_new_alone, snapshot, value_channels, verify_how, with_settings,
 };
 use crate::report::tell;
+use crate::stop::Stop;
 
 /// What is to be done with a recording.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -33,6 +35,10 @@ pub(super) struct Replaying {
     pub(super) against_name: Option<String>,
     /// Answer another program.
     pub(super) answer: bool,
+    /// A node of whose call everything is to be told.
+    pub(super) capture: Option<String>,
+    pub(super) instance: Option<String>,
+    pub(super) at: Option<u64>,
 }
 
 impl Replaying {
@@ -46,9 +52,18 @@ impl Replaying {
             "against" => self.against = Some(parser.value()?.into()),
             "against-name" => self.against_name = Some(parser.value()?.string()?),
             "answer" => self.answer = true,
+            "capture" => self.capture = Some(parser.value()?.string()?),
+            "instance" => self.instance = Some(parser.value()?.string()?),
+            "at" => self.at = Some(parser.value()?.parse()?),
             _ => return Ok(false),
         }
         Ok(true)
+    }
+
+    /// Whether something is to be computed; else it is played.
+    fn is_question(&self) -> bool {
+        let deeds = [self.verify, self.answer, self.against.is_some()];
+        deeds.contains(&true) || self.node.is_some() || self.capture.is_some()
     }
 
     /// Whether there is something to replay.
@@ -62,6 +77,7 @@ impl Replaying {
             (is_asked && changes, "--set"),
             (self.against.is_some(), "--against"),
             (self.answer, "--answer"),
+            (self.capture.is_some(), "--capture"),
         ];
         let deeds: Vec<_> = deeds.iter().filter(|(is_there, _)| *is_there).collect();
         if let [(_, one), (_, other), ..] = deeds.as_slice() {
@@ -71,19 +87,50 @@ impl Replaying {
         if self.tolerance.is_some() && !is_verified {
             return Err(Error::new("--tolerance is for --verify"));
         }
+        let call = (self.instance.is_some(), self.at.is_some());
+        if call != (self.capture.is_some(), self.capture.is_some()) {
+            return Err(Error::new(
+                "--capture NODE, --instance NAME and --at CYCLE go together",
+            ));
+        }
         let options = !deeds.is_empty() || self.node.is_some();
         if options && !is_asked {
             return Err(Error::new(
-                "--verify, --node, --against and --answer are for --replay FILE",
-            ));
-        }
-        if is_asked && !options {
-            return Err(Error::new(
-                "--replay FILE needs to know what for: --verify, --set PATH=VALUE, --node NAME or --against PROGRAM",
+                "--verify, --node, --against, --answer and --capture are for --replay FILE",
             ));
         }
         Ok(is_asked)
     }
+}
+
+/// Plays it for clients, as if the robot ran.
+fn served<P: ParameterData>(
+    target: &Target,
+    recording: &Recording,
+    options: &Options,
+    serve: Serve,
+) -> Result<bool> {
+    let values = value_channels(recording)?;
+    let first = first_parameters(recording, &values)
+        .ok_or_else(|| Error::new("the recording has no parameters"))?;
+    let parameters: P = Loading::new(first).take()?;
+    let players = Players::new(recording, &values, target.replayables)?;
+    for unknown in &players.unknown {
+        tell(format_args!(
+            "{unknown}: this robot has no such instance, or cannot replay it"
+        ));
+    }
+    let stop = Stop::new();
+    let (mut timeline, link) = Timeline::new(target.robot, players, parameters, &stop)?;
+    let listening = options
+        .listening(target)
+        .ok_or_else(|| Error::new("--listen off leaves nobody to show the recording to"))?;
+    let served = serve(link, listening).map_err(|error| error.context("cannot serve clients"))?;
+    if let Some(served) = &served {
+        tell(format_args!("page: {}", super::page(served.as_ref())));
+    }
+    timeline.run(&stop, options.duration)?;
+    Ok(true)
 }
 
 fn tolerance(text: &str) -> Result<f64> {
@@ -97,11 +144,18 @@ pub(super) fn run<P: ParameterData>(
     target: &Target,
     options: &Options,
     output: &mut dyn Write,
+    serve: Serve,
 ) -> u8 {
     let file = &options.replay.file;
     let result = Recording::open(file)
         .map_err(|error| Error::new(error.to_string()))
-        .and_then(|recording| replayed::<P>(target, &recording, options, output));
+        .and_then(|recording| {
+            if options.replay.is_question() || !options.settings.is_empty() {
+                replayed::<P>(target, &recording, options, output)
+            } else {
+                served::<P>(target, &recording, options, serve)
+            }
+        });
     match result {
         Ok(true) => DONE,
         Ok(false) => FAILED,
@@ -123,6 +177,22 @@ fn replayed<P: ParameterData>(
         let values = value_channels(recording)?;
         let mut players = Players::new(recording, &values, target.replayables)?;
         answer(&mut players, std::io::stdin().lock(), output)?;
+        return Ok(true);
+    }
+    if let Some(node) = &replay.capture {
+        let values = value_channels(recording)?;
+        let mut players = Players::new(recording, &values, target.replayables)?;
+        let call = Call {
+            instance: replay.instance.as_deref().unwrap_or_default(),
+            cycle: replay.at.unwrap_or_default(),
+            needed: &Needed::new(node, target.graph)?,
+        };
+        let parameters = |recorded: &[u8]| {
+            let parameters: P = Loading::new(recorded).take()?;
+            Ok(serde_json::to_value(parameters)?)
+        };
+        let snapshot = snapshot(&mut players, call, &parameters)?;
+        writeln!(output, "{snapshot}")?;
         return Ok(true);
     }
     let node = replay.node.as_deref();

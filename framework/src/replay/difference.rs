@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 /// Path of the first part that differs, empty for the whole.
-pub(super) fn first_difference(one: &Value, other: &Value) -> String {
+pub(crate) fn first_difference(one: &Value, other: &Value) -> String {
     let below = match (one, other) {
         (Value::Object(one), Value::Object(other)) if one.len() == other.len() => {
             let mut parts = one.iter();

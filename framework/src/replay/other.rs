@@ -58,6 +58,15 @@ impl OtherParameters {
     }
 }
 
+/// The first version of the parameters that a recording has.
+pub fn first_parameters<'r>(recording: &'r Recording, values: &ValueChannels) -> Option<&'r [u8]> {
+    let mut names = values.iter();
+    let (_, channel) = names.find(|(name, _)| name == PARAMETERS)?;
+    let mut messages = recording.chunks.iter().flat_map(|chunk| chunk.messages());
+    let found = messages.find(|message| message.channel == *channel)?;
+    Some(found.data)
+}
+
 /// Recorded parameters with some values replaced: paths, and values as the parameter files write them.
 ///
 /// # Errors

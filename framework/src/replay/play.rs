@@ -163,6 +163,25 @@ impl<'r> Players<'r> {
         self
     }
 
+    /// As [`Self::of`].
+    ///
+    /// # Errors
+    /// If there is no such instance.
+    pub fn find(&mut self, instance: &str) -> Result<(&mut Player<'r>, &[Stored<'r>])> {
+        let names: Vec<_> = self.players.iter().map(|one| one.instance).collect();
+        self.of(instance).ok_or_else(|| {
+            Error::new(format!(
+                "the robot has no instance `{instance}`: the instances are `{}`",
+                names.join("`, `")
+            ))
+        })
+    }
+
+    /// What an instance wrote in a cycle, as a chunk has it.
+    pub(super) fn bytes(&self, chunk: usize, instance: &str, cycle: u64) -> Option<&'r [u8]> {
+        self.chunks.get(chunk)?.bytes(instance, cycle)
+    }
+
     /// The player of an instance, with the values that it needs.
     pub fn of(&mut self, instance: &str) -> Option<(&mut Player<'r>, &[Stored<'r>])> {
         let mut players = self.players.iter_mut();
@@ -222,6 +241,17 @@ impl<'r> Player<'r> {
     /// # Errors
     /// If its frame, or one that it needs, does not fit this robot.
     pub fn play(&mut self, position: usize, chunks: &[Stored<'_>]) -> Result<Ran> {
+        self.load_at(position, chunks)?;
+        let replay = self.replay.as_mut();
+        let nodes = self.nodes.as_deref();
+        Ok(replay.map_or(Ran::NeedsHardware, |replay| replay.run(nodes)))
+    }
+
+    /// Makes the cycle at this position the one that has just begun.
+    ///
+    /// # Errors
+    /// As [`Self::play`].
+    pub fn load_at(&mut self, position: usize, chunks: &[Stored<'_>]) -> Result<()> {
         let whole = (0..=position)
             .rev()
             .find(|at| self.frames[*at].head.whole)
@@ -234,9 +264,18 @@ impl<'r> Player<'r> {
         for at in first..=position {
             self.load(at, chunks)?;
         }
-        let replay = self.replay.as_mut();
-        let nodes = self.nodes.as_deref();
-        Ok(replay.map_or(Ran::NeedsHardware, |replay| replay.run(nodes)))
+        Ok(())
+    }
+
+    /// The chunk in which the frame at this position stands.
+    pub(super) fn chunk_of(&self, position: usize) -> usize {
+        self.frames[position].chunk
+    }
+
+    /// The instance, which has a frame.
+    pub(super) fn replay_mut(&mut self) -> Result<&mut (dyn Replay + 'static)> {
+        let replay = self.replay.as_deref_mut();
+        replay.ok_or_else(|| Error::new(format!("no frame of `{}` was loaded", self.instance)))
     }
 
     /// Whether this node is run.

@@ -1,0 +1,261 @@
+//! What one node took and wrote in one recorded cycle, for a test of it.
+
+use serde_json::{Map, Value, json};
+
+use super::{Needed, Players, Ran, as_json};
+use crate::cycler::{Reference, ReferenceKind};
+use crate::error::{Error, Result};
+
+/// Version of what [`snapshot`] gives.
+pub const SNAPSHOT_VERSION: u32 = 1;
+
+/// Which call of a node.
+#[derive(Clone, Copy, Debug)]
+pub struct Call<'a> {
+    pub instance: &'a str,
+    pub cycle: u64,
+    /// In its instances, all that runs before it.
+    pub needed: &'a Needed,
+}
+
+/// Parameters as they were recorded, as JSON.
+pub type ParametersAsJson<'a> = &'a dyn Fn(&[u8]) -> Result<Value>;
+
+/// All that the node could read in a cycle, its state before it and its outputs after it.
+///
+/// # Errors
+/// If the cycle is not in the recording, the node was not called in it, or it failed.
+pub fn snapshot(
+    players: &mut Players<'_>,
+    call: Call<'_>,
+    parameters: ParametersAsJson<'_>,
+) -> Result<Value> {
+    let Call {
+        instance,
+        cycle,
+        needed,
+    } = call;
+    let nodes = needed.of(instance).ok_or_else(|| {
+        let node = &needed.node;
+        Error::new(format!("`{node}` is no node of `{instance}`"))
+    })?;
+    let position = position(players, instance, cycle)?;
+    let before = seen_before(players, instance, position)?;
+
+    // Up to the call: its inputs.
+    let (_, inputs) = nodes.split_last().unwrap_or((&needed.node, &[]));
+    let (player, chunks) = players.find(instance)?;
+    player.load_at(position, chunks)?;
+    let head = player.frames[position].head;
+    let chunk = player.chunk_of(position);
+    let replay = player.replay_mut()?;
+    let previous = outputs(replay.instance());
+    let state = state_of(replay, &needed.node)?;
+    let references = references(replay.instance());
+    finished(replay.run(Some(inputs)))?;
+    let cycler_state = state_of(replay, "cycler_state").unwrap_or_default();
+    let own = outputs(replay.instance());
+
+    // And with it: its outputs.
+    player.load_at(position, chunks)?;
+    let written = written(player.replay_mut()?, call, nodes)?;
+
+    let mut others = Vec::new();
+    let mut parameters_read = Value::Null;
+    for reference in references {
+        let name = reference.instance;
+        if name == crate::recorded::PARAMETERS {
+            let bytes = players.bytes(chunk, name, reference.cycle);
+            parameters_read = parameters(bytes.ok_or_else(|| missing(name))?)?;
+        } else if reference.cycle > 0 {
+            let is_new = !before.contains(&(name, reference.cycle));
+            others.push(other(players, chunk, reference, is_new)?);
+        }
+    }
+    Ok(json!({
+        "version": SNAPSHOT_VERSION,
+        "node": needed.node,
+        "instance": instance,
+        "cycle": cycle,
+        "start_ns": head.start.as_nanos(),
+        "since_last_ns": head.since_last.as_nanos() as u64,
+        "state": state,
+        "cycler_state": cycler_state,
+        "parameters": parameters_read,
+        "own": own,
+        "previous": previous,
+        "others": others,
+        "outputs": written,
+    }))
+}
+
+/// Runs the loaded cycle up to and with the node: its outputs, by name.
+fn written(
+    replay: &mut dyn super::Replay,
+    call: Call<'_>,
+    nodes: &[String],
+) -> Result<Map<String, Value>> {
+    let Call {
+        instance,
+        cycle,
+        needed,
+    } = call;
+    let (calls, failures) = counted(replay.instance(), &needed.node);
+    finished(replay.run(Some(nodes)))?;
+    let (calls_after, failures_after) = counted(replay.instance(), &needed.node);
+    if calls_after == calls {
+        return Err(Error::new(format!(
+            "`{}` was not called in cycle {cycle} of `{instance}`: a required input was absent",
+            needed.node
+        )));
+    }
+    if failures_after > failures {
+        return Err(Error::new(format!(
+            "`{}` failed in cycle {cycle} of `{instance}`: name a cycle in which it did not",
+            needed.node
+        )));
+    }
+    let mut written = Map::new();
+    let digested = replay.instance().digests(&mut |node, output, digest| {
+        if node == needed.node {
+            let value = value_of(replay.instance(), output);
+            let digest = format!("{digest:016x}");
+            written.insert(
+                output.to_owned(),
+                json!({ "value": value, "digest": digest }),
+            );
+        }
+    });
+    digested.map_err(|error| Error::new(error.to_string()))?;
+    Ok(written)
+}
+
+fn missing(name: &str) -> Error {
+    Error::new(format!(
+        "the recording does not have what the cycle read of `{name}`"
+    ))
+}
+
+fn position(players: &mut Players<'_>, instance: &str, cycle: u64) -> Result<usize> {
+    let (player, _) = players.find(instance)?;
+    let mut heads = player.frames.iter().map(|frame| frame.head.number);
+    if let Some(position) = heads.clone().position(|number| number == cycle) {
+        return Ok(position);
+    }
+    let range = heads
+        .next()
+        .map(|first| (first, heads.next_back().unwrap_or(first)));
+    Err(Error::new(match range {
+        Some((first, last)) => format!(
+            "cycle {cycle} of `{instance}` is not in the recording, which has cycles {first} to {last}"
+        ),
+        None => format!("the recording has no cycles of `{instance}`"),
+    }))
+}
+
+/// What the cycle before this one saw as the newest of each instance.
+fn seen_before(
+    players: &mut Players<'_>,
+    instance: &str,
+    position: usize,
+) -> Result<Vec<(&'static str, u64)>> {
+    let (player, chunks) = players.find(instance)?;
+    let number = |at: usize| player.frames[at].head.number;
+    if position == 0 || number(position - 1) + 1 != number(position) {
+        return Ok(Vec::new());
+    }
+    player.load_at(position - 1, chunks)?;
+    let references = references(player.replay_mut()?.instance());
+    let seen = references.into_iter();
+    Ok(seen.map(|one| (one.instance, one.cycle)).collect())
+}
+
+/// What another instance wrote.
+fn other(
+    players: &mut Players<'_>,
+    chunk: usize,
+    reference: Reference,
+    is_new: bool,
+) -> Result<Value> {
+    let name = reference.instance;
+    let bytes = players.bytes(chunk, name, reference.cycle);
+    let bytes = bytes.ok_or_else(|| missing(name))?;
+    let (player, chunks) = players.find(name)?;
+    let frame = player
+        .frames
+        .iter()
+        .find(|frame| frame.head.number == reference.cycle);
+    let start = frame.map(|frame| frame.head.start).ok_or_else(|| {
+        Error::new(format!(
+            "cycle {} of `{name}`, which the node reads, was not recorded itself: its time is not known; name a later cycle, or record all of `{name}`",
+            reference.cycle
+        ))
+    })?;
+    if player.replay().is_none() {
+        player.load_at(0, chunks)?;
+    }
+    let outputs = player.replay_mut()?.shared(bytes)?;
+    let outputs: Map<String, Value> = outputs.into_iter().collect();
+    let (kind, order) = match reference.kind {
+        ReferenceKind::Latest => ("latest", None),
+        ReferenceKind::Persistent { order } => ("persistent", Some(order.as_nanos())),
+        ReferenceKind::Transient { order } => ("transient", Some(order.as_nanos())),
+    };
+    Ok(json!({
+        "instance": name,
+        "kind": kind,
+        "cycle": reference.cycle,
+        "timestamp_ns": start.as_nanos(),
+        "order_ns": order,
+        "is_new": is_new,
+        "outputs": outputs,
+    }))
+}
+
+fn references(instance: &dyn crate::cycler::Instance) -> Vec<Reference> {
+    let mut references = Vec::new();
+    instance.references(&mut |reference| references.push(reference));
+    references
+}
+
+fn finished(ran: Ran) -> Result<()> {
+    match ran {
+        Ran::Finished => Ok(()),
+        Ran::NeedsHardware => Err(Error::new(
+            "a node asked the hardware for something in this cycle",
+        )),
+        Ran::Failed(reason) => Err(Error::new(format!("the cycle fails: {reason}"))),
+    }
+}
+
+fn outputs(instance: &dyn crate::cycler::Instance) -> Map<String, Value> {
+    let names = instance.main_outputs().iter();
+    names
+        .map(|name| ((*name).to_owned(), value_of(instance, name)))
+        .collect()
+}
+
+fn value_of(instance: &dyn crate::cycler::Instance, output: &str) -> Value {
+    let value = instance.main_output(output);
+    let value = value.and_then(|value| as_json(value.as_serialize()));
+    value.unwrap_or_default()
+}
+
+fn state_of(replay: &mut dyn super::Replay, wanted: &str) -> Result<Value> {
+    let mut found = None;
+    replay.instance_mut().states(&mut |name, state| {
+        if name == wanted {
+            let mut json = Vec::new();
+            let mut serializer = serde_json::Serializer::new(&mut json);
+            let saved = state.save(&mut <dyn erased_serde::Serializer>::erase(&mut serializer));
+            found = Some(saved.and_then(|()| Ok(serde_json::from_slice(&json)?)));
+        }
+    });
+    found.unwrap_or_else(|| Err(Error::new(format!("there is no state of `{wanted}`"))))
+}
+
+fn counted(instance: &dyn crate::cycler::Instance, node: &str) -> (u64, u64) {
+    let nodes = instance.report().nodes;
+    let found = nodes.iter().find(|report| report.node == node);
+    found.map_or((0, 0), |report| (report.calls, report.failures))
+}

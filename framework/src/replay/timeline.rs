@@ -1,0 +1,445 @@
+//! A recording that clients see as a running robot: its cycles run again at any speed, forwards and backwards.
+//!
+//! All instances of the recording are there under their names, with their main outputs. One more, [`TIMELINE`], answers
+//! the procedure [`PROCEDURE`], which moves the time of the recording and says where it is.
+
+use std::time::{Duration, Instant};
+
+use serde::{Deserialize, Serialize};
+
+use super::{Players, Ran};
+use crate::clock::Clock;
+use crate::cycler::{Counters, InstanceDescription, Kind, Record};
+use crate::data::ParameterData;
+use crate::error::{Error, Result};
+use crate::guarded::OnFailure;
+use crate::injection::Inject;
+use crate::link::{InstanceLink, Link};
+use crate::parameters::LiveParameters;
+use crate::procedure::{Answerer, procedure};
+use crate::rearm::Rearm;
+use crate::robot::Access;
+use crate::scheduling::Scheduling;
+use crate::stop::Stop;
+use crate::subscriptions::Subscriptions;
+use crate::tap::Reports;
+use crate::time::Timestamp;
+
+/// The instance that clients call.
+pub const TIMELINE: &str = "Replay";
+
+/// Its procedure: `Replay.procedures.timeline`.
+pub const PROCEDURE: &str = "timeline";
+
+/// How long the replay sleeps between two looks at the time and at its clients.
+const PAUSE: Duration = Duration::from_millis(2);
+
+/// While time stands still, the cycles that it stands at run again so often: for clients that come then.
+const SHOWN_EVERY: Duration = Duration::from_millis(100);
+
+/// No speed is greater, in either direction.
+const FASTEST: f64 = 1000.0;
+
+/// What a client asks for; what is left out stays as it is.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Move {
+    /// Whether time goes on.
+    pub play: Option<bool>,
+    /// Seconds of the recording per second; negative: backwards.
+    pub speed: Option<f64>,
+    /// Seconds of the run to go to.
+    pub time: Option<f64>,
+    /// The cycle of `instance` to go to.
+    pub cycle: Option<u64>,
+    /// So many cycles on, or back, of `instance`, or of all; time then stands still.
+    pub step: Option<i64>,
+    /// Whose cycles are meant.
+    pub instance: Option<String>,
+}
+
+/// Where the replay is.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Place {
+    /// Seconds of the run.
+    pub time: f64,
+    /// Of the first and of the last recorded cycle.
+    pub begins: f64,
+    pub ends: f64,
+    pub is_playing: bool,
+    pub speed: f64,
+    pub instances: Vec<InstancePlace>,
+}
+
+/// Where one instance is.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct InstancePlace {
+    pub instance: &'static str,
+    /// The cycle that is shown; `None` before its first one.
+    pub cycle: Option<u64>,
+    /// Recorded cycles.
+    pub frames: usize,
+    /// Cycles between the first and the last recorded one that the recording does not have.
+    pub missing: u64,
+}
+
+/// One recorded cycle.
+#[derive(Clone, Copy, Debug)]
+struct Moment {
+    at: Timestamp,
+    /// Among the players.
+    instance: usize,
+    position: usize,
+}
+
+/// The replay of all instances.
+pub struct Timeline<'r> {
+    players: Players<'r>,
+    /// In order of time.
+    moments: Vec<Moment>,
+    /// How many of them have been.
+    passed: usize,
+    /// Nanoseconds of the run.
+    now: f64,
+    is_playing: bool,
+    speed: f64,
+    moves: Answerer<Move, Place>,
+}
+
+/// Nothing of a recording can be replaced.
+struct Recorded;
+
+impl<'r> Timeline<'r> {
+    /// Of all instances that have a cycle; with what a server needs of them.
+    ///
+    /// # Errors
+    /// If there is none, or a frame does not fit this robot.
+    pub fn new<P: ParameterData>(
+        robot: &'static str,
+        mut players: Players<'r>,
+        parameters: P,
+        stop: &Stop,
+    ) -> Result<(Self, Link)> {
+        let mut moments = Vec::new();
+        let mut instances = Vec::new();
+        players.players.retain(|player| !player.frames.is_empty());
+        for (index, (player, chunks)) in players.each().enumerate() {
+            let heads = player.frames.iter().map(|frame| frame.head).enumerate();
+            moments.extend(heads.map(|(position, head)| Moment {
+                at: head.start,
+                instance: index,
+                position,
+            }));
+            let name = player.instance;
+            player
+                .load_at(0, chunks)
+                .map_err(|error| error.context(format!("`{name}`")))?;
+            let instance = player.replay_mut()?.instance_mut();
+            let subscriptions = Subscriptions::new(&[]);
+            let (taps, reports) = instance.tap(&subscriptions);
+            let nodes = instance.report().nodes;
+            instances.push(InstanceLink {
+                description: *instance.description(),
+                nodes: nodes.iter().map(|node| node.node).collect(),
+                counters: instance.counters().clone(),
+                taps,
+                reports,
+                access: access(name, subscriptions),
+            });
+        }
+        moments.sort_by_key(|moment| moment.at);
+        let first = moments.first().map(|moment| moment.at);
+        let first = first.ok_or_else(|| {
+            Error::new("the recording has no cycle that this robot can replay: `--verify` says why")
+        })?;
+        let (caller, moves) = procedure();
+        let mut clients = access(TIMELINE, Subscriptions::new(&[]));
+        clients.procedures = vec![(PROCEDURE, Box::new(caller))];
+        instances.push(InstanceLink {
+            description: description(),
+            nodes: Vec::new(),
+            counters: std::sync::Arc::new(Counters::default()),
+            taps: Vec::new(),
+            reports: Reports::silent(),
+            access: clients,
+        });
+        let clock = Clock::wall();
+        let (writer, [], []) = crate::buffer::buffer_of(|| parameters.clone(), []);
+        let parameters = LiveParameters::new(writer, parameters.clone(), clock.clone());
+        let link = Link {
+            robot,
+            clock,
+            stop: stop.clone(),
+            rearm: Rearm::default(),
+            parameters: parameters.live(),
+            instances,
+        };
+        let timeline = Self {
+            players,
+            moments,
+            passed: 0,
+            now: first.as_nanos() as f64,
+            is_playing: true,
+            speed: 1.0,
+            moves,
+        };
+        Ok((timeline, link))
+    }
+
+    /// Plays, and does what clients ask, until it is told to stop or the time is over.
+    ///
+    /// # Errors
+    /// If a frame does not fit this robot.
+    pub fn run(&mut self, stop: &Stop, duration: Option<Duration>) -> Result<()> {
+        let started = Instant::now();
+        let (mut looked, mut shown) = (started, started);
+        while !stop.is_requested() && duration.is_none_or(|all| started.elapsed() < all) {
+            self.answer()?;
+            let elapsed = looked.elapsed();
+            looked += elapsed;
+            if self.is_playing {
+                self.advance(elapsed)?;
+            } else if shown.elapsed() >= SHOWN_EVERY {
+                shown = Instant::now();
+                self.show()?;
+            }
+            std::thread::sleep(PAUSE);
+        }
+        Ok(())
+    }
+
+    /// Answers the next client, if there is one.
+    fn answer(&mut self) -> Result<()> {
+        self.moves.take();
+        let Some(asked) = self.moves.request().cloned() else {
+            return Ok(());
+        };
+        let done = self.go(&asked);
+        let place = self.place();
+        if let Some(call) = self.moves.call() {
+            match done {
+                Ok(()) => call.answer(place),
+                Err(error) => call.refuse(error.to_string()),
+            }
+        }
+        self.show()
+    }
+
+    /// Does what a client asks, all of it or nothing.
+    ///
+    /// # Errors
+    /// If it asks for what is not there.
+    pub fn go(&mut self, asked: &Move) -> Result<()> {
+        let whose = asked.instance.as_deref();
+        let whose = whose.map(|name| self.index_of(name)).transpose()?;
+        if let Some(speed) = asked.speed
+            && (!speed.is_finite() || speed.abs() > FASTEST)
+        {
+            return Err(Error::new(format!(
+                "no speed {speed}: at most {FASTEST}, backwards -{FASTEST}"
+            )));
+        }
+        if asked.time.is_some_and(|time| !time.is_finite()) {
+            return Err(Error::new("`time` is no number of seconds"));
+        }
+        let passed = match (asked.time, asked.cycle, asked.step) {
+            (None, None, None) => None,
+            (Some(time), None, None) => {
+                let at = Timestamp::from_nanos((time.max(0.0) * 1e9) as u64);
+                Some(
+                    self.moments
+                        .partition_point(|moment| moment.at <= at)
+                        .max(1),
+                )
+            }
+            (None, Some(cycle), None) => Some(self.passed_at(whose, cycle)?),
+            (None, None, Some(step)) => Some(self.stepped(whose, step)),
+            _ => {
+                return Err(Error::new(
+                    "`time`, `cycle` and `step` are three places to go to: name one",
+                ));
+            }
+        };
+        if let Some(speed) = asked.speed {
+            self.speed = speed;
+        }
+        self.is_playing = asked
+            .play
+            .unwrap_or(self.is_playing && asked.step.is_none());
+        if let Some(passed) = passed {
+            self.passed = passed;
+            self.now = self.moments[passed - 1].at.as_nanos() as f64;
+            if let Some(time) = asked.time {
+                let (begins, ends) = self.ends();
+                self.now = (time * 1e9).clamp(begins, ends);
+            }
+        }
+        Ok(())
+    }
+
+    /// Where it is.
+    pub fn place(&self) -> Place {
+        let (begins, ends) = self.ends();
+        let players = self.players.players.iter().enumerate();
+        let instances = players.map(|(index, player)| {
+            let number = |position: usize| player.frames[position].head.number;
+            let last = player.frames.len() - 1;
+            InstancePlace {
+                instance: player.instance,
+                cycle: self.current(index).map(number),
+                frames: player.frames.len(),
+                missing: (number(last) - number(0)).saturating_sub(last as u64),
+            }
+        });
+        Place {
+            time: self.now / 1e9,
+            begins: begins / 1e9,
+            ends: ends / 1e9,
+            is_playing: self.is_playing,
+            speed: self.speed,
+            instances: instances.collect(),
+        }
+    }
+
+    /// Lets so much time of the wall clock pass.
+    ///
+    /// # Errors
+    /// If a frame does not fit this robot.
+    pub fn advance(&mut self, elapsed: Duration) -> Result<()> {
+        let (begins, ends) = self.ends();
+        let wanted = self.now + elapsed.as_nanos() as f64 * self.speed;
+        self.now = wanted.clamp(begins, ends);
+        while let Some(moment) = self.moments.get(self.passed).copied() {
+            if self.speed < 0.0 || moment.at.as_nanos() as f64 > self.now {
+                break;
+            }
+            self.passed += 1;
+            self.play(moment.instance, moment.position)?;
+        }
+        while self.speed < 0.0
+            && self.passed > 1
+            && self.moments[self.passed - 1].at.as_nanos() as f64 > self.now
+        {
+            self.passed -= 1;
+            let left = self.moments[self.passed].instance;
+            if let Some(position) = self.current(left) {
+                self.play(left, position)?;
+            }
+        }
+        if wanted != self.now {
+            // It has come to one of its ends.
+            self.is_playing = false;
+        }
+        Ok(())
+    }
+
+    /// Runs the cycles again at which the time stands.
+    fn show(&mut self) -> Result<()> {
+        (0..self.players.players.len()).try_for_each(|index| match self.current(index) {
+            Some(position) => self.play(index, position),
+            None => Ok(()),
+        })
+    }
+
+    fn play(&mut self, index: usize, position: usize) -> Result<()> {
+        let mut players = self.players.each();
+        let Some((player, chunks)) = players.nth(index) else {
+            return Ok(());
+        };
+        // What is abandoned or asks the hardware has no outputs to show.
+        let _: Ran = player.play(position, chunks)?;
+        Ok(())
+    }
+
+    /// Nanoseconds of the first and the last cycle.
+    fn ends(&self) -> (f64, f64) {
+        let at = |moment: Option<&Moment>| moment.map_or(0.0, |moment| moment.at.as_nanos() as f64);
+        (at(self.moments.first()), at(self.moments.last()))
+    }
+
+    /// The last cycle of an instance that has been.
+    fn current(&self, instance: usize) -> Option<usize> {
+        let mut been = self.moments[..self.passed].iter().rev();
+        been.find(|moment| moment.instance == instance)
+            .map(|moment| moment.position)
+    }
+
+    fn index_of(&self, name: &str) -> Result<usize> {
+        let mut players = self.players.players.iter();
+        let found = players.position(|player| player.instance == name);
+        found.ok_or_else(|| {
+            let names = self.players.players.iter().map(|player| player.instance);
+            let names: Vec<_> = names.collect();
+            Error::new(format!(
+                "the recording has no instance `{name}`: it has `{}`",
+                names.join("`, `")
+            ))
+        })
+    }
+
+    /// How many moments have been once this cycle is shown.
+    fn passed_at(&self, whose: Option<usize>, cycle: u64) -> Result<usize> {
+        let whose = whose.ok_or_else(|| Error::new("`cycle` needs `instance`: whose"))?;
+        let player = &self.players.players[whose];
+        let mut frames = player.frames.iter();
+        let position = frames.position(|frame| frame.head.number == cycle);
+        let is_it = |moment: &Moment| moment.instance == whose && Some(moment.position) == position;
+        let found = self.moments.iter().position(is_it);
+        found.map(|index| index + 1).ok_or_else(|| {
+            let instance = player.instance;
+            Error::new(format!("cycle {cycle} of `{instance}` was not recorded"))
+        })
+    }
+
+    /// How many moments have been after so many steps; it stays between the ends.
+    fn stepped(&self, whose: Option<usize>, step: i64) -> usize {
+        let is_meant = |moment: &Moment| whose.is_none_or(|index| moment.instance == index);
+        let meant = self.moments.iter().enumerate();
+        let meant: Vec<_> = meant
+            .filter(|(_, moment)| is_meant(moment))
+            .map(|(index, _)| index + 1)
+            .collect();
+        let been = meant.partition_point(|passed| *passed <= self.passed) as i64;
+        let wanted = been.saturating_add(step).clamp(1, meant.len() as i64);
+        meant[wanted as usize - 1]
+    }
+}
+
+impl Inject for Recorded {
+    fn inject(&mut self, _: &str, _: &mut dyn erased_serde::Deserializer<'_>) -> Result<()> {
+        Err(Error::new(
+            "this is a recording: nothing of it can be replaced",
+        ))
+    }
+
+    fn release(&mut self, _: &str) -> Result<()> {
+        Ok(())
+    }
+
+    fn release_all(&mut self) {}
+}
+
+fn access(instance: &'static str, subscriptions: Subscriptions) -> Access {
+    Access {
+        instance,
+        subscriptions,
+        injector: Box::new(Recorded),
+        procedures: Vec::new(),
+    }
+}
+
+fn description() -> InstanceDescription {
+    InstanceDescription {
+        name: TIMELINE,
+        cycler: TIMELINE,
+        kind: Kind::RealTime,
+        on_failure: OnFailure::Stop,
+        deadline: None,
+        pending_timeout: Duration::from_secs(1),
+        watchdog: Duration::from_secs(1),
+        history: Duration::from_secs(1),
+        lockstep_duration: None,
+        scheduling: Scheduling::BY_THE_SYSTEM,
+        record: Record::Off,
+    }
+}
