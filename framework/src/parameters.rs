@@ -18,6 +18,7 @@ pub use layers::{Layers, Parameters};
 pub use live::{
     Leaf, Live, LiveParameters, Provenance, Reading, Refusal, Refusals, Stored, Unstored, Version,
 };
+pub use nearest::nearest;
 
 use serde::de::DeserializeOwned;
 

@@ -5,6 +5,7 @@
 //! instance:            begin: Answerer::take   node: Call::answer   finish: Answerer::close (unanswered = refused)
 //! ```
 
+use std::any::type_name;
 use std::fmt;
 use std::sync::Arc;
 use std::sync::mpsc::{
@@ -64,6 +65,9 @@ pub type Answer<Response> = Result<Response, Refused>;
 
 /// A procedure, whatever its types.
 pub trait CallAny: Send + Sync {
+    /// Full names of the types of its request and its response, for people.
+    fn types(&self) -> (&'static str, &'static str);
+
     /// Makes a call with a request in any format; an error if it is no request of this procedure.
     fn call_any(
         &self,
@@ -201,6 +205,10 @@ where
     Request: DeserializeOwned + Send,
     Response: Serialize + Send + 'static,
 {
+    fn types(&self) -> (&'static str, &'static str) {
+        (type_name::<Request>(), type_name::<Response>())
+    }
+
     fn call_any(
         &self,
         request: &mut dyn erased_serde::Deserializer<'_>,

@@ -258,6 +258,12 @@ fn procedures_timings_and_logs_are_there() {
         table.contains("overruns") && table.contains("vision::image_receiver"),
         "{table}"
     );
+    let trace = &robot.lines("top --trace 0.5")[0];
+    let events = trace["traceEvents"].as_array().expect("a list");
+    for name in ["Control", "VisionTop", "vision::image_receiver"] {
+        let mut spans = events.iter().filter(|event| event["ph"] == "X");
+        assert!(spans.any(|span| span["name"] == name), "{name}");
+    }
 }
 
 #[test]

@@ -187,7 +187,8 @@ Exit status: 0 ended by --count, 1 no robot answers, or it went away; 2 wrong us
 
 Examples:
   hulkgen top
-  hulkgen top --count 1 --format json | jq '.instances[].cycle.p99'")]
+  hulkgen top --count 1 --format json | jq '.instances[].cycle.p99'
+  hulkgen top --trace 5 > trace.json")]
 pub struct Top {
     /// Seconds between two looks
     #[arg(long, value_name = "SECONDS", default_value = "1", value_parser = rate)]
@@ -195,6 +196,9 @@ pub struct Top {
     /// End after so many looks
     #[arg(long, value_name = "NUMBER")]
     pub count: Option<u64>,
+    /// Print the next seconds as a trace, for ui.perfetto.dev or chrome://tracing
+    #[arg(long, value_name = "SECONDS", value_parser = rate, conflicts_with_all = ["every", "count"])]
+    pub trace: Option<f64>,
     #[command(flatten)]
     pub running: Running,
 }

@@ -1,6 +1,7 @@
 //! Everything that has a path: outputs, procedures and parameters, as a tree.
 
 use framework::OutputKind;
+use framework::parameters::nearest;
 use framework::procedure::CallAny;
 use framework::reflect::{Content, Limits, Path, Shape, VariantContent};
 use protocol::{Entry, EntryKind, Range};
@@ -30,6 +31,8 @@ struct Place<'hub> {
     kind: EntryKind,
     /// Of a value.
     shape: Option<Shape>,
+    /// Of a procedure: of its request and its response.
+    types: Option<(&'static str, &'static str)>,
     below: Vec<Place<'hub>>,
 }
 
@@ -95,6 +98,28 @@ pub(crate) fn find<'path>(sources: &[Source], path: &'path str) -> Option<(usize
     found.min_by_key(|(_, rest)| rest.len())
 }
 
+/// What was probably meant by a path that leads nowhere: the nearest name of the first part that is wrong.
+pub(crate) fn near(hub: &Hub, path: &str) -> Option<String> {
+    let root = tree(hub);
+    let mut place = &root;
+    let mut rest = path;
+    loop {
+        let (name, further) = rest.split_once('.').unwrap_or((rest, ""));
+        let mut below = place.below.iter();
+        if let Some(inner) = below.find(|inner| inner.name == name) {
+            (place, rest) = (inner, further);
+            continue;
+        }
+        let names = place.below.iter().map(|inner| inner.name);
+        let near = nearest(name, names)?;
+        let above = &path[..path.len() - rest.len()];
+        return Some(match further {
+            "" => format!("{above}{near}"),
+            _ => format!("{above}{near}.{further}"),
+        });
+    }
+}
+
 /// What answers at a path.
 pub(crate) fn procedure<'hub>(hub: &'hub Hub, path: &str) -> Result<&'hub dyn CallAny, String> {
     let mut all = hub.link.instances.iter().flat_map(|instance| {
@@ -136,8 +161,8 @@ fn tree(hub: &Hub) -> Place<'_> {
         }
         let path = format!("{name}.procedures");
         let mut procedures = Place::folder("procedures", path);
-        for (procedure, _) in &instance.access.procedures {
-            procedures.add_procedure(procedure);
+        for (procedure, caller) in &instance.access.procedures {
+            procedures.add_procedure(procedure, caller.types());
         }
         place.below.extend(procedures.unless_empty());
         root.below.push(place);
@@ -148,7 +173,7 @@ fn tree(hub: &Hub) -> Place<'_> {
     root.below.push(parameters);
     let mut framework = Place::folder("framework", "framework".to_owned());
     let mut procedures = Place::folder("procedures", "framework.procedures".to_owned());
-    procedures.add_procedure("rearm");
+    procedures.add_procedure("rearm", ("()", "()"));
     framework.below.push(procedures);
     root.below.push(framework);
     root
@@ -161,6 +186,7 @@ impl<'hub> Place<'hub> {
             path,
             kind: EntryKind::Folder,
             shape: None,
+            types: None,
             below: Vec::new(),
         }
     }
@@ -194,9 +220,10 @@ impl<'hub> Place<'hub> {
         }
     }
 
-    fn add_procedure(&mut self, name: &'hub str) {
+    fn add_procedure(&mut self, name: &'hub str, types: (&'static str, &'static str)) {
         let mut procedure = Self::folder(name, format!("{}.{name}", self.path));
         procedure.kind = EntryKind::Procedure;
+        procedure.types = Some(types);
         self.below.push(procedure);
     }
 }
@@ -214,7 +241,11 @@ impl Listing {
             let of_shape = inner.shape.as_ref();
             self.entries.push(match of_shape {
                 Some(shape) => entry(&inner.path, inner.kind, shape, Told::default()),
-                None => without_value(&inner.path, inner.kind, !inner.below.is_empty()),
+                None => Entry {
+                    request: inner.types.map(|(request, _)| short(request)),
+                    response: inner.types.map(|(_, response)| short(response)),
+                    ..without_value(&inner.path, inner.kind, !inner.below.is_empty())
+                },
             });
             self.below_place(inner, depth - 1);
             if let Some(shape) = of_shape {
@@ -310,6 +341,8 @@ fn without_value(path: &str, kind: EntryKind, has_children: bool) -> Entry {
         length: None,
         choices: Vec::new(),
         image: None,
+        request: None,
+        response: None,
     }
 }
 
@@ -325,6 +358,7 @@ fn entry(path: &str, kind: EntryKind, shape: &Shape, told: Told) -> Entry {
         range: told.range.map(|range| Range {
             minimum: range.minimum,
             maximum: range.maximum,
+            is_half_open: range.is_half_open,
         }),
         length: length(shape),
         choices: choices(shape),

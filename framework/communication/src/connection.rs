@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use axum::extract::ws::{Message, WebSocket};
+use axum::extract::ws::{CloseCode, CloseFrame, Message, WebSocket, close_code};
 use futures_util::SinkExt;
 use tokio::sync::Notify;
 use tokio::time::{Instant, MissedTickBehavior, interval, timeout};
@@ -25,20 +25,37 @@ pub(crate) async fn talk(mut socket: WebSocket, shared: Arc<Shared>) {
     let mut pings = interval((shared.limits.silence / PINGS).max(Duration::from_millis(1)));
     pings.set_missed_tick_behavior(MissedTickBehavior::Delay);
     let mut heard = Instant::now();
+    let mut ending = shared.ending.subscribe();
+    let mut why = None;
     while send_all(&mut socket, client, &shared).await {
         let may_ask = shared.hub().may_ask(client);
         tokio::select! {
             received = socket.recv(), if may_ask => {
                 heard = Instant::now();
-                let Some(Ok(message)) = received else { break };
+                let message = match received {
+                    Some(Ok(Message::Close(_))) | None => break,
+                    Some(Ok(message)) => message,
+                    Some(Err(_)) => {
+                        why = Some((close_code::PROTOCOL, "no message that this server takes"));
+                        break;
+                    }
+                };
                 if !receive(message, client, &shared) {
+                    why = Some((close_code::POLICY, "too many wrong tokens"));
                     break;
                 }
             }
             () = news.notified() => {}
+            _ = ending.changed() => {
+                why = Some((close_code::AWAY, "the robot ends"));
+                break;
+            }
             _ = pings.tick() => {
-                if heard.elapsed() > shared.limits.silence
-                    || !send(&mut socket, Message::Ping(Vec::new().into()), &shared).await
+                if heard.elapsed() > shared.limits.silence {
+                    why = Some((close_code::POLICY, "silent for too long"));
+                    break;
+                }
+                if !send(&mut socket, Message::Ping(Vec::new().into()), &shared).await
                 {
                     break;
                 }
@@ -48,9 +65,16 @@ pub(crate) async fn talk(mut socket: WebSocket, shared: Arc<Shared>) {
     // So that it knows; whether it still listens is its own matter.
     let _ = timeout(
         Duration::from_millis(100),
-        socket.send(Message::Close(None)),
+        socket.send(Message::Close(why.map(frame))),
     )
     .await;
+}
+
+fn frame((code, reason): (CloseCode, &'static str)) -> CloseFrame {
+    CloseFrame {
+        code,
+        reason: reason.into(),
+    }
 }
 
 /// Whether the client may go on.
@@ -65,8 +89,7 @@ fn receive(message: Message, client: ClientId, shared: &Shared) -> bool {
             shared.hub().refuse_binary(client);
             true
         }
-        Message::Ping(_) | Message::Pong(_) => true,
-        Message::Close(_) => false,
+        Message::Ping(_) | Message::Pong(_) | Message::Close(_) => true,
     }
 }
 

@@ -19,9 +19,11 @@ use crate::limits::Limits;
 use crate::logs::Logs;
 use crate::outbox::{Content, Outbox};
 use crate::parameters;
+use crate::press::Press;
 use crate::requests;
 use crate::sources::{Rate, Source};
 use crate::timings;
+use crate::trace::Traces;
 
 /// Files of parameters are looked at so often.
 const FILES_EVERY: Duration = Duration::from_millis(500);
@@ -63,6 +65,8 @@ pub(crate) struct Hub {
     pub(crate) nodes: Vec<&'static str>,
     /// The last report of each instance.
     reports: Vec<Option<Box<InstanceReport>>>,
+    traces: Traces,
+    press: Press,
     files_looked_at: Instant,
     /// When timings were asked for last, and what was timed before.
     timed: Option<(Instant, Timing)>,
@@ -120,6 +124,8 @@ impl Hub {
         }
         Self {
             reports: link.instances.iter().map(|_| None).collect(),
+            press: Press::new(),
+            traces: Traces::new(link.instances.len()),
             logs: Logs::new(link.clock.clone()),
             nodes: link
                 .instances
@@ -169,6 +175,10 @@ impl Hub {
         }));
         self.clients.insert(id, client);
         (id, news)
+    }
+
+    pub(crate) fn has_clients(&self) -> bool {
+        !self.clients.is_empty()
     }
 
     /// A client has gone: what it held is free again.
@@ -254,7 +264,7 @@ impl Hub {
     /// Looks at everything that may have changed; whether it has to be done again soon.
     pub(crate) fn look(&mut self) -> bool {
         for source in self.sources.iter_mut().filter(|source| source.is_open()) {
-            source.hand_out(&mut self.clients, &self.limits);
+            source.hand_out(&mut self.clients, &mut self.press, &self.limits);
         }
         for (instance, report) in self.link.instances.iter().zip(&mut self.reports) {
             if let Some(new) = instance.reports.take() {
@@ -304,15 +314,26 @@ impl Hub {
 
     /// Asks all instances what they did.
     pub(crate) fn ask_for_reports(&mut self) -> WaitingFor {
+        self.look_closely();
+        for (instance, report) in self.link.instances.iter().zip(&mut self.reports) {
+            instance.reports.ask(report.take());
+        }
+        WaitingFor::Timings((0..self.link.instances.len()).collect())
+    }
+
+    /// The last seconds as a trace.
+    pub(crate) fn trace(&mut self, time: Duration) -> serde_json::Value {
+        self.look_closely();
+        self.traces.describe(&self.link, time, self.limits.spans)
+    }
+
+    /// Every cycle is timed, for a while.
+    fn look_closely(&mut self) {
         let before = self
             .timed
             .map_or_else(timing::current, |(_, before)| before);
         self.timed = Some((Instant::now(), before));
         timing::set(Timing::Complete);
-        for (instance, report) in self.link.instances.iter().zip(&mut self.reports) {
-            instance.reports.ask(report.take());
-        }
-        WaitingFor::Timings((0..self.link.instances.len()).collect())
     }
 
     /// When a request that waits has to be answered at the latest.

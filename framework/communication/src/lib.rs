@@ -10,8 +10,8 @@
 //! | `doorman`, `origin` | who may come in |
 //! | `connection`, `outbox` | one client: what it says, and what waits for it |
 //! | `hub`, `requests` | all clients and the robot |
-//! | `sources`, `catalogue`, `parameters`, `timings`, `logs` | outputs, paths, parameters, durations, log messages |
-//! | `jpeg` | images as files |
+//! | `sources`, `catalogue`, `parameters`, `timings`, `trace`, `logs` | outputs, paths, parameters, durations, log messages |
+//! | `press`, `jpeg` | images as files, and how much time they may take |
 //! | [`limits`] | how much a client may ask |
 //!
 //! Invariant: instances never wait for it; it fetches what they leave, and they take what it leaves.
@@ -32,9 +32,11 @@ mod origin;
 mod outbox;
 mod page;
 mod parameters;
+mod press;
 mod requests;
 mod sources;
 mod timings;
+mod trace;
 
 use framework::Result;
 use framework::launch::{Listening, Served};

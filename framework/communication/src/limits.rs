@@ -33,6 +33,8 @@ pub struct Limits {
     pub wrong_tokens: u32,
     /// Entries in one answer to `paths`.
     pub entries: usize,
+    /// Spans in one answer to `trace`: the newest.
+    pub spans: usize,
     /// Log messages of one module in a second; more are left out.
     pub logs_per_second: usize,
     /// Log messages that are kept for clients who come late.
@@ -56,6 +58,7 @@ impl Default for Limits {
             queued_bytes: 16 << 20,
             wrong_tokens: 5,
             entries: 20_000,
+            spans: 20_000,
             logs_per_second: 200,
             kept_logs: 2000,
         }

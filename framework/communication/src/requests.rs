@@ -109,7 +109,7 @@ fn answer(hub: &mut Hub, client: ClientId, request: Request) -> Answered {
         Ask::Graph {} => hub.graph(),
         Ask::Logs { level } => hub.log(client, id, level.unwrap_or(Level::Info)),
         Ask::SetLogLevel { of, level } => hub.set_log_level(of.as_deref(), level),
-        Ask::Trace { .. } => Err(Failure::new("this robot keeps no trace".to_owned())),
+        Ask::Trace { seconds } => hub.last_seconds(seconds),
     }
 }
 
@@ -299,6 +299,12 @@ impl Hub {
         self.wait(client, request, WaitingFor::Call(pending), Some(timeout))
     }
 
+    fn last_seconds(&mut self, seconds: f64) -> Answered {
+        let time = Duration::try_from_secs_f64(seconds)
+            .map_err(|_| Failure::new("a trace is of a number of seconds".to_owned()))?;
+        Ok(Some(Good::Trace(self.trace(time))))
+    }
+
     fn graph(&self) -> Answered {
         serde_json::from_str(self.rules.graph)
             .map(|graph| Some(Good::Graph(graph)))
@@ -370,8 +376,10 @@ impl Hub {
     /// The output that a path names, and what follows behind its name.
     fn find<'path>(&self, path: &'path str) -> Result<(usize, &'path str), Failure> {
         catalogue::find(&self.sources, path).ok_or_else(|| {
+            let near = catalogue::near(self, path);
+            let near = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
             Failure::new(format!(
-                "no `{path}`: expected `parameters…`, `INSTANCE.main_outputs.NAME…` or `INSTANCE.additional_outputs.NAME…`; `paths` lists them"
+                "no `{path}`: expected `parameters…`, `INSTANCE.main_outputs.NAME…` or `INSTANCE.additional_outputs.NAME…`; `paths` lists them{near}"
             ))
         })
     }

@@ -16,7 +16,7 @@ use axum::routing::get;
 use framework::launch::{Listening, Served};
 use framework::link::Link;
 use framework::{Error, Result};
-use tokio::sync::{Notify, oneshot};
+use tokio::sync::{Notify, oneshot, watch};
 use tokio::time::{sleep, timeout};
 
 use crate::connection;
@@ -28,6 +28,9 @@ use crate::page;
 
 /// How often copies of outputs are fetched while somebody wants any.
 const LOOK_EVERY: Duration = Duration::from_millis(4);
+
+/// How long clients have to take the news that the server ends.
+const GOODBYE: Duration = Duration::from_millis(200);
 
 /// How long nothing is looked at while nobody wants anything.
 const REST: Duration = Duration::from_millis(250);
@@ -47,6 +50,8 @@ pub(crate) struct Shared {
     pub(crate) work: Notify,
     address: SocketAddr,
     web_root: Option<PathBuf>,
+    /// Becomes true when the server ends.
+    pub(crate) ending: watch::Sender<bool>,
 }
 
 impl Server {
@@ -72,6 +77,7 @@ impl Server {
             work: Notify::new(),
             address,
             web_root: listening.web_root,
+            ending: watch::Sender::new(false),
         });
         let (end, is_over) = oneshot::channel();
         let thread = thread::Builder::new()
@@ -145,6 +151,13 @@ async fn run(listener: TcpListener, shared: Arc<Shared>, is_over: oneshot::Recei
         // The sender is dropped with the server.
         _ = is_over => {}
     }
+    shared.ending.send_replace(true);
+    let _ = timeout(GOODBYE, async {
+        while shared.hub().has_clients() {
+            sleep(LOOK_EVERY).await;
+        }
+    })
+    .await;
 }
 
 /// Fetches what instances leave, as long as the server lives.

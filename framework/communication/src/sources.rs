@@ -2,15 +2,16 @@
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
+use std::time::Instant;
 
-use framework::reflect::{Image, Path, Reflect, ResolvedPath, Shape, binary};
+use framework::reflect::{Path, Reflect, ResolvedPath, Shape, binary};
 use framework::{OutputKind, Tap, Tapped};
 use protocol::{Encoding, Good, Value};
 
 use crate::hub::{Client, ClientId};
-use crate::jpeg;
 use crate::limits::Limits;
 use crate::outbox::Content;
+use crate::press::Press;
 
 /// An output with its tap.
 pub(crate) struct Source {
@@ -181,7 +182,12 @@ impl Source {
     }
 
     /// Hands out every copy that the instance left.
-    pub(crate) fn hand_out(&mut self, clients: &mut BTreeMap<ClientId, Client>, limits: &Limits) {
+    pub(crate) fn hand_out(
+        &mut self,
+        clients: &mut BTreeMap<ClientId, Client>,
+        press: &mut Press,
+        limits: &Limits,
+    ) {
         let Self {
             tap,
             streams,
@@ -191,7 +197,7 @@ impl Source {
         let mut read = 0;
         while tap.take(|tapped| {
             for stream in streams.iter_mut() {
-                read += stream.hand_out(tapped, *is_injected, clients, limits);
+                read += stream.hand_out(tapped, *is_injected, clients, press, limits);
             }
         }) {}
         (0..read).for_each(|_| tap.close());
@@ -241,9 +247,14 @@ impl Stream {
         tapped: Tapped<'_>,
         is_injected: bool,
         clients: &mut BTreeMap<ClientId, Client>,
+        press: &mut Press,
         limits: &Limits,
     ) -> usize {
         let (cycle, time) = (tapped.cycle, tapped.timestamp.as_nanos());
+        if matches!(self.encoding, Encoding::Jpeg { .. }) && !press.is_free(Instant::now()) {
+            self.lose(clients);
+            return 0;
+        }
         let part = self.part.find(tapped.value);
         let mut content = None;
         for subscriber in &mut self.subscribers {
@@ -255,7 +266,9 @@ impl Stream {
                     Encoding::Binary => encode(&self.part, part, cycle, time),
                     Encoding::Json => write(part, cycle, time, is_injected),
                     Encoding::Jpeg { quality } => {
-                        compress(self.part.shape(), part, quality, cycle, time)
+                        let mut bytes = stamp(cycle, time);
+                        bytes.extend(press.compress(self.part.shape(), part, quality));
+                        Content::Bytes(Arc::new(bytes))
                     }
                 });
                 client
@@ -278,6 +291,17 @@ impl Stream {
             }
         }
         readers.len()
+    }
+
+    /// There is no time for this cycle. Who does not want every one gets the next instead.
+    fn lose(&self, clients: &mut BTreeMap<ClientId, Client>) {
+        let subscribers = self.subscribers.iter();
+        for subscriber in subscribers.filter(|subscriber| subscriber.rate.period == 0) {
+            if let Some(client) = clients.get_mut(&subscriber.client) {
+                client.outbox.count_lost(Some(subscriber.subscription), 1);
+                client.news.notify_one();
+            }
+        }
     }
 }
 
@@ -308,25 +332,6 @@ fn encode(path: &ResolvedPath, part: Option<&dyn Reflect>, cycle: u64, time: u64
         // On an error nothing is appended, which is as good as absent.
         let _ = binary::encode_as(path.shape(), part, &mut bytes);
     }
-    Content::Bytes(Arc::new(bytes))
-}
-
-/// As [`encode`], with a JPEG file as the value; without one where there is no image, or one that is no whole image.
-fn compress(
-    shape: &Shape,
-    part: Option<&dyn Reflect>,
-    quality: u8,
-    cycle: u64,
-    time: u64,
-) -> Content {
-    let mut bytes = stamp(cycle, time);
-    let image = shape.image().zip(part);
-    let image = image.and_then(|(pixels, part)| Image::read(pixels, part));
-    bytes.extend(
-        image
-            .and_then(|image| jpeg::encode(&image, quality))
-            .unwrap_or_default(),
-    );
     Content::Bytes(Arc::new(bytes))
 }
 

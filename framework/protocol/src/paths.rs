@@ -33,6 +33,12 @@ pub struct Entry {
     /// Of an image, which can be had as JPEG: its pixels, `gray`, `rgb` or `yuyv`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub image: Option<String>,
+    /// Of a procedure: the type of its argument.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub request: Option<String>,
+    /// Of a procedure: the type of what it answers.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub response: Option<String>,
 }
 
 /// What can be done with something.
@@ -60,4 +66,7 @@ pub struct Range {
     /// The greatest.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub maximum: Option<f64>,
+    /// Whether `maximum` itself is outside.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub is_half_open: bool,
 }

@@ -103,6 +103,64 @@ fn messages_are_written_as_documented() {
     }
 }
 
+/// One of each kind that a robot says, and some that a client does.
+const HONEST: &[&str] = &[
+    r#"{"welcome":{"version":1,"robot":"lamp","target":"desk","instances":["A"],"can_write":true,"needs_token":false,"time":5}}"#,
+    r#"{"answer":{"id":7,"ok":{"subscribed":{"subscription":3,"encoding":{"jpeg":{"quality":70}}}}}}"#,
+    r#"{"answer":{"id":null,"error":{"message":"no","refusals":[{"path":"a","message":"b"}]}}}"#,
+    r#"{"answer":{"id":2,"ok":{"paths":[{"path":"A","kind":"folder","has_children":true,"range":{"maximum":1.5}}]}}}"#,
+    r#"{"answer":{"id":2,"ok":{"value":{"cycle":3,"time":9,"value":[1,null,"é"],"injected":true}}}}"#,
+    r#"{"update":{"subscription":3,"cycle":812,"time":9744000000,"value":0.5}}"#,
+    r#"{"lost":{"subscription":3,"updates":2}}"#,
+    r#"{"log":{"number":1,"time":2,"level":"warn","message":"x","fields":{"a":1}}}"#,
+    r#"{"parameters_changed":{"version":4}}"#,
+    r#"{"id":1,"ask":{"subscribe":{"path":"a.b","rate":0.5,"encoding":"binary"}}}"#,
+    r#"{"id":1,"ask":{"write":{"changes":[{"path":"a","value":{"b":[1]}}]}}}"#,
+    r#"{"id":1,"ask":{"trace":{"seconds":1e3}}}"#,
+];
+
+/// What was read, written and read again; whether it was a message at all.
+fn is_stable<T>(text: &str) -> bool
+where
+    T: serde::de::DeserializeOwned + serde::Serialize + PartialEq + std::fmt::Debug,
+{
+    let Ok(message) = serde_json::from_str::<T>(text) else {
+        return false;
+    };
+    let again = serde_json::to_string(&message).expect("messages are JSON");
+    assert_eq!(
+        serde_json::from_str::<T>(&again).ok(),
+        Some(message),
+        "{text}"
+    );
+    true
+}
+
+/// Every character gone, and every character replaced by each of those that mean something.
+#[test]
+fn messages_that_are_nearly_right_are_read_as_they_are_written_or_not_at_all() {
+    let instead = [
+        "", "\"", "{", "}", "[", ",", ":", "9", "-", "e", "\\", "é", "\0",
+    ];
+    let (mut read, mut refused) = (0, 0);
+    for honest in HONEST {
+        assert!(
+            is_stable::<Message>(honest) || is_stable::<Request>(honest),
+            "{honest}"
+        );
+        for (at, character) in honest.char_indices() {
+            for piece in instead {
+                let (before, after) = (&honest[..at], &honest[at + character.len_utf8()..]);
+                let text = format!("{before}{piece}{after}");
+                let is_read = is_stable::<Message>(&text) || is_stable::<Request>(&text);
+                read += u32::from(is_read);
+                refused += u32::from(!is_read);
+            }
+        }
+    }
+    assert!(read > 0 && refused > read, "{read} read, {refused} refused");
+}
+
 /// `HULKGEN_WRITE=1 cargo test -p hulkgen-protocol` writes the files anew.
 #[test]
 fn the_schemas_in_the_documentation_are_current() {

@@ -1,7 +1,7 @@
 //! The valid name that was probably meant.
 
 /// The nearest of `names` to `wanted`, if it is near enough to be a slip.
-pub(crate) fn nearest<'a>(
+pub fn nearest<'a>(
     wanted: &str,
     names: impl IntoIterator<Item = &'a str>,
 ) -> Option<&'a str> {

@@ -9,8 +9,8 @@ use super::Ticks;
 use crate::clock::Clock;
 use crate::time::Timestamp;
 
-/// So many are kept of an instance: 13 s of 30 nodes at 83 Hz, where every cycle is timed.
-pub const KEPT: usize = 1 << 15;
+/// So many are kept of an instance: 6 s of 30 nodes at 83 Hz where every cycle is timed, 0.9 MB.
+pub const KEPT: usize = 1 << 14;
 
 /// One call of a node, or one cycle, that was timed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,19 +65,15 @@ impl SpanWriter {
     }
 
     /// Where there is no room, the oldest goes.
-    pub(crate) fn write(
-        &self,
-        node: Option<&'static str>,
-        cycle: u64,
-        begins: Ticks,
-        duration: Duration,
-    ) {
+    pub(crate) fn write(&self, node: Option<&'static str>, cycle: u64, begins: Ticks, ends: Ticks) {
         let (ticks, time) = self.moment;
+        let begins = time + begins.since(ticks);
         self.spans.0.force_push(Span {
             node,
             cycle,
-            begins: time + begins.since(ticks),
-            duration,
+            begins,
+            // From the same moment, so that what lies in each other does so when it is rounded, too.
+            duration: time + ends.since(ticks) - begins,
         });
     }
 }

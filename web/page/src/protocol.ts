@@ -168,6 +168,10 @@ export type Entry = {
   choices?: Array<string>;
   /** Of an image, which can be had as JPEG: its pixels, `gray`, `rgb` or `yuyv`. */
   image?: string | null;
+  /** Of a procedure: the type of its argument. */
+  request?: string | null;
+  /** Of a procedure: the type of what it answers. */
+  response?: string | null;
 };
 
 /** What can be done with something. */
@@ -352,6 +356,8 @@ export type Range = {
   minimum?: number | null;
   /** The greatest. */
   maximum?: number | null;
+  /** Whether `maximum` itself is outside. */
+  is_half_open?: boolean;
 };
 
 /** Parameters at a path. */

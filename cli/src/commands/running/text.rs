@@ -60,10 +60,12 @@ pub(super) fn seconds(nanoseconds: u64) -> String {
     format!("{:.3} s", nanoseconds as f64 / 1e9)
 }
 
-/// Where numbers must lie.
+/// Where numbers must lie, as Rust writes it.
 pub(super) fn range(range: &protocol::Range) -> String {
     let bound = |bound: Option<f64>| bound.map(|bound| bound.to_string()).unwrap_or_default();
-    format!("{}..={}", bound(range.minimum), bound(range.maximum))
+    let is_closed = range.maximum.is_some() && !range.is_half_open;
+    let between = if is_closed { "..=" } else { ".." };
+    format!("{}{between}{}", bound(range.minimum), bound(range.maximum))
 }
 
 /// Rows below each other: the first column to the left, the others to the right if they are numbers' columns.

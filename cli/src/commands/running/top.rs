@@ -1,5 +1,8 @@
 //! `top`: how long cycles and nodes of a running robot take.
 
+use std::thread;
+use std::time::{Duration, Instant};
+
 use protocol::{Ask, Durations, Good, InstanceTimings, NodeTimings, Timings};
 use serde_json::json;
 
@@ -12,8 +15,14 @@ use crate::outcome::{Outcome, Refusal};
 /// Makes a terminal empty and begins at its top.
 const CLEAR: &str = "\x1b[H\x1b[2J";
 
+/// A robot times every cycle for 10 s after it was asked.
+const AGAIN: Duration = Duration::from_secs(5);
+
 pub(in crate::commands) fn top(terminal: &Terminal, top: &Top) -> Result<Outcome, Refusal> {
     let mut connection = Connection::open(&top.running)?;
+    if let Some(seconds) = top.trace {
+        return trace(terminal, &mut connection, seconds);
+    }
     let mut before: Option<Timings> = None;
     again(top.count, Some(top.every), || {
         let Good::Timings(timings) = connection.ask(Ask::Timings {})? else {
@@ -35,6 +44,31 @@ pub(in crate::commands) fn top(terminal: &Terminal, top: &Top) -> Result<Outcome
         before = Some(timings);
         terminal.more_data(&said)
     })
+}
+
+/// A trace is of what was: it is asked for once before, so that every cycle is timed from then on.
+fn trace(
+    terminal: &Terminal,
+    connection: &mut Connection,
+    seconds: f64,
+) -> Result<Outcome, Refusal> {
+    let mut ask = |seconds| match connection.ask(Ask::Trace { seconds })? {
+        Good::Trace(trace) => Ok(trace),
+        _ => Err(connection.confused()),
+    };
+    ask(0.0)?;
+    let end = Instant::now() + Duration::from_secs_f64(seconds);
+    loop {
+        let left = end.saturating_duration_since(Instant::now());
+        if left.is_zero() {
+            break;
+        }
+        thread::sleep(left.min(AGAIN));
+        // The robot looks less closely when nobody has asked for a while.
+        ask(0.0)?;
+    }
+    terminal.data(&format!("{}\n", ask(seconds)?))?;
+    Ok(Outcome::Good)
 }
 
 fn table(timings: &Timings, before: Option<&Timings>) -> String {

@@ -303,6 +303,8 @@ fn describe(entry: &Entry, children: &[Entry]) -> String {
         }
     };
     row("type", entry.type_name.clone());
+    row("request", entry.request.clone());
+    row("response", entry.response.clone());
     row("unit", entry.unit.clone());
     row("range", entry.range.map(|range| text::range(&range)));
     row(

@@ -38,6 +38,7 @@ fn unlimited() -> Limits {
         queued_bytes: usize::MAX,
         wrong_tokens: u32::MAX,
         entries: usize::MAX,
+        spans: usize::MAX,
         logs_per_second: usize::MAX,
         kept_logs: usize::MAX,
     }
@@ -183,6 +184,24 @@ fn lists_of_paths_have_a_greatest_length() {
             &mut zoo.client(),
             json!({ "paths": { "below": "", "depth": 5 } }),
         )
+    });
+}
+
+#[test]
+fn traces_have_a_greatest_length() {
+    let limited = Limits {
+        spans: 10,
+        ..Limits::default()
+    };
+    with_and_without(limited, |zoo| {
+        let mut client = zoo.client();
+        client.ok(json!({ "trace": { "seconds": 0 } }));
+        let cycles = client.subscribe(CYCLES);
+        (0..40).for_each(|_| drop(client.update(cycles)));
+        let trace = client.ok(json!({ "trace": { "seconds": 60 } }));
+        let events = trace["trace"]["traceEvents"].as_array().expect("a list");
+        let spans = events.iter().filter(|event| event["ph"] == json!("X"));
+        spans.count() > 10
     });
 }
 

@@ -76,6 +76,19 @@ fn everything_has_a_path() {
         ["parameters.gait.period"]
     );
     let all = paths(&mut client, "", 255);
+    let procedures: Vec<_> = (all.iter())
+        .filter(|entry| entry["kind"] == json!("procedure"))
+        .map(|entry| ["path", "request", "response"].map(|key| entry[key].as_str()))
+        .collect();
+    let rearm = ["framework.procedures.rearm", "()", "()"].map(Some);
+    assert!(
+        procedures.len() > 1 && procedures.contains(&rearm),
+        "{procedures:?}"
+    );
+    assert!(
+        procedures.iter().flatten().all(Option::is_some),
+        "{procedures:?}"
+    );
     let read: Vec<_> = all
         .iter()
         .filter(|entry| entry["type"].is_string())
@@ -249,6 +262,78 @@ fn timings_tell_what_nodes_did() {
 }
 
 /// The next log message.
+/// What a trace calls a thread, and the events of that thread.
+fn events<'trace>(trace: &'trace Value, phase: &str) -> Vec<&'trace Value> {
+    let events = trace["traceEvents"].as_array().expect("a list");
+    events
+        .iter()
+        .filter(|event| event["ph"] == json!(phase))
+        .collect()
+}
+
+#[test]
+fn a_trace_has_the_nodes_within_their_cycles() {
+    let zoo = Zoo::new();
+    let mut client = zoo.client();
+    let cycles = client.subscribe("Control.main_outputs.cycles");
+    // From here on every cycle is timed.
+    client.ok(json!({ "trace": { "seconds": 1 } }));
+    let first = client.update(cycles)["cycle"].as_u64().expect("a number") + 2;
+    let last = (0..40)
+        .map(|_| client.update(cycles)["cycle"].as_u64())
+        .last();
+    let last = last.flatten().expect("a number");
+    let trace = client.ok(json!({ "trace": { "seconds": 60 } }))["trace"].clone();
+
+    let timings = client.ok(json!({ "timings": {} }));
+    let instances = timings["timings"]["instances"].as_array().expect("a list");
+    let threads = events(&trace, "M");
+    // The process has a name, too.
+    assert_eq!(threads.len(), instances.len() + 1);
+    let spans = events(&trace, "X");
+    let mut spans_in_cycles = 0;
+    for instance in instances {
+        let name = &instance["name"];
+        let thread = threads
+            .iter()
+            .find(|thread| thread["args"]["name"] == *name);
+        let thread = &thread.expect("each has a thread")["tid"];
+        let nodes = instance["nodes"].as_array().expect("a list");
+        let mut open: Vec<(f64, &Value)> = Vec::new();
+        let mut cycles = 0;
+        for span in spans.iter().filter(|span| span["tid"] == *thread) {
+            let is_cycle = span["name"] == *name;
+            assert!(
+                is_cycle || nodes.iter().any(|node| node["node"] == span["name"]),
+                "{span}"
+            );
+            let begins = span["ts"].as_f64().expect("a number");
+            let ends = begins + span["dur"].as_f64().expect("a number");
+            // Nanoseconds in microseconds are rounded.
+            open.retain(|(end, _)| *end > begins + 5e-4);
+            if let Some((end, outer)) = open.last() {
+                assert!(ends <= end + 1e-3, "{span} ends behind {outer}");
+                assert_eq!(
+                    span["args"]["cycle"], outer["args"]["cycle"],
+                    "{span} {outer}"
+                );
+                assert!(!is_cycle);
+            }
+            open.push((ends, span));
+            cycles += u64::from(is_cycle);
+            spans_in_cycles += usize::from(open.len() > 1);
+        }
+        // At least every 16th cycle is timed, whatever other robots of this process want.
+        assert!(
+            *name != json!("Control") || cycles >= (last - first) / 16,
+            "{trace}"
+        );
+    }
+    assert!(spans_in_cycles > 0);
+    let error = client.error(json!({ "trace": { "seconds": -1 } }));
+    assert!(error.contains("a number of seconds"), "{error}");
+}
+
 fn log(client: &mut Client) -> Value {
     let is_log = |message: &Value| message.get("log").is_some();
     loop {

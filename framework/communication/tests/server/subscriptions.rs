@@ -4,6 +4,8 @@ use std::thread;
 use std::time::Duration;
 
 use serde_json::{Value, json};
+use tungstenite::Message;
+use tungstenite::protocol::frame::coding::CloseCode;
 use zune_jpeg::JpegDecoder;
 use zune_jpeg::zune_core::bytestream::ZCursor;
 
@@ -76,6 +78,23 @@ fn wrong_rates_and_paths_are_refused_with_what_would_be_right() {
     };
     let error = wrong(&mut client, "Control.main_outputs.pose.haeding");
     assert!(error.contains("heading"), "{error}");
+    for (path, meant) in [
+        (
+            "Control.main_outputs.cycle",
+            "`Control.main_outputs.cycles`",
+        ),
+        (
+            "Control.main_output.cycles",
+            "`Control.main_outputs.cycles`",
+        ),
+        (
+            "Contrl.main_outputs.cycles",
+            "`Control.main_outputs.cycles`",
+        ),
+    ] {
+        let error = wrong(&mut client, path);
+        assert!(error.contains(&format!("did you mean {meant}?")), "{error}");
+    }
     let error = wrong(&mut client, "Control.main_outputs.none");
     assert!(error.contains("paths"), "{error}");
     assert!(wrong(&mut client, "Control.main_outputs.pose..x").contains("path"));
@@ -240,5 +259,12 @@ fn a_server_that_ends_leaves_the_robot_alone() {
     let cycles = client.subscribe("Control.main_outputs.cycles");
     client.update(cycles);
     zoo.stop_serving();
-    eventually("the connection ends", || client.try_receive().is_err());
+    let close = loop {
+        match client.socket().read().expect("the server says goodbye") {
+            Message::Close(close) => break close.expect("and why"),
+            _ => {}
+        }
+    };
+    assert_eq!(close.code, CloseCode::Away);
+    assert_eq!(close.reason, "the robot ends");
 }

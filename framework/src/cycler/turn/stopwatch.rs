@@ -32,7 +32,10 @@ pub(super) struct Stopwatch {
     slowest: Vec<(&'static str, u64)>,
     /// For a server that may be asked for a trace.
     spans: Option<SpanWriter>,
+    /// The cycle.
     began: Option<Ticks>,
+    /// On a stepped clock: when its nodes were done.
+    ran: Option<Ticks>,
 }
 
 #[derive(Debug)]
@@ -79,6 +82,7 @@ impl Stopwatch {
             slowest: Vec::new(),
             spans: None,
             began: None,
+            ran: None,
         }
     }
 
@@ -131,6 +135,7 @@ impl Stopwatch {
             self.blocked_in_cycle = tally.blocked;
         }
         if self.stepped && self.cycle.since.is_some() {
+            self.ran = Some(Ticks::now());
             self.cycle.pause();
         }
     }
@@ -154,7 +159,7 @@ impl Stopwatch {
                 before = place;
             }
             if let Some(spans) = &self.spans {
-                spans.write(Some(node), cycle, took.begins, took.ends.since(took.begins));
+                spans.write(Some(node), cycle, took.begins, took.ends);
             }
             self.in_nodes += took.time;
             self.allocations_in_nodes += took.allocations;
@@ -187,8 +192,9 @@ impl Stopwatch {
         let blocked = std::mem::take(&mut self.blocked);
         if timed {
             let elsewhere = self.in_nodes + self.blocked_in_cycle;
-            if let (Some(spans), Some(began)) = (&self.spans, self.began) {
-                spans.write(None, cycle, began, took);
+            if let (Some(spans), Some(began)) = (&self.spans, self.began.take()) {
+                let ends = self.ran.take().unwrap_or_else(Ticks::now);
+                spans.write(None, cycle, began, ends);
             }
             self.durations.cycle.record(took);
             self.durations

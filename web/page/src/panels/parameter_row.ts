@@ -107,10 +107,10 @@ function choice(choices: readonly string[]): Editor {
 function numeric(entry: Entry | undefined): Editor {
   // Not `type=number`: it hides what it does not understand, and its wheel changes values while one scrolls.
   const element = make("input", { type: "text", inputmode: "decimal", spellcheck: "false" });
-  const { minimum, maximum } = entry?.range ?? {};
+  const { minimum, maximum, is_half_open } = entry?.range ?? {};
   const get = (): number | undefined => {
     const value = Number(element.value.trim() === "" ? Number.NaN : element.value);
-    const isInside = value >= (minimum ?? -Infinity) && value <= (maximum ?? Infinity);
+    const isInside = value >= (minimum ?? -Infinity) && value <= (maximum ?? Infinity) && !(is_half_open === true && value === maximum);
     return Number.isFinite(value) && isInside ? value : undefined;
   };
   element.addEventListener("keydown", (event) => {
@@ -150,7 +150,7 @@ function json(): Editor {
 function rangeOf(entry: Entry | undefined): string {
   const range = entry?.range;
   if (range == null) return "";
-  return `${range.minimum ?? "−∞"} … ${range.maximum ?? "∞"}`;
+  return `${range.minimum ?? "−∞"} … ${range.is_half_open === true ? "< " : ""}${range.maximum ?? "∞"}`;
 }
 
 function originOf(provenance: Provenance): string {
