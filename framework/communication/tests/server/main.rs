@@ -1,6 +1,7 @@
 //! The server with a robot that runs, over real sockets.
 
 mod files;
+mod fuzz;
 mod hostile;
 mod limits;
 mod requests;
