@@ -1,0 +1,215 @@
+//! Both sides together: what Foxglove wishes is asked of the robot, what the robot says is handed on.
+//!
+//! Foxglove's server has threads of its own; only [`Bridge::turn`] talks to the robot.
+
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::time::{SystemTime, UNIX_EPOCH};
+
+use foxglove::websocket::{
+    AnyClient, Capability, ChannelView, Client, GetParametersResponder, Parameter,
+    ParameterHandler, ServerListener, SetParametersResponder,
+};
+use foxglove::{WebSocketServer, WebSocketServerHandle};
+use protocol::{Ask, Good, Message};
+
+use crate::channels::{Output, channels};
+use crate::robot::{Heard, Robot};
+use crate::{Options, Result, parameters};
+
+/// A robot that is shown.
+pub(crate) struct Bridge<'options> {
+    options: &'options Options,
+    robot: Robot,
+    outputs: Vec<Output>,
+    server: WebSocketServerHandle,
+    wishes: Receiver<Wish>,
+    /// Nanoseconds from 1970 to the start of the robot's clock.
+    start: u64,
+}
+
+/// What Foxglove wants.
+enum Wish {
+    Watch { topic: String },
+    Leave { topic: String },
+    Get(Vec<String>, GetParametersResponder),
+    Set(Vec<Parameter>, SetParametersResponder),
+}
+
+/// Where wishes come in.
+struct Ear(Sender<Wish>);
+
+impl ServerListener for Ear {
+    fn on_subscribe(&self, _: Client, channel: ChannelView) {
+        let topic = channel.topic().to_owned();
+        self.hear(Wish::Watch { topic });
+    }
+
+    fn on_unsubscribe(&self, _: Client, channel: ChannelView) {
+        let topic = channel.topic().to_owned();
+        self.hear(Wish::Leave { topic });
+    }
+}
+
+impl ParameterHandler for Ear {
+    fn get(
+        &self,
+        _: AnyClient,
+        names: Vec<String>,
+        _: Option<String>,
+        responder: GetParametersResponder,
+    ) {
+        self.hear(Wish::Get(names, responder));
+    }
+
+    fn set(
+        &self,
+        _: AnyClient,
+        parameters: Vec<Parameter>,
+        _: Option<String>,
+        responder: SetParametersResponder,
+    ) {
+        self.hear(Wish::Set(parameters, responder));
+    }
+}
+
+impl Ear {
+    /// A bridge that has ended hears nothing any more, and its clients are told by their connection.
+    fn hear(&self, wish: Wish) {
+        let _ = self.0.send(wish);
+    }
+}
+
+impl<'options> Bridge<'options> {
+    /// From now on Foxglove can connect.
+    pub(crate) fn start(mut robot: Robot, options: &'options Options) -> Result<Self> {
+        let outputs = channels(&mut robot)?;
+        let (sender, wishes) = channel();
+        let listen = options.listen;
+        let server = WebSocketServer::new()
+            .name(robot.welcome.robot.clone())
+            .bind(listen.ip().to_string(), listen.port())
+            .capabilities([Capability::Parameters])
+            .listener(Arc::new(Ear(sender.clone())))
+            .parameter_handler(Arc::new(Ear(sender)))
+            .start_blocking()
+            .map_err(|error| format!("--listen {listen}: {error}"))?;
+        let now = SystemTime::now().duration_since(UNIX_EPOCH);
+        let now = now.map_or(0, |now| u64::try_from(now.as_nanos()).unwrap_or_default());
+        Ok(Self {
+            options,
+            start: now.saturating_sub(robot.welcome.time),
+            robot,
+            outputs,
+            server,
+            wishes,
+        })
+    }
+
+    /// The robot's.
+    pub(crate) fn name(&self) -> &str {
+        &self.robot.welcome.robot
+    }
+
+    /// Where it listens.
+    pub(crate) fn port(&self) -> u16 {
+        self.server.port()
+    }
+
+    /// Does what is wished, and hands on what the robot says.
+    ///
+    /// # Errors
+    /// If the robot went away.
+    pub(crate) fn turn(&mut self) -> Result<()> {
+        while let Ok(wish) = self.wishes.try_recv() {
+            self.grant(wish);
+        }
+        match self.robot.hear()? {
+            Some(Heard::Message(Message::Update(update))) => {
+                let time = self.start + update.time;
+                if let Some(output) = self.subscribed(update.subscription) {
+                    output.log(update.value, time);
+                }
+            }
+            Some(Heard::Frame(frame)) => {
+                let time = self.start + frame.time;
+                if let Some(output) = self.subscribed(frame.subscription) {
+                    output.log_image(frame.value, time);
+                }
+            }
+            Some(Heard::Message(Message::ParametersChanged(_))) => {
+                if let Ok(all) = parameters::read(&mut self.robot, &[]) {
+                    self.server.publish_parameter_values(all);
+                }
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn subscribed(&self, subscription: u32) -> Option<&Output> {
+        let mut outputs = self.outputs.iter();
+        outputs.find(|output| output.subscription == Some(subscription))
+    }
+
+    /// What the robot refuses is told here; whether it went away, its next word tells.
+    fn grant(&mut self, wish: Wish) {
+        let granted = match wish {
+            Wish::Watch { topic } => self.watch(&topic),
+            Wish::Leave { topic } => self.leave(&topic),
+            Wish::Get(names, responder) => {
+                let read = parameters::read(&mut self.robot, &names);
+                let (parameters, result) = or_none(read);
+                responder.respond(parameters);
+                result
+            }
+            Wish::Set(wanted, responder) => {
+                let names: Vec<_> = wanted.iter().map(|it| it.name.clone()).collect();
+                let written = parameters::write(&mut self.robot, wanted);
+                let (mut parameters, result) = or_none(written);
+                if result.is_err() {
+                    // Then they are what they were.
+                    parameters = parameters::read(&mut self.robot, &names).unwrap_or_default();
+                }
+                responder.respond(parameters);
+                result
+            }
+        };
+        if let Err(message) = granted {
+            eprintln!("warning: {message}");
+        }
+    }
+
+    fn watch(&mut self, topic: &str) -> Result<()> {
+        let Some(output) = self.outputs.iter_mut().find(|output| output.topic == topic) else {
+            return Ok(());
+        };
+        output.watching += 1;
+        if output.watching == 1
+            && let Good::Subscribed(subscribed) = self.robot.ask(output.ask(self.options))?
+        {
+            output.subscription = Some(subscribed.subscription);
+        }
+        Ok(())
+    }
+
+    fn leave(&mut self, topic: &str) -> Result<()> {
+        let Some(output) = self.outputs.iter_mut().find(|output| output.topic == topic) else {
+            return Ok(());
+        };
+        output.watching = output.watching.saturating_sub(1);
+        if output.watching == 0
+            && let Some(subscription) = output.subscription.take()
+        {
+            self.robot.ask(Ask::Unsubscribe { subscription })?;
+        }
+        Ok(())
+    }
+}
+
+fn or_none(result: Result<Vec<Parameter>>) -> (Vec<Parameter>, Result<()>) {
+    match result {
+        Ok(parameters) => (parameters, Ok(())),
+        Err(message) => (Vec::new(), Err(message)),
+    }
+}

@@ -1,0 +1,121 @@
+//! Shows a running robot in Foxglove: each output is a channel with its schema, images are pictures, parameters can be
+//! changed.
+//!
+//! ```text
+//! robot <--docs/protocol.md--> Robot --Bridge--> channels, parameters <--foxglove.sdk.v1--> Foxglove
+//!                                    <--wishes--
+//! ```
+//! Invariant: the robot is asked for an output only while somebody looks at it.
+
+mod bridge;
+mod channels;
+mod parameters;
+mod robot;
+
+use std::net::SocketAddr;
+use std::process::ExitCode;
+
+use lexopt::prelude::{Long, Short, ValueExt as _};
+
+use bridge::Bridge;
+use robot::Robot;
+
+const HELP: &str = "\
+Shows a running robot in Foxglove: open ws://127.0.0.1:8765 there.
+
+  --host ADDRESS     where the robot is [default: 127.0.0.1:4857]
+  --token TOKEN      the robot's, to change parameters [default: HULKGEN_TOKEN of the environment]
+  --listen ADDRESS   where Foxglove finds the bridge [default: 127.0.0.1:8765]
+  --rate HZ          at most so many values of an output in a second [default: 30]
+  --quality NUMBER   of images, 1 (small) to 100 (good) [default: 70]
+  --help";
+
+/// What the command line says.
+pub(crate) struct Options {
+    host: String,
+    token: Option<String>,
+    /// Where Foxglove finds the bridge.
+    pub(crate) listen: SocketAddr,
+    /// Values of an output in a second.
+    pub(crate) rate: f64,
+    /// Of JPEG files.
+    pub(crate) quality: u8,
+}
+
+/// What went wrong, for people.
+pub(crate) type Result<T> = std::result::Result<T, String>;
+
+fn main() -> ExitCode {
+    let result = read_options().and_then(|options| match options {
+        Some(options) => run(&options),
+        None => {
+            println!("{HELP}");
+            Ok(())
+        }
+    });
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("error: {message}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// As long as the robot runs.
+fn run(options: &Options) -> Result<()> {
+    let robot = Robot::connect(&options.host, options.token.as_deref())?;
+    let mut bridge = Bridge::start(robot, options)?;
+    eprintln!(
+        "{} is at ws://{}:{}",
+        bridge.name(),
+        options.listen.ip(),
+        bridge.port()
+    );
+    loop {
+        bridge.turn()?;
+    }
+}
+
+/// `None`: somebody wants help.
+fn read_options() -> Result<Option<Options>> {
+    let mut options = Options {
+        host: format!("127.0.0.1:{}", protocol::PORT),
+        token: std::env::var("HULKGEN_TOKEN").ok(),
+        listen: SocketAddr::from(([127, 0, 0, 1], 8765)),
+        rate: 30.0,
+        quality: 70,
+    };
+    let mut arguments = lexopt::Parser::from_env();
+    let wrong = |error: lexopt::Error| format!("{error}; see --help");
+    while let Some(argument) = arguments.next().map_err(wrong)? {
+        match argument {
+            Long("host") => {
+                options.host = arguments
+                    .value()
+                    .and_then(|it| it.string())
+                    .map_err(wrong)?
+            }
+            Long("token") => {
+                options.token = Some(
+                    arguments
+                        .value()
+                        .and_then(|it| it.string())
+                        .map_err(wrong)?,
+                )
+            }
+            Long("listen") => {
+                options.listen = arguments.value().and_then(|it| it.parse()).map_err(wrong)?
+            }
+            Long("rate") => {
+                options.rate = arguments.value().and_then(|it| it.parse()).map_err(wrong)?
+            }
+            Long("quality") => {
+                options.quality = arguments.value().and_then(|it| it.parse()).map_err(wrong)?
+            }
+            Short('h') | Long("help") => return Ok(None),
+            other => return Err(wrong(other.unexpected())),
+        }
+    }
+    Ok(Some(options))
+}
