@@ -329,7 +329,7 @@ mod tests {
     use serde_json::json;
 
     use super::{Base64, JointState, JointStates};
-    use crate::reflect::Reflect;
+    use crate::Reflect;
     use crate::time::Timestamp;
 
     /// One joint.

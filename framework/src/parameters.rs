@@ -22,7 +22,6 @@ pub use nearest::nearest;
 
 use serde::de::DeserializeOwned;
 
-pub(crate) use nearest::nearest;
 use tree::Tree;
 
 /// A type from the text of one TOML file; `name` is the file's in errors.

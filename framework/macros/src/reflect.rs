@@ -1,15 +1,16 @@
 //! `#[derive(Reflect)]`.
 
 mod enums;
-mod image;
+mod on_type;
 mod parts;
 mod structs;
 
 use grammar::documentation;
 use proc_macro2::TokenStream as Tokens;
 use quote::quote;
-use syn::{Attribute, Data, DeriveInput, ExprPath, parse_quote};
+use syn::{Data, DeriveInput, ExprPath, parse_quote};
 
+use self::on_type::OnType;
 use crate::serde_names::Container;
 
 /// The functions of the trait that depend on the parts of a type.
@@ -33,34 +34,21 @@ struct Walk {
 pub(crate) fn expand(item: &DeriveInput) -> syn::Result<Tokens> {
     let container = Container::read(&item.attrs)?;
     let docs = documentation(&item.attrs);
-    let pixels = image::read(item)?;
+    let said = OnType::read(item)?;
     let functions = match &item.data {
         _ if container.foreign => opaque(),
-        Data::Struct(data) => structs::functions(&data.fields, &container, &docs, pixels)?,
+        Data::Struct(data) => structs::functions(&data.fields, &container, &docs, said.pixels)?,
         Data::Enum(data) => enums::functions(data, &container, &docs)?,
         Data::Union(data) => {
             let message = "`Reflect` is for structs and enums";
             return Err(syn::Error::new(data.union_token.span, message));
         }
     };
-    let foxglove = read_foxglove(&item.attrs)?;
-    Ok(quote_implementation(item, &functions, foxglove.as_ref()))
-}
-
-/// The function that `#[reflect(foxglove = …)]` names.
-fn read_foxglove(attributes: &[Attribute]) -> syn::Result<Option<ExprPath>> {
-    let mut function = None;
-    let own = attributes.iter();
-    for attribute in own.filter(|attribute| attribute.path().is_ident("reflect")) {
-        attribute.parse_nested_meta(|meta| {
-            if !meta.path.is_ident("foxglove") {
-                return Err(meta.error("a type may say `foxglove = FUNCTION`"));
-            }
-            function = Some(meta.value()?.parse()?);
-            Ok(())
-        })?;
-    }
-    Ok(function)
+    Ok(quote_implementation(
+        item,
+        &functions,
+        said.foxglove.as_ref(),
+    ))
 }
 
 fn quote_foxglove(function: &ExprPath) -> Tokens {

@@ -1,10 +1,7 @@
 //! The valid name that was probably meant.
 
 /// The nearest of `names` to `wanted`, if it is near enough to be a slip.
-pub fn nearest<'a>(
-    wanted: &str,
-    names: impl IntoIterator<Item = &'a str>,
-) -> Option<&'a str> {
+pub fn nearest<'a>(wanted: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let limit = 1 + wanted.chars().count() / 3;
     let distances = names.into_iter().map(|name| (distance(wanted, name), name));
     let (distance, name) = distances.min_by_key(|(distance, _)| *distance)?;

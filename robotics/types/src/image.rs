@@ -9,8 +9,7 @@ use serde::{Deserialize, Serialize};
 /// Full-range BT.601. Outside of the image every reading is `None`, also where `data` is shorter
 /// than `width * height * 2` bytes.
 #[derive(Clear, Clone, Debug, Default, Deserialize, Eq, PartialEq, Reflect, Serialize)]
-#[reflect(image = "yuyv")]
-#[reflect(foxglove = Self::to_raw_image)]
+#[reflect(image = "yuyv", foxglove = Self::to_raw_image)]
 pub struct YuyvImage {
     /// Pixels in a row, even.
     pub width: u32,

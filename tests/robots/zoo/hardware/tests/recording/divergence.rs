@@ -5,7 +5,7 @@ use std::sync::Arc;
 use framework::cycler::{Counters, Reference};
 use framework::digest::DigestError;
 use framework::driver::Observer;
-use framework::recorded::{Capture, SaveError, Settings, Visit};
+use framework::recorded::{Capture, Forms, SaveError, Settings, Types, Visit};
 use framework::reflect::Reflect;
 use framework::report::InstanceReport;
 use framework::tap::{Reports, Tap};
@@ -226,6 +226,12 @@ impl Instance for Flipped {
 
     fn tap(&mut self, _: &Subscriptions) -> (Vec<Tap>, Reports) {
         (Vec::new(), Reports::silent())
+    }
+
+    fn forms(&self, _: &mut Forms) {}
+
+    fn types(&self) -> Types {
+        Types::default()
     }
 
     fn main_outputs(&self) -> &'static [&'static str] {
