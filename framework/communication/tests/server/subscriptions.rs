@@ -260,9 +260,9 @@ fn a_server_that_ends_leaves_the_robot_alone() {
     client.update(cycles);
     zoo.stop_serving();
     let close = loop {
-        match client.socket().read().expect("the server says goodbye") {
-            Message::Close(close) => break close.expect("and why"),
-            _ => {}
+        let message = client.socket().read().expect("the server says goodbye");
+        if let Message::Close(close) = message {
+            break close.expect("and why");
         }
     };
     assert_eq!(close.code, CloseCode::Away);
