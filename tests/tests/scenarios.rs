@@ -98,6 +98,8 @@ fn some_are_played() {
         ("push_from_the_left", 2),
         ("stand_up_from_the_back", 1),
         ("kick_right", 1),
+        ("goal", 1),
+        ("penalised_by_the_referee", 1),
     ] {
         let outcome = play(name, seeds);
         assert_eq!(outcome["passed"], true, "{outcome:#}");

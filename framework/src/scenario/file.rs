@@ -146,13 +146,15 @@ impl Scenario {
         let robots: Result<Vec<Participant>> =
             written.robots.into_iter().map(Participant::read).collect();
         let robots = robots?;
-        let has_robot =
-            |number: usize, what: String| match (1..=robots.len().max(1)).contains(&number) {
-                true => Ok(()),
-                false => Err(Error::new(format!(
-                    "{what}: there is no robot {number}; add a `[[robot]]` for each, the first is 1"
-                ))),
-            };
+        let count = robots.len().max(1);
+        let has_robot = |number: usize, what: String| {
+            if (1..=count).contains(&number) {
+                return Ok(());
+            }
+            Err(Error::new(format!(
+                "{what}: there is no robot {number}; add a `[[robot]]` for each, the first is 1"
+            )))
+        };
         for call in &written.calls {
             has_robot(call.robot, format!("call of `{}`", call.path))?;
             let _times = call
@@ -280,11 +282,15 @@ impl Event {
         };
         let robot = match table.remove("robot") {
             None => first(),
-            Some(toml::Value::Integer(number)) if number > 0 => number as usize,
-            Some(other) => {
-                return Err(Error::new(format!(
-                    "`robot = {other}` of an `[[event]]` is no number of a robot: the first is 1"
-                )));
+            Some(written) => {
+                let number = written
+                    .as_integer()
+                    .and_then(|number| usize::try_from(number).ok());
+                number.filter(|number| *number > 0).ok_or_else(|| {
+                    Error::new(format!(
+                        "`robot = {written}` of an `[[event]]` is no number of a robot: the first is 1"
+                    ))
+                })?
             }
         };
         Ok(Self {

@@ -1,6 +1,6 @@
 //! Plays a scenario once.
 
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use super::ensemble::{Ensemble, Lives, together};
@@ -79,9 +79,7 @@ pub(crate) fn play<H: Hardware, P: Send>(
     let mut digests = Vec::new();
     let mut stopped = Vec::new();
     for (number, actor) in (1..).zip(actors) {
-        let actor = actor
-            .into_inner()
-            .unwrap_or_else(|poison| poison.into_inner());
+        let actor = actor.into_inner().unwrap_or_else(PoisonError::into_inner);
         digests.extend(actor.digest.map(|digest| digest.to_string()));
         stopped.extend(actor.stopped.map(|why| match hardwares.len() {
             1 => why,

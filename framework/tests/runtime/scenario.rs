@@ -214,7 +214,7 @@ value = 'truth.events'
 equals = 100
 at_end = true
 [[assertion]]
-what = 'the event is the second one\'s'
+what = 'the event happens to the second'
 robot = 2
 value = 'truth.events'
 above = 1000

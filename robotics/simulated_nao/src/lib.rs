@@ -12,6 +12,7 @@ pub mod camera;
 pub mod field;
 pub mod ground_truth;
 pub mod physics;
+pub mod referee;
 pub mod scene;
 pub mod settings;
 
@@ -19,7 +20,6 @@ mod hardware;
 mod network;
 mod noise;
 pub mod posture;
-mod referee;
 mod safety;
 mod senses;
 mod server;

@@ -9,7 +9,7 @@ mod kinematic;
 
 pub(crate) use body::heading;
 pub use body::{Body, Start, weight};
-pub use dynamic::{Dynamic, ROLLING_DECELERATION, mjcf};
+pub use dynamic::{Dynamic, ROLLING_DECELERATION, empty_world, mjcf};
 pub use kinematic::Kinematic;
 
 use std::time::Duration;

@@ -8,33 +8,32 @@ mod announcement;
 mod ball;
 mod removal;
 
-#[cfg(test)]
-mod tests;
-
 use nalgebra::{Point2, Point3};
 use types::game::{GameState, Penalty, SetPlay};
 
-pub(crate) use self::announcement::message;
+pub use self::announcement::message;
 use self::removal::Record;
 use crate::scene::Team;
 use crate::settings::PlaySettings;
 
 /// What the referee sees of a robot.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Player {
-    pub(crate) team: Team,
-    pub(crate) number: u8,
+pub struct Player {
+    /// Whose it is.
+    pub team: Team,
+    /// Number of its shirt.
+    pub number: u8,
     /// Its ground frame in the field frame: x and y in m, heading in rad.
-    pub(crate) pose: [f64; 3],
+    pub pose: [f64; 3],
     /// Of its torso, rad.
-    pub(crate) tilt: f64,
+    pub tilt: f64,
     /// The middles of its soles in the field frame, m.
-    pub(crate) feet: [Point2<f64>; 2],
+    pub feet: [Point2<f64>; 2],
 }
 
 /// What the referee does.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Ruling {
+pub enum Ruling {
     /// Whistles.
     Whistle,
     /// Puts the ball there, at rest, m.
@@ -45,17 +44,20 @@ pub(crate) enum Ruling {
 
 /// A referee and the game as it really stands.
 #[derive(Clone, Debug)]
-pub(crate) struct Referee {
+pub struct Referee {
     settings: PlaySettings,
-    pub(crate) state: GameState,
+    /// What robots may do.
+    pub state: GameState,
     /// When it became that, s.
     since: f64,
-    pub(crate) set_play: SetPlay,
+    /// How the game was resumed.
+    pub set_play: SetPlay,
     /// When the ball was given to somebody, s.
     set_play_since: f64,
-    pub(crate) kicking: Team,
+    /// Who kicks.
+    pub kicking: Team,
     /// Goals of blue and red.
-    pub(crate) score: [u8; 2],
+    pub score: [u8; 2],
     /// How long the half has been played, s.
     played: f64,
     /// When it looked last, s.
@@ -79,7 +81,7 @@ struct Said {
 
 impl Referee {
     /// Before the game; blue kicks off.
-    pub(crate) fn new(settings: PlaySettings) -> Self {
+    pub fn new(settings: PlaySettings) -> Self {
         Self {
             settings,
             state: GameState::Initial,
@@ -98,12 +100,7 @@ impl Referee {
     }
 
     /// Looks at the world at a time (s) and rules.
-    pub(crate) fn look(
-        &mut self,
-        now: f64,
-        ball: Option<Point3<f64>>,
-        players: &[Player],
-    ) -> Vec<Ruling> {
+    pub fn look(&mut self, now: f64, ball: Option<Point3<f64>>, players: &[Player]) -> Vec<Ruling> {
         let passed = now - self.looked;
         self.looked = now;
         let mut rulings = Vec::new();
@@ -124,12 +121,7 @@ impl Referee {
     }
 
     /// Takes a robot out, as somebody says.
-    pub(crate) fn penalise(
-        &mut self,
-        player: usize,
-        penalty: Penalty,
-        players: &[Player],
-    ) -> Vec<Ruling> {
+    pub fn penalise(&mut self, player: usize, penalty: Penalty, players: &[Player]) -> Vec<Ruling> {
         let mut rulings = Vec::new();
         self.records.resize(players.len(), Record::default());
         self.remove(player, penalty, players, &mut rulings);
@@ -194,7 +186,7 @@ impl Referee {
     }
 }
 
-pub(crate) fn other(team: Team) -> Team {
+fn other(team: Team) -> Team {
     match team {
         Team::Own => Team::Opponent,
         Team::Opponent => Team::Own,

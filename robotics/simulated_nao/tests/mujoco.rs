@@ -18,7 +18,7 @@ fn the_exported_robot_stands_in_mujoco() {
         pose: [0.0; 3],
     };
     std::fs::write(&file, mjcf(&start)).unwrap();
-    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/mujoco.py");
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/mujoco_stands.py");
     let output = Command::new("python3").arg(script).arg(&file).output();
     let output = match output {
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => {

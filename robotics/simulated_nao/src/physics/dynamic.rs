@@ -3,9 +3,6 @@
 //! Each robot is one articulated body of 25 links in reduced coordinates, so that its joints cannot come
 //! apart. Links of the same robot do not touch each other.
 
-#[cfg(test)]
-mod pendulum;
-
 mod articulation;
 mod ball;
 mod convert;
@@ -100,8 +97,8 @@ impl Dynamic {
     }
 }
 
-/// Nothing but gravity.
-fn empty_world() -> PhysicsWorld {
+/// The engine as it is set up here, with nothing in it but gravity.
+pub fn empty_world() -> PhysicsWorld {
     let mut world = PhysicsWorld::new();
     world.gravity = Vector::new(0.0, 0.0, -GRAVITY);
     world.integration_parameters.dt = STEP.as_secs_f64();

@@ -13,7 +13,7 @@ use crate::settings::GameSettings;
 const MESSAGE_BUDGET: u16 = 1200;
 
 /// The message at a time (s), without its number.
-pub(crate) fn message(
+pub fn message(
     referee: &Referee,
     game: &GameSettings,
     now: f64,

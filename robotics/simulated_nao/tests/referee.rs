@@ -2,16 +2,16 @@
 
 use nalgebra::{Point2, Point3};
 
-use types::game::GameControllerMessage;
-
-use super::*;
-use crate::settings::GameSettings;
+use simulated_nao::referee::{Player, Referee, Ruling, message};
+use simulated_nao::scene::Team;
+use simulated_nao::settings::{GameSettings, PlaySettings};
+use types::game::{GameControllerMessage, GameState, Penalty, SetPlay};
 
 const QUICK: PlaySettings = PlaySettings {
     initial: 1.0,
     ready: 2.0,
     set: 1.0,
-    half: 60.0,
+    half: 100.0,
     delay: 3.0,
     kick_off: 10.0,
     free_kick: 30.0,
@@ -97,7 +97,7 @@ fn the_game_begins_and_the_computer_tells_of_the_whistle_late() {
         (4.1, GameState::Playing, GameState::Set),
         (6.9, GameState::Playing, GameState::Set),
         (7.2, GameState::Playing, GameState::Playing),
-        (64.2, GameState::Finished, GameState::Finished),
+        (104.2, GameState::Finished, GameState::Finished),
     ] {
         game.run_until(time);
         assert_eq!(game.referee.state, really, "at {time} s");
@@ -206,13 +206,6 @@ fn robots_are_removed_and_come_back() {
     game.move_player(1, [2.0, 3.2, 0.0]);
     game.run_until(63.0);
     assert_ne!(game.said().teams[0].players[0].penalty, Penalty::None);
-    let mut game = Game {
-        referee: Referee {
-            played: -100.0,
-            ..game.referee
-        },
-        ..game
-    };
     game.run_until(72.0);
     assert_eq!(game.said().teams[0].players[0].penalty, Penalty::None);
 }

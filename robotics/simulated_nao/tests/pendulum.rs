@@ -7,8 +7,7 @@ use rapier3d_f64::prelude::{
     JointAxis, MassProperties, RevoluteJointBuilder, RigidBodyBuilder, Vector,
 };
 
-use super::super::STEP;
-use super::empty_world;
+use simulated_nao::physics::{STEP, empty_world};
 
 /// From the axis to the centre of mass, m: that of a NAO's leg.
 const LENGTH: f64 = 0.15;
