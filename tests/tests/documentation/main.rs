@@ -1,0 +1,348 @@
+//! What the pages say, as far as a machine can judge it: links lead somewhere, commands are commands, code is code.
+
+mod page;
+mod shell;
+mod written;
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+
+use camino::{Utf8Path, Utf8PathBuf};
+use clap::{CommandFactory, Parser, error::ErrorKind};
+use grammar::{is_context_attribute, parse_context};
+use hulkgen::arguments::Arguments;
+use hulkgen::commands;
+use hulkgen::outcome::Outcome;
+use page::{Block, Page};
+use support::{root, sources};
+use syn::Item;
+
+const AT_ROOT: [&str; 5] = [
+    "ARCHITECTURE.md",
+    "CHANGELOG.md",
+    "CONTRIBUTING.md",
+    "README.md",
+    "STYLE.md",
+];
+const SUMMARY: &str = "docs/SUMMARY.md";
+
+/// Every page by its path.
+fn pages() -> BTreeMap<Utf8PathBuf, Page> {
+    let root = root();
+    let read = |path: &str| fs::read_to_string(root.join(path)).expect("the page is there");
+    let mut texts: BTreeMap<Utf8PathBuf, String> = AT_ROOT
+        .iter()
+        .map(|path| (Utf8PathBuf::from(path), read(path)))
+        .collect();
+    let docs = sources(&["docs"], ".md");
+    texts.extend(docs.into_iter().map(|page| (page.path.into(), page.text)));
+    let parsed = texts.into_iter().map(|(path, text)| {
+        let page = Page::parse(&text);
+        (path, page)
+    });
+    parsed.collect()
+}
+
+/// Pages whose code is judged by a test of its own: `diagnostics.rs` compares it with the robots that it is cut from.
+fn is_of_robots(path: &Utf8Path) -> bool {
+    path.starts_with("docs/diagnostics")
+}
+
+/// Every block with its place.
+fn blocks<'a>(
+    pages: &'a BTreeMap<Utf8PathBuf, Page>,
+    language: &'a str,
+) -> impl Iterator<Item = (String, &'a Block)> {
+    let own = pages.iter().filter(|(path, _)| !is_of_robots(path));
+    let blocks = own.flat_map(|(path, page)| page.blocks.iter().map(move |block| (path, block)));
+    let blocks = blocks.filter(move |(_, block)| block.language == language);
+    blocks.map(|(path, block)| (format!("{path}:{}", block.line), block))
+}
+
+/// A path without `.` and `..`.
+fn straight(path: &Utf8Path) -> Utf8PathBuf {
+    let mut straight = Utf8PathBuf::new();
+    for part in path.components() {
+        match part.as_str() {
+            "." => {}
+            ".." => assert!(straight.pop(), "{path} leads out of the repository"),
+            part => straight.push(part),
+        }
+    }
+    straight
+}
+
+#[track_caller]
+fn assert_none(what: &str, wrong: &[String]) {
+    assert!(wrong.is_empty(), "{what}:\n{}", wrong.join("\n"));
+}
+
+#[test]
+fn every_link_leads_to_a_file_and_a_heading() {
+    let (pages, mut wrong, mut followed) = (pages(), Vec::new(), 0);
+    for (path, page) in &pages {
+        let folder = path.parent().expect("a page lies in a folder");
+        for link in &page.links {
+            let place = format!("{path}:{}: {}", link.line, link.target);
+            if link.target.contains("://") {
+                continue;
+            }
+            followed += 1;
+            let (file, anchor) = link.target.split_once('#').unwrap_or((&link.target, ""));
+            let target = match file {
+                "" => path.clone(),
+                file => straight(&folder.join(file)),
+            };
+            if !root().join(&target).exists() {
+                wrong.push(format!("{place}: there is no {target}"));
+            } else if !anchor.is_empty() {
+                let anchors = pages.get(&target).map(|page| &page.anchors);
+                if !anchors.is_some_and(|anchors| anchors.contains(anchor)) {
+                    wrong.push(format!("{place}: {target} has no such heading"));
+                }
+            }
+        }
+    }
+    assert_none("links that lead nowhere", &wrong);
+    assert!(followed > 100, "only {followed} links");
+}
+
+#[test]
+fn the_summary_has_every_page_once() {
+    let pages = pages();
+    let summary = &pages[Utf8Path::new(SUMMARY)];
+    let linked: Vec<Utf8PathBuf> = summary
+        .links
+        .iter()
+        .map(|link| Utf8Path::new("docs").join(&link.target))
+        .collect();
+    let once: BTreeSet<&Utf8PathBuf> = linked.iter().collect();
+    assert_eq!(once.len(), linked.len(), "a page stands twice in {SUMMARY}");
+    let in_docs = pages.keys().filter(|path| path.starts_with("docs"));
+    let in_docs: BTreeSet<&Utf8PathBuf> = in_docs.filter(|path| *path != SUMMARY).collect();
+    assert_eq!(once, in_docs, "{SUMMARY} on the left, docs/ on the right");
+}
+
+#[test]
+fn every_page_of_the_docs_has_an_example() {
+    let pages = pages();
+    let in_docs = pages.iter().filter(|(path, _)| path.starts_with("docs"));
+    let without = in_docs.filter(|(path, page)| *path != SUMMARY && page.blocks.is_empty());
+    let without: Vec<String> = without.map(|(path, _)| path.to_string()).collect();
+    assert_none("pages without an example", &without);
+}
+
+#[test]
+fn every_command_of_a_page_is_one_that_hulkgen_understands() {
+    let (pages, mut wrong, mut understood) = (pages(), Vec::new(), 0);
+    for (place, block) in blocks(&pages, "sh") {
+        for words in shell::calls(&block.text) {
+            match Arguments::try_parse_from(&words) {
+                Err(error) if error.kind() != ErrorKind::DisplayHelp => {
+                    wrong.push(format!("{place}: {}\n{error}", words.join(" ")));
+                }
+                _ => understood += 1,
+            }
+        }
+    }
+    assert_none("commands that hulkgen does not understand", &wrong);
+    assert!(understood > 80, "only {understood} commands");
+}
+
+#[test]
+fn commands_that_sentences_name_are_commands() {
+    let command = Arguments::command();
+    let mut wrong = Vec::new();
+    for (path, page) in &pages() {
+        for (line, code) in &page.code {
+            let Some(words) = code.strip_prefix("hulkgen ") else {
+                continue;
+            };
+            let name = words.split([' ', '|', '/']).next().unwrap_or_default();
+            let is_one = command.find_subcommand(name).is_some() || name.starts_with('-');
+            if name
+                .chars()
+                .all(|one| one.is_ascii_lowercase() || one == '-')
+                && !is_one
+            {
+                wrong.push(format!("{path}:{line}: `{code}`"));
+            }
+        }
+    }
+    assert_none("commands that there are not", &wrong);
+}
+
+#[test]
+fn every_block_says_what_it_is() {
+    let known = [
+        "sh",
+        "toml",
+        "json",
+        "rust",
+        "rust,ignore",
+        "text",
+        "diff",
+        "python",
+    ];
+    let (pages, mut wrong) = (pages(), Vec::new());
+    for (path, page) in &pages {
+        let unknown = page.blocks.iter();
+        let unknown = unknown.filter(|block| !known.contains(&block.language.as_str()));
+        wrong.extend(unknown.map(|block| format!("{path}:{}: {:?}", block.line, block.language)));
+    }
+    assert_none("blocks of no known language", &wrong);
+}
+
+#[test]
+fn every_block_of_data_can_be_read() {
+    let pages = pages();
+    let mut wrong = Vec::new();
+    for (place, block) in blocks(&pages, "toml") {
+        if let Err(error) = block.text.parse::<toml::Table>() {
+            wrong.push(format!("{place}: {error}"));
+        }
+    }
+    for (place, block) in blocks(&pages, "json") {
+        let values = serde_json::Deserializer::from_str(&block.text).into_iter();
+        let values: Result<Vec<serde_json::Value>, _> = values.collect();
+        wrong.extend(values.err().map(|error| format!("{place}: {error}")));
+    }
+    assert_none("data that cannot be read", &wrong);
+}
+
+#[test]
+fn every_block_of_rust_is_rust_and_its_contexts_are_contexts() {
+    let (pages, mut wrong, mut contexts) = (pages(), Vec::new(), 0);
+    for (place, block) in blocks(&pages, "rust") {
+        let file = match syn::parse_file(&block.text) {
+            Ok(file) => file,
+            Err(error) => {
+                wrong.push(format!(
+                    "{place}: {error}; a part of a file is `rust,ignore`"
+                ));
+                continue;
+            }
+        };
+        for item in &file.items {
+            let Item::Struct(item) = item else { continue };
+            if !item.attrs.iter().any(is_context_attribute) {
+                continue;
+            }
+            match parse_context(item) {
+                Some((_, mistakes)) => {
+                    contexts += 1;
+                    wrong.extend(
+                        mistakes
+                            .iter()
+                            .map(|one| format!("{place}: {}", one.message)),
+                    );
+                }
+                None => wrong.push(format!("{place}: `{}` is no context", item.ident)),
+            }
+        }
+    }
+    assert_none("Rust that is none", &wrong);
+    assert!(contexts > 30, "only {contexts} contexts");
+}
+
+#[test]
+fn pages_of_the_reference_are_current() {
+    let is_update = std::env::var("INSTA_UPDATE").is_ok_and(|value| value == "always");
+    for (path, text) in written::pages() {
+        let path = root().join(path);
+        if is_update {
+            fs::write(&path, &text).expect("the repository can be written");
+        }
+        let is = fs::read_to_string(&path).unwrap_or_default();
+        let stale = format!(
+            "{} is stale: `INSTA_UPDATE=always` writes it",
+            path.display()
+        );
+        assert!(is == text, "{stale}");
+    }
+}
+
+/// The block of the tutorial that has this line.
+fn block_of_tutorial<'a>(tutorial: &'a Page, line: &str) -> &'a str {
+    let mut blocks = tutorial.blocks.iter();
+    let block = blocks.find(|block| block.text.lines().any(|one| one == line));
+    &block
+        .unwrap_or_else(|| panic!("no block has {line:?}"))
+        .text
+}
+
+/// hulkgen in this process.
+#[track_caller]
+fn hulkgen(robot: &Utf8Path, words: &[&str]) -> Outcome {
+    let words = ["hulkgen", "--manifest", robot.as_str()]
+        .into_iter()
+        .chain(words.iter().copied());
+    commands::run(&Arguments::try_parse_from(words).expect("it is a command"))
+}
+
+#[test]
+fn the_tutorial_leads_to_a_robot_without_mistakes() {
+    let pages = pages();
+    let tutorial = &pages[Utf8Path::new("docs/tutorial.md")];
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let robot = Utf8Path::from_path(folder.path())
+        .expect("its path is UTF-8")
+        .join("scout");
+    let (framework, path) = (root().display().to_string(), robot.as_str());
+    let good = Outcome::Good;
+    assert_eq!(
+        hulkgen(&robot, &["new", path, "--framework", &framework]),
+        good
+    );
+    let added = [
+        "add-node",
+        "nodes::control::speed_ramp",
+        "--cycler",
+        "Control",
+    ];
+    assert_eq!(hulkgen(&robot, &added), good);
+
+    let edit = |file: &str, from: &str, to: &str| {
+        let file = robot.join(file);
+        let text = fs::read_to_string(&file).expect("the robot has it");
+        assert_eq!(text.matches(from).count(), 1, "{from:?} in {file}");
+        fs::write(&file, text.replace(from, to)).expect("the folder is ours");
+    };
+    let node = "//! Changes the speed so slowly that nothing on the robot falls over.";
+    let node = block_of_tutorial(tutorial, node);
+    fs::write(robot.join("nodes/src/control/speed_ramp.rs"), node).expect("the folder is ours");
+    let reading = "    wheel_speed: RequiredInput<Option<f32>, \"ramped_speed?\">,";
+    let reading = block_of_tutorial(tutorial, reading);
+    let before = reading.replace("ramped_speed?", "wheel_speed?");
+    edit("nodes/src/control/wheel_sender.rs", &before, reading);
+    assert_eq!(
+        hulkgen(&robot, &["check"]),
+        Outcome::Bad,
+        "it lacks a value"
+    );
+    let value = block_of_tutorial(tutorial, "[speed_ramp]");
+    let table = "[hardware.simulation]\n";
+    edit(
+        "parameters/default.toml",
+        table,
+        &format!("{value}\n{table}"),
+    );
+    assert_eq!(hulkgen(&robot, &["check", "--deny-warnings"]), good);
+    assert_eq!(hulkgen(&robot, &["generate"]), good);
+    let generated = fs::read_to_string(robot.join("generated/src/cyclers/control.rs"));
+    let generated = generated.expect("it was just generated");
+    let diff = block_of_tutorial(tutorial, "+        self.speed_ramp(frame)?;");
+    let after: String = diff
+        .lines()
+        .map(|line| format!("{}\n", &line[1..]))
+        .collect();
+    assert!(generated.contains(&after), "{generated}");
+
+    let broken = "    obstacles: PerceptionInput<Option<Obstacle>, \"Perception\", \"obstacle\">,";
+    let reading = block_of_tutorial(tutorial, broken);
+    let text = fs::read_to_string(robot.join("nodes/src/control/speed_choice.rs"));
+    assert!(
+        text.expect("the robot has it").contains(reading),
+        "{reading}"
+    );
+}

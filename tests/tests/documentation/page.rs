@@ -1,0 +1,93 @@
+//! A page of Markdown, as far as its checks need it: fenced blocks, links, anchors.
+
+use std::collections::BTreeSet;
+
+/// A fenced block.
+#[derive(Debug)]
+pub struct Block {
+    /// What stands behind the fence: `sh`, `rust,ignore`.
+    pub language: String,
+    /// Of the fence, from 1.
+    pub line: usize,
+    pub text: String,
+}
+
+/// A link, as it is written.
+#[derive(Debug)]
+pub struct Link {
+    /// From 1.
+    pub line: usize,
+    pub target: String,
+}
+
+/// A page in parts.
+#[derive(Debug, Default)]
+pub struct Page {
+    pub blocks: Vec<Block>,
+    pub links: Vec<Link>,
+    /// Code within sentences, with its line.
+    pub code: Vec<(usize, String)>,
+    /// Of the headings, as GitHub and mdBook name them.
+    pub anchors: BTreeSet<String>,
+}
+
+impl Page {
+    pub fn parse(text: &str) -> Self {
+        let mut page = Self::default();
+        let mut open: Option<Block> = None;
+        for (index, line) in text.lines().enumerate() {
+            let fence = line.trim_start().strip_prefix("```");
+            match (&mut open, fence) {
+                (Some(_), Some("")) => page.blocks.extend(open.take()),
+                (Some(block), _) => {
+                    block.text.push_str(line);
+                    block.text.push('\n');
+                }
+                (None, Some(language)) => {
+                    open = Some(Block {
+                        language: language.to_owned(),
+                        line: index + 1,
+                        text: String::new(),
+                    });
+                }
+                (None, None) => page.read_prose(index + 1, line),
+            }
+        }
+        let line = open.map(|block| block.line);
+        assert_eq!(line, None, "a block that begins in this line never ends");
+        page
+    }
+
+    fn read_prose(&mut self, line: usize, text: &str) {
+        if text.starts_with('#') {
+            let anchor = anchor(text.trim_start_matches('#').trim());
+            // GitHub counts headings of one name; nobody links to the second.
+            self.anchors.insert(anchor);
+        }
+        let mut prose = String::new();
+        for (index, part) in text.split('`').enumerate() {
+            if index % 2 == 0 {
+                prose.push_str(part);
+            } else {
+                self.code.push((line, part.to_owned()));
+            }
+        }
+        for (_, behind) in prose
+            .match_indices("](")
+            .map(|(at, _)| prose.split_at(at + 2))
+        {
+            let target = behind.split_once(')').map_or(behind, |(target, _)| target);
+            let target = target.to_owned();
+            self.links.push(Link { line, target });
+        }
+    }
+}
+
+/// The anchor of a heading.
+fn anchor(heading: &str) -> String {
+    let kept = heading.to_lowercase();
+    let kept = kept
+        .chars()
+        .filter(|one| one.is_alphanumeric() || matches!(one, ' ' | '-' | '_'));
+    kept.map(|one| if one == ' ' { '-' } else { one }).collect()
+}
