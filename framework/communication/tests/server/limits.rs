@@ -306,9 +306,12 @@ fn updates_that_nobody_takes_are_lost_and_told() {
         let images = &answer["subscribed"]["subscription"];
         let mut good = zoo.client();
         let cycles = good.subscribe(CYCLES);
-        let first = good.update(cycles)["cycle"].as_u64().expect("a number");
-        for cycle in first + 1..first + 250 {
-            assert_eq!(good.update(cycles)["cycle"], json!(cycle));
+        let mut cycle = good.update(cycles)["cycle"].as_u64();
+        // On a busy machine it, too, may miss some, and is told.
+        for _ in 0..250 {
+            let next = good.update(cycles)["cycle"].as_u64();
+            assert!(next > cycle, "{next:?} behind {cycle:?}");
+            cycle = next;
         }
         let (mut lost, mut seen) = (0, 0);
         let mut before: Option<u64> = None;
