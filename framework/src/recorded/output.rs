@@ -2,9 +2,12 @@
 //!
 //! The cycler writes the value as frames are written; the thread that owns the file makes JSON of it.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use hulkgen_recording::{ChannelId, Recorded, Rewrite, Schema, Track};
+use hulkgen_recording::{
+    Channel, ChannelId, Description, Recorded, Rewrite, Rewrites, Schema, Track,
+};
 use serde_json::Value;
 
 use super::{Loading, SaveError, Saving};
@@ -67,17 +70,83 @@ fn rewrite<T: Data>(time: u64, recorded: &[u8], json: &mut Vec<u8>) -> bool {
     }
 }
 
+/// The channels of all outputs that are to be recorded.
+pub(super) struct OutputChannels {
+    channels: Vec<(ChannelId, Wanted)>,
+    /// Sorted, once.
+    instances: Vec<&'static str>,
+}
+
+impl OutputChannels {
+    /// Behind the channels that there are.
+    pub(super) fn add(outputs: Vec<Wanted>, description: &mut Description) -> Self {
+        let mut instances: Vec<_> = outputs.iter().map(|output| output.instance).collect();
+        instances.sort_unstable();
+        instances.dedup();
+        let mut channels = Vec::new();
+        for output in outputs {
+            let schema = description.schemas.len() as u16;
+            let channel = ChannelId(description.channels.len() as u16);
+            description.schemas.push((output.form.schema)());
+            description.channels.push(Channel {
+                topic: output.topic(),
+                schema: Some(schema),
+                encoding: JSON.to_owned(),
+                metadata: Vec::new(),
+                once_per_chunk: false,
+            });
+            channels.push((channel, output));
+        }
+        Self {
+            channels,
+            instances,
+        }
+    }
+
+    /// What the tracks of outputs are called, one for each instance that has some.
+    pub(super) fn track_names(&self) -> Vec<String> {
+        let instances = self.instances.iter();
+        instances.map(|name| format!("{name}.outputs")).collect()
+    }
+
+    /// What makes JSON of each.
+    pub(super) fn rewrites(&self) -> Rewrites {
+        let channels = self.channels.iter();
+        channels
+            .map(|(channel, output)| (*channel, output.form.rewrite as Rewrite))
+            .collect()
+    }
+
+    /// By instance, with their tracks.
+    pub(super) fn recorders(self, tracks: Vec<Track>) -> BTreeMap<&'static str, OutputRecorder> {
+        let Self {
+            channels,
+            instances,
+        } = self;
+        let instances = instances.into_iter().zip(tracks);
+        let recorders = instances.map(|(name, track)| {
+            let own = channels
+                .iter()
+                .filter(|(_, output)| output.instance == name);
+            let outputs = own.map(|(channel, output)| (output.clone(), *channel));
+            let outputs = outputs.collect();
+            (name, OutputRecorder { track, outputs })
+        });
+        recorders.collect()
+    }
+}
+
 /// Some outputs of one instance on their way into the recording.
 pub(super) struct OutputRecorder {
-    pub(super) track: Track,
+    track: Track,
     /// With the channel of each.
-    pub(super) outputs: Arc<[(Wanted, ChannelId)]>,
+    outputs: Arc<[(Wanted, ChannelId)]>,
 }
 
 /// An output that is to be recorded.
 #[derive(Clone)]
 pub(super) struct Wanted {
-    pub(super) instance: &'static str,
+    instance: &'static str,
     name: &'static str,
     kind: OutputKind,
     form: Form,
@@ -138,20 +207,12 @@ fn all(instance: &dyn Instance, subscriptions: &Subscriptions) -> Vec<Wanted> {
 
 impl Wanted {
     /// What its channel is called, as clients name it.
-    pub(super) fn topic(&self) -> String {
+    fn topic(&self) -> String {
         let kind = match self.kind {
             OutputKind::Main => "main_outputs",
             OutputKind::Additional => "additional_outputs",
         };
         format!("{}.{kind}.{}", self.instance, self.name)
-    }
-
-    pub(super) fn schema(&self) -> Schema {
-        (self.form.schema)()
-    }
-
-    pub(super) fn rewrite(&self) -> Rewrite {
-        self.form.rewrite
     }
 
     fn value<'i>(&self, instance: &'i dyn Instance) -> Option<&'i dyn Reflect> {

@@ -1,16 +1,16 @@
 //! A recording of a whole robot.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use hulkgen_mcap::layout::{self, Layouts};
 use hulkgen_recording::{
-    Attachment, Channel, ChannelId, Counts, Description, Metadata, Recorder, Rewrites, Settings,
+    Attachment, Channel, ChannelId, Counts, Description, Metadata, Recorder, Settings,
 };
 
-use super::output::{self, OutputRecorder};
+use super::output::{self, OutputChannels};
 use super::recorder::{Condition, CycleObserver, CycleRecorder, Wanted};
 use super::{InstanceRecorded, PARAMETERS, RecordingReport, Types, VERSION};
 use crate::cycler::{Instance, InstanceDescription, Record};
@@ -84,51 +84,18 @@ impl Recording {
         let types: Vec<_> = types.collect();
         let outputs = output::find(&about.outputs, described(robot))?;
         let mut description = describe(&descriptions, &types, &written, about);
-        let first = description.channels.len();
-        let channels_of_outputs: Vec<_> = (first..)
-            .map(|index| ChannelId(index as u16))
-            .zip(&outputs)
-            .collect();
-        let mut rewrites = Rewrites::new();
-        for (channel, output) in &channels_of_outputs {
-            rewrites.insert(*channel, output.rewrite());
-            description.schemas.push(output.schema());
-            description.channels.push(Channel {
-                topic: output.topic(),
-                schema: Some((description.schemas.len() - 1) as u16),
-                encoding: output::JSON.to_owned(),
-                metadata: Vec::new(),
-                once_per_chunk: false,
-            });
-        }
-        let with_outputs: BTreeSet<_> = outputs.iter().map(|output| output.instance).collect();
-        let names_of_tracks = with_outputs.iter().map(|name| format!("{name}.outputs"));
-        let names_of_tracks: Vec<_> = names_of_tracks.collect();
-        let all: Vec<_> = names
-            .iter()
-            .copied()
-            .chain(names_of_tracks.iter().map(String::as_str))
-            .collect();
+        let outputs = OutputChannels::add(outputs, &mut description);
+        let of_outputs = outputs.track_names();
+        let of_outputs = of_outputs.iter().map(String::as_str);
+        let all: Vec<_> = names.iter().copied().chain(of_outputs).collect();
+        let rewrites = outputs.rewrites();
         let (recorder, mut tracks) =
             Recorder::start_rewriting(path, description, &all, settings, rewrites).map_err(
                 |error| {
                     Error::from(error).context(format!("cannot record into {}", path.display()))
                 },
             )?;
-        let of_outputs = tracks.split_off(names.len());
-        let mut of_outputs: BTreeMap<_, _> = with_outputs
-            .into_iter()
-            .zip(of_outputs)
-            .map(|(name, track)| {
-                let own = channels_of_outputs
-                    .iter()
-                    .filter(|(_, output)| output.instance == name);
-                let outputs = own
-                    .map(|(channel, output)| ((*output).clone(), *channel))
-                    .collect();
-                (name, OutputRecorder { track, outputs })
-            })
-            .collect();
+        let mut of_outputs = outputs.recorders(tracks.split_off(names.len()));
         // Channels: frames of all instances, then values.
         let values = (names.len()..).map(|index| ChannelId(index as u16));
         let sources = written.into_iter().chain([PARAMETERS]);
