@@ -2,6 +2,7 @@
 
 mod answers;
 mod recording;
+mod replay;
 mod running;
 mod scaffold;
 mod simulate;
@@ -13,6 +14,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 pub use answers::{Completions, Diff, Doctor, Explain, Man, Show, Stage};
 pub use recording::{ExportKind, Recording, RecordingCommand, Selection};
+pub use replay::{Capture, Replay};
 pub use running::{Call, Log, LogLevel, Param, ParamCommand, Running, Top, Topic, TopicCommand};
 pub use scaffold::{
     AddCycler, AddNode, CyclerKind, MergeDriver, New, RemoveNode, RenameOutput, Template,
@@ -83,6 +85,7 @@ pub enum Command {
     Top(Top),
     Replay(Replay),
     Recording(Recording),
+    Capture(Capture),
     New(New),
     AddNode(AddNode),
     AddCycler(AddCycler),
@@ -277,32 +280,6 @@ pub struct Build {
     /// Folder for what cargo builds [default: cargo's]
     #[arg(long, value_name = "FOLDER")]
     pub target_dir: Option<Utf8PathBuf>,
-}
-
-/// Generate, build, and run the cycles of a recording again
-///
-/// Each instance runs alone, each cycle from what was recorded of it, without hardware.
-#[derive(Args, Clone, Debug)]
-#[command(after_help = "\
-Exit status: 0 every output has the same bits, 1 one differs, nothing was verified, errors in the robot or a failed build,
-             2 wrong usage.
-
-Examples:
-  hulkgen replay runs/1700000000-42/recording.mcap --verify")]
-pub struct Replay {
-    /// The recording
-    pub file: Utf8PathBuf,
-    /// Compare every output, bit for bit, and name the first that differs
-    #[arg(long, required = true)]
-    pub verify: bool,
-    /// The target [default: the first of hulk.toml]
-    #[arg(long)]
-    pub target: Option<String>,
-    /// Form of the answer
-    #[arg(long, value_enum)]
-    pub format: Option<TextOrJson>,
-    #[command(flatten)]
-    pub build: Build,
 }
 
 #[cfg(test)]

@@ -7,6 +7,7 @@
 //! Invariants: whatever is wrong with the folder or a file in it, there is no kept answer, and no error either. The folder
 //! can be deleted at any time, also while hulkgen runs.
 
+pub mod checkout;
 mod folder;
 mod identity;
 mod sealed;

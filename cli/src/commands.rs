@@ -2,6 +2,7 @@
 //!
 //! Invariant: only these modules print; a command returns its outcome and never ends the process.
 
+mod capture;
 mod cargo;
 mod check;
 mod completions;
@@ -14,6 +15,7 @@ mod man;
 mod merge_driver;
 mod new;
 mod recording;
+mod replay;
 mod run;
 mod running;
 mod scaffold;
@@ -98,7 +100,8 @@ fn with_session(
         Command::Show(show) => show::run(&mut session, show),
         Command::Run(run) => run::run(&mut session, run),
         Command::Simulate(simulate) => simulate::run(&mut session, simulate),
-        Command::Replay(replay) => run::replay(&mut session, replay),
+        Command::Replay(replay) => replay::run(&mut session, replay),
+        Command::Capture(capture) => capture::run(&mut session, capture),
         Command::AddNode(add) => scaffold::add_node(&mut session, add),
         Command::AddCycler(add) => scaffold::add_cycler(&mut session, add),
         Command::RemoveNode(remove) => scaffold::remove_node(&mut session, remove),

@@ -6,6 +6,7 @@
 //!
 //! Invariant: nothing is written, printed or compiled. Comments and order of the files that are changed survive.
 
+mod capture;
 mod cycler;
 mod document;
 mod files;
@@ -24,6 +25,7 @@ use crate::outcome::Refusal;
 use crate::workspace::{MANIFEST, Member, Workspace};
 
 pub use crate::workspace::Changes;
+pub use capture::{Capture, capture, check_capturable};
 pub use cycler::{NewCycler, add_cycler};
 pub use framework::Framework;
 pub use new_robot::{NewRobot, Template, new_robot};

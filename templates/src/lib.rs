@@ -16,6 +16,8 @@ pub mod node {
     pub const NODE_RS: &str = include_str!("../node/node.rs.jinja");
     /// A node that waits for the data of a cycle.
     pub const SETUP_NODE_RS: &str = include_str!("../node/setup_node.rs.jinja");
+    /// A test from one cycle of a recording.
+    pub const CAPTURED_RS: &str = include_str!("../node/captured.rs.jinja");
 }
 
 /// Files of a new robot, by path from its root, from its name and where its framework comes from.

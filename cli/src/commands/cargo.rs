@@ -4,7 +4,7 @@ use std::ffi::OsString;
 use std::io::{BufRead, BufReader};
 use std::process::{Command, Stdio};
 
-use camino::Utf8PathBuf;
+use camino::{Utf8Path, Utf8PathBuf};
 
 use super::generate;
 use super::session::Session;
@@ -74,6 +74,16 @@ impl<'a> Request<'a> {
 
     /// Runs cargo in the robot's folder; what is not for programs goes to stderr as cargo says it.
     pub(super) fn said(&self, session: &Session<'_>, color: bool) -> Result<Said, Refusal> {
+        self.said_in(session.workspace.root(), session, color)
+    }
+
+    /// The same in another folder.
+    pub(super) fn said_in(
+        &self,
+        folder: &Utf8Path,
+        session: &Session<'_>,
+        color: bool,
+    ) -> Result<Said, Refusal> {
         let cargo = std::env::var_os("CARGO").unwrap_or_else(|| OsString::from("cargo"));
         let form = if color {
             "--message-format=json-diagnostic-rendered-ansi"
@@ -83,7 +93,7 @@ impl<'a> Request<'a> {
         let mut child = Command::new(&cargo)
             .args(&self.arguments)
             .arg(form)
-            .current_dir(session.workspace.root())
+            .current_dir(folder)
             .stdin(Stdio::null())
             .stdout(Stdio::piped())
             .spawn()

@@ -1,12 +1,10 @@
-//! `run` and `replay`: generate, build, and become the robot's program.
+//! `run`: generate, build, and become the robot's program.
 
 mod program;
 
-use std::ffi::OsString;
-
 use camino::{Utf8Path, Utf8PathBuf};
 
-pub(super) use program::absolute;
+pub(super) use program::{absolute, become_robot};
 
 use super::cargo::{OWN_PROFILE, Request};
 use super::session::Session;
@@ -14,38 +12,21 @@ use super::{Failure, generate};
 use crate::arguments;
 use crate::diagnostics::{listed, nearest};
 use crate::outcome::{Outcome, Refusal};
+use crate::pipeline::Understood;
 use crate::resolve::robot::{Robot, Target};
 
 pub(super) fn run(session: &mut Session<'_>, run: &arguments::Run) -> Result<Outcome, Failure> {
     let arguments = program::arguments(run)?;
-    become_program(session, run.target.as_deref(), &run.build, &arguments)
-}
-
-pub(super) fn replay(
-    session: &mut Session<'_>,
-    replay: &arguments::Replay,
-) -> Result<Outcome, Failure> {
-    let arguments = program::arguments_of_replay(replay)?;
-    become_program(session, replay.target.as_deref(), &replay.build, &arguments)
-}
-
-/// Builds the target's program and becomes it.
-fn become_program(
-    session: &mut Session<'_>,
-    target: Option<&str>,
-    how: &arguments::Build,
-    arguments: &[OsString],
-) -> Result<Outcome, Failure> {
     let wanted = Wanted {
-        target,
-        profile: how.profile.as_deref(),
-        target_dir: how.target_dir.as_deref(),
+        target: run.target.as_deref(),
+        profile: run.build.profile.as_deref(),
+        target_dir: run.build.target_dir.as_deref(),
     };
     let Some(executable) = build(session, &wanted)? else {
         return Ok(Outcome::Bad);
     };
     let root = session.workspace.root();
-    Err(program::become_robot(&executable, arguments, root).into())
+    Err(become_robot(&executable, &arguments, root).into())
 }
 
 /// Which program.
@@ -56,11 +37,44 @@ pub(super) struct Wanted<'a> {
     pub(super) target_dir: Option<&'a Utf8Path>,
 }
 
+/// A program that was built.
+pub(super) struct Built {
+    pub(super) executable: Utf8PathBuf,
+    pub(super) target: String,
+    /// `None`: the one of hulkgen itself.
+    pub(super) profile: Option<String>,
+    understood: Understood,
+}
+
+impl Built {
+    /// Builds the program of the same name in another folder, but where this one was built.
+    pub(super) fn request_elsewhere(&self) -> Result<Request<'_>, Refusal> {
+        let robot = &self.understood.robot;
+        let target = choose_target(robot, Some(&self.target))?;
+        let profile = self.profile.as_deref().unwrap_or(OWN_PROFILE);
+        let target_dir = target_dir(&self.executable).map(|folder| folder.as_str().into());
+        Ok(Request::build(robot, target, profile, target_dir))
+    }
+}
+
+/// The folder of what cargo builds, of a program in it: `target/release/program`.
+fn target_dir(executable: &Utf8Path) -> Option<&Utf8Path> {
+    executable.parent()?.parent()
+}
+
 /// Generates the robot's crate and builds a program that this machine can start; `None`: what is wrong was said.
 pub(super) fn build(
     session: &mut Session<'_>,
     wanted: &Wanted<'_>,
 ) -> Result<Option<Utf8PathBuf>, Failure> {
+    Ok(build_with(session, wanted)?.map(|built| built.executable))
+}
+
+/// As [`build`], with what it was built of.
+pub(super) fn build_with(
+    session: &mut Session<'_>,
+    wanted: &Wanted<'_>,
+) -> Result<Option<Built>, Failure> {
     let understood = session.understand()?;
     let target = choose_target(&understood.robot, wanted.target)?;
     refuse_other_machines(target)?;
@@ -69,7 +83,9 @@ pub(super) fn build(
         return Ok(None);
     }
     generate::write(session, &understood)?;
-    let profile = profile(wanted.profile, target).unwrap_or(OWN_PROFILE);
+    let (name, profile) = (target.name.clone(), profile(wanted.profile, target));
+    let own = profile.map(str::to_owned);
+    let profile = profile.unwrap_or(OWN_PROFILE);
     let target_dir = wanted.target_dir.map(program::absolute);
     let request = Request::build(&understood.robot, target, profile, target_dir.transpose()?);
     let said = request.said(session, session.terminal.colors_notes())?;
@@ -78,10 +94,15 @@ pub(super) fn build(
     if !said.success {
         return Ok(None);
     }
-    let executable = said.executable;
-    executable
-        .map(Some)
-        .ok_or_else(|| Refusal::bad("cargo did not say where the program is").into())
+    let executable = said
+        .executable
+        .ok_or_else(|| Refusal::bad("cargo did not say where the program is"))?;
+    Ok(Some(Built {
+        executable,
+        target: name,
+        profile: own,
+        understood,
+    }))
 }
 
 /// The target of this name, or the first.
@@ -129,7 +150,9 @@ fn profile<'a>(asked: Option<&'a str>, target: &'a Target) -> Option<&'a str> {
 
 #[cfg(test)]
 mod tests {
-    use super::{choose_target, profile, refuse_other_machines};
+    use camino::Utf8Path;
+
+    use super::{choose_target, profile, refuse_other_machines, target_dir};
     use crate::graph::fixture;
     use crate::outcome::Outcome;
 
@@ -188,6 +211,12 @@ mod tests {
         assert_eq!(profile(Some("dev"), &target), Some("dev"));
         target.profile = None;
         assert_eq!(profile(None, &target), None);
+    }
+
+    #[test]
+    fn the_folder_of_builds_is_that_of_the_profile_and_up() {
+        let program = Utf8Path::new("/robot/target/release/simulated");
+        assert_eq!(target_dir(program), Some(Utf8Path::new("/robot/target")));
     }
 
     #[test]

@@ -7,13 +7,13 @@ use std::process::Command;
 
 use camino::Utf8Path;
 
-use crate::arguments::{Replay, Run, TextOrJson};
+use crate::arguments::{Run, TextOrJson};
 use crate::outcome::Refusal;
 
 /// Replaces this process, so that signals, exit status and terminal are the robot's own, as
 /// `cargo run` does. Runs in the workspace root, where the generated program expects to be. Returns
 /// only if that is impossible.
-pub(super) fn become_robot(
+pub(in crate::commands) fn become_robot(
     executable: &Utf8Path,
     arguments: &[OsString],
     root: &Utf8Path,
@@ -71,18 +71,6 @@ pub(super) fn arguments(run: &Run) -> Result<Vec<OsString>, Refusal> {
     if !run.options.is_empty() {
         arguments.push("--".into());
         arguments.extend(run.options.iter().cloned());
-    }
-    Ok(arguments)
-}
-
-/// The program's options for a replay.
-pub(super) fn arguments_of_replay(replay: &Replay) -> Result<Vec<OsString>, Refusal> {
-    let mut arguments = vec!["--replay".into(), absolute(&replay.file)?];
-    if replay.verify {
-        arguments.push("--verify".into());
-    }
-    if let Some(TextOrJson::Json) = replay.format {
-        arguments.extend(["--format".into(), "json".into()]);
     }
     Ok(arguments)
 }
