@@ -12,6 +12,8 @@ mod outputs;
 mod some;
 #[path = "recording/types.rs"]
 mod types;
+#[path = "recording/timeline.rs"]
+mod timeline;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

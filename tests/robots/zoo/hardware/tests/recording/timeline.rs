@@ -1,0 +1,167 @@
+//! A recording that clients watch: at any speed, in both directions, from any cycle.
+
+use std::time::Duration;
+
+use framework::recorded::{Loading, Settings};
+use framework::replay::{
+    Move, PROCEDURE, Players, TIMELINE, Timeline, first_parameters, value_channels,
+};
+use framework::{Stop, Timestamp};
+use zoo_runtime::parameters::Parameters;
+use zoo_runtime::recording;
+
+use super::{INSTANCES, Tape, as_it_is, on, record_in_lockstep};
+
+/// The cycles of Control whose output a client got since it last looked.
+fn seen(link: &mut framework::link::Link) -> Vec<u64> {
+    let mut instances = link.instances.iter_mut();
+    let control = instances.find(|one| one.description.name == "Control");
+    let mut taps = control.expect("it is an instance").taps.iter_mut();
+    let tap = taps
+        .find(|tap| tap.name() == "cycles")
+        .expect("it is an output");
+    let mut cycles = Vec::new();
+    while tap.take(|tapped| cycles.push(tapped.cycle)) {}
+    cycles
+}
+
+#[test]
+fn time_goes_where_clients_want_it() {
+    let tape = Tape::new();
+    record_in_lockstep(&tape.path, Settings::default(), on, &as_it_is);
+    let file = tape.read();
+    let values = value_channels(&file).expect("it is of this version");
+    let players = Players::new(&file, &values, recording::INSTANCES).expect("it fits");
+    let first = first_parameters(&file, &values).expect("they were recorded");
+    let parameters: Parameters = Loading::new(first).take().expect("they are of this robot");
+    let (mut timeline, mut link) =
+        Timeline::new("zoo", players, parameters, &Stop::default()).expect("it has cycles");
+    let names = link.instances.iter().map(|one| one.description.name);
+    assert!(names.eq(INSTANCES.into_iter().chain([TIMELINE])));
+    let last = link.instances.last().expect("it is there");
+    assert_eq!(last.access.procedures[0].0, PROCEDURE);
+    let control = link
+        .instances
+        .iter_mut()
+        .find(|one| one.description.name == "Control");
+    let mut taps = control.expect("it is an instance").taps.iter_mut();
+    let tap = taps.find(|tap| tap.name() == "cycles");
+    tap.expect("it is an output").open();
+
+    let place = timeline.place();
+    assert!(place.is_playing && place.time == place.begins);
+    assert!(
+        place.instances.iter().all(|one| one.missing == 0),
+        "{place:?}"
+    );
+    let cycle = |timeline: &Timeline<'_>| timeline.place().instances[3].cycle;
+
+    // A client has a window of the newest values; so much at once that all of them fit.
+    timeline
+        .advance(Duration::from_millis(30))
+        .expect("it fits");
+    let forwards = seen(&mut link);
+    let count = forwards.len() as u64;
+    assert!(
+        count > 0 && forwards.iter().copied().eq(1..=count),
+        "{forwards:?}"
+    );
+    timeline
+        .go(&Move {
+            instance: Some("Control".to_owned()),
+            cycle: Some(80),
+            ..Move::default()
+        })
+        .expect("it was recorded");
+    assert_eq!(cycle(&timeline), Some(80));
+    timeline
+        .go(&Move {
+            speed: Some(-2.0),
+            ..Move::default()
+        })
+        .expect("it is a speed");
+    timeline
+        .advance(Duration::from_millis(12))
+        .expect("it fits");
+    let backwards = seen(&mut link);
+    assert!(backwards.starts_with(&[79]), "{backwards:?}");
+    assert!(
+        backwards.is_sorted_by(|later, earlier| later > earlier),
+        "{backwards:?}"
+    );
+    let shown = cycle(&timeline);
+    assert_eq!(shown, backwards.last().copied());
+    timeline
+        .go(&Move {
+            instance: Some("Control".to_owned()),
+            step: Some(-4),
+            ..Move::default()
+        })
+        .expect("it is a step");
+    let stepped = shown.map(|cycle| cycle - 4);
+    assert_eq!(
+        (cycle(&timeline), timeline.place().is_playing),
+        (stepped, false)
+    );
+    timeline
+        .go(&Move {
+            time: Some(1.0),
+            ..Move::default()
+        })
+        .expect("it is a time");
+    assert_eq!(timeline.place().time, 1.0);
+    timeline
+        .go(&Move {
+            speed: Some(1000.0),
+            play: Some(true),
+            ..Move::default()
+        })
+        .expect("it is a speed");
+    timeline.advance(Duration::from_secs(1)).expect("it fits");
+    let place = timeline.place();
+    assert!(!place.is_playing && place.time == place.ends, "{place:?}");
+    assert!(Timestamp::from_nanos((place.ends * 1e9) as u64) > Timestamp::ZERO);
+
+    for (wrong, message) in [
+        (
+            Move {
+                speed: Some(f64::NAN),
+                ..Move::default()
+            },
+            "no speed",
+        ),
+        (
+            Move {
+                cycle: Some(3),
+                ..Move::default()
+            },
+            "whose",
+        ),
+        (
+            Move {
+                instance: Some("Nobody".to_owned()),
+                ..Move::default()
+            },
+            "the recording has no instance `Nobody`",
+        ),
+        (
+            Move {
+                instance: Some("Control".to_owned()),
+                cycle: Some(100_000),
+                ..Move::default()
+            },
+            "was not recorded",
+        ),
+        (
+            Move {
+                time: Some(1.0),
+                step: Some(1),
+                ..Move::default()
+            },
+            "name one",
+        ),
+    ] {
+        let error = timeline.go(&wrong).expect_err("it is not there");
+        assert!(error.to_string().contains(message), "{error}");
+    }
+}
