@@ -1,11 +1,13 @@
 //! Every node of the zoo fails once under every policy of the manifest: contract section 5.6, in lockstep.
 //!
 //! The zoo is copied, each node gets a place where it can be struck, and one robot is generated for each policy; all four are
-//! compiled into the program `tests/robots/zoo/failures`, which strikes and judges.
+//! compiled into the program `tests/robots/zoo/failures`, which strikes and judges. Its second program flips one bit of one
+//! output at a time in a replay: contract section 7.
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Output};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use camino::Utf8Path;
 use hulkgen::diagnostics::{self, Diagnostics};
@@ -16,6 +18,43 @@ use serde_json::json;
 use support::{root, sources, target_folder};
 
 const POLICIES: [&str; 4] = ["stop", "restart", "skip", "hold"];
+
+/// Where a bit of each output of a node can be flipped, as late as the node itself could.
+fn flipping(text: &str) -> String {
+    let in_place = outputs_of(text, "CycleContext");
+    let returned = outputs_of(text, "MainOutputs");
+    let flip = |name: &str, value: String| {
+        format!("crate::flip::flip(module_path!(), {name:?}, {value});\n")
+    };
+    let before = in_place
+        .iter()
+        .map(|name| flip(name, format!("&mut *context.{name}")));
+    let before: String = before.collect();
+    let each = returned
+        .iter()
+        .map(|name| flip(name, format!("&mut self.{name}.value")));
+    let each: String = each.collect();
+    let end = text
+        .rfind("Ok(MainOutputs")
+        .expect("every node ends with it");
+    let (head, tail) = text.split_at(end);
+    let tail = tail.replacen("Ok(MainOutputs", "crate::flip::flipped(MainOutputs", 1);
+    format!(
+        "{head}{before}{tail}\nimpl crate::flip::Outputs for MainOutputs {{\nfn flip(&mut self) {{\n{each}}}\n}}\n"
+    )
+}
+
+/// Names of the main outputs in a struct of a node.
+fn outputs_of(text: &str, name: &str) -> Vec<String> {
+    let start = text
+        .find(&format!("pub struct {name} {{"))
+        .expect("every node has it");
+    let (fields, _) = text[start..].split_once('}').expect("it ends");
+    let fields = fields
+        .lines()
+        .filter_map(|line| line.split_once(": MainOutput<"));
+    fields.map(|(name, _)| name.trim().to_owned()).collect()
+}
 
 /// Where the nodes of the copy can be struck.
 fn struck(text: &str) -> String {
@@ -83,25 +122,36 @@ fn program_manifest() -> String {
     format!(
         "[package]\nname = \"zoo_failures\"\nversion.workspace = true\nedition.workspace = true\n\n\
          [[bin]]\nname = \"zoo_failures\"\npath = \"main.rs\"\n\n\
-         [dependencies]\nframework.workspace = true\nserde_json.workspace = true\n\
+         [[bin]]\nname = \"zoo_mutants\"\npath = \"mutants.rs\"\n\n\
+         [dependencies]\nframework.workspace = true\nhulkgen-recording.workspace = true\nserde_json.workspace = true\n\
          zoo_hardware.workspace = true\nzoo_nodes.workspace = true\n{}",
         runtimes.concat()
     )
 }
 
-struct Zoo(PathBuf);
+/// One test at a time writes the copy.
+static WRITING: Mutex<()> = Mutex::new(());
+
+struct Zoo {
+    folder: PathBuf,
+    _writing: MutexGuard<'static, ()>,
+}
 
 impl Zoo {
     /// In the same place every time: what did not change is not compiled again.
     fn new() -> Self {
-        let zoo = Self(Path::new(env!("CARGO_TARGET_TMPDIR")).join("failures"));
+        let place = Path::new(env!("CARGO_TARGET_TMPDIR")).join("failures");
+        let zoo = Self {
+            folder: place,
+            _writing: WRITING.lock().unwrap_or_else(PoisonError::into_inner),
+        };
         let from = "tests/robots/zoo/";
         for source in sources(&["tests/robots/zoo"], "") {
             let path = source.path.strip_prefix(from).expect("it lies there");
             let text = match path {
                 "hulk.toml" => continue,
                 _ if path.starts_with("generated") || path.contains("/tests/") => continue,
-                "nodes/src/lib.rs" => format!("{}pub mod fault;\n", source.text),
+                "nodes/src/lib.rs" => format!("{}pub mod fault;\npub mod flip;\n", source.text),
                 // Two of its nodes fail by themselves: where it is dark, and where it is loud.
                 "hardware/src/lib.rs" => {
                     let bright = replaced(&source.text, "number % 10 != 9", "number < u64::MAX");
@@ -115,7 +165,15 @@ impl Zoo {
                         .expect("its tests");
                     text.to_owned()
                 }
-                _ if source.text.contains("pub fn cycle") => struck(&source.text),
+                "nodes/Cargo.toml" => {
+                    let serde = "serde.workspace = true";
+                    replaced(
+                        &source.text,
+                        serde,
+                        &format!("postcard.workspace = true\n{serde}"),
+                    )
+                }
+                _ if source.text.contains("pub fn cycle") => flipping(&struck(&source.text)),
                 _ => source.text,
             };
             zoo.write(path, &text);
@@ -124,6 +182,22 @@ impl Zoo {
             "nodes/src/fault.rs",
             include_str!("../robots/zoo/failures/fault.rs"),
         );
+        for (path, text) in [
+            (
+                "nodes/src/flip.rs",
+                include_str!("../robots/zoo/failures/flip.rs"),
+            ),
+            (
+                "failures/main.rs",
+                include_str!("../robots/zoo/failures/main.rs"),
+            ),
+            (
+                "failures/mutants.rs",
+                include_str!("../robots/zoo/failures/mutants.rs"),
+            ),
+        ] {
+            zoo.write(path, text);
+        }
         zoo.write("Cargo.toml", &workspace_manifest());
         zoo.write("failures/Cargo.toml", &program_manifest());
         for policy in POLICIES {
@@ -137,7 +211,7 @@ impl Zoo {
     }
 
     fn write(&self, path: &str, text: &str) {
-        let path = self.0.join(path);
+        let path = self.folder.join(path);
         // What is touched is compiled again.
         if fs::read_to_string(&path).ok().as_deref() != Some(text) {
             fs::create_dir_all(path.parent().expect("a file lies in a folder"))
@@ -149,7 +223,7 @@ impl Zoo {
     /// Writes the robot whose nodes all have this policy.
     fn generate(&self, policy: &str) -> Robot {
         let manifest = Changes::from([("hulk.toml".into(), Some(with_policy(policy)))]);
-        let folder = Utf8Path::from_path(&self.0).expect("the path is UTF-8");
+        let folder = Utf8Path::from_path(&self.folder).expect("the path is UTF-8");
         let workspace = Workspace::at_root(folder).after(&manifest);
         let mut found = Diagnostics::new();
         let files = pipeline::generate(&workspace, &mut found);
@@ -163,6 +237,27 @@ impl Zoo {
         }
         let understood = pipeline::understand(&workspace, &mut found);
         understood.expect("it was just generated").robot
+    }
+
+    /// What a program of the copy says; it is built first.
+    fn run(&self, program: &str, arguments: &[&str]) -> Output {
+        let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+        let target = target_folder();
+        Command::new(cargo)
+            .args(["run", "--offline", "--quiet"])
+            .args([
+                "--package",
+                "zoo_failures",
+                "--bin",
+                program,
+                "--target-dir",
+            ])
+            .arg(target.parent().expect("target/<profile>"))
+            .arg("--")
+            .args(arguments)
+            .current_dir(&self.folder)
+            .output()
+            .expect("cargo runs these tests, so it is there")
     }
 }
 
@@ -208,28 +303,9 @@ fn plan(robot: &Robot) -> serde_json::Value {
 #[test]
 fn every_node_may_fail_under_every_policy() {
     let zoo = Zoo::new();
-    zoo.write(
-        "failures/main.rs",
-        include_str!("../robots/zoo/failures/main.rs"),
-    );
     let robots = POLICIES.map(|policy| zoo.generate(policy));
     let plan = plan(&robots[0]);
-    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let target = target_folder();
-    let output = Command::new(cargo)
-        .args([
-            "run",
-            "--offline",
-            "--quiet",
-            "--package",
-            "zoo_failures",
-            "--target-dir",
-        ])
-        .arg(target.parent().expect("target/<profile>"))
-        .args(["--", &plan.to_string()])
-        .current_dir(&zoo.0)
-        .output()
-        .expect("cargo runs these tests, so it is there");
+    let output = zoo.run("zoo_failures", &[&plan.to_string()]);
     let (said, words) = (
         String::from_utf8_lossy(&output.stdout),
         String::from_utf8_lossy(&output.stderr),
@@ -239,4 +315,32 @@ fn every_node_may_fail_under_every_policy() {
     let nodes = plan.as_array().map_or(0, Vec::len);
     assert!(nodes >= 21, "only {nodes} nodes");
     assert_eq!(tried.len(), nodes * POLICIES.len() * 2);
+}
+
+#[test]
+fn a_flipped_bit_of_any_node_is_named_by_the_verification() {
+    let zoo = Zoo::new();
+    let robots = POLICIES.map(|policy| zoo.generate(policy));
+    let plan = plan(&robots[0]);
+    let folder = tempfile::tempdir().expect("there is room for a folder");
+    let tape = folder.path().join("zoo.mcap");
+    let tape = tape.to_str().expect("the path is UTF-8");
+    let output = zoo.run("zoo_mutants", &[tape, &plan.to_string()]);
+    let (said, words) = (
+        String::from_utf8_lossy(&output.stdout),
+        String::from_utf8_lossy(&output.stderr),
+    );
+    let tried: Vec<_> = said.lines().collect();
+    assert!(output.status.success(), "{:?}\n{words}", tried.last());
+    let nodes = plan.as_array().expect("a list").iter();
+    let outputs = nodes.filter(|node| node["setup"] == false);
+    let outputs: usize = outputs
+        .map(|node| node["outputs"].as_array().map_or(0, Vec::len))
+        .sum();
+    assert!(outputs >= 13, "only {outputs} outputs");
+    let (named, bare): (Vec<&str>, Vec<&str>) =
+        tried.iter().partition(|line| line.contains(" at `"));
+    assert_eq!(bare.len(), outputs, "{said}");
+    // What other instances read, the recording has itself: there the place in the output is named, too.
+    assert!(named.len() >= 3, "{said}");
 }
