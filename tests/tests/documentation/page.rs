@@ -4,35 +4,35 @@ use std::collections::BTreeSet;
 
 /// A fenced block.
 #[derive(Debug)]
-pub struct Block {
+pub(crate) struct Block {
     /// What stands behind the fence: `sh`, `rust,ignore`.
-    pub language: String,
+    pub(crate) language: String,
     /// Of the fence, from 1.
-    pub line: usize,
-    pub text: String,
+    pub(crate) line: usize,
+    pub(crate) text: String,
 }
 
 /// A link, as it is written.
 #[derive(Debug)]
-pub struct Link {
+pub(crate) struct Link {
     /// From 1.
-    pub line: usize,
-    pub target: String,
+    pub(crate) line: usize,
+    pub(crate) target: String,
 }
 
 /// A page in parts.
 #[derive(Debug, Default)]
-pub struct Page {
-    pub blocks: Vec<Block>,
-    pub links: Vec<Link>,
+pub(crate) struct Page {
+    pub(crate) blocks: Vec<Block>,
+    pub(crate) links: Vec<Link>,
     /// Code within sentences, with its line.
-    pub code: Vec<(usize, String)>,
+    pub(crate) code: Vec<(usize, String)>,
     /// Of the headings, as GitHub and mdBook name them.
-    pub anchors: BTreeSet<String>,
+    pub(crate) anchors: BTreeSet<String>,
 }
 
 impl Page {
-    pub fn parse(text: &str) -> Self {
+    pub(crate) fn parse(text: &str) -> Self {
         let mut page = Self::default();
         let mut open: Option<Block> = None;
         for (index, line) in text.lines().enumerate() {

@@ -1,7 +1,7 @@
 //! What a line for a shell calls, as far as pages write such lines.
 
 /// The arguments of every call of hulkgen in a block for a shell, `hulkgen` first.
-pub fn calls(block: &str) -> Vec<Vec<String>> {
+pub(crate) fn calls(block: &str) -> Vec<Vec<String>> {
     let commands = block.lines().flat_map(commands);
     commands.filter_map(|words| call(&words)).collect()
 }

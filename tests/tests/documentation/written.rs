@@ -8,7 +8,7 @@ use hulkgen::diagnostics::Code;
 use serde_json::Value;
 
 /// Every page of this kind: its path, and its text.
-pub fn pages() -> [(&'static str, String); 3] {
+pub(crate) fn pages() -> [(&'static str, String); 3] {
     [
         ("docs/reference/cli.md", command_line()),
         ("docs/reference/diagnostics.md", diagnostics()),

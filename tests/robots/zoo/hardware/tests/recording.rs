@@ -10,10 +10,10 @@ mod divergence;
 mod outputs;
 #[path = "recording/some.rs"]
 mod some;
-#[path = "recording/types.rs"]
-mod types;
 #[path = "recording/timeline.rs"]
 mod timeline;
+#[path = "recording/types.rs"]
+mod types;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

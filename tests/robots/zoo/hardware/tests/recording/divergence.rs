@@ -184,12 +184,6 @@ fn what_saving_leaves_out_is_noticed() {
 }
 
 impl Instance for Flipped {
-    fn forms(&self, _: &mut Forms) {}
-
-    fn types(&self) -> Types {
-        Types::default()
-    }
-
     fn digests(&self, visit: Visit<'_>) -> std::result::Result<(), DigestError> {
         let digests = self.digests.iter();
         digests.for_each(|(node, output, digest)| visit(node, output, *digest));
