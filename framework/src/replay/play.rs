@@ -267,6 +267,12 @@ impl<'r> Player<'r> {
         Ok(())
     }
 
+    /// The version of the parameters that a frame begins with, of an instance that reads any.
+    pub(super) fn parameters_version(&self, position: usize) -> Result<u64> {
+        let mut content = self.frames[position].content;
+        content.take()
+    }
+
     /// The chunk in which the frame at this position stands.
     pub(super) fn chunk_of(&self, position: usize) -> usize {
         self.frames[position].chunk

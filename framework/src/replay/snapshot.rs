@@ -65,7 +65,9 @@ pub fn snapshot(
     for reference in references {
         let name = reference.instance;
         if name == crate::recorded::PARAMETERS {
-            let bytes = players.bytes(chunk, name, reference.cycle);
+            // In a replay the buffer of the parameters counts frames.
+            let version = players.find(instance)?.0.parameters_version(position)?;
+            let bytes = players.bytes(chunk, name, version);
             parameters_read = parameters(bytes.ok_or_else(|| missing(name))?)?;
         } else if reference.cycle > 0 {
             let is_new = !before.contains(&(name, reference.cycle));
