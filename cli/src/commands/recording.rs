@@ -172,7 +172,9 @@ fn info_text(info: &Info) -> String {
             one.encoding
         );
     }
-    text += "\nlargest states\n";
+    if !info.largest_states.is_empty() {
+        text += "\nlargest states\n";
+    }
     for one in &info.largest_states {
         let what = format!("{} {}", one.instance, one.node);
         text += &format!("{what:<44} {:>9}\n", size(one.bytes));
