@@ -37,7 +37,7 @@ pub struct Replay {
     pub node: Option<String>,
     /// How much numbers may differ where the recording comes from a machine that computes other bits, for example `1e-6`:
     /// relative, absolute below 1
-    #[arg(long, value_name = "NUMBER", requires = "verify")]
+    #[arg(long, value_name = "NUMBER", requires = "verify", conflicts_with_all = ["set", "against"])]
     pub tolerance: Option<f64>,
     /// The target [default: the first of hulk.toml]
     #[arg(long)]

@@ -1,3 +1,5 @@
+//! What `hulkgen recording` says of small recordings, written here.
+
 use camino::{Utf8Path, Utf8PathBuf};
 use hulkgen_mcap::layout::{Layout, Layouts, Part, PartKind, Struct};
 use hulkgen_mcap::{

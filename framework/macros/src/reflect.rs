@@ -208,7 +208,7 @@ mod tests {
             ),
             (
                 "#[reflect(unit = \"m\")] struct S { a: u8 }",
-                "expected `image = \"yuyv\"`; all else is said on fields",
+                "expected `image = \"yuyv\"` or `foxglove = FUNCTION`; all else is said on fields",
             ),
         ] {
             assert_eq!(error(item), message, "{item}");

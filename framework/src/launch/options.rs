@@ -304,7 +304,7 @@ mod tests {
             "--record",
             "tape",
             "--record-output",
-            "Control.main_outputs.ball",
+            "Control.main_outputs.steps",
             "--recording-budget",
             "3MiB",
             "--replay=old",
@@ -338,7 +338,7 @@ mod tests {
             ],
             run_folder: "there".into(),
             record: Record::Into("tape".into()),
-            record_outputs: vec!["Control.main_outputs.ball".to_owned()],
+            record_outputs: vec!["Control.main_outputs.steps".to_owned()],
             recording_budget: Some(3 << 20),
             is_replay: true,
             replay: Replaying {

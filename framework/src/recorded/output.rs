@@ -152,7 +152,7 @@ pub(super) struct Wanted {
     form: Form,
 }
 
-/// The outputs that these paths name: `Control.main_outputs.ball`.
+/// The outputs that these paths name: `Control.main_outputs.steps`.
 ///
 /// # Errors
 /// If there is no such output.

@@ -129,11 +129,8 @@ mod tests {
 
     impl Lives for Adder {
         fn live(&mut self, until: Timestamp) {
-            let sum: u64 = self
-                .seen
-                .iter()
-                .map(|seen| seen.load(Ordering::Relaxed))
-                .sum();
+            let seen = self.seen.iter().map(|seen| seen.load(Ordering::Relaxed));
+            let sum = seen.fold(0, u64::wrapping_add);
             self.own = self
                 .own
                 .wrapping_mul(31)

@@ -1,3 +1,5 @@
+//! Layouts, against what postcard writes.
+
 use std::collections::BTreeMap;
 
 use serde::Serialize;

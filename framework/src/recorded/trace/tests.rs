@@ -1,3 +1,5 @@
+//! What a type's `Deserialize` tells, against the values it reads.
+
 use std::collections::BTreeMap;
 use std::time::Duration;
 
