@@ -126,13 +126,13 @@ impl<'options> Bridge<'options> {
         }
         match self.robot.hear()? {
             Some(Heard::Message(Message::Update(update))) => {
-                let time = self.start + update.time;
+                let time = self.start.saturating_add(update.time);
                 if let Some(output) = self.subscribed(update.subscription) {
                     output.log(update.value, time);
                 }
             }
             Some(Heard::Frame(frame)) => {
-                let time = self.start + frame.time;
+                let time = self.start.saturating_add(frame.time);
                 if let Some(output) = self.subscribed(frame.subscription) {
                     output.log_image(frame.value, time);
                 }
@@ -185,7 +185,8 @@ impl<'options> Bridge<'options> {
             return Ok(());
         };
         output.watching += 1;
-        if output.watching == 1
+        // Whoever comes later may get what an earlier one was refused.
+        if output.subscription.is_none()
             && let Good::Subscribed(subscribed) = self.robot.ask(output.ask(self.options))?
         {
             output.subscription = Some(subscribed.subscription);
