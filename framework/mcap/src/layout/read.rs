@@ -275,7 +275,9 @@ impl<'bytes> Walk<'_, 'bytes> {
     /// Seven bits a byte, the lowest first.
     fn varint(&mut self, bits: u8) -> Read<u128> {
         let mut number = 0_u128;
-        for place in 0..u32::from(bits).div_ceil(7) {
+        // A layout that was damaged may ask for more bits than there are.
+        let bits = u32::from(bits).min(u128::BITS);
+        for place in 0..bits.div_ceil(7) {
             let [byte] = self.array()?;
             number |= u128::from(byte & 0x7f) << (7 * place);
             if byte & 0x80 == 0 {
