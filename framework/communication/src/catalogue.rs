@@ -110,6 +110,10 @@ pub(crate) fn near(hub: &Hub, path: &str) -> Option<String> {
             (place, rest) = (inner, further);
             continue;
         }
+        // All parts are right: what is there only is no output.
+        if name.is_empty() {
+            return None;
+        }
         let names = place.below.iter().map(|inner| inner.name);
         let near = nearest(name, names)?;
         let above = &path[..path.len() - rest.len()];
