@@ -6,6 +6,9 @@ use crate::file::{Channel, Description, Metadata, Writer};
 use crate::open::RecordingFile;
 use crate::read::{ReadError, Way};
 
+/// The name of the metadata that tells how the run ended.
+const END: &str = "end";
+
 /// What became of the chunks of a file that breaks off.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Recovered {
@@ -34,11 +37,7 @@ pub fn recover(file: &RecordingFile, into: &Path) -> Result<Recovered, ReadError
         schema: channel.schema.and_then(|number| number.checked_sub(1)),
         ..channel.clone()
     });
-    let mut metadata = contents.metadata.clone();
-    metadata.push(Metadata {
-        name: "recovered".to_owned(),
-        entries: vec![("chunks".to_owned(), contents.chunks.len().to_string())],
-    });
+    let metadata = contents.metadata.iter().filter(|one| one.name != END);
     let description = Description {
         library: format!("hulkgen {}", env!("CARGO_PKG_VERSION")),
         schemas: contents
@@ -47,7 +46,7 @@ pub fn recover(file: &RecordingFile, into: &Path) -> Result<Recovered, ReadError
             .map(|(_, one)| one.clone())
             .collect(),
         channels: channels.collect(),
-        metadata,
+        metadata: metadata.cloned().collect(),
         attachments: contents.attachments.clone(),
     };
     let mut writer = Writer::create(into, description, u64::MAX)?;
@@ -70,6 +69,16 @@ pub fn recover(file: &RecordingFile, into: &Path) -> Result<Recovered, ReadError
         writer.close_chunk()?;
         recovered.chunks += 1;
     }
+    // What the old file says of its end holds for the new one only where nothing is lost.
+    if recovered.lost == 0
+        && let Some(end) = contents.metadata(END)
+    {
+        writer.write_metadata(end)?;
+    }
+    writer.write_metadata(&Metadata {
+        name: "recovered".to_owned(),
+        entries: vec![("chunks".to_owned(), recovered.chunks.to_string())],
+    })?;
     writer.finish()?;
     Ok(recovered)
 }
