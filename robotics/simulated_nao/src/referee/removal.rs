@@ -133,7 +133,7 @@ impl Referee {
 fn beside_the_field(player: &Player) -> [f64; 3] {
     let side = if player.pose[1] < 0.0 { -1.0 } else { 1.0 };
     let mark = f64::from(LENGTH) / 2.0 - f64::from(PENALTY_MARK_DISTANCE);
-    // Each number has a place of its own, so that nobody is put onto somebody.
+    // Neighbouring numbers have places of their own, so that hardly anybody is put onto somebody.
     let aside = 0.5 * f64::from(player.number % 7);
     [
         -direction(player.team) * (mark - aside),
