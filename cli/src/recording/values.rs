@@ -328,7 +328,39 @@ fn select(source: &Source, value: Value, selection: &Selection) -> Vec<Found> {
 
 fn part<'value>(value: &'value Value, path: &str) -> Option<&'value Value> {
     path.split('.').try_fold(value, |value, name| match value {
-        Value::Array(items) => items.get(name.parse::<usize>().ok()?),
+        Value::Array(items) => items.get(position(name)?),
         value => value.get(name),
     })
+}
+
+/// Points, vectors and quaternions are lists when they are written; clients name their axes.
+fn position(name: &str) -> Option<usize> {
+    let axis = match name {
+        "x" | "i" | "re" => 0,
+        "y" | "j" | "im" => 1,
+        "z" | "k" => 2,
+        "w" => 3,
+        _ => return name.parse().ok(),
+    };
+    Some(axis)
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::part;
+
+    #[test]
+    fn axes_lead_into_lists() {
+        let value = json!({"position": [1.5, 2.5], "orientation": [0.0, 0.1, 0.2, 0.9]});
+        for (path, expected) in [
+            ("position.x", 1.5),
+            ("position.1", 2.5),
+            ("orientation.w", 0.9),
+        ] {
+            assert_eq!(part(&value, path), Some(&json!(expected)), "{path}");
+        }
+        assert_eq!(part(&value, "position.z"), None);
+    }
 }
