@@ -135,6 +135,14 @@ fn a_count_that_lies_is_no_value() {
 }
 
 #[test]
+fn a_number_of_more_bits_than_there_are_is_no_value() {
+    let endless = [0xff; 40];
+    for layout in [Layout::Unsigned(255), Layout::Signed(255)] {
+        assert!(Values::new(&endless).take(&layout).is_err());
+    }
+}
+
+#[test]
 fn what_changed_is_named() {
     let part = |layout| Part {
         name: "control::walk".to_owned(),
