@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use types::fall_state::FallState;
 use types::game::PrimaryState;
 use types::motion::{BodyMotion, ClientWish, MotionRequest, Script, Step};
-use walking::Limits;
+use walking::StepLimits;
 
 /// What is wished for, and for how long still, in s.
 #[derive(Debug, Deserialize, Serialize)]
@@ -27,7 +27,7 @@ pub struct CycleContext {
     cycle_time: CycleTime,
 
     /// The largest steps.
-    limits: Parameter<Limits, "walking_engine.limits">,
+    limits: Parameter<StepLimits, "walking_engine.limits">,
     /// In s: how long a walk goes on that nobody asks for again.
     walk_duration: Parameter<f32, "client_wishes.walk_duration">,
     /// In s: how long another motion goes on that nobody asks for again.
@@ -140,7 +140,7 @@ mod tests {
 
     use super::*;
 
-    const LIMITS: Limits = Limits {
+    const LIMITS: StepLimits = StepLimits {
         forward: 0.06,
         backward: 0.04,
         sideways: 0.08,

@@ -1,7 +1,7 @@
 //! Walking: from a wish for steps to the angles of all joints, one cycle after the other.
 //!
 //! ```text
-//! wish --- step::Limits ---> step --- stride::Stride ---> soles over time --- inverse kinematics ---> legs
+//! wish --- step::StepLimits ---> step --- stride::Stride ---> soles over time --- inverse kinematics ---> legs
 //!                                        ^                                                             |
 //!             pressure of the swing foot ends it                          gyroscope: balance::Balance --+
 //! ```
@@ -21,5 +21,5 @@ mod stride;
 pub use balance::Balance;
 pub use engine::{Engine, Senses, standing_pose};
 pub use parameters::{ArmParameters, BalanceParameters, Parameters, StrideParameters};
-pub use step::Limits;
+pub use step::StepLimits;
 pub use stride::{Sole, Stride};

@@ -3,13 +3,13 @@
 use framework::Reflect;
 use serde::{Deserialize, Serialize};
 
-use crate::step::Limits;
+use crate::step::StepLimits;
 
 /// Everything that can be tuned.
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Parameters {
-    pub limits: Limits,
+    pub limits: StepLimits,
     pub stride: StrideParameters,
     pub balance: BalanceParameters,
     pub arms: ArmParameters,

@@ -8,7 +8,7 @@ use types::motion::Step;
 /// The largest steps.
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
 #[serde(deny_unknown_fields)]
-pub struct Limits {
+pub struct StepLimits {
     /// In m, greater than 0.
     pub forward: f32,
     /// In m, greater than 0.
@@ -23,7 +23,7 @@ pub struct Limits {
     pub turn_acceleration: f32,
 }
 
-impl Limits {
+impl StepLimits {
     /// The step nearest to `wanted` that the legs can do after `last` while this foot carries.
     pub fn apply(&self, wanted: Step, last: Step, support: Side) -> Step {
         let step = self.in_volume(wanted);
