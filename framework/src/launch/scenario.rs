@@ -1,6 +1,7 @@
 //! `--scenario`: plays a file in place of running, and tells what came of it.
 
 use std::io::Write;
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -33,8 +34,7 @@ pub(super) fn run<H: Hardware, P: ParameterData>(
         stop,
     };
     let mut runs: Vec<Played> = Vec::new();
-    let first = options.seed.unwrap_or(1);
-    for seed in first..first.saturating_add(options.repeat.unwrap_or(1)) {
+    for seed in seeds(options)? {
         stop.check()?;
         let played = stage.play(seed, create);
         let played =
@@ -67,6 +67,17 @@ pub(super) fn run<H: Hardware, P: ParameterData>(
     };
     written.map_err(|error| Error::from(error).context("cannot write the outcome"))?;
     Ok(if outcome.passed { DONE } else { FAILED })
+}
+
+/// The seeds that are played, one at least.
+fn seeds(options: &Options) -> Result<RangeInclusive<u64>> {
+    let first = options.seed.unwrap_or(1);
+    let further = options.repeat.unwrap_or(1).checked_sub(1);
+    let last = further.and_then(|further| first.checked_add(further));
+    let last = last.ok_or_else(|| {
+        Error::new("nothing would be played: `--repeat` is at least 1, and seeds end at 2^64 - 1")
+    })?;
+    Ok(first..=last)
 }
 
 /// What is played, and how.

@@ -160,8 +160,11 @@ pub(super) fn find<'a>(
     paths: &[String],
     instances: impl Iterator<Item = (&'a dyn Instance, &'a Subscriptions)> + Clone,
 ) -> Result<Vec<Wanted>> {
-    let mut found = Vec::new();
+    let mut found: Vec<Wanted> = Vec::new();
     for path in paths {
+        if found.iter().any(|one| one.topic() == *path) {
+            continue;
+        }
         let mut known = Vec::new();
         for (instance, subscriptions) in instances.clone() {
             known.extend(all(instance, subscriptions));

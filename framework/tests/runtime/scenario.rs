@@ -274,3 +274,15 @@ fn a_robot_that_is_not_there_is_named() {
         "{error}"
     );
 }
+
+#[test]
+fn where_nothing_would_be_played_nothing_passes() {
+    for options in [
+        ["--repeat", "0", "--seed", "1"],
+        ["--repeat", "2", "--seed", "18446744073709551615"],
+    ] {
+        let (status, outcome) = play(TWO_ROBOTS, &options);
+        assert_ne!(status, 0, "{options:?}");
+        assert_eq!(outcome, Value::Null, "{options:?}");
+    }
+}

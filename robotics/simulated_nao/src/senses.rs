@@ -9,7 +9,7 @@
 //! follows (u32); the time of the exposure or of the last sample, in ns of the simulator's clock (u64); for images width
 //! and height (2 u32), for sound samples and channels (2 u32). Nothing is ever sent to the simulator.
 //!
-//! Any number of programs may listen. One that does not read for [`PATIENCE`] is told of and dropped: the world does not
+//! Up to [`MOST_CLIENTS`] programs may listen at each. One that does not read for [`PATIENCE`] is told of and dropped: the world does not
 //! wait for it, and reading again means connecting again, as with LoLA.
 
 use std::io::{ErrorKind, Write};
@@ -32,6 +32,8 @@ use crate::sound::BLOCK_LENGTH;
 
 /// How long one program may keep the others of its socket from the next message.
 const PATIENCE: Duration = Duration::from_millis(200);
+/// So many programs at one socket; whoever comes then is sent away.
+const MOST_CLIENTS: usize = 8;
 /// How long to wait before looking whether the simulator ends, or somebody has connected.
 const GLANCE: Duration = Duration::from_millis(50);
 /// What stands before each message.
@@ -124,7 +126,7 @@ impl Audience {
         while let Ok((client, _)) = self.listener.accept() {
             let is_usable = client.set_nonblocking(false).is_ok()
                 && client.set_write_timeout(Some(PATIENCE)).is_ok();
-            if is_usable {
+            if is_usable && self.clients.len() < MOST_CLIENTS {
                 self.clients.push(client);
             }
         }
