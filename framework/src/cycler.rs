@@ -94,6 +94,8 @@ pub struct Cycle {
     pub timed: bool,
     /// Whether it has not begun: setup nodes are waiting for what it will be about.
     pub in_setup: bool,
+    /// Whether some of its nodes alone may begin: in a replay of them. Such a cycle is timed.
+    pub partial: bool,
 }
 
 /// Where a body writes what others read, and what it wrote there in its last finished cycle.

@@ -1,5 +1,6 @@
 //! A node with what keeps its failures to itself: errors and panics are counted and named here.
 
+mod only;
 mod panics;
 
 use std::hint::cold_path;
@@ -10,10 +11,11 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use crate::cycler::Cycle;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, Stopped};
 use crate::report::{Allocations, NodeReport, tell};
 use crate::time::Timestamp;
 use crate::timing::{self, Histogram, Tally};
+pub(crate) use only::only;
 
 /// How long `hold` repeats the last good outputs.
 pub const LONGEST_HOLD: Duration = Duration::from_millis(100);
@@ -131,7 +133,7 @@ impl<N> Guarded<N> {
             return Err(self.ledger.failed(error, cycle));
         }
         if cycle.timed {
-            timing::start_lap(self.ledger.name)?;
+            begin(self.ledger.name, cycle)?;
         }
         let unwinding = Unwinding {
             broken: &mut self.broken,
@@ -404,6 +406,20 @@ pub(crate) fn contain<T>(what: &'static str, run: impl FnOnce() -> Result<T>) ->
         Ok(returned) => returned,
         Err(payload) => Err(panics::of_caught(Err(payload))),
     }
+}
+
+/// A node begins in a cycle that is looked at closely.
+///
+/// # Errors
+/// [`Stopped`], if only a part of the cycle runs and the node is not in it.
+#[cold]
+#[inline(never)]
+fn begin(node: &'static str, cycle: &Cycle) -> Result<(), Stopped> {
+    if cycle.partial {
+        only::may_begin(node)?;
+    }
+    timing::start_lap(node);
+    Ok(())
 }
 
 /// Whether the error is no failure of the node but says that this cycle is not to be.

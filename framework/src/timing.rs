@@ -12,7 +12,6 @@ use std::cell::{Cell, RefCell};
 use std::sync::atomic::{AtomicU8, Ordering};
 use std::time::{Duration, Instant};
 
-use crate::error::Stopped;
 pub use allocations::CountingAllocator;
 pub(crate) use allocations::so_far as allocations_so_far;
 pub use histogram::Histogram;
@@ -44,8 +43,6 @@ thread_local! {
     /// Whether there is anything in the tally: mostly there is nothing to take.
     static TALLIED: Cell<bool> = const { Cell::new(false) };
     static LAPS: RefCell<Vec<Lap>> = const { RefCell::new(Vec::new()) };
-    /// In a replay of some nodes: the only ones that may begin.
-    static WANTED: RefCell<Option<Vec<String>>> = const { RefCell::new(None) };
 }
 
 /// Where a node begins, in a cycle that is timed; it ends where the next one begins.
@@ -121,19 +118,8 @@ pub(crate) fn is_timed(cycle: u64) -> bool {
 }
 
 /// A node begins, and the one before ends: one look at the counter.
-///
-/// # Errors
-/// [`Stopped`] within [`only`], if the node is none of those.
-#[cold]
-#[inline(never)]
-pub(crate) fn start_lap(node: &'static str) -> Result<(), Stopped> {
-    let is_wanted = WANTED.with_borrow(|wanted| {
-        let mut wanted = wanted.iter();
-        wanted.all(|wanted| wanted.iter().any(|one| one == node))
-    });
-    if !is_wanted {
-        return Err(Stopped);
-    }
+#[inline]
+pub(crate) fn start_lap(node: &'static str) {
     let lap = Lap {
         node,
         begins: Ticks::now(),
@@ -141,15 +127,6 @@ pub(crate) fn start_lap(node: &'static str) -> Result<(), Stopped> {
         allocations: allocations_so_far(),
     };
     LAPS.with_borrow_mut(|laps| laps.push(lap));
-    Ok(())
-}
-
-/// Runs timed cycles of this thread up to the first node that is none of these; `None`: all nodes may begin.
-pub(crate) fn only<T>(nodes: Option<&[String]>, run: impl FnOnce() -> T) -> T {
-    WANTED.set(nodes.map(<[String]>::to_vec));
-    let returned = run();
-    WANTED.set(None);
-    returned
 }
 
 /// Ends the last lap, and tells what each node took; the last one first.

@@ -214,6 +214,7 @@ impl<B: Recorded> Instance for Cycler<B> {
             time: self.cycle.time,
             timed: self.timed,
             in_setup: true,
+            partial: false,
         };
         let Self {
             body,
@@ -267,6 +268,7 @@ impl<B: Recorded> Instance for Cycler<B> {
             time: CycleTime { start, since_last },
             timed: self.timed,
             in_setup: false,
+            partial: false,
         };
         self.phase = Phase::Begun {
             restarted: self.phase.restarted(),

@@ -3,9 +3,9 @@
 use super::{Cycler, Phase};
 use crate::cycler::{Cycle, Instance};
 use crate::error::{Error, Result};
+use crate::guarded::only;
 use crate::recorded::{Head, Loaded, Loading, Recorded, Stored};
 use crate::time::CycleTime;
-use crate::timing;
 
 impl<B: Recorded> Cycler<B> {
     /// Makes the cycle that a frame is of the one that has just begun.
@@ -38,6 +38,7 @@ impl<B: Recorded> Cycler<B> {
             },
             timed: false,
             in_setup: false,
+            partial: false,
         };
         self.phase = Phase::Begun {
             restarted: head.restarted,
@@ -48,12 +49,15 @@ impl<B: Recorded> Cycler<B> {
 
     /// Runs the nodes of the cycle, as far as they are among these; what they wrote is published by `finish`.
     pub(crate) fn run_only(&mut self, nodes: Option<&[String]>) {
-        self.cycle.timed = nodes.is_some();
-        timing::only(nodes, || self.run());
-        if nodes.is_some() && self.failure.as_ref().is_some_and(Error::is_stopped) {
+        let Some(nodes) = nodes else {
+            return self.run();
+        };
+        (self.cycle.timed, self.cycle.partial) = (true, true);
+        only(nodes, || self.run());
+        (self.cycle.timed, self.cycle.partial) = (false, false);
+        if self.failure.as_ref().is_some_and(Error::is_stopped) {
             self.failure = None;
         }
-        self.cycle.timed = false;
     }
 
     /// Why the cycle that ran will not be published.
