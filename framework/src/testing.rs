@@ -22,6 +22,7 @@
 //! ```
 
 mod captured;
+mod created;
 mod generated;
 mod parameter_file;
 mod skipped;
@@ -37,6 +38,7 @@ use crate::parameters;
 use crate::time::{CycleTime, Timestamp};
 
 pub use captured::{Captured, CapturedSeries};
+pub use created::created;
 pub use generated::{assert_generated, assert_generated_with};
 pub use parameter_file::ParameterFile;
 pub use skipped::skip;

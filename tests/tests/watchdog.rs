@@ -5,7 +5,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use framework::parameters::Layers;
-use framework::{Clock, Hardware as _, HardwareContext, Result, Start, Stop, Threads, Timestamp};
+use framework::testing::created;
+use framework::{Clock, Hardware as _, HardwareContext, Result, Stop, Threads, Timestamp};
 use hardware::{
     ActuatorInterface, CameraInterface, MessageInterface, MicrophoneInterface, NetworkInterface,
     SensorInterface, SpeakerInterface,
@@ -138,34 +139,21 @@ impl Commands {
 
 #[test]
 fn a_node_that_hangs_loses_the_actuators_in_one_sequence_until_somebody_rearms() {
-    let parameters = Layers {
+    let layers = Layers {
         directory: root().join("robotics/parameters"),
         location: Some("simulated".to_owned()),
         ..Layers::default()
     };
-    let parameters = parameters.load().expect("the parameters are complete");
     let (clock, stop) = (Clock::wall(), Stop::default());
-    let hardware = Blocking::new(HardwareContext {
-        options: ["--free-ports", "--physics", "kinematic"]
-            .map(str::to_owned)
-            .to_vec(),
-        table: parameters
-            .hardware("simulated")
-            .expect("a table or nothing"),
-        run_folder: std::env::temp_dir(),
-        clock: clock.clone(),
-        stop: stop.clone(),
-    });
-    let hardware = Arc::new(hardware.expect("the simulated NAO needs nothing but a socket"));
-    let parameters = parameters
-        .deserialize()
-        .expect("the parameters fit the nodes");
-    let start = Start {
-        clock: clock.clone(),
-        stop: stop.clone(),
-        parameters,
-    };
-    let mut robot = runtime::create(&hardware, start).expect("every node can be created");
+    let options = ["--free-ports", "--physics", "kinematic"];
+    let (hardware, mut robot): (Arc<Blocking>, _) = created(
+        &layers,
+        "simulated",
+        &options,
+        &clock,
+        &stop,
+        runtime::create,
+    );
     // The cameras cost most of the time, and have no part in this.
     robot
         .instances

@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use framework::driver::lockstep::Lockstep;
 use framework::parameters::Layers;
-use framework::robot::Start;
-use framework::{Clock, Hardware as _, HardwareContext, Stop, Timestamp};
+use framework::testing::created;
+use framework::{Clock, Stop, Timestamp};
 use nao_runtime::runtime;
 use simulated_nao::Hardware;
 
@@ -17,28 +17,20 @@ const UPRIGHT: f32 = 0.1;
 fn the_robot_stands_up_and_stands_for_a_minute() {
     let clock = Clock::stepped();
     let stop = Stop::default();
-    let parameters = Layers {
+    let layers = Layers {
         directory: Path::new(env!("CARGO_MANIFEST_DIR")).join("../parameters"),
         location: Some("simulated".to_owned()),
         ..Layers::default()
     };
-    let parameters = parameters.load().unwrap();
     let options = ["--no-cameras", "--no-sound", "--free-ports"];
-    let hardware = Hardware::new(HardwareContext {
-        options: options.map(str::to_owned).to_vec(),
-        table: parameters.hardware("simulated").unwrap(),
-        run_folder: std::env::temp_dir(),
-        clock: clock.clone(),
-        stop: stop.clone(),
-    });
-    let hardware = Arc::new(hardware.unwrap());
-    let parameters = parameters.deserialize().unwrap();
-    let start = Start {
-        clock,
-        stop,
-        parameters,
-    };
-    let mut robot = runtime::create(&hardware, start).unwrap();
+    let (hardware, mut robot): (Arc<Hardware>, _) = created(
+        &layers,
+        "simulated",
+        &options,
+        &clock,
+        &stop,
+        runtime::create,
+    );
     let (mut stood, mut place) = (0, None);
     let end = Timestamp::from_nanos(66_000_000_000);
     Lockstep::new(&mut robot, &*hardware)

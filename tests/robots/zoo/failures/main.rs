@@ -7,9 +7,9 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use framework::parameters::Layers;
+use framework::testing::created;
 use framework::{
-    Clock, Error, Hardware as _, HardwareContext, Instance, Lockstep, ParameterData, Paused, Robot,
-    Start, Stop, Timestamp,
+    Clock, Error, Instance, Lockstep, ParameterData, Paused, Robot, Start, Stop, Timestamp,
 };
 use serde_json::Value;
 use zoo_hardware::Hardware;
@@ -66,33 +66,12 @@ fn run<P: ParameterData>(
     panics: Option<bool>,
 ) -> Ran {
     let directory = concat!(env!("CARGO_MANIFEST_DIR"), "/../parameters").into();
-    let parameters = Layers {
+    let layers = Layers {
         directory,
         ..Layers::default()
-    }
-    .load()
-    .expect("the files are there");
+    };
     let (clock, stop) = (Clock::stepped(), Stop::default());
-    let hardware = Hardware::new(HardwareContext {
-        options: Vec::new(),
-        table: parameters.hardware("loud").expect("there is a table"),
-        run_folder: std::env::temp_dir(),
-        clock: clock.clone(),
-        stop: stop.clone(),
-    });
-    let hardware = Arc::new(hardware.expect("the zoo needs nothing"));
-    let parameters = parameters
-        .deserialize()
-        .expect("the parameters fit the nodes");
-    let robot = create(
-        &hardware,
-        Start {
-            clock,
-            stop,
-            parameters,
-        },
-    );
-    let mut robot = robot.expect("every node can be created");
+    let (hardware, mut robot) = created(&layers, "loud", &[], &clock, &stop, create);
     let of_node = |instance: &dyn Instance| {
         node.instances
             .iter()

@@ -8,10 +8,8 @@ use std::sync::Arc;
 use framework::parameters::Layers;
 use framework::recorded::{About, Recording, Settings};
 use framework::replay::{Players, Source, value_channels, verify};
-use framework::{
-    Clock, Hardware as _, HardwareContext, Lockstep, ParameterData, Record, Robot, Start, Stop,
-    Timestamp,
-};
+use framework::testing::created;
+use framework::{Clock, Lockstep, ParameterData, Record, Robot, Start, Stop, Timestamp};
 use hulkgen_recording::Recording as File;
 use serde_json::Value;
 use stop_runtime::recording::INSTANCES;
@@ -29,28 +27,12 @@ fn record<P: ParameterData>(
     create: impl Fn(&Arc<Hardware>, Start<P>) -> framework::Result<Robot<P>>,
 ) {
     let directory = concat!(env!("CARGO_MANIFEST_DIR"), "/../parameters").into();
-    let parameters = Layers {
+    let layers = Layers {
         directory,
         ..Layers::default()
-    }
-    .load()
-    .expect("the files are there");
-    let (clock, stop) = (Clock::stepped(), Stop::default());
-    let hardware = Hardware::new(HardwareContext {
-        options: Vec::new(),
-        table: parameters.hardware("loud").expect("there is a table"),
-        run_folder: std::env::temp_dir(),
-        clock: clock.clone(),
-        stop: stop.clone(),
-    });
-    let hardware = Arc::new(hardware.expect("the zoo needs nothing"));
-    let parameters = parameters.deserialize().expect("they fit the nodes");
-    let start = Start {
-        clock,
-        stop,
-        parameters,
     };
-    let mut robot = create(&hardware, start).expect("every node can be created");
+    let (clock, stop) = (Clock::stepped(), Stop::default());
+    let (hardware, mut robot) = created(&layers, "loud", &[], &clock, &stop, create);
     let settings = Settings {
         blocks: 256,
         ..Settings::default()

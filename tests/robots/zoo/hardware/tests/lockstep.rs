@@ -8,10 +8,8 @@ mod determinism;
 use std::sync::Arc;
 
 use framework::parameters::Layers;
-use framework::{
-    Clock, Hardware as _, HardwareContext, Instance, Lockstep, Paused, Robot, Start, Stop,
-    Timestamp,
-};
+use framework::testing::created;
+use framework::{Clock, Instance, Lockstep, Paused, Robot, Stop, Timestamp};
 use serde_json::{Value, json};
 use zoo_hardware::Hardware;
 use zoo_runtime::parameters::Parameters;
@@ -27,35 +25,15 @@ struct Zoo {
 impl Zoo {
     fn new() -> Self {
         let directory = concat!(env!("CARGO_MANIFEST_DIR"), "/../parameters").into();
-        let parameters = Layers {
+        let layers = Layers {
             directory,
             ..Layers::default()
-        }
-        .load()
-        .expect("the files are there");
+        };
         let (clock, stop) = (Clock::stepped(), Stop::default());
-        let hardware = Hardware::new(HardwareContext {
-            options: Vec::new(),
-            table: parameters.hardware("loud").expect("there is a table"),
-            run_folder: std::env::temp_dir(),
-            clock: clock.clone(),
-            stop: stop.clone(),
-        });
-        let hardware = Arc::new(hardware.expect("the zoo needs nothing"));
-        let parameters = parameters
-            .deserialize()
-            .expect("the parameters fit the nodes");
-        let robot = runtime::create(
-            &hardware,
-            Start {
-                clock,
-                stop,
-                parameters,
-            },
-        );
+        let (hardware, robot) = created(&layers, "loud", &[], &clock, &stop, runtime::create);
         Self {
             hardware,
-            robot: robot.expect("every node can be created"),
+            robot,
             paused: None,
         }
     }

@@ -23,10 +23,8 @@ use framework::driver::Observer;
 use framework::parameters::Layers;
 use framework::recorded::{About, Recording, RecordingReport, Settings};
 use framework::replay::{Players, Ran, Verification, value_channels, verify};
-use framework::{
-    Clock, Hardware as _, HardwareContext, InstanceDescription, Lockstep, Record, Robot, Start,
-    Stop, Threads, Timestamp,
-};
+use framework::testing::created;
+use framework::{Clock, InstanceDescription, Lockstep, Record, Robot, Stop, Threads, Timestamp};
 use hulkgen_recording::Recording as File;
 use serde_json::json;
 use zoo_hardware::Hardware;
@@ -64,22 +62,8 @@ impl Zoo {
             directory,
             ..Layers::default()
         };
-        let parameters = layers.load().expect("the files are there");
         let stop = Stop::default();
-        let hardware = Hardware::new(HardwareContext {
-            options: Vec::new(),
-            table: parameters.hardware("loud").expect("there is a table"),
-            run_folder: std::env::temp_dir(),
-            clock: clock.clone(),
-            stop: stop.clone(),
-        });
-        let hardware = Arc::new(hardware.expect("the zoo needs nothing"));
-        let start = Start {
-            clock,
-            stop: stop.clone(),
-            parameters: parameters.deserialize().expect("they fit the nodes"),
-        };
-        let robot = runtime::create(&hardware, start).expect("every node can be created");
+        let (hardware, robot) = created(&layers, "loud", &[], &clock, &stop, runtime::create);
         Self {
             hardware,
             robot,
