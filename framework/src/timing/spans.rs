@@ -36,6 +36,8 @@ pub(crate) struct SpanWriter {
     clock: Clock,
     /// One moment on both: over minutes they drift apart, within a cycle they do not.
     moment: (Ticks, Timestamp),
+    /// The latest end so far.
+    ended: Timestamp,
 }
 
 impl Spans {
@@ -56,24 +58,65 @@ impl SpanWriter {
             spans,
             clock,
             moment,
+            ended: moment.1,
         }
     }
 
     /// A cycle that is timed has its spans from here on.
     pub(crate) fn start(&mut self) {
-        self.moment = (Ticks::now(), self.clock.now());
+        // Between the two looks the thread may wait, and the counter's rate is measured, not known: where that would put
+        // this cycle into the last one, it begins at the last one's end.
+        self.moment = (Ticks::now(), self.clock.now().max(self.ended));
     }
 
     /// Where there is no room, the oldest goes.
-    pub(crate) fn write(&self, node: Option<&'static str>, cycle: u64, begins: Ticks, ends: Ticks) {
+    pub(crate) fn write(
+        &mut self,
+        node: Option<&'static str>,
+        cycle: u64,
+        begins: Ticks,
+        ends: Ticks,
+    ) {
         let (ticks, time) = self.moment;
         let begins = time + begins.since(ticks);
+        let ends = time + ends.since(ticks);
+        self.ended = self.ended.max(ends);
         self.spans.0.force_push(Span {
             node,
             cycle,
             begins,
             // From the same moment, so that what lies in each other does so when it is rounded, too.
-            duration: time + ends.since(ticks) - begins,
+            duration: ends - begins,
         });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::Duration;
+
+    use super::*;
+
+    #[test]
+    fn a_cycle_does_not_reach_into_the_next_one() {
+        Ticks::calibrate();
+        let spans = Spans::new();
+        // The clock stands still, while the counter goes on.
+        let mut writer = SpanWriter::new(spans.clone(), Clock::stepped());
+        for cycle in 0..3 {
+            writer.start();
+            let begins = Ticks::now();
+            std::thread::sleep(Duration::from_micros(10));
+            writer.write(None, cycle, begins, Ticks::now());
+        }
+        let written: Vec<Span> = std::iter::from_fn(|| spans.take()).collect();
+        assert_eq!(written.len(), 3);
+        for pair in written.windows(2) {
+            assert!(!pair[0].duration.is_zero());
+            assert!(
+                pair[0].begins + pair[0].duration <= pair[1].begins,
+                "{pair:?}"
+            );
+        }
     }
 }

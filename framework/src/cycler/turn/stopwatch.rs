@@ -158,7 +158,7 @@ impl Stopwatch {
                 self.nodes[place].allocations.record(took.allocations);
                 before = place;
             }
-            if let Some(spans) = &self.spans {
+            if let Some(spans) = &mut self.spans {
                 spans.write(Some(node), cycle, took.begins, took.ends);
             }
             self.in_nodes += took.time;
@@ -192,7 +192,7 @@ impl Stopwatch {
         let blocked = std::mem::take(&mut self.blocked);
         if timed {
             let elsewhere = self.in_nodes + self.blocked_in_cycle;
-            if let (Some(spans), Some(began)) = (&self.spans, self.began.take()) {
+            if let (Some(spans), Some(began)) = (&mut self.spans, self.began.take()) {
                 let ends = self.ran.take().unwrap_or_else(Ticks::now);
                 spans.write(None, cycle, began, ends);
             }
