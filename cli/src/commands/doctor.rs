@@ -2,6 +2,7 @@
 
 mod machine;
 mod robot;
+mod system;
 
 use serde::Serialize;
 use serde_json::json;
@@ -11,6 +12,7 @@ use super::session::Session;
 use super::terminal::Terminal;
 use crate::arguments::{Doctor, Global, TextOrJson};
 use crate::outcome::Outcome;
+use crate::workspace::Workspace;
 
 /// What was looked at, and how it is.
 #[derive(Debug, PartialEq, Eq, Serialize)]
@@ -41,9 +43,12 @@ pub(super) fn run(
         .as_ref()
         .map(|session| session.workspace.root().to_owned());
     let root = root.unwrap_or_else(|_| ".".into());
-    let mut findings = machine::tools(&root);
+    let mut findings = vec![Finding::ok("hulkgen", env!("CARGO_PKG_VERSION"))];
+    findings.extend(machine::tools(&root));
+    findings.extend(machine::tools_of_deploy(&root));
     findings.extend(robot::look(&mut session));
-    findings.extend(machine::resources(&root));
+    findings.push(machine::free_space(&root));
+    findings.extend(system::look(&Workspace::at_root("/".into()), "this user"));
     terminal.data(&match doctor.format {
         TextOrJson::Text => findings.iter().map(line).collect(),
         TextOrJson::Json => format!("{}\n", json!({ "version": 1, "checks": findings })),

@@ -6,7 +6,6 @@ use std::process::{Command, Stdio};
 use camino::Utf8Path;
 
 use super::Finding;
-use crate::workspace::Workspace;
 
 /// The oldest Rust that builds robots: that of hulkgen's own workspace.
 const RUST_VERSION: &str = env!("CARGO_PKG_RUST_VERSION");
@@ -40,16 +39,39 @@ pub(super) fn tools(root: &Utf8Path) -> Vec<Finding> {
     ]
 }
 
-/// Real-time permission and free disk.
-pub(super) fn resources(root: &Utf8Path) -> Vec<Finding> {
-    // The limits of this process are those of a robot that it starts.
-    let limits = Workspace::at_root("/proc/self".into()).read("limits".into());
-    let mut findings = Vec::new();
-    if let Ok(limits) = limits {
-        findings.push(real_time(&limits));
-    }
-    findings.push(disk(answer("df", &["-Pk", "."], root).as_deref()));
-    findings
+/// Where programs come from that build for other machines and put robots onto them.
+pub(super) fn tools_of_deploy(root: &Utf8Path) -> Vec<Finding> {
+    // ssh tells its version on stderr.
+    let ssh = answer("ssh", &["-G", "localhost"], root).is_some();
+    let rsync = answer("rsync", &["--version"], root);
+    let pip = answer("python3", &["-m", "venv", "--help"], root).is_some();
+    let needed = "`hulkgen deploy` needs it";
+    vec![
+        if ssh {
+            Finding::ok("ssh", "can be started")
+        } else {
+            let help = format!("install openssh-client: {needed}");
+            Finding::warning("ssh", "cannot be started", help)
+        },
+        match rsync.as_deref().and_then(|said| said.lines().next()) {
+            Some(version) => Finding::ok("rsync", version),
+            None => {
+                let help = format!("install rsync, here and on the robot: {needed}");
+                Finding::warning("rsync", "cannot be started", help)
+            }
+        },
+        if pip {
+            Finding::ok("venv", "python3 makes virtual environments")
+        } else {
+            let help = "install python3-venv: cross compilers come from PyPI";
+            Finding::warning("venv", "python3 makes no virtual environments", help)
+        },
+    ]
+}
+
+/// Free disk in a folder.
+pub(super) fn free_space(root: &Utf8Path) -> Finding {
+    disk(answer("df", &["-Pk", "."], root).as_deref())
 }
 
 fn rustc(said: Option<&str>) -> Finding {
@@ -73,24 +95,8 @@ fn numbers(version: &str) -> [u32; 3] {
     [(); 3].map(|()| parts.next().unwrap_or(0))
 }
 
-/// The soft limit, as `ulimit -r` prints it.
-fn real_time(limits: &str) -> Finding {
-    let about = "real-time";
-    let mut lines = limits.lines();
-    let limit = lines.find_map(|line| line.strip_prefix("Max realtime priority"));
-    let limit = limit.and_then(|limits| limits.split_whitespace().next());
-    match limit {
-        None | Some("0") => Finding::warning(
-            about,
-            "no permission for real-time priorities; robots run without them",
-            "on the robot: `ulimit -r 99`, or `@realtime - rtprio 99` in /etc/security/limits.conf",
-        ),
-        Some(limit) => Finding::ok(about, format!("priorities up to {limit}")),
-    }
-}
-
 /// What `df -Pk` says: the fourth column of the second line is the free space in KiB.
-fn disk(said: Option<&str>) -> Finding {
+pub(super) fn disk(said: Option<&str>) -> Finding {
     let about = "disk";
     let line = said.and_then(|said| said.lines().nth(1));
     let free = line.and_then(|line| line.split_whitespace().nth(3));

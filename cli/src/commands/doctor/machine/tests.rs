@@ -1,6 +1,6 @@
 //! What programs and limits say, read without them.
 
-use super::{answer, disk, numbers, real_time, rustc};
+use super::{answer, disk, numbers, rustc};
 use crate::commands::doctor::State;
 
 #[test]
@@ -9,13 +9,6 @@ fn an_old_rustc_is_bad() {
     assert_eq!(rustc(Some("rustc 1.70.0 (x)")).state, State::Bad);
     assert_eq!(rustc(Some("rustc 2.0.0-nightly (x)")).state, State::Ok);
     assert_eq!(numbers("1.95"), [1, 95, 0]);
-}
-
-#[test]
-fn a_limit_of_nought_is_a_warning() {
-    let limits = |soft: &str| format!("Limit Soft Hard\nMax realtime priority   {soft}  99\n");
-    assert_eq!(real_time(&limits("0")).state, State::Warning);
-    assert_eq!(real_time(&limits("99")).message, "priorities up to 99");
 }
 
 #[test]
