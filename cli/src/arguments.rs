@@ -1,6 +1,7 @@
 //! What may stand on the command line: types for clap, no behaviour.
 
 mod answers;
+mod deploy;
 mod recording;
 mod replay;
 mod running;
@@ -13,7 +14,8 @@ use camino::Utf8PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 pub use answers::{Completions, Diff, Doctor, Explain, Man, Show, Stage};
-pub use recording::{ExportKind, Recording, RecordingCommand, Selection};
+pub use deploy::{Deploy, Logs, Reached, Robots};
+pub use recording::{ExportKind, Pull, Recording, RecordingCommand, Selection};
 pub use replay::{Capture, Replay};
 pub use running::{Call, Log, LogLevel, Param, ParamCommand, Running, Top, Topic, TopicCommand};
 pub use scaffold::{
@@ -86,6 +88,9 @@ pub enum Command {
     Replay(Replay),
     Recording(Recording),
     Capture(Capture),
+    Deploy(Deploy),
+    Robots(Robots),
+    Logs(Logs),
     New(New),
     AddNode(AddNode),
     AddCycler(AddCycler),

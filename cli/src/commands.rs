@@ -6,6 +6,7 @@ mod capture;
 mod cargo;
 mod check;
 mod completions;
+mod deploy;
 mod diff;
 mod doctor;
 mod explain;
@@ -26,7 +27,7 @@ mod simulate;
 mod terminal;
 mod watch;
 
-use crate::arguments::{Arguments, Command};
+use crate::arguments::{Arguments, Command, Recording, RecordingCommand};
 use crate::diagnostics::Reported;
 use crate::outcome::{Outcome, Refusal};
 use session::Session;
@@ -50,7 +51,9 @@ pub fn run(arguments: &Arguments) -> Outcome {
             completions::run(&terminal, completions).map_err(Failure::Refused)
         }
         Command::Man(man) => man::run(&terminal, man).map_err(Failure::Refused),
-        Command::Recording(recording) => {
+        Command::Recording(recording)
+            if !matches!(recording.command, RecordingCommand::Pull(_)) =>
+        {
             recording::run(&terminal, recording).map_err(Failure::Refused)
         }
         Command::Topic(topic) => running::topic(&terminal, topic).map_err(Failure::Refused),
@@ -102,6 +105,12 @@ fn with_session(
         Command::Simulate(simulate) => simulate::run(&mut session, simulate),
         Command::Replay(replay) => replay::run(&mut session, replay),
         Command::Capture(capture) => capture::run(&mut session, capture),
+        Command::Deploy(deploy) => deploy::deploy(&mut session, deploy),
+        Command::Robots(robots) => deploy::robots(&mut session, robots),
+        Command::Logs(logs) => deploy::logs(&mut session, logs),
+        Command::Recording(Recording {
+            command: RecordingCommand::Pull(pull),
+        }) => deploy::pull(&mut session, pull),
         Command::AddNode(add) => scaffold::add_node(&mut session, add),
         Command::AddCycler(add) => scaffold::add_cycler(&mut session, add),
         Command::RemoveNode(remove) => scaffold::remove_node(&mut session, remove),

@@ -15,7 +15,7 @@
 //! | – | door out | `Drift`: what differs on disk; written or only shown | `drift.rs` |
 //! | – | third door | [`cache::Cache`]: answers of earlier runs, outside of the robot's folder | `cache.rs` |
 //!
-//! [`recording`] is a door of its own, to recordings: nothing of a robot is known behind it.
+//! [`recording`] is a door of its own, to recordings: nothing of a robot is known behind it. `deploy` is one to robots behind ssh.
 //!
 //! What rustc finds in the generated crate is brought home by [`late`].
 //!
@@ -29,6 +29,7 @@
 pub mod arguments;
 pub mod cache;
 pub mod commands;
+mod deploy;
 pub mod diagnostics;
 pub mod digest;
 pub mod drift;

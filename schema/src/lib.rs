@@ -22,6 +22,7 @@
 #![warn(missing_docs)]
 
 mod cycler;
+mod deploy;
 mod either;
 mod length;
 mod robot;
@@ -31,6 +32,7 @@ pub use cycler::{
     Cycler, CyclerKind, Instance, InstanceTable, NodeEntry, NodeTable, OnFailure, Policy, Record,
     RecordSome, Scheduling, Switch,
 };
+pub use deploy::Deploy;
 pub use length::{Duration, Size};
 pub use robot::{Manifest, Robot, Target};
 pub use spelling::{

@@ -5,6 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::cycler::Cycler;
+use crate::deploy::Deploy;
 use crate::length::Size;
 use crate::spelling::{HardwarePath, IdentityName, RobotName, TargetName};
 
@@ -64,6 +65,9 @@ pub struct Target {
     /// Default location of its parameters: a folder below the robot's `parameters`.
     #[serde(default)]
     pub location: Option<String>,
+    /// How its program gets onto robots. Left out: by other means than `hulkgen deploy`.
+    #[serde(default)]
+    pub deploy: Option<Deploy>,
 }
 
 fn generated() -> Utf8PathBuf {

@@ -3,11 +3,11 @@
 use camino::Utf8PathBuf;
 use clap::{Args, Subcommand, ValueEnum};
 
-use super::TextOrJson;
+use super::{Reached, TextOrJson};
 
 /// Look into recordings: what they are, their values, files that break off
 ///
-/// Needs neither the robot nor its types: a recording tells how its values are laid out.
+/// Needs neither the robot nor its types: a recording tells how its values are laid out. `pull` alone asks the manifest.
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "\
 Exit status: 0 answered, 1 the file cannot be read or written, 2 wrong usage, or it has no such values.
@@ -17,6 +17,7 @@ Examples:
   hulkgen recording info runs/1700000000-42/recording.mcap
   hulkgen recording cat recording.mcap Control.main_outputs.ball --from 2s --to 3s
   hulkgen recording recover cut.mcap
+  hulkgen recording pull nao22 --newest
   hulkgen recording export recording.mcap Control.main_outputs.ball --as csv --into ball.csv")]
 pub struct Recording {
     #[command(subcommand)]
@@ -63,6 +64,8 @@ pub enum RecordingCommand {
         #[arg(long, value_enum, default_value = "text")]
         format: TextOrJson,
     },
+    /// Fetch the runs of a robot by ssh; what is here already is not fetched again, nothing is removed there
+    Pull(Pull),
     /// Write values into files of other kinds
     Export {
         /// The recording
@@ -79,6 +82,25 @@ pub enum RecordingCommand {
         #[arg(long, value_enum, default_value = "text")]
         format: TextOrJson,
     },
+}
+
+/// Whose runs, and where to.
+#[derive(Args, Clone, Debug)]
+pub struct Pull {
+    /// A robot of `[target.deploy]`, or a destination for ssh
+    #[arg(value_name = "HOST")]
+    pub host: String,
+    /// The folder they come into [default: runs/HOST]
+    #[arg(long, value_name = "FOLDER")]
+    pub into: Option<Utf8PathBuf>,
+    /// Only the run that was written last
+    #[arg(long)]
+    pub newest: bool,
+    #[command(flatten)]
+    pub reached: Reached,
+    /// Form of the answer
+    #[arg(long, value_enum, default_value = "text")]
+    pub format: TextOrJson,
 }
 
 /// Which values.

@@ -1,6 +1,6 @@
 //! `recording`: what recordings say, without a robot and its types.
 //!
-//! Invariant: these commands read no manifest.
+//! Invariant: these commands read no manifest; `pull`, which does, is that of `deploy`.
 
 use serde_json::{Value, json};
 
@@ -55,6 +55,7 @@ pub(super) fn run(terminal: &Terminal, recording: &Recording) -> Result<Outcome,
                 })),
             })?;
         }
+        RecordingCommand::Pull(_) => unreachable!("needs a session"),
         RecordingCommand::Export {
             file,
             selection,

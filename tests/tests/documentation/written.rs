@@ -104,6 +104,7 @@ hardware = \"simulation::Hardware\"
         ("`scheduling`", "Scheduling"),
         ("`record` as a table", "RecordSome"),
         ("`[[target]]`", "Target"),
+        ("`[target.deploy]`", "Deploy"),
     ];
     for (heading, name) in tables {
         let table = &schema["$defs"][name];

@@ -1,0 +1,242 @@
+//! One robot's part of `deploy`.
+
+use super::reached::service;
+use crate::deploy::script::{self, quoted};
+use crate::deploy::{Failed, ForRobot, Package, Remote};
+use crate::outcome::Refusal;
+
+/// What is to be done on one robot.
+pub(super) struct Deed<'a> {
+    pub(super) remote: &'a Remote,
+    pub(super) deploy: &'a schema::Deploy,
+    /// `None`: the version before is wanted.
+    pub(super) package: Option<(&'a Package, ForRobot)>,
+    pub(super) discards_changes: bool,
+    pub(super) wlan: Option<&'a str>,
+}
+
+/// How it is there now.
+pub(super) struct Done {
+    pub(super) version: String,
+    pub(super) before: Option<String>,
+    /// "runs", or "is there" where nothing starts it.
+    pub(super) state: &'static str,
+}
+
+/// What a robot said of itself.
+#[derive(Debug, Default, PartialEq, Eq)]
+struct Probed {
+    machine: String,
+    kibibytes: Option<u64>,
+    has_rsync: bool,
+    current: Option<String>,
+    /// Files of the current version that were changed there.
+    changed: Vec<String>,
+}
+
+impl Deed<'_> {
+    /// All of it; the robot runs what it ran if something fails.
+    pub(super) fn execute(&self, say: &mut dyn FnMut(String)) -> Result<Done, Refusal> {
+        let mut done = match &self.package {
+            Some((package, for_robot)) => self.put(package, for_robot, say)?,
+            None => self.roll_back()?,
+        };
+        if let (Some(name), Some(command)) = (self.wlan, &self.deploy.wlan) {
+            say(format!("joining `{name}`"));
+            let joined = self.remote.shell(&command.replace("{name}", &quoted(name)));
+            joined.map_err(|failed| {
+                Refusal::bad(format!(
+                    "{} is there, but it did not join `{name}`: {}",
+                    done.version, failed.message
+                ))
+            })?;
+        }
+        if self.deploy.unit.is_some() {
+            done.state = "runs";
+        }
+        Ok(done)
+    }
+
+    fn put(
+        &self,
+        package: &Package,
+        for_robot: &ForRobot,
+        say: &mut dyn FnMut(String),
+    ) -> Result<Done, Refusal> {
+        let folder = &self.deploy.folder;
+        let probed = self.remote.shell(&script::probe(folder));
+        let probed = Probed::read(&probed.map_err(|failed| not_reached(self.remote, &failed))?);
+        probed.permits(package, self.discards_changes)?;
+        say(match &probed.current {
+            Some(current) => format!("runs {current}; sending {} KiB", package.kibibytes),
+            None => format!("has no version yet; sending {} KiB", package.kibibytes),
+        });
+        let mut told = 0;
+        let sent = self.remote.send(
+            &for_robot.folder()?,
+            &format!("{folder}/versions/.incoming"),
+            probed.current.as_deref(),
+            |percent| {
+                if percent >= told + 20 {
+                    told = percent;
+                    say(format!("{percent} % sent"));
+                }
+            },
+        );
+        sent.map_err(|failed| not_sent(&failed))?;
+        say(format!("switching to {}", package.version));
+        let switched = self.remote.shell(&script::switch(
+            folder,
+            &package.version,
+            service(self.deploy),
+        ));
+        switched.map_err(|failed| not_switched(&failed, &probed))?;
+        Ok(Done {
+            version: package.version.clone(),
+            before: probed.current,
+            state: "is there",
+        })
+    }
+
+    fn roll_back(&self) -> Result<Done, Refusal> {
+        let script = script::roll_back(&self.deploy.folder, service(self.deploy));
+        let said = self
+            .remote
+            .shell(&script)
+            .map_err(|failed| match failed.status {
+                Some(3) => Refusal::bad(format!(
+                    "the version before is current, but does not start: {}",
+                    failed.message
+                )),
+                _ if failed.is_unreachable() => not_reached(self.remote, &failed),
+                _ => failed.into(),
+            })?;
+        Ok(Done {
+            version: said.trim().to_owned(),
+            before: None,
+            state: "is there",
+        })
+    }
+}
+
+impl Probed {
+    /// Lines of a word and a value; others are what a login prints.
+    fn read(said: &str) -> Self {
+        let mut probed = Self::default();
+        for line in said.lines() {
+            let Some((word, value)) = line.split_once(' ') else {
+                continue;
+            };
+            let value = value.trim();
+            match word {
+                "machine" => probed.machine = value.to_owned(),
+                "free" => probed.kibibytes = value.parse().ok(),
+                "rsync" => probed.has_rsync = true,
+                "current" => probed.current = Some(value.to_owned()),
+                "changed" => probed
+                    .changed
+                    .push(value.trim_start_matches("./").to_owned()),
+                _ => {}
+            }
+        }
+        probed
+    }
+
+    fn permits(&self, package: &Package, discards_changes: bool) -> Result<(), Refusal> {
+        let machine = self.machine.as_str();
+        if !package.machines.contains(&machine) {
+            let built = package.machines.first().copied().unwrap_or_default();
+            return Err(Refusal::bad(format!(
+                "the program is for {built}, the robot is {machine}"
+            ))
+            .help("build for the robot's machine: `triple` of the target in hulk.toml"));
+        }
+        if !self.has_rsync {
+            return Err(Refusal::bad("the robot has no rsync").help("install rsync there"));
+        }
+        if let Some(free) = self.kibibytes
+            && free < package.kibibytes
+        {
+            let message = format!(
+                "no space left: {} KiB are needed, {free} KiB are free",
+                package.kibibytes
+            );
+            return Err(
+                Refusal::bad(message).help("fetch and remove old runs: `hulkgen recording pull`")
+            );
+        }
+        if let [first, ..] = self.changed.as_slice()
+            && !discards_changes
+        {
+            let more = match self.changed.len() - 1 {
+                0 => String::new(),
+                more => format!(" and {more} more"),
+            };
+            return Err(Refusal::bad(format!("`{first}`{more} was changed on the robot and would be lost"))
+                .help("bring the values home, as `hulkgen param list` shows them, or give `--discard-changes`"));
+        }
+        Ok(())
+    }
+}
+
+/// ssh gave up.
+fn not_reached(remote: &Remote, failed: &Failed) -> Refusal {
+    if !failed.is_unreachable() {
+        return Refusal::bad(failed.message.clone());
+    }
+    Refusal::bad(format!("not reached: {}", failed.message)).help(format!(
+        "try `ssh {}`: network, key, and the host's key",
+        remote.destination
+    ))
+}
+
+fn not_sent(failed: &Failed) -> Refusal {
+    if failed.is_full() {
+        return Refusal::bad("no space left on the robot; it runs what it ran before")
+            .help("fetch and remove old runs: `hulkgen recording pull`");
+    }
+    if failed.is_unreachable() {
+        return Refusal::bad(format!(
+            "the connection broke; the robot runs what it ran before: {}",
+            failed.message
+        ))
+        .help("deploy again: what has arrived is not sent again");
+    }
+    Refusal::bad(failed.message.clone())
+}
+
+fn not_switched(failed: &Failed, probed: &Probed) -> Refusal {
+    let message = match (failed.status, &probed.current) {
+        (Some(3), Some(current)) => format!(
+            "the new version did not start, {current} runs again: {}",
+            failed.message
+        ),
+        (Some(3), None) => format!("the new version did not start: {}", failed.message),
+        (Some(255), _) => format!("the connection broke while switching: {}", failed.message),
+        _ => failed.message.clone(),
+    };
+    match failed.status {
+        Some(255) => Refusal::bad(message).help("`hulkgen robots` shows which version runs"),
+        _ => Refusal::bad(message),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Probed;
+
+    #[test]
+    fn a_probe_is_read_whatever_a_login_prints() {
+        let said =
+            "Welcome!\nmachine x86_64\nfree 1024\nrsync yes\ncurrent 2026\nchanged ./a/b.toml\n";
+        let expected = Probed {
+            machine: "x86_64".to_owned(),
+            kibibytes: Some(1024),
+            has_rsync: true,
+            current: Some("2026".to_owned()),
+            changed: vec!["a/b.toml".to_owned()],
+        };
+        assert_eq!(Probed::read(said), expected);
+        assert_eq!(Probed::read("free ?\n").kibibytes, None);
+    }
+}

@@ -1,0 +1,130 @@
+//! What a robot's shell is told to do: POSIX sh with what every small Linux has.
+//!
+//! Invariant: every word from outside is quoted; a script that fails leaves the running version as it is.
+
+use super::package::SUMS;
+
+/// Versions that stay on the robot.
+const KEPT: usize = 4;
+
+/// One word for a shell, whatever is in it.
+pub(crate) fn quoted(word: &str) -> String {
+    format!("'{}'", word.replace('\'', "'\\''"))
+}
+
+/// How the robot's program is started and stopped.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Service<'a> {
+    /// Its file name; `None`: nothing is started.
+    pub(crate) unit: Option<&'a str>,
+    pub(crate) systemctl: &'a str,
+}
+
+/// Lines of a word and what it says: which machine, how much space, which version, which files of it were changed there.
+pub(crate) fn probe(folder: &str) -> String {
+    let folder = quoted(folder);
+    format!(
+        r#"folder={folder}
+mkdir -p "$folder/versions" "$folder/runs" || exit 1
+echo "machine $(uname -m)"
+echo "free $(df -Pk "$folder" | sed -n '2s/  */ /gp' | cut -d' ' -f4)"
+command -v rsync >/dev/null && echo "rsync yes"
+cd "$folder/current" 2>/dev/null || exit 0
+echo "current $(basename "$(readlink "$folder/current")")"
+sha256sum -c {SUMS} 2>/dev/null | sed -n 's/^\(.*\): FAILED.*$/changed \1/p'
+"#
+    )
+}
+
+/// Makes what has arrived the running version. Exit status 3: it did not start, and the one before runs again.
+pub(crate) fn switch(folder: &str, version: &str, service: Service<'_>) -> String {
+    let (folder, version) = (quoted(folder), quoted(version));
+    let functions = functions(service);
+    format!(
+        r#"folder={folder}; version={version}
+{functions}
+cd "$folder/versions/.incoming" || exit 1
+sha256sum -c {SUMS} >/dev/null 2>&1 || {{ echo "files did not arrive whole" >&2; exit 1; }}
+ln -sfn ../../runs runs || exit 1
+./start --check-parameters >&2 || {{ echo "the program does not start, or refuses its parameters" >&2; exit 1; }}
+cd "$folder" || exit 1
+rm -rf "versions/$version" && mv versions/.incoming "versions/$version" || exit 1
+old=$(readlink current)
+point current "versions/$version" || exit 1
+if [ -n "$old" ]; then point previous "$old"; fi
+if ! start; then
+  if [ -n "$old" ]; then point current "$old"; start; fi
+  exit 3
+fi
+ls -1 versions | sort -r | tail -n +{} | while read -r one; do
+  case "$(readlink current) $(readlink previous)" in *"versions/$one"*) ;; *) rm -rf "versions/$one" ;; esac
+done
+exit 0
+"#,
+        KEPT + 1
+    )
+}
+
+/// Makes the version before the running one; says its name.
+pub(crate) fn roll_back(folder: &str, service: Service<'_>) -> String {
+    let folder = quoted(folder);
+    let functions = functions(service);
+    format!(
+        r#"folder={folder}
+{functions}
+cd "$folder" 2>/dev/null && new=$(readlink previous) && [ -d "$new" ] || {{ echo "there is no version before" >&2; exit 1; }}
+old=$(readlink current)
+point current "$new" && point previous "$old" || exit 1
+basename "$new"
+start || exit 3
+"#
+    )
+}
+
+/// Lines as those of [`probe`], changing nothing.
+pub(crate) fn look(folder: &str, service: Service<'_>) -> String {
+    let folder = quoted(folder);
+    let state = service.unit.map_or_else(String::new, |unit| {
+        format!(
+            "echo \"state $({} is-active {} 2>&1)\"\n",
+            service.systemctl,
+            quoted(unit)
+        )
+    });
+    format!(
+        r#"folder={folder}
+echo "machine $(uname -m)"
+echo "up $(cut -d. -f1 /proc/uptime)"
+echo "free $(df -Pk "$folder" 2>/dev/null | sed -n '2s/  */ /gp' | cut -d' ' -f4)"
+[ -e "$folder/current" ] && echo "current $(basename "$(readlink "$folder/current")")"
+[ -e "$folder/previous" ] && echo "previous $(basename "$(readlink "$folder/previous")")"
+{state}exit 0
+"#
+    )
+}
+
+/// `point LINK TARGET` in one step, whoever looks meanwhile; `start` the current version.
+fn functions(service: Service<'_>) -> String {
+    let start = match service.unit {
+        None => ":".to_owned(),
+        Some(unit) => {
+            let (systemctl, unit) = (service.systemctl, quoted(unit));
+            format!(
+                "{systemctl} enable --force \"$folder/current/\"{unit} >&2 && {systemctl} daemon-reload >&2 && \
+                 {systemctl} restart {unit} >&2"
+            )
+        }
+    };
+    format!("point() {{ ln -sfn \"$2\" \".$1\" && mv -T \".$1\" \"$1\"; }}\nstart() {{ {start}; }}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::quoted;
+
+    #[test]
+    fn a_word_stays_one_word() {
+        assert_eq!(quoted("a b; rm -rf $HOME"), "'a b; rm -rf $HOME'");
+        assert_eq!(quoted("it's"), "'it'\\''s'");
+    }
+}

@@ -1,0 +1,276 @@
+//! `deploy`, `robots`, `logs` and `recording pull` against a real sshd, with real keys and rsync.
+
+mod field;
+#[path = "../../../framework/src/testing/skipped.rs"]
+mod skipped;
+
+use std::fs;
+use std::process::Command;
+use std::sync::atomic::Ordering;
+
+use field::Field;
+use serde_json::Value;
+
+#[test]
+fn a_version_arrives_is_started_and_can_be_taken_back() {
+    let Some(field) = Field::open("a_version_arrives_is_started_and_can_be_taken_back") else {
+        return;
+    };
+    let (status, answer, said) =
+        field.deploy("a --set a:speed=2 --set name=it's --wlan HALL --location hall --format json");
+    assert_eq!(status, 0, "{answer}{said}");
+    let answer: Value = serde_json::from_str(&answer).expect("it is JSON");
+    let robot = &answer["robots"][0];
+    assert_eq!(
+        (
+            robot["host"].as_str(),
+            robot["is_done"].as_bool(),
+            robot["state"].as_str()
+        ),
+        (Some("a"), Some(true), Some("runs"))
+    );
+    let first = field.current().expect("there is a version");
+    assert_eq!(
+        Some(first.as_str()),
+        robot["version"]
+            .as_str()
+            .map(|it| format!("versions/{it}"))
+            .as_deref()
+    );
+    for (file, text) in [
+        ("parameters/default.toml", "speed = 1\n"),
+        ("motions/wave.toml", "wave\n"),
+    ] {
+        assert_eq!(field.read(&format!("disk/current/{file}")), text);
+    }
+    // The unit is enabled where every version has it, and started after the switch.
+    let expected = format!(
+        "enable --force {}/lamp.service {first}\ndaemon-reload {first}\nrestart lamp.service {first}\n",
+        field.path("disk/current").display()
+    );
+    assert_eq!(field.read("systemctl.log"), expected);
+    assert_eq!(field.read("wlan.log"), "joined HALL\n");
+    let started = Command::new(field.path("disk/current/start"))
+        .arg("--more")
+        .output()
+        .expect("it starts");
+    let started = String::from_utf8_lossy(&started.stdout).into_owned();
+    let words = r#"["--location", "hall", "--set", "speed=2", "--set", "name=it's", "--more"]"#;
+    assert!(started.starts_with(words), "{started}");
+
+    // Names of versions are seconds.
+    std::thread::sleep(std::time::Duration::from_millis(1100));
+    field.write("robot/motions/wave.toml", "wave twice\n");
+    assert_eq!(field.deploy("a").0, 0);
+    let second = field.current().expect("there is a version");
+    assert!(second > first, "{second} {first}");
+    assert_eq!(field.read("disk/current/motions/wave.toml"), "wave twice\n");
+    let (status, answer, said) = field.hulkgen("deploy a --rollback");
+    assert_eq!(status, 0, "{answer}{said}");
+    assert_eq!(field.current().as_ref(), Some(&first));
+    assert_eq!(field.read("disk/current/motions/wave.toml"), "wave\n");
+    assert!(
+        field
+            .read("systemctl.log")
+            .ends_with(&format!("restart lamp.service {first}\n"))
+    );
+    // And forth again.
+    assert_eq!(field.hulkgen("deploy a --rollback").0, 0);
+    assert_eq!(field.current(), Some(second));
+}
+
+#[test]
+fn a_connection_that_breaks_leaves_the_old_version_running() {
+    let Some(field) = Field::open("a_connection_that_breaks_leaves_the_old_version_running") else {
+        return;
+    };
+    let cut = field.cut_connections_after(1 << 20);
+    let (status, answer, _) = field.deploy("a");
+    assert_eq!(status, 1, "{answer}");
+    assert!(
+        answer.contains("a: failed: the connection broke"),
+        "{answer}"
+    );
+    assert_eq!(cut.load(Ordering::Relaxed), 1);
+    assert_eq!(field.current(), None);
+
+    field.mend_connections();
+    assert_eq!(field.deploy("a").0, 0);
+    let old = field.current();
+    let log = field.read("systemctl.log");
+    fs::write(
+        field.path("robot/motions/large"),
+        fs::read(field.path("padding")).expect("it is there")[1..].to_vec(),
+    )
+    .expect("the folder is ours");
+    let cut = field.cut_connections_after(1 << 20);
+    let (status, answer, _) = field.deploy("a");
+    assert_eq!((status, cut.load(Ordering::Relaxed)), (1, 1), "{answer}");
+    assert_eq!(field.current(), old);
+    assert_eq!(field.read("systemctl.log"), log, "nothing was restarted");
+    assert!(!field.path("disk/current/motions/large").exists());
+    field.mend_connections();
+    std::thread::sleep(std::time::Duration::from_millis(1100));
+    assert_eq!(field.deploy("a").0, 0);
+    assert_ne!(field.current(), old);
+}
+
+#[test]
+fn what_cannot_run_there_is_refused_before_the_switch() {
+    let Some(field) = Field::open("what_cannot_run_there_is_refused_before_the_switch") else {
+        return;
+    };
+    assert_eq!(field.deploy("a").0, 0);
+    let old = field.current();
+    let log = field.read("systemctl.log");
+    let refused = |field: &Field, reason: &str, (status, answer, said): (i32, String, String)| {
+        assert_eq!(status, 1, "{answer}{said}");
+        assert!(answer.contains(reason), "{answer}{said}");
+        assert_eq!(field.current(), old);
+        assert_eq!(field.read("systemctl.log"), log);
+    };
+
+    // The machine's number in the header: another processor's.
+    let program = fs::read(field.path("lamp")).expect("it is there");
+    let mut other = program.clone();
+    other[18] = if other[18] == 183 { 62 } else { 183 };
+    fs::write(field.path("lamp"), &other).expect("it is ours");
+    refused(&field, "the program is for ", field.deploy("a"));
+    fs::write(field.path("lamp"), &program).expect("it is ours");
+
+    // Parameters that the program itself refuses, on the robot.
+    field.write("robot/parameters/default.toml", "speed = \"wrong\"\n");
+    refused(&field, "refuses its parameters", field.deploy("a"));
+    field.write("robot/parameters/default.toml", "speed = 1\n");
+
+    // Parameters that were stored on the robot would be lost.
+    field.write("disk/current/parameters/default.toml", "speed = 3\n");
+    refused(
+        &field,
+        "`parameters/default.toml` was changed on the robot",
+        field.deploy("a"),
+    );
+    std::thread::sleep(std::time::Duration::from_millis(1100));
+    assert_eq!(field.deploy("a --discard-changes").0, 0);
+    assert_eq!(
+        field.read("disk/current/parameters/default.toml"),
+        "speed = 1\n"
+    );
+}
+
+#[test]
+fn a_version_that_does_not_start_gives_way_to_the_one_before() {
+    let Some(field) = Field::open("a_version_that_does_not_start_gives_way_to_the_one_before")
+    else {
+        return;
+    };
+    assert_eq!(field.deploy("a").0, 0);
+    let old = field.current().expect("there is a version");
+    std::thread::sleep(std::time::Duration::from_millis(1100));
+    field.write("robot/motions/broken", "");
+    let (status, answer, _) = field.deploy("a");
+    assert_eq!(status, 1, "{answer}");
+    assert!(answer.contains("the new version did not start"), "{answer}");
+    assert_eq!(field.current().as_ref(), Some(&old));
+    assert!(
+        field
+            .read("systemctl.log")
+            .ends_with(&format!("restart lamp.service {old}\n"))
+    );
+}
+
+#[test]
+fn a_full_disk_changes_nothing() {
+    let name = "a_full_disk_changes_nothing";
+    let Some(field) = Field::open(name) else {
+        return;
+    };
+    let disk = field.path("disk");
+    fs::create_dir_all(&disk).expect("the folder is ours");
+    let mount = |options: &str| {
+        let mut mount = Command::new("mount");
+        mount
+            .args(["-t", "tmpfs", "-o", options, "none"])
+            .arg(&disk);
+        mount.output().is_ok_and(|output| output.status.success())
+    };
+    let unmount = || drop(Command::new("umount").arg(&disk).output());
+    if !mount("size=1m") {
+        skipped::skip(
+            name,
+            "run as root, or in a container that may mount a tmpfs",
+        );
+        return;
+    }
+    // Too small, as the robot says before anything is sent.
+    let (status, answer, _) = field.deploy("a");
+    unmount();
+    assert_eq!(status, 1, "{answer}");
+    assert!(answer.contains("no space left: "), "{answer}");
+    // Large enough as it seems, but without room for more than a few names: found out on the way.
+    assert!(mount("size=64m,nr_inodes=10"));
+    let (status, answer, _) = field.deploy("a");
+    let current = field.current();
+    unmount();
+    assert_eq!(status, 1, "{answer}");
+    assert!(answer.contains("no space left on the robot"), "{answer}");
+    assert_eq!(current, None);
+    assert_eq!(field.read("systemctl.log"), "");
+}
+
+#[test]
+fn robots_are_served_side_by_side_and_asked() {
+    let Some(field) = Field::open("robots_are_served_side_by_side_and_asked") else {
+        return;
+    };
+    // Each has a folder of its own below the home folder's place: one manifest, two disks would be two machines here.
+    field.write_manifest(&field.path("disk"), false);
+    let (status, answer, said) = field.deploy("a nobody@127.0.0.9");
+    // Both are this machine, so only one of them wins the folder or both put the same; neither leaves it half.
+    assert!(
+        answer.contains("a: ") && answer.contains("nobody@127.0.0.9: failed: "),
+        "{status} {answer}{said}"
+    );
+    assert_eq!(status, 1);
+    assert!(said.contains("a: "), "progress is told: {said}");
+    let version = field.current().expect("there is a version");
+
+    field.write_manifest(&field.path("disk"), true);
+    let (status, answer, _) = field.hulkgen("robots --format json");
+    assert_eq!(status, 0, "{answer}");
+    let answer: Value = serde_json::from_str(&answer).expect("it is JSON");
+    let names: Vec<_> = answer["robots"]
+        .as_array()
+        .expect("a list")
+        .iter()
+        .map(|it| it["host"].clone())
+        .collect();
+    assert_eq!(names, ["a", "b"]);
+    assert_eq!(
+        format!(
+            "versions/{}",
+            answer["robots"][0]["version"].as_str().unwrap_or_default()
+        ),
+        version
+    );
+    assert_eq!(answer["robots"][0]["state"], "active");
+    assert!(answer["robots"][0]["free_kibibytes"].as_u64().is_some());
+
+    let (status, answer, _) = field.hulkgen("logs a --lines 7");
+    assert_eq!(
+        (status, answer.as_str()),
+        (0, "journal of --unit lamp.service --lines 7\n")
+    );
+    let (status, _, said) = field.hulkgen("logs c");
+    assert_eq!(status, 2, "{said}");
+
+    field.write("disk/runs/1-1/recording.mcap", "first");
+    let (status, answer, said) = field.hulkgen("recording pull a");
+    assert_eq!((status, answer.as_str()), (0, "runs/a\n"), "{said}");
+    assert_eq!(field.read("robot/runs/a/1-1/recording.mcap"), "first");
+    field.write("disk/runs/2-2/recording.mcap", "second");
+    let (status, answer, said) = field.hulkgen("recording pull a --newest --into here");
+    assert_eq!((status, answer.as_str()), (0, "here/2-2\n"), "{said}");
+    assert_eq!(field.read("robot/here/2-2/recording.mcap"), "second");
+    assert!(!field.path("robot/here/1-1").exists());
+}
