@@ -2,6 +2,7 @@
 
 mod field;
 #[path = "../../../framework/src/testing/skipped.rs"]
+#[expect(unreachable_pub, reason = "it is public where it stands")]
 mod skipped;
 
 use std::fs;
