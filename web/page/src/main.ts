@@ -4,6 +4,8 @@ import { Robot } from "./store/robot";
 import "./style/base.css";
 import "./style/frame.css";
 import "./style/panels.css";
+import "./style/robotics.css";
+import "./style/time.css";
 import { header } from "./view/header";
 import { Sidebar } from "./view/sidebar";
 import { Workspace } from "./view/workspace";

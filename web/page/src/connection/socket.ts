@@ -74,7 +74,13 @@ export class Socket {
     const socket = new WebSocket(this.address);
     socket.binaryType = "arraybuffer";
     socket.onmessage = (event) => {
-      if (this.socket === socket) this.hear(event.data);
+      if (this.socket !== socket) return;
+      try {
+        this.hear(event.data);
+      } catch (error) {
+        // Whatever a robot says that nobody understands: what comes next may be good again.
+        console.warn("the robot sent a message that was not understood:", error);
+      }
     };
     socket.onclose = () => {
       if (this.socket === socket) this.lose();

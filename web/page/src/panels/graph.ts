@@ -60,15 +60,13 @@ class GraphPanel implements Panel {
 
   private draw(graph: Graph): void {
     this.cards.clear();
-    this.lanes.replaceChildren(
-      ...graph.cyclers.map((cycler) => {
-        const nodes = [...cycler.nodes].sort((one, other) => one.order - other.order);
-        const cards = nodes.map((node) => this.card(cycler.name, node));
-        const instances = cycler.instances.join(", ");
-        const kind = make("p", { class: "muted" }, `${cycler.kind.replace("_", "-")} · ${instances}`);
-        return make("section", {}, make("h3", {}, cycler.name), kind, make("ol", {}, ...cards));
-      }),
-    );
+    const sections = graph.cyclers.map((cycler) => {
+      const nodes = [...cycler.nodes].sort((one, other) => one.order - other.order);
+      const cards = nodes.map((node) => this.card(cycler.name, node));
+      const kind = make("p", { class: "muted" }, `${cycler.kind.replace("_", "-")} · ${cycler.instances.join(", ")}`);
+      return make("section", {}, make("h3", {}, cycler.name), kind, make("ol", {}, ...cards));
+    });
+    this.lanes.replaceChildren(make("div", { class: "flow" }, ...sections));
     this.choose(this.chosen !== null && this.cards.has(this.chosen) ? this.chosen : null);
     this.mark();
   }
@@ -76,7 +74,7 @@ class GraphPanel implements Panel {
   private card(cycler: string, node: GraphNode): HTMLElement {
     const key = keyOf(cycler, node.path);
     const [group, name] = split(node.path);
-    const card = make("button", { type: "button", class: node.setup ? "node setup" : "node", "aria-label": key, title: node.path }, make("span", { class: "muted" }, group), name);
+    const card = make("button", { type: "button", class: node.setup ? "node setup" : "node", "aria-label": key, title: node.path }, make("span", { class: "muted" }, group), ...wrapping(name));
     card.addEventListener("click", () => this.choose(this.chosen === key ? null : key));
     this.cards.set(key, card);
     return make("li", {}, card);
@@ -158,6 +156,11 @@ function timing(instance: InstanceTimings, path: string): HTMLElement {
 
 function keyOf(cycler: string, node: string): string {
   return `${cycler} ${node}`;
+}
+
+/** May be broken behind underscores. */
+function wrapping(name: string): (string | HTMLElement)[] {
+  return name.split(/(?<=_)/).flatMap((part, at) => (at === 0 ? [part] : [make("wbr"), part]));
 }
 
 function split(path: string): [string, string] {

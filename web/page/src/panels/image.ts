@@ -1,6 +1,7 @@
 // A panel with an image of the robot: as JPEG where the robot makes one, else as the camera's own bytes.
 import type { Decoded } from "../connection/binary";
 import type { Encoding } from "../protocol";
+import type { Settings } from "../store/layout";
 import { isImage } from "../store/paths";
 import type { Sample } from "../store/subscriptions";
 import { complain, eachFrame, make, select } from "../view/dom";
@@ -10,23 +11,26 @@ import { numberSetting, textSetting, type Context, type Panel, type PanelKind } 
 const RATES = ["1 Hz", "5 Hz", "10 Hz", "15 Hz", "30 Hz"];
 const QUALITIES = ["quality 40", "quality 70", "quality 90", "raw"];
 
-class ImagePanel implements Panel {
+/** Other panels draw over it: `moved`, `kept` and `drawn` are theirs. */
+export class ImagePanel implements Panel {
   readonly content: HTMLElement;
   readonly tools: HTMLElement[];
-  private readonly canvas = make("canvas", { role: "img", "aria-label": "image" });
+  protected readonly canvas = make("canvas", { role: "img", "aria-label": "image" });
+  /** The image, and whatever lies over it. */
+  protected readonly stage = make("div", { class: "stage" }, this.canvas);
   private readonly state = make("output", { class: "muted" });
   private readonly failure = make("p", { class: "failure", hidden: true });
   private readonly input: HTMLInputElement;
   private readonly choices = make("datalist", { id: `images-${Math.random().toString(36).slice(2)}` });
   private readonly draw = eachFrame(() => void this.show());
-  private path: string;
-  private rate: number;
+  protected path: string;
+  protected rate: number;
   private quality: string;
   private sample: Sample | null = null;
   private isDrawing = false;
   private stop = (): void => undefined;
 
-  constructor(private readonly context: Context) {
+  constructor(protected readonly context: Context) {
     this.path = textSetting(context.settings, "path");
     this.rate = numberSetting(context.settings, "rate", 15);
     this.quality = textSetting(context.settings, "quality", "quality 70");
@@ -43,7 +47,7 @@ class ImagePanel implements Panel {
         this.subscribe();
       }),
     ];
-    this.content = make("div", { class: "image" }, make("div", { class: "bar" }, this.input, this.choices, this.state), this.failure, this.canvas);
+    this.content = make("div", { class: "image" }, make("div", { class: "bar" }, this.input, this.choices, this.state), this.failure, this.stage);
     this.subscribe();
   }
 
@@ -57,6 +61,21 @@ class ImagePanel implements Panel {
     this.stop();
   }
 
+  /** Another image is wanted, or the same more often. */
+  protected moved(): void {}
+
+  /** Settings of a panel that draws over it. */
+  protected kept(): Settings {
+    return {};
+  }
+
+  /** This sample is on the canvas. */
+  protected drawn(_sample: Sample): void {}
+
+  protected save(): void {
+    this.context.save({ path: this.path, rate: this.rate, quality: this.quality, ...this.kept() });
+  }
+
   /** Outputs whose type is an image. */
   private async offer(): Promise<void> {
     const all = await this.context.robot.paths.everything().catch(() => []);
@@ -67,7 +86,8 @@ class ImagePanel implements Panel {
     this.stop();
     this.sample = null;
     this.context.title(this.path);
-    this.context.save({ path: this.path, rate: this.rate, quality: this.quality });
+    this.save();
+    this.moved();
     complain(this.failure, null);
     if (this.path === "") return;
     if (this.quality === "raw") this.watch("binary");
@@ -100,6 +120,7 @@ class ImagePanel implements Panel {
     try {
       if (sample.value instanceof Uint8Array) await drawJpeg(this.canvas, sample.value as Uint8Array<ArrayBuffer>);
       else drawRaw(this.canvas, sample.value);
+      this.drawn(sample);
       complain(this.failure, null);
     } catch (error) {
       complain(this.failure, error);

@@ -24,7 +24,7 @@ function open(context: Context): Panel {
     const isWanted = (log: Log): boolean => LEVELS.indexOf(log.level) >= least && wanted.every((word) => textOf(log).includes(word));
     const shown = context.robot.logs.value.filter(isWanted).slice(-SHOWN);
     isDrawing = true;
-    list.replaceChildren(...shown.map(row));
+    list.replaceChildren(...shown.map((log) => row(context, log)));
     if (isFollowing) list.scrollTop = list.scrollHeight;
     isDrawing = false;
   });
@@ -63,16 +63,20 @@ function textOf(log: Log): string {
   return `${log.message} ${log.instance ?? ""} ${log.node ?? ""} ${JSON.stringify(log.fields ?? {})}`.toLowerCase();
 }
 
-function row(log: Log): HTMLElement {
+function row({ robot }: Context, log: Log): HTMLElement {
   const from = [log.instance, log.node].filter((part) => part != null).join(" ");
   const fields = Object.entries(log.fields ?? {}).map(([name, value]) => `${name}=${typeof value === "string" ? value : JSON.stringify(value)}`);
-  const cycle = log.cycle == null ? "" : ` #${log.cycle}`;
+  const { instance, cycle } = log;
+  const jump =
+    instance == null || cycle == null
+      ? null
+      : button(`#${cycle}`, `plots and replay show cycle ${cycle} of ${instance}`, () => robot.moment.set({ time: log.time / 1e9, instance, cycle }), "link");
   return make(
     "div",
     { class: `entry ${log.level}` },
     make("time", {}, seconds(log.time)),
     make("b", {}, log.level),
-    make("span", { class: "muted" }, `${from}${cycle}`),
+    make("span", { class: "muted" }, `${from} `, jump),
     make("span", {}, [log.message, ...fields].join(" ")),
   );
 }

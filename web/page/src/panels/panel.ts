@@ -1,4 +1,5 @@
 // Owns what a panel is: one element, fed by the robot's store, with settings that the layout keeps.
+import type { Entry } from "../protocol";
 import type { Arrangement, Settings } from "../store/layout";
 import type { Robot } from "../store/robot";
 
@@ -29,6 +30,8 @@ export interface PanelKind {
   readonly kind: string;
   readonly name: string;
   open(context: Context): Panel;
+  /** Whether this robot has what the panel shows; absent: every robot has. */
+  offered?(entries: readonly Entry[]): boolean;
 }
 
 /** What the browser hands from where a drag began to where it ends. */

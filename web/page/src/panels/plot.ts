@@ -5,7 +5,7 @@ import { button, complain, download, eachFrame, make, select } from "../view/dom
 import { number } from "../view/format";
 import { nameOf } from "../store/paths";
 import { listSetting, numberSetting, type Context, type Panel, type PanelKind } from "./panel";
-import { align, COLORS, height, Series } from "./series";
+import { align, COLORS, height, readCurves, Series } from "./series";
 
 const WINDOWS = ["5 s", "10 s", "20 s", "60 s", "300 s"];
 
@@ -29,6 +29,9 @@ class Plot implements Panel {
   /** While paused: what is shown, in seconds. */
   private held: [number, number] | null = null;
   private drawn: uPlot | null = null;
+  /** Curves of another run, by path. */
+  private others = new Map<string, Series>();
+  private readonly stop: () => void;
 
   constructor(private readonly context: Context) {
     this.window = numberSetting(context.settings, "window", 20);
@@ -41,6 +44,10 @@ class Plot implements Panel {
       }),
       this.pause,
       button("CSV", "save what is shown", () => this.export()),
+      compare((others) => {
+        this.others = others;
+        this.rebuild();
+      }, this.failure),
     ];
     this.input.addEventListener("change", () => {
       if (this.input.value.trim() !== "") this.accept(this.input.value.trim());
@@ -50,6 +57,16 @@ class Plot implements Panel {
     this.chart.addEventListener("dblclick", () => this.go());
     for (const path of listSetting(context.settings, "paths")) this.add(path);
     this.rebuild();
+    const stop = context.robot.moment.watch((moment) => {
+      if (moment !== null) this.show([moment.time - this.window / 2, moment.time + this.window / 2]);
+    });
+    // The axes are drawn in colours of the page.
+    const repaint = (): void => this.rebuild();
+    window.addEventListener("theme", repaint);
+    this.stop = () => {
+      stop();
+      window.removeEventListener("theme", repaint);
+    };
   }
 
   accept(path: string): void {
@@ -65,6 +82,7 @@ class Plot implements Panel {
   }
 
   close(): void {
+    this.stop();
     for (const curve of this.curves) curve.stop();
     this.drawn?.destroy();
   }
@@ -115,18 +133,12 @@ class Plot implements Panel {
       width: Math.max(this.chart.clientWidth, 100),
       height: Math.max(this.chart.clientHeight - 30, 60),
       scales: { x: { time: false } },
-      axes: [{ ...axis, values: (_, ticks) => ticks.map((tick) => `${number(tick)} s`) }, { ...axis, size: 60 }],
+      axes: [{ ...axis, values: (_, ticks) => ticks.map((tick) => `${short(tick)} s`) }, { ...axis, size: 60, values: (_, ticks) => ticks.map(short) }],
       cursor: { drag: { x: true, y: false, setScale: false } },
       series: [
         { label: "time", value: (_, time) => (time === null ? "–" : `${time.toFixed(3)} s`) },
-        ...this.curves.map((curve, at) => ({
-          label: nameOf(curve.path),
-          stroke: color(at),
-          width: 1.5,
-          spanGaps: false,
-          points: { show: false },
-          value: (_: uPlot, value: number | null) => (value === null || value === undefined ? "–" : number(value)),
-        })),
+        ...this.curves.map((curve, at) => curveOf(nameOf(curve.path), color(at), [])),
+        ...this.compared().map((curve) => curveOf(`${nameOf(curve.path)} of the other run`, color(this.curves.indexOf(curve)), [4, 4])),
       ],
       hooks: { setSelect: [(chart) => this.zoom(chart)] },
     };
@@ -144,7 +156,13 @@ class Plot implements Panel {
   }
 
   private shown(): ReturnType<typeof align> {
-    return align(this.curves.map((curve) => curve.series), ...this.range());
+    const others = this.compared().map(({ path }) => this.others.get(path) as Series);
+    return align([...this.curves.map((curve) => curve.series), ...others], ...this.range());
+  }
+
+  /** Curves that the other run has, too. */
+  private compared(): Curve[] {
+    return this.curves.filter(({ path }) => this.others.has(path));
   }
 
   private update(): void {
@@ -186,11 +204,36 @@ class Plot implements Panel {
   }
 
   private export(): void {
-    const [times, ...columns] = this.shown();
+    const [times, ...all] = this.shown();
+    const columns = all.slice(0, this.curves.length);
     const head = ["time", ...this.curves.map((curve) => curve.path)].join(",");
     const rows = times.map((time, row) => [time, ...columns.map((column) => column[row] ?? "")].join(","));
     download("plot.csv", `${[head, ...rows].join("\n")}\n`, "text/csv");
   }
+}
+
+function curveOf(label: string, stroke: string, dash: number[]): uPlot.Series {
+  const value = (_: uPlot, value: number | null): string => (value === null || value === undefined ? "–" : number(value));
+  return { label, stroke, dash, width: dash.length > 0 ? 2 : 1.5, spanGaps: dash.length > 0, points: { show: false }, value };
+}
+
+/** Opens curves that another plot has saved, of another run over the same seconds. */
+function compare(deed: (others: Map<string, Series>) => void, failure: HTMLElement): HTMLElement {
+  const file = make("input", { type: "file", accept: ".csv,text/csv", hidden: true, "aria-label": "curves of another run" });
+  file.addEventListener("change", () => {
+    void file.files?.[0]?.text().then((text) => {
+      const others = readCurves(text);
+      complain(failure, others.size === 0 ? "this file has no curves: save some with CSV" : null);
+      deed(others);
+      file.value = "";
+    });
+  });
+  return make("span", {}, file, button("Compare", "show curves of another run that were saved with CSV, dashed", () => file.click()));
+}
+
+/** As many digits as tell the ticks of an axis apart. */
+function short(tick: number): string {
+  return String(Number(tick.toPrecision(6)));
 }
 
 /** The last two names: as much as tells curves apart in most panels. */

@@ -59,6 +59,21 @@ export function align(series: readonly Series[], begin: number, end: number): [n
   }
 }
 
+/** The curves of a file that a plot has saved, by path; what is no number is a gap. */
+export function readCurves(text: string): Map<string, Series> {
+  const [head, ...rows] = text.trim().split("\n").map((row) => row.split(","));
+  const curves = new Map<string, Series>();
+  if (head?.[0] !== "time") return curves;
+  for (const path of head.slice(1)) curves.set(path, new Series());
+  for (const [time, ...values] of rows) {
+    [...curves.values()].forEach((series, at) => {
+      const value = values[at];
+      if (value !== undefined && value !== "" && Number.isFinite(Number(time)) && Number.isFinite(Number(value))) series.add(Number(time), Number(value));
+    });
+  }
+  return curves;
+}
+
 /** What a curve can show of a value: numbers, and flags as 0 and 1. */
 export function height(value: unknown): number | null {
   if (typeof value === "number") return value;

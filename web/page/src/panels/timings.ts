@@ -3,6 +3,7 @@ import { expect } from "../connection/socket";
 import type { Durations, InstanceTimings, NodeTimings, Timings } from "../protocol";
 import { button, complain, download, make } from "../view/dom";
 import { microseconds } from "../view/format";
+import { Flame } from "./flame";
 import type { Context, Panel, PanelKind } from "./panel";
 
 const PERIOD_MILLISECONDS = 1000;
@@ -41,7 +42,9 @@ function open(context: Context): Panel {
     window.clearInterval(timer);
     stop();
   };
-  return { content: make("div", { class: "scroll" }, failure, table), tools: [trace], close };
+  const flame = new Flame(context.robot);
+  const flames = button("Flame", "one cycle with its nodes", () => flame.toggle());
+  return { content: make("div", { class: "scroll" }, failure, flame.element, table), tools: [flames, trace], close };
 }
 
 function rows(instance: InstanceTimings, now: Timings, before: Timings | null, closed: Set<string>, draw: () => void): HTMLElement[] {

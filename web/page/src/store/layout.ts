@@ -34,34 +34,52 @@ const KEY = "layout";
 
 let nextId = 1;
 
-function place(kind: string, settings: Settings = {}, size = 1): PanelPlace {
+export function place(kind: string, settings: Settings = {}, size = 1): PanelPlace {
   return { id: `panel-${nextId++}`, kind, settings, size };
 }
 
-/** What to begin with, by name: made for any robot. */
-export const PRESETS: Record<string, () => Layout> = {
-  Overview: () => ({
-    version: 1,
-    columns: [
-      { size: 3, panels: [place("timings", {}, 3), place("logs", {}, 2)] },
-      { size: 2, panels: [place("parameters")] },
-    ],
-  }),
-  Tuning: () => ({
-    version: 1,
-    columns: [
-      { size: 3, panels: [place("plot"), place("plot")] },
-      { size: 2, panels: [place("parameters", {}, 2), place("procedures")] },
-    ],
-  }),
-  Graph: () => ({
-    version: 1,
-    columns: [
-      { size: 3, panels: [place("graph")] },
-      { size: 2, panels: [place("value"), place("timings")] },
-    ],
-  }),
-};
+/** Columns from left to right, each with its share of the width before its panels. */
+export function layoutOf(...columns: readonly (readonly [number, ...PanelPlace[]])[]): Layout {
+  return { version: 1, columns: columns.map(([size, ...panels]) => ({ size, panels })) };
+}
+
+/** Without panels that have nothing to show. */
+export function withOnly(layout: Layout, has: (kind: string) => boolean): Layout {
+  const columns = layout.columns.map((column) => ({ ...column, panels: column.panels.filter((panel) => has(panel.kind)) }));
+  return { ...layout, columns: columns.filter((column) => column.panels.length > 0) };
+}
+
+/** What to begin with. */
+export interface Preset {
+  name: string;
+  /** Kinds of panels without which it makes no sense. */
+  needs: readonly string[];
+  layout(): Layout;
+}
+
+/** Made for any robot. */
+export const PRESETS: readonly Preset[] = [
+  {
+    name: "Overview",
+    needs: [],
+    layout: () => layoutOf([3, place("timings", {}, 3), place("logs", {}, 2)], [2, place("parameters")]),
+  },
+  {
+    name: "Tuning",
+    needs: [],
+    layout: () => layoutOf([3, place("plot"), place("plot")], [2, place("parameters", {}, 2), place("procedures")]),
+  },
+  {
+    name: "Graph",
+    needs: [],
+    layout: () => layoutOf([3, place("graph")], [2, place("cycles"), place("timings")]),
+  },
+  {
+    name: "Replay",
+    needs: ["replay"],
+    layout: () => layoutOf([3, place("replay", {}, 2), place("plot", {}, 3)], [2, place("value"), place("logs")]),
+  },
+];
 
 export class Arrangement {
   private readonly current: Signal<Layout>;
@@ -168,7 +186,7 @@ export function read(text: string | null): Layout | null {
 }
 
 function start(): Layout {
-  return (PRESETS["Overview"] as () => Layout)();
+  return (PRESETS[0] as Preset).layout();
 }
 
 function take(layout: Layout, id: string): PanelPlace | undefined {

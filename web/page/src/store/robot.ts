@@ -8,7 +8,17 @@ import { Subscriptions } from "./subscriptions";
 /** Enough for minutes of a robot that talks, and little for a phone. */
 const LOGS = 2000;
 
+/** A cycle that somebody wants to look at in every panel. */
+export interface Moment {
+  /** In seconds of the robot's clock. */
+  time: number;
+  instance: string;
+  cycle: number;
+}
+
 export class Robot {
+  /** The newest cycle that somebody jumped to. */
+  readonly moment = new Signal<Moment | null>(null);
   readonly subscriptions = new Subscriptions(() => (this.isWelcome ? this.socket : null));
   readonly paths = new Paths((ask) => this.ask(ask));
   private readonly socket: Socket;

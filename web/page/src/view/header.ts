@@ -1,8 +1,8 @@
 // The line above everything: which robot, whether it is there, panels to add, layouts, and the token where one is asked for.
-import { KINDS } from "../panels/kinds";
-import { PRESETS, read, type Arrangement } from "../store/layout";
+import { offeredBy, type Offered } from "../panels/kinds";
+import { read, type Arrangement } from "../store/layout";
 import type { Robot } from "../store/robot";
-import { button, complain, download, make } from "./dom";
+import { button, complain, download, make, select } from "./dom";
 
 export function header(robot: Robot, arrangement: Arrangement): HTMLElement {
   const name = make("h1", {}, "hulkgen");
@@ -24,15 +24,18 @@ export function header(robot: Robot, arrangement: Arrangement): HTMLElement {
   };
   robot.state.watch(showState);
   robot.welcome.watch(showState);
-  return make("header", {}, paths, name, state, token(robot), make("span", { class: "space" }), panels(arrangement), layouts(arrangement));
+  return make("header", {}, paths, name, state, token(robot), make("span", { class: "space" }), theme(), panels(robot, arrangement), layouts(robot, arrangement));
 }
 
-function panels(arrangement: Arrangement): HTMLElement {
-  const items = KINDS.map((kind) => button(kind.name, `add a panel: ${kind.name}`, () => arrangement.add(kind.kind), "item"));
-  return menu("Add", items);
+function panels(robot: Robot, arrangement: Arrangement): HTMLElement {
+  const items = make("div", { class: "offers" });
+  whenKnown(robot, ({ kinds }) => {
+    items.replaceChildren(...kinds.map((kind) => button(kind.name, `add a panel: ${kind.name}`, () => arrangement.add(kind.kind), "item")));
+  });
+  return menu("Add", [items]);
 }
 
-function layouts(arrangement: Arrangement): HTMLElement {
+function layouts(robot: Robot, arrangement: Arrangement): HTMLElement {
   const file = make("input", { type: "file", accept: ".json,application/json", hidden: true, "aria-label": "layout file" });
   file.addEventListener("change", () => {
     void file.files?.[0]?.text().then((text) => {
@@ -42,9 +45,12 @@ function layouts(arrangement: Arrangement): HTMLElement {
       file.value = "";
     });
   });
-  const presets = Object.entries(PRESETS).map(([name, preset]) => button(name, `begin with ${name}`, () => arrangement.use(preset()), "item"));
+  const presets = make("div", { class: "offers" });
+  whenKnown(robot, (offered) => {
+    presets.replaceChildren(...offered.presets.map(({ name, layout }) => button(name, `begin with ${name}`, () => arrangement.use(layout()), "item")));
+  });
   return menu("Layout", [
-    ...presets,
+    presets,
     make("hr"),
     button("Save as file", "for others, or for another browser", () => download("layout.json", arrangement.text()), "item"),
     button("Open file …", "a layout that was saved", () => file.click(), "item"),
@@ -52,10 +58,37 @@ function layouts(arrangement: Arrangement): HTMLElement {
   ]);
 }
 
+/** Now and whenever another robot is there. */
+function whenKnown(robot: Robot, deed: (offered: Offered) => void): void {
+  robot.welcome.watch((welcome) => {
+    if (welcome !== null) void offeredBy(robot).then(deed);
+  });
+}
+
+/** As the system has it, light, or dark: the browser keeps it. */
+function theme(): HTMLElement {
+  const root = document.documentElement;
+  const choices = ["auto", "light", "dark"];
+  const show = (choice: string): void => {
+    if (choice === "auto") delete root.dataset["theme"];
+    else root.dataset["theme"] = choice;
+    window.dispatchEvent(new Event("theme"));
+  };
+  const kept = localStorage.getItem("theme") ?? "auto";
+  show(kept);
+  return select(choices, kept, "light or dark", (choice) => {
+    localStorage.setItem("theme", choice);
+    show(choice);
+  });
+}
+
 function menu(name: string, items: readonly HTMLElement[]): HTMLElement {
   const list = make("div", { class: "items" }, ...items);
   const element = make("details", { class: "menu" }, make("summary", {}, name), list);
   list.addEventListener("click", () => (element.open = false));
+  element.addEventListener("keydown", (event) => {
+    if (event.key === "Escape") element.open = false;
+  });
   document.addEventListener("pointerdown", (event) => {
     if (!element.contains(event.target as Node)) element.open = false;
   });

@@ -60,7 +60,7 @@ export class Workspace {
       settings: place.settings,
       save: (settings) => this.arrangement.configure(place.id, settings),
       title: (text) => {
-        title.textContent = text;
+        title.replaceChildren(make("bdi", {}, text));
         title.title = text;
       },
     }) ?? null;

@@ -1,0 +1,179 @@
+// A panel that moves the time of a recording which a program shows in place of a robot: play, step, backwards, any speed.
+import { expect } from "../connection/socket";
+import type { Json } from "../protocol";
+import { button, complain, make, select } from "../view/dom";
+import { plural } from "../view/format";
+import { textSetting, type Context, type Panel, type PanelKind } from "./panel";
+
+const TIMELINE = "Replay.procedures.timeline";
+const PERIOD_MILLISECONDS = 250;
+const SPEEDS = ["-4 ×", "-1 ×", "-0.25 ×", "0.1 ×", "0.25 ×", "0.5 ×", "1 ×", "2 ×", "4 ×", "16 ×"];
+const EVERY = "all instances";
+
+interface Event {
+  instance: string;
+  from: number;
+  to: number;
+  what: "missing" | "unfinished" | "restarted";
+}
+
+interface Place {
+  time: number;
+  begins: number;
+  ends: number;
+  is_playing: boolean;
+  speed: number;
+  instances: { instance: string; cycle: number | null; frames: number; missing: number }[];
+  events?: Event[];
+}
+
+class Replay implements Panel {
+  readonly content: HTMLElement;
+  private readonly slider = make("input", { type: "range", min: 0, max: 1, step: 0.001, value: 0, "aria-label": "time of the recording" });
+  private readonly marks = make("div", { class: "lanes-of-events" });
+  private readonly state = make("output", { class: "muted" });
+  private readonly failure = make("p", { class: "failure", hidden: true });
+  private readonly table = make("tbody");
+  private readonly play: HTMLButtonElement;
+  private readonly speed: HTMLSelectElement;
+  private readonly whose: HTMLSelectElement;
+  private readonly cycle = make("input", { type: "text", inputmode: "numeric", placeholder: "cycle", "aria-label": "go to this cycle of the instance" });
+  private readonly timer: number;
+  private readonly stop: () => void;
+  private place: Place | null = null;
+  private events: Event[] = [];
+  private isDragged = false;
+  private isAsked = false;
+
+  constructor(private readonly context: Context) {
+    this.play = button("Pause", "play or pause (space)", () => void this.ask({ play: !(this.place?.is_playing ?? false) }), "deed");
+    this.speed = select(SPEEDS, "1 ×", "speed; negative: backwards", (speed) => void this.ask({ speed: Number.parseFloat(speed), play: true }));
+    this.whose = select([EVERY, textSetting(context.settings, "instance")].filter((name) => name !== ""), textSetting(context.settings, "instance", EVERY), "whose cycles are stepped", (instance) => context.save({ instance }));
+    const step = (text: string, about: string, by: number): HTMLButtonElement => button(text, about, () => this.step(by));
+    this.content = make(
+      "div",
+      { class: "scroll replay", tabindex: "0" },
+      make(
+        "div",
+        { class: "bar" },
+        button("|◀", "to the begin", () => void this.ask({ time: this.place?.begins ?? 0 })),
+        step("◀", "one cycle back (left)", -1),
+        this.play,
+        step("▶", "one cycle on (right)", 1),
+        button("▶|", "to the end", () => void this.ask({ time: this.place?.ends ?? 0 })),
+        this.speed,
+        this.whose,
+        this.cycle,
+        this.state,
+      ),
+      this.failure,
+      make("div", { class: "time-axis" }, this.slider, this.marks),
+      make("table", { class: "timings" }, make("thead", {}, make("tr", {}, ...["instance", "cycle", "recorded", "missing"].map((text) => make("th", { scope: "col" }, text)))), this.table),
+      make("p", { class: "muted" }, "To compare with a second run: save its curves with CSV in a plot, and open them with Compare in a plot of this one."),
+    );
+    this.slider.addEventListener("input", () => {
+      this.isDragged = true;
+      void this.ask({ time: Number(this.slider.value) });
+    });
+    this.slider.addEventListener("change", () => (this.isDragged = false));
+    this.cycle.addEventListener("change", () => void this.ask({ cycle: Number(this.cycle.value), instance: this.instance() ?? this.place?.instances.at(-1)?.instance ?? "" }));
+    this.content.addEventListener("keydown", (event) => this.key(event));
+    this.timer = window.setInterval(() => void this.ask({}), PERIOD_MILLISECONDS);
+    const stops = [
+      context.robot.state.watch((state) => {
+        if (state === "open") void this.ask({ events: true });
+      }),
+      context.robot.moment.watch((moment) => {
+        if (moment !== null) void this.ask({ instance: moment.instance, cycle: moment.cycle, play: false });
+      }),
+    ];
+    this.stop = () => stops.forEach((stop) => stop());
+  }
+
+  close(): void {
+    window.clearInterval(this.timer);
+    this.stop();
+  }
+
+  private instance(): string | undefined {
+    return this.whose.value === EVERY ? undefined : this.whose.value;
+  }
+
+  private step(by: number): void {
+    const instance = this.instance();
+    void this.ask({ step: by, ...(instance === undefined ? {} : { instance }) });
+  }
+
+  private key(event: KeyboardEvent): void {
+    if (event.target instanceof HTMLInputElement || event.target instanceof HTMLSelectElement || event.target instanceof HTMLButtonElement) return;
+    if (event.key === " ") this.play.click();
+    else if (event.key === "ArrowLeft") this.step(-1);
+    else if (event.key === "ArrowRight") this.step(1);
+    else return;
+    event.preventDefault();
+  }
+
+  private async ask(move: { [key: string]: Json }): Promise<void> {
+    const { robot } = this.context;
+    const isQuestion = Object.keys(move).length === 0;
+    if (robot.state.value !== "open" || (isQuestion && (this.isAsked || document.hidden))) return;
+    this.isAsked = true;
+    try {
+      const place = expect(await robot.ask({ call: { path: TIMELINE, argument: move } }), "called") as unknown as Place;
+      if (place.events !== undefined) this.events = place.events;
+      this.show(place, place.events !== undefined);
+      complain(this.failure, null);
+    } catch (error) {
+      complain(this.failure, error);
+    }
+    this.isAsked = false;
+  }
+
+  private show(place: Place, hasEvents: boolean): void {
+    const isFirst = this.place === null;
+    this.place = place;
+    this.play.textContent = place.is_playing ? "Pause" : "Play";
+    Object.assign(this.slider, { min: String(place.begins), max: String(place.ends) });
+    if (!this.isDragged) this.slider.value = String(place.time);
+    const direction = place.speed < 0 ? "backwards" : "";
+    this.state.textContent = `${place.time.toFixed(3)} s of ${place.begins.toFixed(1)} … ${place.ends.toFixed(1)} s ${direction}`;
+    const speed = SPEEDS.find((text) => Number.parseFloat(text) === place.speed);
+    if (speed !== undefined && document.activeElement !== this.speed) this.speed.value = speed;
+    if (isFirst) {
+      const chosen = this.whose.value;
+      this.whose.replaceChildren(...[EVERY, ...place.instances.map(({ instance }) => instance)].map((name) => make("option", { value: name, selected: name === chosen }, name)));
+    }
+    this.table.replaceChildren(
+      ...place.instances.map(({ instance, cycle, frames, missing }) =>
+        make("tr", { class: missing > 0 ? "bad" : "" }, make("td", {}, instance), ...[cycle ?? "–", frames, missing].map((text) => make("td", {}, String(text)))),
+      ),
+    );
+    if (hasEvents) this.drawEvents(place);
+  }
+
+  /** A line for each instance to which something happened; what it was is told by words, too. */
+  private drawEvents({ begins, ends }: Place): void {
+    const length = Math.max(ends - begins, 1e-9);
+    const names = [...new Set(this.events.map(({ instance }) => instance))];
+    this.marks.replaceChildren(
+      ...names.map((name) => {
+        const marks = this.events.filter(({ instance }) => instance === name).map((event) => {
+          const about = `${name}: ${event.what}, ${event.from.toFixed(3)} s${event.to > event.from ? ` to ${event.to.toFixed(3)} s` : ""}`;
+          const mark = make("button", { type: "button", class: `event ${event.what}`, title: about, "aria-label": about, click: () => void this.ask({ time: event.from, play: false }) });
+          mark.style.left = `${(100 * (event.from - begins)) / length}%`;
+          mark.style.width = `max(4px, ${(100 * (event.to - event.from)) / length}%)`;
+          return mark;
+        });
+        return make("div", { class: "event-lane" }, make("span", { class: "muted" }, `${name}: ${plural(marks.length, "event")}`), make("div", { class: "event-marks" }, ...marks));
+      }),
+    );
+    if (names.length === 0) this.marks.append(make("p", { class: "muted" }, "no cycle is missing, unfinished, or the first after a restart"));
+  }
+}
+
+export const replay: PanelKind = {
+  kind: "replay",
+  name: "Replay",
+  open: (context) => new Replay(context),
+  offered: (entries) => entries.some((entry) => entry.path === TIMELINE),
+};

@@ -1,0 +1,148 @@
+// A panel that is the hand in a simulated world: puts ball and robot elsewhere, pushes, presses, whistles.
+import { button, complain, eachFrame, make, select } from "../view/dom";
+import type { Context, Panel, PanelKind } from "../panels/panel";
+import { COLORS } from "../panels/series";
+import type { Json } from "../protocol";
+import { Chart } from "./chart";
+import { RULES } from "./field";
+import { outOf, type Point } from "./geometry";
+import { disturb, DISTURB, watchTruth, type Truth } from "./truth";
+
+const PENALTIES = ["PlayerPushing", "LeavingTheField", "IllegalPosition", "LocalGameStuck", "RequestForPickup"];
+/** A finger is wider than a ball on a small field, px. */
+const REACH = 24;
+
+type Thing = "ball" | "robot" | "heading";
+
+class Simulator implements Panel {
+  readonly content: HTMLElement;
+  private readonly draw = eachFrame(() => this.paint());
+  private readonly canvas = make("canvas", { class: "field", role: "img", "aria-label": "the simulated world: drag ball and robot", tabindex: "0" });
+  private readonly chart = new Chart(this.canvas, this.draw);
+  private readonly state = make("output", { class: "muted" });
+  private readonly failure = make("p", { class: "failure", hidden: true });
+  private readonly strength = make("input", { type: "number", min: 0.5, max: 10, step: 0.5, value: 3, "aria-label": "strength of a push in N s" });
+  private readonly stop: () => void;
+  private truth: Truth | null = null;
+  private dragged: { thing: Thing; at: Point } | null = null;
+
+  constructor(private readonly context: Context) {
+    const push = (name: string, about: string, forward: number, left: number): HTMLElement =>
+      button(name, about, () => {
+        const strength = Number(this.strength.value);
+        this.deed({ push: [forward * strength, left * strength, 0] });
+      });
+    const press = (name: string, what: string): HTMLElement => button(name, `somebody presses it: ${what}`, () => this.deed({ press: { button: what, lasts: 0.2 } }));
+    this.content = make(
+      "div",
+      { class: "map" },
+      make("div", { class: "bar" }, make("span", { class: "muted" }, "Drag the ball, the robot, or its nose."), make("span", { class: "space" }), this.state),
+      this.canvas,
+      make(
+        "div",
+        { class: "bar" },
+        make("label", {}, "push ", this.strength, " N s"),
+        push("↑", "push it forwards", 1, 0),
+        push("↓", "push it backwards", -1, 0),
+        push("←", "push it to its left", 0, 1),
+        push("→", "push it to its right", 0, -1),
+        button("Roll ball", "the ball rolls at 1 m/s towards the robot", () => this.roll()),
+        press("Chest", "chest"),
+        press("Head", "head"),
+        button("Whistle", "somebody whistles", () => this.deed({ whistle: true })),
+        select(["penalise …", ...PENALTIES], "penalise …", "the referee takes the robot out, where a game is played", (penalty) => {
+          if (penalty !== "penalise …") this.deed({ penalise: penalty });
+        }),
+      ),
+      this.failure,
+    );
+    this.canvas.addEventListener("pointerdown", (event) => this.grasp(event));
+    this.stop = watchTruth(context.robot, (truth) => {
+      this.truth = truth;
+      this.draw();
+    });
+  }
+
+  close(): void {
+    this.stop();
+  }
+
+  resized(): void {
+    this.draw();
+  }
+
+  private deed(deed: { [key: string]: Json }): void {
+    disturb(this.context.robot, deed).then(
+      () => complain(this.failure, null),
+      (error: unknown) => complain(this.failure, error),
+    );
+  }
+
+  private roll(): void {
+    const { truth } = this;
+    if (truth?.ball == null) return;
+    const [x, y] = [truth.robot.x - truth.ball[0], truth.robot.y - truth.ball[1]];
+    const length = Math.max(Math.hypot(x, y), 1e-6);
+    this.deed({ ball_velocity: [x / length, y / length] });
+  }
+
+  private grasp(event: PointerEvent): void {
+    const { truth } = this;
+    const thing = truth === null ? null : this.under([event.offsetX, event.offsetY], truth);
+    if (thing === null) return this.chart.pan(event);
+    this.canvas.setPointerCapture(event.pointerId);
+    const move = (next: PointerEvent): void => {
+      this.dragged = { thing, at: this.chart.toField([next.offsetX, next.offsetY]) };
+      this.draw();
+    };
+    const drop = (): void => {
+      this.canvas.removeEventListener("pointermove", move);
+      if (this.dragged !== null) this.put(this.dragged.thing, this.dragged.at);
+      this.dragged = null;
+    };
+    this.canvas.addEventListener("pointermove", move);
+    this.canvas.addEventListener("pointerup", drop, { once: true });
+    this.canvas.addEventListener("pointercancel", () => (this.dragged = null), { once: true });
+  }
+
+  private under([x, y]: Point, { robot, ball }: Truth): Thing | null {
+    const places: [Thing, Point | null][] = [["ball", ball], ["heading", outOf(robot, [0.4, 0])], ["robot", [robot.x, robot.y]]];
+    const near = places.filter(([, at]) => {
+      if (at === null) return false;
+      const [left, top] = this.chart.toPixel(at);
+      return Math.hypot(left - x, top - y) < REACH;
+    });
+    return near[0]?.[0] ?? null;
+  }
+
+  private put(thing: Thing, [x, y]: Point): void {
+    const { truth } = this;
+    if (truth === null) return;
+    const { robot } = truth;
+    if (thing === "ball") this.deed({ ball: [x, y] });
+    else if (thing === "robot") this.deed({ kidnap: [x, y, robot.heading] });
+    else this.deed({ kidnap: [robot.x, robot.y, Math.atan2(y - robot.y, x - robot.x)] });
+  }
+
+  private paint(): void {
+    const context = this.chart.begin(RULES, true);
+    const { truth, dragged } = this;
+    if (context === null || truth === null) return;
+    for (const other of truth.robots) this.chart.robot(context, other, COLORS[other.isOwn ? 5 : 4] as string, other.name, false);
+    const robot = { ...truth.robot };
+    if (dragged?.thing === "robot") [robot.x, robot.y] = dragged.at;
+    if (dragged?.thing === "heading") robot.heading = Math.atan2(dragged.at[1] - robot.y, dragged.at[0] - robot.x);
+    this.chart.robot(context, robot, COLORS[0] as string, "", false);
+    this.chart.disc(context, outOf(robot, [0.4, 0]), 0.05, null, "#ffffff");
+    const ball = dragged?.thing === "ball" ? dragged.at : truth.ball;
+    if (ball !== null) this.chart.disc(context, ball, 0.05, COLORS[1] as string, "#ffffff");
+    this.state.textContent = truth.about;
+  }
+}
+
+export const simulator: PanelKind = {
+  kind: "simulator",
+  name: "Simulator",
+  open: (context) => new Simulator(context),
+  offered: (entries) => entries.some((entry) => entry.path === DISTURB),
+};
