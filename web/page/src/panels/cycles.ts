@@ -1,11 +1,11 @@
 // A panel with the cycles of all instances on a time axis, and what of them one cycle of a consumer takes as persistent,
 // what as transient, and what it does not wait for: beyond its horizon everything may still change.
 import { expect } from "../connection/socket";
-import type { Timings } from "../protocol";
+import type { Json } from "../protocol";
 import { trace, type Lane, type Span } from "../store/trace";
 import { button, complain, eachFrame, make, select } from "../view/dom";
 import { microseconds } from "../view/format";
-import { numberSetting, type Context, type Panel, type PanelKind } from "./panel";
+import { numberSetting, textSetting, type Context, type Panel, type PanelKind } from "./panel";
 import { COLORS } from "./series";
 
 const PERIOD_MILLISECONDS = 700;
@@ -32,7 +32,8 @@ class Cycles implements Panel {
   private window: number;
   private isHeld = false;
   private lanes: Lane[] = [];
-  private consumers = new Map<string, string[]>();
+  private readonly input: HTMLSelectElement;
+  private inputs = new Map<string, Input>();
   /** Begin of the consumer's cycle that is looked at; null: the newest of which everything is known. */
   private chosen: number | null = null;
 
@@ -46,17 +47,21 @@ class Cycles implements Panel {
     this.tools = [
       select(WINDOWS, `${this.window} ms`, "how much is shown", (choice) => {
         this.window = Number.parseFloat(choice);
-        context.save({ window: this.window });
+        this.save();
         this.draw();
       }),
       this.hold,
     ];
+    this.input = select([], "", "whose perception input is judged: each has a horizon of its own", () => {
+      this.save();
+      this.draw();
+    });
     const key = (Object.keys(COLOR) as Standing[]).map((standing) => {
       const swatch = make("span", { class: "swatch" });
       swatch.style.background = COLOR[standing];
       return make("span", { class: "chip" }, swatch, standing);
     });
-    this.content = make("div", { class: "timeline" }, make("div", { class: "bar chips" }, ...key, this.about), this.failure, this.canvas);
+    this.content = make("div", { class: "timeline" }, make("div", { class: "bar chips" }, this.input, ...key, this.about), this.failure, this.canvas);
     this.canvas.addEventListener("pointerdown", (event) => this.choose(this.timeAt(event.offsetX)));
     this.canvas.addEventListener("keydown", (event) => this.step(event));
     this.timer = window.setInterval(() => void this.ask(), PERIOD_MILLISECONDS);
@@ -75,19 +80,31 @@ class Cycles implements Panel {
     const { robot } = this.context;
     if (this.isHeld || document.hidden || robot.state.value !== "open") return;
     try {
-      if (this.consumers.size === 0) this.consumers = consumersOf(expect(await robot.ask({ timings: {} }), "timings"));
+      if (this.inputs.size === 0) this.know(inputsOf(expect(await robot.ask({ graph: {} }), "graph")));
       this.lanes = (await trace(robot, (1.5 * this.window + 200) / 1000)).map(({ instance, spans }) => ({ instance, spans: spans.filter((span) => span.isCycle) }));
       complain(this.failure, null);
     } catch (error) {
-      this.consumers.clear();
+      this.inputs.clear();
       complain(this.failure, error);
     }
     this.draw();
   }
 
-  /** The first instance that consumes others. */
+  private know(inputs: Map<string, Input>): void {
+    this.inputs = inputs;
+    const widest = [...inputs].sort(([, one], [, other]) => other.producers.length - one.producers.length)[0]?.[0] ?? "";
+    const chosen = this.input.value === "" ? textSetting(this.context.settings, "input", widest) : this.input.value;
+    this.input.replaceChildren(...[...inputs.keys()].map((name) => make("option", { value: name, selected: name === chosen }, name)));
+  }
+
+  private save(): void {
+    this.context.save({ window: this.window, input: this.input.value });
+  }
+
+  /** Who has the input. */
   private consumer(): Lane | undefined {
-    return this.lanes.find((lane) => this.consumers.has(lane.instance));
+    const consumers = this.inputs.get(this.input.value)?.consumers ?? [];
+    return this.lanes.find((lane) => consumers.includes(lane.instance));
   }
 
   private end(): number {
@@ -140,7 +157,7 @@ class Cycles implements Panel {
     const toX = (time: number): number => NAMES + ((time - begin) / (this.window * 1000)) * (width - NAMES);
     this.paintAxis(context, width, height, faint, rule);
     const looked = this.looked();
-    const standings = looked === undefined ? null : judge(looked.begin, lanes, this.consumers.get(this.consumer()?.instance ?? "") ?? []);
+    const standings = looked === undefined ? null : judge(looked.begin, lanes, this.inputs.get(this.input.value)?.producers ?? []);
     lanes.forEach((lane, row) => {
       const top = HEAD + row * ROW;
       context.fillStyle = ink;
@@ -191,7 +208,7 @@ class Cycles implements Panel {
     const count = (standing: Standing): number => [...of.values()].filter((one) => one === standing).length;
     const far = horizon === null ? "nothing is pending" : `horizon ${microseconds(looked.begin - horizon)} back`;
     const counts = `${count("persistent")} persistent, ${count("transient")} transient, ${count("pending")} pending`;
-    this.about.textContent = `${looked.name} #${looked.cycle ?? "?"} knows of ${counts}; ${far}`;
+    this.about.textContent = `${looked.name} #${looked.cycle ?? "?"}: ${counts}; ${far}`;
   }
 }
 
@@ -213,9 +230,30 @@ function judge(now: number, lanes: readonly Lane[], consumed: readonly string[])
   return { of: new Map(heard.map((span) => [span, standing(span)])), horizon };
 }
 
-function consumersOf(timings: Timings): Map<string, string[]> {
-  const consuming = timings.instances.filter((instance) => instance.queues.length > 0);
-  return new Map(consuming.map((instance) => [instance.name, instance.queues.map((queue) => queue.from)]));
+/** Instances that have an input in order of time, and those whose cycles come with it. */
+interface Input {
+  consumers: string[];
+  producers: string[];
+}
+
+/** The part of `hulkgen graph --format json`, version 1, that is needed. */
+interface Graph {
+  cyclers: { name: string; instances: string[] }[];
+  edges: { from: { instance?: string }; to: { cycler: string; node: string; field: string }; kind: string }[];
+}
+
+/** By node and field. */
+function inputsOf(answer: Json): Map<string, Input> {
+  const { cyclers, edges } = answer as unknown as Graph;
+  const inputs = new Map<string, Input>();
+  for (const { from, to, kind } of edges) {
+    if (kind !== "perception" || from.instance === undefined) continue;
+    const name = `${to.node.slice(to.node.lastIndexOf(":") + 1)}.${to.field}`;
+    const input = inputs.get(name) ?? { consumers: cyclers.find((cycler) => cycler.name === to.cycler)?.instances ?? [], producers: [] };
+    input.producers.push(from.instance);
+    inputs.set(name, input);
+  }
+  return inputs;
 }
 
 function upright(context: CanvasRenderingContext2D, x: number, height: number, color: string, dash: number[]): void {

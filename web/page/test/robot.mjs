@@ -1,0 +1,56 @@
+// Starts and stops the program of a robot for a test, and says what a patient person waits for.
+import assert from "node:assert/strict";
+import { spawn } from "node:child_process";
+import { createServer } from "node:net";
+import { join } from "node:path";
+
+/** A busy machine may take so long for anything. */
+export const PATIENCE = 40_000;
+
+export function step(text) {
+  console.log(text);
+}
+
+export function freePort() {
+  return new Promise((resolve) => {
+    const server = createServer().listen(0, "127.0.0.1", () => {
+      const { port } = server.address();
+      server.close(() => resolve(port));
+    });
+  });
+}
+
+/** One address, and whatever program serves it at the moment; each run has a folder of its own. */
+export class Stage {
+  runs = 0;
+
+  constructor(program, options, folder, port) {
+    Object.assign(this, { program, options, folder, port });
+    this.address = `http://127.0.0.1:${port}/`;
+  }
+
+  static async at(program, options, folder) {
+    return new Stage(program, options, folder, await freePort());
+  }
+
+  /** What the program says is shown only if something is wrong. */
+  async start(...more) {
+    this.run = join(this.folder, `run-${this.port}-${++this.runs}`);
+    const robot = spawn(this.program, ["--headless", "--listen", `127.0.0.1:${this.port}`, "--run-folder", this.run, ...more, ...this.options]);
+    robot.said = "";
+    for (const stream of [robot.stdout, robot.stderr]) stream.on("data", (text) => (robot.said += text));
+    robot.ended = new Promise((resolve) => robot.once("close", resolve));
+    this.robot = robot;
+    for (const begin = Date.now(); ; await new Promise((resolve) => setTimeout(resolve, 200))) {
+      if (await fetch(this.address).then((answer) => answer.ok, () => false)) return;
+      assert(robot.exitCode === null, `the robot ended:\n${robot.said}`);
+      assert(Date.now() - begin < PATIENCE, `the robot serves no page:\n${robot.said}`);
+    }
+  }
+
+  async stop() {
+    this.robot?.kill("SIGINT");
+    await this.robot?.ended;
+    this.robot = undefined;
+  }
+}

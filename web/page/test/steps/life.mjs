@@ -1,0 +1,142 @@
+// What happens to a connection: restarts, replays, tokens, nonsense.
+import assert from "node:assert/strict";
+import { existsSync } from "node:fs";
+import { join } from "node:path";
+import { add, begin, changes, clearLayout, hasCurve, isConnected, open, panel, reads, until } from "../page.mjs";
+import { PATIENCE, step } from "../robot.mjs";
+
+export async function restartsAreSurvived(page, stage) {
+  await stage.stop();
+  await page.locator('.state[data-state="lost"]').waitFor({ timeout: PATIENCE });
+  assert.match((await panel(page, "value").locator("output").textContent()) ?? "", /cycle/, "what was there stays");
+  await stage.start();
+  await isConnected(page);
+  await changes(page, panel(page, "value").locator("output"), "the cycle number after the restart");
+  await until(page, panel(page, "plot").locator("canvas"), hasCurve, "a curve after the restart");
+  step("a restart of the robot is survived");
+}
+
+export async function layoutsStay(page) {
+  const count = await page.locator(".panel").count();
+  await page.reload();
+  await isConnected(page);
+  assert.equal(await page.locator(".panel").count(), count, "the layout is kept");
+  step("the layout is kept");
+}
+
+/** The robot has ended; its recording takes its place. */
+export async function aRecordingIsReplayed(page, stage) {
+  const file = join(stage.run, "recording.mcap");
+  await stage.stop();
+  assert(existsSync(file), `no recording at ${file}`);
+  await stage.start("--replay", file);
+  await isConnected(page);
+  await begin(page, "Replay");
+  const replay = panel(page, "replay");
+  const state = replay.locator("output");
+  await changes(page, state, "the time of the replay");
+  const cycle = replay.locator("tbody tr", { hasText: "VisionTop" }).locator("td").nth(1);
+  await replay.getByRole("button", { name: /^play or pause/ }).click();
+  await replay.getByRole("button", { name: /^play or pause/ }).filter({ hasText: "Play" }).waitFor();
+  await replay.getByLabel("whose cycles are stepped").selectOption("VisionTop");
+  const slider = replay.getByLabel("time of the recording");
+  const half = await slider.evaluate((element) => (Number(element.min) + Number(element.max)) / 2);
+  await slider.fill(String(Math.round(half * 1000) / 1000));
+  await reads(state, new RegExp(`^${half.toFixed(1).slice(0, -2)}`), "the time after a jump");
+  await replay.getByRole("button", { name: /^one cycle on/ }).click();
+  await page.waitForTimeout(600);
+  const at = Number(await cycle.textContent());
+  await replay.getByRole("button", { name: /^one cycle back/ }).click();
+  await reads(cycle, new RegExp(`^${at - 1}$`), "the cycle after a step back");
+  await replay.getByRole("button", { name: /^one cycle on/ }).click();
+  await reads(cycle, new RegExp(`^${at}$`), "the cycle after a step on");
+  await replay.getByLabel(/^speed/).selectOption("-1 ×");
+  await page.waitForFunction(([element, before]) => Number(element.textContent) < before, [await cycle.elementHandle(), at], { timeout: PATIENCE });
+  await open(page, "VisionTop.main_outputs.lines", "Value");
+  step("a recording is played, stepped, and played backwards");
+}
+
+export async function tokensAreAskedFor(page, stage) {
+  await stage.stop();
+  await stage.start("--token", "secret");
+  await page.goto(stage.address);
+  await isConnected(page);
+  await clearLayout(page);
+  const token = page.getByLabel("token");
+  await token.fill("wrong");
+  await token.press("Enter");
+  await page.locator(".access .failure").waitFor({ timeout: PATIENCE });
+  await add(page, "Parameters");
+  await panel(page, "parameters").locator(".read-only").or(page.locator(".panel .read-only")).first().waitFor();
+  await token.fill("secret");
+  await token.press("Enter");
+  await token.waitFor({ state: "hidden", timeout: PATIENCE });
+  await page.locator(".read-only").waitFor({ state: "detached", timeout: PATIENCE });
+  step("a token is asked for before anything is changed");
+}
+
+/** Everything that a broken robot could say, between what a good one says. */
+export async function nonsenseDoesNoHarm(browser, stage) {
+  const page = await browser.newPage();
+  const wrong = [];
+  page.on("pageerror", (error) => wrong.push(error.message));
+  let isTold = false;
+  await page.routeWebSocket(/\/socket$/, (socket) => {
+    const robot = socket.connectToServer();
+    robot.onMessage((message) => {
+      socket.send(message);
+      if (typeof message === "string" && message.includes('"welcome"')) return;
+      for (const nonsense of NONSENSE) socket.send(nonsense);
+      // A value that ends too early, for a subscription that there is.
+      if (typeof message !== "string" && message.length > 30) socket.send(Buffer.from(message).subarray(0, 27));
+      isTold = true;
+    });
+  });
+  await page.goto(stage.address);
+  await isConnected(page);
+  await clearLayout(page);
+  await open(page, "Control.main_outputs.sensor_data", "Value");
+  await changes(page, panel(page, "value").locator("output"), "the cycle number between nonsense");
+  await page.waitForTimeout(1000);
+  await changes(page, panel(page, "value").locator("output"), "the cycle number after nonsense");
+  assert(isTold);
+  assert.deepEqual(wrong, [], "nonsense breaks nothing");
+  await page.close();
+  step("messages that nobody understands do no harm");
+}
+
+const NONSENSE = [
+  "",
+  "no JSON",
+  "[]",
+  "null",
+  "17",
+  '{"update":null}',
+  '{"update":{"subscription":1}}',
+  '{"answer":null}',
+  '{"answer":{"id":999999,"ok":{}}}',
+  '{"log":null}',
+  '{"lost":{"updates":-1}}',
+  '{"parameters_changed":7}',
+  '{"something_new":{}}',
+  Buffer.from([]),
+  Buffer.from("HKG1"),
+  Buffer.from(`HKG1${"\u0001".repeat(200)}`),
+  Buffer.alloc(64, 0xff),
+];
+
+export async function foreignScriptsDoNotRun(page) {
+  await page.evaluate(() => {
+    const script = document.createElement("script");
+    script.textContent = "window.isForeign = true";
+    document.body.append(script);
+    const handler = document.createElement("div");
+    handler.setAttribute("onclick", "window.isForeign = true");
+    document.body.append(handler);
+    handler.click();
+  });
+  assert.equal(await page.evaluate(() => window.isForeign), undefined, "an inline script was run");
+  const answer = await page.evaluate(() => fetch("http://127.0.0.1:9/").then(() => "answered", (error) => error.name));
+  assert.equal(answer, "TypeError");
+  step("no script but the page's own runs");
+}

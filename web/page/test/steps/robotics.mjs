@@ -1,0 +1,75 @@
+// Panels about football: driving, the simulated world, the map.
+import assert from "node:assert/strict";
+import { begin, changes, hasPicture, panel, reads, until } from "../page.mjs";
+import { PATIENCE, step } from "../robot.mjs";
+
+export async function theRobotIsDriven(page) {
+  await begin(page, "Motion");
+  await until(page, panel(page, "pose").locator("canvas"), hasStrokes, "a body");
+  const drive = panel(page, "drive");
+  const state = drive.locator("output");
+  await drive.locator(".drive").focus();
+  await page.keyboard.down("w");
+  await reads(state, /^driving: [1-9]/, "what the robot says of its steps");
+  await page.keyboard.up("w");
+  await reads(state, /^Stand/, "the motion after the key was let go");
+  // A person who looks elsewhere drives no more.
+  await page.keyboard.down("a");
+  await reads(state, /^driving/, "what the robot says of its steps");
+  await page.evaluate(() => window.dispatchEvent(new Event("blur")));
+  await reads(state, /^(standing|Stand)/, "the motion after the window was left");
+  await page.keyboard.up("a");
+  await drive.getByRole("button", { name: /^give the body back/ }).click();
+  step("the robot is driven by keys, and stands when nobody holds one");
+}
+
+export async function theWorldIsChanged(page) {
+  await begin(page, "Game");
+  const simulator = panel(page, "simulator");
+  const canvas = simulator.locator("canvas");
+  await reads(simulator.locator("output").first(), /walked/, "what is told of the world");
+  await until(page, panel(page, "map").locator("canvas"), hasStrokes, "a map");
+  // What the robot is asked about is the world itself, not this page.
+  const truth = () =>
+    page.evaluate(
+      () =>
+        new Promise((resolve) => {
+          const socket = new WebSocket(`ws://${location.host}/socket`);
+          socket.onopen = () => socket.send(JSON.stringify({ id: 1, ask: { call: { path: "framework.procedures.truth" } } }));
+          socket.onmessage = ({ data }) => {
+            const { answer } = JSON.parse(data);
+            if (answer === undefined) return;
+            socket.close();
+            resolve(answer.ok.called);
+          };
+        }),
+    );
+  const box = await canvas.boundingBox();
+  const scale = Math.min(box.width / 10.4, box.height / 7.4);
+  const toPixel = (x, y) => [box.x + box.width / 2 + x * scale, box.y + box.height / 2 - y * scale];
+  const before = await truth();
+  await page.mouse.move(...toPixel(before.ball.x, before.ball.y));
+  await page.mouse.down();
+  await page.mouse.move(...toPixel(-2, 2), { steps: 5 });
+  await page.mouse.up();
+  const since = Date.now();
+  for (;;) {
+    const { ball } = await truth();
+    if (Math.hypot(ball.x + 2, ball.y - 2) < 0.3) break;
+    assert(Date.now() - since < PATIENCE, `the ball lies at ${JSON.stringify(ball)}`);
+    await page.waitForTimeout(200);
+  }
+  await changes(page, panel(page, "camera").locator("output").first(), "the number of the camera's image");
+  await until(page, panel(page, "camera").locator(".stage canvas").first(), hasPicture, "the camera's image");
+  await until(page, panel(page, "camera").locator("canvas.over"), hasStrokes, "what lies over the image");
+  step("the ball lies where a hand has put it, and the map and the camera are drawn");
+}
+
+/** Whether anything is drawn. */
+function hasStrokes(canvas) {
+  if (canvas.width < 16 || canvas.height < 16) return false;
+  const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+  const colors = new Set();
+  for (let at = 0; at < data.length && colors.size < 4; at += 4) colors.add(`${data[at]} ${data[at + 1]} ${data[at + 2]} ${data[at + 3]}`);
+  return colors.size >= 4;
+}
