@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
 
+use super::events::{Happened, events};
 use super::{Players, Ran};
 use crate::clock::Clock;
 use crate::cycler::{Counters, InstanceDescription, Kind, Record};
@@ -56,6 +57,8 @@ pub struct Move {
     pub step: Option<i64>,
     /// Whose cycles are meant.
     pub instance: Option<String>,
+    /// Whether the answer is to have `events`.
+    pub events: bool,
 }
 
 /// Where the replay is.
@@ -69,6 +72,9 @@ pub struct Place {
     pub is_playing: bool,
     pub speed: f64,
     pub instances: Vec<InstancePlace>,
+    /// What happened to the recorded cycles, in order of time; no more than [`super::MOST_EVENTS`]. Where it was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub events: Option<Vec<Happened>>,
 }
 
 /// Where one instance is.
@@ -171,6 +177,7 @@ impl<'r> Timeline<'r> {
             clock,
             stop: stop.clone(),
             rearm: Rearm::default(),
+            procedures: Vec::new(),
             parameters: parameters.live(),
             instances,
         };
@@ -215,7 +222,8 @@ impl<'r> Timeline<'r> {
             return Ok(());
         };
         let done = self.go(&asked);
-        let place = self.place();
+        let mut place = self.place();
+        place.events = asked.events.then(|| self.events());
         if let Some(call) = self.moves.call() {
             match done {
                 Ok(()) => call.answer(place),
@@ -298,7 +306,13 @@ impl<'r> Timeline<'r> {
             is_playing: self.is_playing,
             speed: self.speed,
             instances: instances.collect(),
+            events: None,
         }
+    }
+
+    /// What happened to the recorded cycles, in order of time: the first [`super::MOST_EVENTS`].
+    pub fn events(&self) -> Vec<Happened> {
+        events(&self.players)
     }
 
     /// Lets so much time of the wall clock pass.

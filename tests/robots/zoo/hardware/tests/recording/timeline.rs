@@ -4,9 +4,9 @@ use std::time::Duration;
 
 use framework::recorded::{Loading, Settings};
 use framework::replay::{
-    Move, PROCEDURE, Players, TIMELINE, Timeline, first_parameters, value_channels,
+    Move, PROCEDURE, Players, TIMELINE, Timeline, What, first_parameters, value_channels,
 };
-use framework::{Stop, Timestamp};
+use framework::{InstanceDescription, Record, Stop, Timestamp};
 use zoo_runtime::parameters::Parameters;
 use zoo_runtime::recording;
 
@@ -164,4 +164,40 @@ fn time_goes_where_clients_want_it() {
         let error = timeline.go(&wrong).expect_err("it is not there");
         assert!(error.to_string().contains(message), "{error}");
     }
+}
+
+#[test]
+fn cycles_that_were_not_recorded_are_told_with_their_place() {
+    let tape = Tape::new();
+    let record = |instance: &InstanceDescription| match instance.name {
+        "Control" => Record::Every(5),
+        _ => Record::On,
+    };
+    record_in_lockstep(&tape.path, Settings::default(), record, &as_it_is);
+    let file = tape.read();
+    let values = value_channels(&file).expect("it is of this version");
+    let players = Players::new(&file, &values, recording::INSTANCES).expect("it fits");
+    let first = first_parameters(&file, &values).expect("they were recorded");
+    let parameters: Parameters = Loading::new(first).take().expect("they are of this robot");
+    let (timeline, _link) =
+        Timeline::new("zoo", players, parameters, &Stop::default()).expect("it has cycles");
+    let place = timeline.place();
+    let control = place.instances.iter().find(|it| it.instance == "Control");
+    let control = control.expect("it was recorded");
+    let events = timeline.events();
+    let missing: Vec<_> = events
+        .iter()
+        .filter(|event| event.what == What::Missing)
+        .collect();
+    // Between every two of them four are missing.
+    assert_eq!(missing.len() + 1, control.frames, "{events:?}");
+    assert_eq!(control.missing, 4 * missing.len() as u64, "{place:?}");
+    for event in missing {
+        assert_eq!(event.instance, "Control", "{events:?}");
+        assert!(
+            place.begins <= event.from && event.from < event.to && event.to <= place.ends,
+            "{event:?}"
+        );
+    }
+    assert!(events.is_sorted_by(|one, next| one.from <= next.from));
 }

@@ -1,0 +1,68 @@
+//! What happened to the cycles of a recording: which are missing, were not finished, or began anew.
+
+use serde::Serialize;
+
+use super::Players;
+use crate::time::Timestamp;
+
+/// More are no picture, and slow to send.
+pub const MOST_EVENTS: usize = 1000;
+
+/// What happened to cycles of one instance.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Happened {
+    pub instance: &'static str,
+    /// Seconds of the run: the recorded cycle before, or the one that it is about.
+    pub from: f64,
+    /// The recorded cycle behind, or the same.
+    pub to: f64,
+    pub what: What,
+}
+
+/// Kinds of [`Happened`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum What {
+    /// The recording does not have the cycles between.
+    Missing,
+    /// It failed or was abandoned.
+    Unfinished,
+    /// It was the first after a restart.
+    Restarted,
+}
+
+/// Of all instances, in order of time.
+pub(super) fn events(players: &Players<'_>) -> Vec<Happened> {
+    let mut events = Vec::new();
+    for player in &players.players {
+        let mut tell = |from: Timestamp, to: Timestamp, what| {
+            let [from, to] = [from, to].map(|at| at.as_nanos() as f64 / 1e9);
+            let instance = player.instance;
+            events.push(Happened {
+                instance,
+                from,
+                to,
+                what,
+            });
+        };
+        let mut last = None;
+        for frame in &player.frames {
+            let head = frame.head;
+            if let Some((number, start)) = last
+                && number + 1 < head.number
+            {
+                tell(start, head.start, What::Missing);
+            }
+            if head.restarted {
+                tell(head.start, head.start, What::Restarted);
+            }
+            if frame.digests().is_none() {
+                tell(head.start, head.start, What::Unfinished);
+            }
+            last = Some((head.number, head.start));
+        }
+    }
+    events.sort_by(|one, other| one.from.total_cmp(&other.from));
+    events.truncate(MOST_EVENTS);
+    events
+}
