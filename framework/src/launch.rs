@@ -27,6 +27,7 @@ use crate::clock::Clock;
 use crate::driver::Threads;
 use crate::error::{Error, Result};
 use crate::hardware::{Hardware, HardwareContext};
+use crate::link::Link;
 use crate::parameters::{Layers, Parameters};
 use crate::recorded::Recording;
 use crate::replay::Replayable;
@@ -34,6 +35,7 @@ use crate::report::{RobotReport, tell};
 use crate::robot::{Robot, Start};
 use crate::stop::Stop;
 use crate::timing::{self, Timing};
+use crate::world;
 use options::{Command, Format, Options};
 pub use serving::{Listening, Serve, Served, nobody};
 use signals::Signals;
@@ -76,7 +78,7 @@ pub fn main<H, P>(
     serve: Serve,
 ) -> ExitCode
 where
-    H: Hardware,
+    H: Hardware + 'static,
     P: ParameterData,
 {
     let arguments = std::env::args_os().skip(1);
@@ -98,7 +100,7 @@ pub fn run<H, P>(
     serve: Serve,
 ) -> u8
 where
-    H: Hardware,
+    H: Hardware + 'static,
     P: ParameterData,
 {
     let options = match options::parse(arguments) {
@@ -163,7 +165,7 @@ fn start_and_run<H, P>(
     serve: Serve,
 ) -> Result<u8>
 where
-    H: Hardware,
+    H: Hardware + 'static,
     P: ParameterData,
 {
     timing::set(match options.format {
@@ -202,7 +204,11 @@ where
     let threads = Threads::new(&clock, hardware.as_ref(), stop).real_time(is_real_time);
     // Dropped with everything that its clients hold when the robot has ended.
     let served = match options.listening(target) {
-        Some(listening) => start_server(&mut robot, stop, &threads, listening, serve)?,
+        Some(listening) => {
+            let mut link = robot.link(stop, threads.rearming());
+            link.procedures = world::procedures(&hardware);
+            start_server(link, listening, serve)?
+        }
         None => None,
     };
     let page = served.as_ref().map(|served| page(served.as_ref()));
@@ -228,14 +234,7 @@ where
     Ok(DONE)
 }
 
-fn start_server<P: ParameterData>(
-    robot: &mut Robot<P>,
-    stop: &Stop,
-    threads: &Threads<'_>,
-    listening: Listening,
-    serve: Serve,
-) -> Result<Option<Box<dyn Served>>> {
-    let link = robot.link(stop, threads.rearming());
+fn start_server(link: Link, listening: Listening, serve: Serve) -> Result<Option<Box<dyn Served>>> {
     let served = serve(link, listening).map_err(|error| error.context("cannot serve clients"))?;
     if let Some(served) = &served {
         tell(format_args!("page: {}", page(served.as_ref())));

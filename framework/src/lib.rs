@@ -66,6 +66,7 @@ pub mod testing;
 pub mod time;
 pub mod timing;
 mod unwinding;
+pub mod world;
 
 pub use buffer::{Entry, Latest, Queue, Reader, View, Writer, buffer, buffer_of};
 pub use clear::Clear;

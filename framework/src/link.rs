@@ -9,6 +9,7 @@ use crate::rearm::Rearm;
 use crate::robot::{Access, Robot};
 use crate::stop::Stop;
 use crate::tap::{Reports, Tap};
+use crate::world::Named;
 
 /// A running robot, for its clients. Dropping it closes all taps.
 pub struct Link {
@@ -20,6 +21,8 @@ pub struct Link {
     pub stop: Stop,
     /// Gives the nodes the actuators back after a safe state that lasts.
     pub rearm: Rearm,
+    /// Beside those of nodes, as `framework.procedures.NAME`: what a simulated world answers.
+    pub procedures: Vec<Named>,
     /// Read, change, store, reload.
     pub parameters: Live,
     /// In manifest order.
@@ -68,6 +71,7 @@ impl<P> Robot<P> {
             clock: self.clock.clone(),
             stop: stop.clone(),
             rearm,
+            procedures: Vec::new(),
             parameters: self.parameters.live(),
             instances: instances.collect(),
         }

@@ -267,6 +267,27 @@ fn procedures_timings_and_logs_are_there() {
 }
 
 #[test]
+fn a_simulated_world_tells_the_truth_and_is_disturbed() {
+    let robot = Robot::start(&["--set", "hardware.simulated.ball=[3.0, 0.0]"]);
+    robot.answer(r#"call framework.procedures.disturb {"ball":[1.5,-0.5]}"#);
+    let truth = &robot.lines("call framework.procedures.truth")[0];
+    let truth = truth.get("response").unwrap_or(truth);
+    let near = |value: &Value, expected: f64| {
+        value
+            .as_f64()
+            .is_some_and(|value| (value - expected).abs() < 0.2)
+    };
+    assert!(
+        near(&truth["ball"]["x"], 1.5) && near(&truth["ball"]["y"], -0.5),
+        "{truth}"
+    );
+    let refused = robot.hulkgen(r#"call framework.procedures.disturb {"bal":[1.0,0.0]}"#);
+    let stderr = String::from_utf8_lossy(&refused.stderr).into_owned();
+    assert_eq!(refused.status.code(), Some(1));
+    assert!(stderr.contains("unknown field `bal`"), "{stderr}");
+}
+
+#[test]
 fn python_reads_and_writes_with_nothing_but_websockets() {
     let name = "python_reads_and_writes_with_nothing_but_websockets";
     let has_websockets = Command::new("python3")

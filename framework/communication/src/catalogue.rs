@@ -126,11 +126,13 @@ pub(crate) fn near(hub: &Hub, path: &str) -> Option<String> {
 
 /// What answers at a path.
 pub(crate) fn procedure<'hub>(hub: &'hub Hub, path: &str) -> Result<&'hub dyn CallAny, String> {
-    let mut all = hub.link.instances.iter().flat_map(|instance| {
-        let name = instance.description.name;
-        let procedures = instance.access.procedures.iter();
+    let instances = hub.link.instances.iter();
+    let of_instances = instances.map(|it| (it.description.name, &it.access.procedures));
+    let folders = of_instances.chain([("framework", &hub.link.procedures)]);
+    let mut all = folders.flat_map(|(folder, procedures)| {
         procedures
-            .map(move |(procedure, caller)| (format!("{name}.procedures.{procedure}"), caller))
+            .iter()
+            .map(move |(name, caller)| (format!("{folder}.procedures.{name}"), caller))
     });
     let found = all.find(|(known, _)| known == path);
     found.map(|(_, caller)| caller.as_ref()).ok_or_else(|| {
@@ -178,6 +180,9 @@ fn tree(hub: &Hub) -> Place<'_> {
     let mut framework = Place::folder("framework", "framework".to_owned());
     let mut procedures = Place::folder("procedures", "framework.procedures".to_owned());
     procedures.add_procedure("rearm", ("()", "()"));
+    for (procedure, caller) in &hub.link.procedures {
+        procedures.add_procedure(procedure, caller.types());
+    }
     framework.below.push(procedures);
     root.below.push(framework);
     root

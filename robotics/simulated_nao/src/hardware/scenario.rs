@@ -132,6 +132,7 @@ impl Deed {
 ///
 /// `x`, `y`, `heading` of the robot, how far it `walked`, `tilt` and `height` of its torso; `harmful_commands`, how many
 /// wanted a joint beyond its limits; `ball.x`, `ball.y`, and from the robot `ball.ahead`, `ball.aside`, `ball.distance`;
+/// `robots` are the others: `x`, `y`, `heading`, `team` (`own` or `opponent`), `number`;
 /// `score.blue`, `score.red`, and where a game is played `game.state`, `game.set_play`, `game.kicking` (`blue` or `red`).
 pub(super) fn truth(truth: &GroundTruth) -> Value {
     let ground: Isometry3<f64> = truth.ground_to_field.cast();
@@ -145,6 +146,17 @@ pub(super) fn truth(truth: &GroundTruth) -> Value {
             "ahead": seen.x, "aside": seen.y, "distance": seen.coords.xy().norm(),
         })
     });
+    let robots = truth.robots.iter().map(|robot| {
+        let team = match robot.team {
+            Team::Own => "own",
+            Team::Opponent => "opponent",
+        };
+        json!({
+            "x": robot.position.x, "y": robot.position.y, "heading": robot.heading,
+            "team": team, "number": robot.number,
+        })
+    });
+    let robots: Vec<Value> = robots.collect();
     let score = truth.game.map_or([0; 2], |game| game.score);
     let game = truth.game.map(|game| {
         let kicking = match game.kicking {
@@ -162,6 +174,7 @@ pub(super) fn truth(truth: &GroundTruth) -> Value {
         "tilt": up.z.clamp(-1.0, 1.0).acos(),
         "height": torso.translation.z,
         "ball": ball,
+        "robots": robots,
         "score": { "blue": score[0], "red": score[1] },
         "game": game,
     })

@@ -1,0 +1,77 @@
+//! What clients may know of a simulated world and do to it: `framework.procedures.truth` and `.disturb`.
+//!
+//! The hardware answers on the thread that asks, in no cycle: nodes see of it what their senses tell them.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use serde_json::Value;
+
+use crate::error::Result;
+use crate::hardware::Hardware;
+use crate::procedure::{Answer, CallAny, PendingAny, Refused};
+
+/// A procedure with its name.
+pub type Named = (&'static str, Box<dyn CallAny>);
+
+/// Those of a world; of hardware that tells no truth: none.
+pub(crate) fn procedures<H: Hardware + 'static>(hardware: &Arc<H>) -> Vec<Named> {
+    if !hardware.is_simulated() || hardware.truth().is_null() {
+        return Vec::new();
+    }
+    let hardware: Arc<dyn Hardware> = hardware.clone();
+    vec![
+        ("truth", Box::new(Truth(hardware.clone()))),
+        ("disturb", Box::new(Disturb(hardware))),
+    ]
+}
+
+/// What is really the case.
+struct Truth(Arc<dyn Hardware>);
+
+/// Something happens.
+struct Disturb(Arc<dyn Hardware>);
+
+/// An answer that is there at once.
+struct Answered(Answer<Value>);
+
+impl CallAny for Truth {
+    fn types(&self) -> (&'static str, &'static str) {
+        ("()", "serde_json::value::Value")
+    }
+
+    fn call_any(
+        &self,
+        request: &mut dyn erased_serde::Deserializer<'_>,
+    ) -> Result<Box<dyn PendingAny>> {
+        erased_serde::deserialize::<()>(request)?;
+        Ok(Box::new(Answered(Ok(self.0.truth()))))
+    }
+}
+
+impl CallAny for Disturb {
+    fn types(&self) -> (&'static str, &'static str) {
+        ("toml::table::Table", "()")
+    }
+
+    fn call_any(
+        &self,
+        request: &mut dyn erased_serde::Deserializer<'_>,
+    ) -> Result<Box<dyn PendingAny>> {
+        let deed: toml::Table = erased_serde::deserialize(request)?;
+        let done = self.0.disturb(&deed);
+        let refused = |error: crate::Error| Refused(error.to_string().into());
+        Ok(Box::new(Answered(
+            done.map(|()| Value::Null).map_err(refused),
+        )))
+    }
+}
+
+impl PendingAny for Answered {
+    fn wait_any(&self, _timeout: Duration) -> Option<Answer<Box<dyn erased_serde::Serialize>>> {
+        Some(match &self.0 {
+            Ok(value) => Ok(Box::new(value.clone())),
+            Err(refused) => Err(refused.clone()),
+        })
+    }
+}
