@@ -5,7 +5,7 @@ use std::time::Duration;
 use framework::link::InstanceLink;
 use framework::report::{InstanceReport, NodeReport, QueueReport};
 use framework::timing::Histogram;
-use protocol::{Durations, InstanceTimings, NodeTimings, QueueTimings, Timings};
+use protocol::{Durations, Granted, InstanceTimings, NodeTimings, QueueTimings, Timings};
 
 /// What all instances did; of one that did not report there are counts alone.
 pub(crate) fn describe(
@@ -27,6 +27,7 @@ pub(crate) fn describe(
             cycle: report.and_then(|report| durations(&report.durations.cycle)),
             lateness: report.and_then(|report| durations(&report.durations.lateness)),
             framework: report.and_then(|report| durations(&report.durations.framework)),
+            scheduling: instance.counters.granted().map(granted),
             nodes: nodes.iter().map(node).collect(),
             queues: queues.iter().map(queue).collect(),
         }
@@ -34,6 +35,19 @@ pub(crate) fn describe(
     Timings {
         time,
         instances: described.collect(),
+    }
+}
+
+fn granted(granted: &framework::Granted) -> Granted {
+    let cores = granted
+        .cores
+        .iter()
+        .map(|core| u32::try_from(*core).unwrap_or(u32::MAX));
+    Granted {
+        policy: granted.policy.map(|policy| policy.name().to_owned()),
+        priority: granted.priority,
+        cores: cores.collect(),
+        memory_locked: granted.memory_is_locked,
     }
 }
 

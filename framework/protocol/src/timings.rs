@@ -35,10 +35,27 @@ pub struct InstanceTimings {
     /// Of `cycle`, what was not spent in nodes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub framework: Option<Durations>,
+    /// What the system granted its thread; absent where nothing was asked: by the manifest, or on a simulated target.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scheduling: Option<Granted>,
     /// In the order in which they run.
     pub nodes: Vec<NodeTimings>,
     /// Perception instances that it consumes.
     pub queues: Vec<QueueTimings>,
+}
+
+/// What holds for a thread, as the system says itself.
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+pub struct Granted {
+    /// `other`, `fifo` or `round-robin`; absent: one that no manifest can ask for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub policy: Option<String>,
+    /// 1 to 99 with a real-time policy, else 0.
+    pub priority: u8,
+    /// The cores it may run on, counted from 0.
+    pub cores: Vec<u32>,
+    /// Whether this thread has locked the memory of the process.
+    pub memory_locked: bool,
 }
 
 /// One node of an instance.

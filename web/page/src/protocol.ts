@@ -217,6 +217,18 @@ export type Good = {
   graph: Json;
 };
 
+/** What holds for a thread, as the system says itself. */
+export type Granted = {
+  /** `other`, `fifo` or `round-robin`; absent: one that no manifest can ask for. */
+  policy?: string | null;
+  /** 1 to 99 with a real-time policy, else 0. */
+  priority: number;
+  /** The cores it may run on, counted from 0. */
+  cores: Array<number>;
+  /** Whether this thread has locked the memory of the process. */
+  memory_locked: boolean;
+};
+
 /** One instance. */
 export type InstanceTimings = {
   /** Its name. */
@@ -235,6 +247,8 @@ export type InstanceTimings = {
   lateness?: Durations | null;
   /** Of `cycle`, what was not spent in nodes. */
   framework?: Durations | null;
+  /** What the system granted its thread; absent where nothing was asked: by the manifest, or on a simulated target. */
+  scheduling?: Granted | null;
   /** In the order in which they run. */
   nodes: Array<NodeTimings>;
   /** Perception instances that it consumes. */

@@ -3,7 +3,7 @@
 use std::thread;
 use std::time::{Duration, Instant};
 
-use protocol::{Ask, Durations, Good, InstanceTimings, NodeTimings, Timings};
+use protocol::{Ask, Durations, Good, Granted, InstanceTimings, NodeTimings, Timings};
 use serde_json::json;
 
 use super::connection::Connection;
@@ -82,7 +82,27 @@ fn table(timings: &Timings, before: Option<&Timings>) -> String {
         rows.extend(instance.nodes.iter().map(node_row));
         rows.extend(part_row("  (framework)", instance.framework.as_ref()));
     }
-    text::columns(&rows, true)
+    let threads = timings.instances.iter().filter_map(|instance| {
+        let granted = instance.scheduling.as_ref()?;
+        Some(format!("{}: {}\n", instance.name, thread_text(granted)))
+    });
+    text::columns(&rows, true) + &threads.collect::<String>()
+}
+
+/// What holds for a thread: `fifo 80, core 0, memory locked`.
+pub(super) fn thread_text(granted: &Granted) -> String {
+    let cores: Vec<_> = granted.cores.iter().map(u32::to_string).collect();
+    let plural = if cores.len() == 1 { "" } else { "s" };
+    let mut text = match granted.policy.as_deref() {
+        None => "a policy of its own".to_owned(),
+        Some("other") => "no real time".to_owned(),
+        Some(policy) => format!("{policy} {}", granted.priority),
+    };
+    text += &format!(", core{plural} {}", cores.join(" "));
+    if granted.memory_locked {
+        text += ", memory locked";
+    }
+    text
 }
 
 /// Cycles per second of the robot's clock since the look before, else since its start.
@@ -151,5 +171,24 @@ mod tests {
                         Control          83.0 Hz  900.0  1500.2  2000.0   183                0         1\n  \
                         control::walk                                   183        2       3\n";
         assert_eq!(shown, expected);
+    }
+
+    #[test]
+    fn what_a_thread_was_granted_stands_below_the_table() {
+        let shown = |granted: serde_json::Value| {
+            let timings = json!({ "time": 1, "instances": [{
+                "name": "Control", "cycles": 0, "overruns": 0, "failures": 0, "nodes": [], "queues": [],
+                "scheduling": granted,
+            }] });
+            let timings = serde_json::from_value(timings).expect("these are timings");
+            let table = table(&timings, None);
+            table.lines().last().unwrap_or_default().to_owned()
+        };
+        let granted =
+            json!({ "policy": "fifo", "priority": 80, "cores": [0], "memory_locked": true });
+        assert_eq!(shown(granted), "Control: fifo 80, core 0, memory locked");
+        let refused =
+            json!({ "policy": "other", "priority": 0, "cores": [0, 1], "memory_locked": false });
+        assert_eq!(shown(refused), "Control: no real time, cores 0 1");
     }
 }
