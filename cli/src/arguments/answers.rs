@@ -3,7 +3,7 @@
 use clap::{Args, ValueEnum};
 use clap_complete::Shell;
 
-use super::TextOrJson;
+use super::{Reached, TextOrJson};
 
 /// Explain a diagnostic, a node, an output, a parameter, an order, or a failure
 ///
@@ -93,14 +93,22 @@ pub enum Stage {
     Model,
 }
 
-/// Look whether this machine and this robot are ready
+/// Look whether this machine and this robot are ready; with --host, whether a robot behind ssh is
+///
+/// What is granted to threads is that of a robot that runs meanwhile.
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "\
 Exit status: 0 nothing is bad, 1 something is.
 
-Example:
-  hulkgen doctor")]
+Examples:
+  hulkgen doctor
+  hulkgen doctor --host nao22 --format json | jq '.checks[] | select(.state != \"ok\")'")]
 pub struct Doctor {
+    /// Look at this robot of `[target.deploy]`, or destination for ssh, in place of this machine
+    #[arg(long, value_name = "HOST")]
+    pub host: Option<String>,
+    #[command(flatten)]
+    pub reached: Reached,
     /// Form of the answer
     #[arg(long, value_enum, default_value = "text")]
     pub format: TextOrJson,

@@ -1,7 +1,9 @@
 //! `doctor`: whether this machine and this robot are ready, line by line, each with the deed that mends it.
 
+mod host;
 mod machine;
 mod robot;
+mod running;
 mod system;
 
 use serde::Serialize;
@@ -11,7 +13,7 @@ use super::Failure;
 use super::session::Session;
 use super::terminal::Terminal;
 use crate::arguments::{Doctor, Global, TextOrJson};
-use crate::outcome::Outcome;
+use crate::outcome::{Outcome, Refusal};
 use crate::workspace::Workspace;
 
 /// What was looked at, and how it is.
@@ -39,6 +41,20 @@ pub(super) fn run(
     doctor: &Doctor,
 ) -> Result<Outcome, Failure> {
     let mut session = Session::open(global, terminal);
+    let findings = match &doctor.host {
+        Some(host) => host::look(&mut session?, host, &doctor.reached)?,
+        None => here(&mut session),
+    };
+    terminal.data(&match doctor.format {
+        TextOrJson::Text => findings.iter().map(line).collect(),
+        TextOrJson::Json => format!("{}\n", json!({ "version": 1, "checks": findings })),
+    })?;
+    let is_bad = findings.iter().any(|finding| finding.state == State::Bad);
+    Ok(if is_bad { Outcome::Bad } else { Outcome::Good })
+}
+
+/// This machine, and the robot of this folder.
+fn here(session: &mut Result<Session<'_>, Refusal>) -> Vec<Finding> {
     let root = session
         .as_ref()
         .map(|session| session.workspace.root().to_owned());
@@ -46,15 +62,11 @@ pub(super) fn run(
     let mut findings = vec![Finding::ok("hulkgen", env!("CARGO_PKG_VERSION"))];
     findings.extend(machine::tools(&root));
     findings.extend(machine::tools_of_deploy(&root));
-    findings.extend(robot::look(&mut session));
+    findings.extend(robot::look(session));
     findings.push(machine::free_space(&root));
     findings.extend(system::look(&Workspace::at_root("/".into()), "this user"));
-    terminal.data(&match doctor.format {
-        TextOrJson::Text => findings.iter().map(line).collect(),
-        TextOrJson::Json => format!("{}\n", json!({ "version": 1, "checks": findings })),
-    })?;
-    let is_bad = findings.iter().any(|finding| finding.state == State::Bad);
-    Ok(if is_bad { Outcome::Bad } else { Outcome::Good })
+    findings.extend(running::look(None));
+    findings
 }
 
 fn line(finding: &Finding) -> String {

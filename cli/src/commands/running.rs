@@ -16,7 +16,7 @@ use protocol::{Ask, EntryKind, Good};
 use serde_json::Value;
 
 use super::terminal::Terminal;
-use crate::arguments::{Call, TextOrJson};
+use crate::arguments::{Call, Running, TextOrJson};
 use crate::outcome::{Outcome, Refusal};
 use connection::Connection;
 
@@ -24,6 +24,40 @@ pub(super) use log::log;
 pub(super) use param::param;
 pub(super) use top::top;
 pub(super) use topic::topic;
+
+/// A running robot, and what the system granted its threads: a text where something was asked, and whether it is real time.
+pub(super) struct Threads {
+    /// Robot and target.
+    pub(super) robot: String,
+    /// (instance, what was granted, whether it has a real-time policy)
+    pub(super) granted: Vec<(String, String, bool)>,
+}
+
+/// Asks the robot at this address.
+pub(super) fn threads(address: Option<&str>) -> Result<Threads, Refusal> {
+    let mut connection = Connection::open(&Running {
+        host: address.map(str::to_owned),
+        token: None,
+        format: TextOrJson::Text,
+    })?;
+    let Good::Timings(timings) = connection.ask(Ask::Timings {})? else {
+        return Err(connection.confused());
+    };
+    let granted = timings.instances.iter().filter_map(|instance| {
+        let granted = instance.scheduling.as_ref()?;
+        let is_real_time = granted.policy.as_deref() != Some("other");
+        Some((
+            instance.name.clone(),
+            top::thread_text(granted),
+            is_real_time,
+        ))
+    });
+    let welcome = &connection.welcome;
+    Ok(Threads {
+        robot: format!("{} ({})", welcome.robot, welcome.target),
+        granted: granted.collect(),
+    })
+}
 
 /// Levels below the root where outputs, procedures and the groups of parameters are: `INSTANCE.KIND.NAME`.
 const NAMED: u8 = 3;

@@ -48,8 +48,9 @@ impl Remote {
             .spawn()
             .map_err(|error| Failed::at_start("ssh", &error))?;
         let mut stdin = child.stdin.take().expect("it was asked for above");
-        // Read whole before any of it is done: a connection that breaks leaves no half deed, and no command reads the rest.
-        let script = format!("main() {{\n{script}\n}}\nmain </dev/null\n");
+        // Read whole before any of it is done, and done although nobody hears of it any more: a connection that breaks
+        // leaves no half deed. No command reads the rest of the script as its own input.
+        let script = format!("main() {{\n{script}\n}}\ntrap '' HUP PIPE\nmain </dev/null\n");
         // Where nobody reads it, ssh says why.
         let writer = thread::spawn(move || drop(stdin.write_all(script.as_bytes())));
         let output = child.wait_with_output();

@@ -275,3 +275,77 @@ fn robots_are_served_side_by_side_and_asked() {
     assert_eq!(field.read("robot/here/2-2/recording.mcap"), "second");
     assert!(!field.path("robot/here/1-1").exists());
 }
+
+#[test]
+fn doctor_looks_at_a_robot() {
+    let Some(field) = Field::open("doctor_looks_at_a_robot") else {
+        return;
+    };
+    let checks = |arguments: &str| -> Vec<(String, String, String)> {
+        let (status, answer, said) = field.hulkgen(&format!("doctor --format json {arguments}"));
+        let answer: Value = serde_json::from_str(&answer)
+            .unwrap_or_else(|error| panic!("{error} in {answer}{said}"));
+        let checks: Vec<_> = answer["checks"]
+            .as_array()
+            .expect("a list")
+            .iter()
+            .map(|check| {
+                ["about", "state", "message"]
+                    .map(|key| check[key].as_str().unwrap_or_default().to_owned())
+            })
+            .map(|[about, state, message]| (about, state, message))
+            .collect();
+        let is_bad = checks.iter().any(|(_, state, _)| state == "bad");
+        assert_eq!(status, i32::from(is_bad), "{checks:?}");
+        checks
+    };
+    let told = checks("--host a");
+    let about = |about: &str| {
+        let found = told.iter().find(|(one, _, _)| one == about);
+        found.unwrap_or_else(|| panic!("nothing about {about}: {told:?}"))
+    };
+    assert_eq!(about("reached").2, "`a` answers at `robot-a`");
+    assert!(
+        about("machine").2.starts_with(std::env::consts::ARCH),
+        "{told:?}"
+    );
+    assert!(about("system").2.contains("Linux "), "{told:?}");
+    assert_eq!(about("version").1, "warning");
+    for one in [
+        "rsync",
+        "disk",
+        "real-time",
+        "memory",
+        "governor",
+        "port",
+        "network",
+    ] {
+        assert!(
+            ["ok", "warning"].contains(&about(one).1.as_str()),
+            "{told:?}"
+        );
+    }
+
+    // Another machine's triple, and a robot that is not there.
+    let manifest = field.read("robot/hulk.toml");
+    let other = if cfg!(target_arch = "x86_64") {
+        "aarch64"
+    } else {
+        "x86_64"
+    };
+    let triple = format!("name = \"lamp\"\ntriple = \"{other}-unknown-linux-gnu\"\nhardware");
+    field.write(
+        "robot/hulk.toml",
+        &manifest.replace("name = \"lamp\"\nhardware", &triple),
+    );
+    assert!(
+        checks("--host a")
+            .iter()
+            .any(|(about, state, _)| (about.as_str(), state.as_str()) == ("machine", "bad"))
+    );
+    let told = checks("--host nobody@127.0.0.9");
+    assert_eq!(
+        (told.len(), told[0].0.as_str(), told[0].1.as_str()),
+        (1, "reached", "bad")
+    );
+}

@@ -86,6 +86,16 @@ impl Reached {
         })
     }
 
+    /// Where everything is on the robot.
+    pub(in crate::commands) fn folder(&self) -> &str {
+        &self.deploy.folder
+    }
+
+    /// What programs of the target are built for; `None`: the machine of the developer.
+    pub(in crate::commands) fn triple(&self) -> Option<&str> {
+        self.target.triple.as_deref()
+    }
+
     /// Of the unit there are a name and what manages it.
     pub(super) fn service(&self) -> Service<'_> {
         service(&self.deploy)
