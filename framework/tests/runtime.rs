@@ -26,3 +26,5 @@ mod tap;
 mod threads;
 #[path = "runtime/together.rs"]
 mod together;
+#[path = "runtime/wake_up.rs"]
+mod wake_up;

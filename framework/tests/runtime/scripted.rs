@@ -3,6 +3,7 @@
 use std::collections::VecDeque;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex};
+use std::thread::{self, ThreadId};
 use std::time::Duration;
 
 use framework::{
@@ -95,6 +96,8 @@ pub(crate) struct ScriptedHardware {
     /// Threads: data comes so often.
     pub(crate) period: Duration,
     reads: AtomicU64,
+    /// Threads: how late who woke up.
+    pub(crate) woken: Mutex<Vec<(ThreadId, Duration)>>,
     /// Counts the events of all hardwares that share it, if there is one; what is read is the count at the last own event.
     pub(crate) world: Option<Arc<AtomicU64>>,
     told: AtomicU64,
@@ -134,6 +137,7 @@ impl ScriptedHardware {
             latency: Duration::from_millis(5),
             period: Duration::from_millis(2),
             reads: AtomicU64::new(0),
+            woken: Mutex::default(),
             world: None,
             told: AtomicU64::new(0),
             happened: AtomicU64::new(0),
@@ -149,8 +153,11 @@ impl ScriptedHardware {
         if self.clock.is_stepped() {
             self.stop.check()?;
         } else {
-            self.clock
-                .wait_until(self.clock.now() + self.period, &self.stop)?;
+            let due = self.clock.now() + self.period;
+            self.clock.wait_until(due, &self.stop)?;
+            let late = self.clock.now() - due;
+            let mut woken = self.woken.lock().expect("not poisoned");
+            woken.push((thread::current().id(), late));
         }
         let now = self.clock.now();
         let captured = Timestamp::ZERO + (now - Timestamp::ZERO).saturating_sub(self.latency);
