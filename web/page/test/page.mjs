@@ -66,5 +66,8 @@ export async function reads(locator, pattern, what) {
   await locator
     .filter({ hasText: pattern })
     .waitFor({ timeout: PATIENCE })
-    .catch(async () => assert.fail(`${what} is "${await locator.first().textContent()}", not ${pattern}`));
+    .catch(async () => {
+      const failures = await locator.page().locator(".failure:not([hidden])").allTextContents();
+      assert.fail(`${what} is "${await locator.first().textContent()}", not ${pattern}; the page says ${JSON.stringify(failures)}`);
+    });
 }

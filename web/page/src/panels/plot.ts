@@ -62,10 +62,10 @@ class Plot implements Panel {
     });
     // The axes are drawn in colours of the page.
     const repaint = (): void => this.rebuild();
-    window.addEventListener("theme", repaint);
+    window.addEventListener("look", repaint);
     this.stop = () => {
       stop();
-      window.removeEventListener("theme", repaint);
+      window.removeEventListener("look", repaint);
     };
   }
 
@@ -128,12 +128,13 @@ class Plot implements Panel {
     this.drawn?.destroy();
     const ink = getComputedStyle(document.body).getPropertyValue("--faint");
     const line = getComputedStyle(document.body).getPropertyValue("--rule");
-    const axis = { stroke: ink, grid: { stroke: line, width: 1 }, ticks: { stroke: line, width: 1 } };
+    const font = `${getComputedStyle(document.body).getPropertyValue("--small")} system-ui, sans-serif`;
+    const axis = { font, stroke: ink, grid: { stroke: line, width: 1 }, ticks: { stroke: line, width: 1 } };
     const options: uPlot.Options = {
       width: Math.max(this.chart.clientWidth, 100),
       height: Math.max(this.chart.clientHeight - 30, 60),
       scales: { x: { time: false } },
-      axes: [{ ...axis, values: (_, ticks) => ticks.map((tick) => `${short(tick)} s`) }, { ...axis, size: 60, values: (_, ticks) => ticks.map(short) }],
+      axes: [{ ...axis, values: (_, ticks) => ticks.map((tick) => `${short(tick)} s`) }, { ...axis, size: 64, values: (_, ticks) => ticks.map(short) }],
       cursor: { drag: { x: true, y: false, setScale: false } },
       series: [
         { label: "time", value: (_, time) => (time === null ? "–" : `${time.toFixed(3)} s`) },

@@ -24,7 +24,7 @@ export function header(robot: Robot, arrangement: Arrangement): HTMLElement {
   };
   robot.state.watch(showState);
   robot.welcome.watch(showState);
-  return make("header", {}, paths, name, state, token(robot), make("span", { class: "space" }), theme(), panels(robot, arrangement), layouts(robot, arrangement));
+  return make("header", {}, paths, name, state, token(robot), make("span", { class: "space" }), look("theme", ["auto", "light", "dark"], "light or dark"), look("size", ["normal", "large"], "size of the text: large is read from two metres"), panels(robot, arrangement), layouts(robot, arrangement));
 }
 
 function panels(robot: Robot, arrangement: Arrangement): HTMLElement {
@@ -65,19 +65,18 @@ function whenKnown(robot: Robot, deed: (offered: Offered) => void): void {
   });
 }
 
-/** As the system has it, light, or dark: the browser keeps it. */
-function theme(): HTMLElement {
+/** How the page looks, as the browser keeps it: the first choice is what the page does by itself. */
+function look(name: "theme" | "size", choices: readonly string[], about: string): HTMLElement {
   const root = document.documentElement;
-  const choices = ["auto", "light", "dark"];
   const show = (choice: string): void => {
-    if (choice === "auto") delete root.dataset["theme"];
-    else root.dataset["theme"] = choice;
-    window.dispatchEvent(new Event("theme"));
+    if (choice === choices[0]) delete root.dataset[name];
+    else root.dataset[name] = choice;
+    window.dispatchEvent(new Event("look"));
   };
-  const kept = localStorage.getItem("theme") ?? "auto";
+  const kept = localStorage.getItem(name) ?? choices[0] ?? "";
   show(kept);
-  return select(choices, kept, "light or dark", (choice) => {
-    localStorage.setItem("theme", choice);
+  return select(choices, kept, about, (choice) => {
+    localStorage.setItem(name, choice);
     show(choice);
   });
 }

@@ -52,7 +52,7 @@ export class Workspace {
   private open(place: PanelPlace): Opened {
     const kind = KINDS.find((one) => one.kind === place.kind);
     const title = make("span", { class: "muted subject" });
-    const head = make("div", { class: "head", draggable: "true" }, make("h2", {}, kind?.name ?? place.kind), title);
+    const head = make("div", { class: "head", draggable: "true", tabindex: "0", title: "drag it, or Alt and arrow keys, to move the panel" }, make("h2", {}, kind?.name ?? place.kind), title);
     const frame = make("section", { class: "panel", "data-kind": place.kind, "aria-label": kind?.name ?? place.kind }, head);
     const panel = kind?.open({
       robot: this.robot,
@@ -68,12 +68,29 @@ export class Workspace {
     head.append(make("span", { class: "space" }), ...(panel?.tools ?? []), close);
     frame.append(panel?.content ?? make("p", { class: "muted" }, "this page does not have this panel"));
     head.addEventListener("dragstart", (event) => event.dataTransfer?.setData(DRAGGED_PANEL, place.id));
+    head.addEventListener("keydown", (event) => this.shift(place.id, frame, event));
     this.receive(frame, panel);
     const watch = new ResizeObserver(() => panel?.resized?.());
     watch.observe(frame);
     const opened = { frame, panel, watch };
     this.opened.set(place.id, opened);
     return opened;
+  }
+
+  /** The keyboard's way to move a panel: within its column, or into the next one. */
+  private shift(id: string, frame: HTMLElement, event: KeyboardEvent): void {
+    const [column, row] = [Number(frame.dataset["column"]), Number(frame.dataset["row"])];
+    const spots: Record<string, Spot> = {
+      ArrowUp: { column, row: row - 1 },
+      ArrowDown: { column, row: row + 2 },
+      ArrowLeft: { column: column - 1, row: 0 },
+      ArrowRight: { column: column + 1, row: 0 },
+    };
+    const spot = spots[event.key];
+    if (!event.altKey || spot === undefined || spot.column < 0 || (spot.row ?? 0) < 0) return;
+    event.preventDefault();
+    this.arrangement.move(id, spot);
+    frame.querySelector<HTMLElement>(".head")?.focus();
   }
 
   /** Takes paths for the panel, and panels for the places around it. */
@@ -116,7 +133,21 @@ export class Workspace {
   /** Between two neighbours: drag it to give one of them more place. */
   private line(spot: Spot): HTMLElement {
     const isBetweenColumns = spot.row === null;
-    const line = make("div", { class: isBetweenColumns ? "divider upright" : "divider", role: "separator" });
+    const line = make("div", { class: isBetweenColumns ? "divider upright" : "divider", role: "separator", tabindex: "0", "aria-label": "drag, or arrow keys, to resize", "aria-orientation": isBetweenColumns ? "vertical" : "horizontal" });
+    line.addEventListener("keydown", (event) => {
+      const by = (isBetweenColumns ? { ArrowLeft: -0.05, ArrowRight: 0.05 } : { ArrowUp: -0.05, ArrowDown: 0.05 })[event.key as never] as number | undefined;
+      const [one, other] = [line.previousElementSibling, line.nextElementSibling];
+      if (by === undefined || !(one instanceof HTMLElement) || !(other instanceof HTMLElement)) return;
+      event.preventDefault();
+      const sum = Number(one.style.flexGrow) + Number(other.style.flexGrow);
+      const share = Math.min(Math.max(Number(one.style.flexGrow) / sum + by, 0.08), 0.92);
+      one.style.flexGrow = String(sum * share);
+      other.style.flexGrow = String(sum * (1 - share));
+      const at = [...this.element.querySelectorAll(".divider")].indexOf(line);
+      // Draws everything anew, with other lines at the same places.
+      this.arrangement.resize(spot, [sum * share, sum * (1 - share)]);
+      this.element.querySelectorAll<HTMLElement>(".divider")[at]?.focus();
+    });
     line.addEventListener("pointerdown", (event) => {
       const [one, other] = [line.previousElementSibling, line.nextElementSibling];
       if (!(one instanceof HTMLElement) || !(other instanceof HTMLElement)) return;

@@ -3,7 +3,28 @@ import assert from "node:assert/strict";
 import { begin, changes, hasPicture, panel, reads, until } from "../page.mjs";
 import { PATIENCE, step } from "../robot.mjs";
 
+/** Asks the robot itself, beside the page. */
+function call(page, path, argument) {
+  return page.evaluate(
+    ([path, argument]) =>
+      new Promise((resolve, reject) => {
+        const socket = new WebSocket(`ws://${location.host}/socket`);
+        socket.onopen = () => socket.send(JSON.stringify({ id: 1, ask: { call: { path, argument } } }));
+        socket.onmessage = ({ data }) => {
+          const { answer } = JSON.parse(data);
+          if (answer === undefined) return;
+          socket.close();
+          if (answer.ok === undefined) reject(new Error(answer.error.message));
+          else resolve(answer.ok.called);
+        };
+      }),
+    [path, argument],
+  );
+}
+
 export async function theRobotIsDriven(page) {
+  // On a busy machine it may have fallen over: somebody puts it on its feet.
+  await call(page, "framework.procedures.disturb", { kidnap: [-2.0, -1.0, 0.5] });
   await begin(page, "Motion");
   await until(page, panel(page, "pose").locator("canvas"), hasStrokes, "a body");
   const drive = panel(page, "drive");
@@ -29,21 +50,7 @@ export async function theWorldIsChanged(page) {
   const canvas = simulator.locator("canvas");
   await reads(simulator.locator("output").first(), /walked/, "what is told of the world");
   await until(page, panel(page, "map").locator("canvas"), hasStrokes, "a map");
-  // What the robot is asked about is the world itself, not this page.
-  const truth = () =>
-    page.evaluate(
-      () =>
-        new Promise((resolve) => {
-          const socket = new WebSocket(`ws://${location.host}/socket`);
-          socket.onopen = () => socket.send(JSON.stringify({ id: 1, ask: { call: { path: "framework.procedures.truth" } } }));
-          socket.onmessage = ({ data }) => {
-            const { answer } = JSON.parse(data);
-            if (answer === undefined) return;
-            socket.close();
-            resolve(answer.ok.called);
-          };
-        }),
-    );
+  const truth = () => call(page, "framework.procedures.truth", null);
   const box = await canvas.boundingBox();
   const scale = Math.min(box.width / 10.4, box.height / 7.4);
   const toPixel = (x, y) => [box.x + box.width / 2 + x * scale, box.y + box.height / 2 - y * scale];
