@@ -7,7 +7,7 @@ import { join } from "node:path";
 import { chromium } from "playwright-core";
 import { begin, isConnected } from "./page.mjs";
 import { PATIENCE, Stage, step } from "./robot.mjs";
-import { aRecordingIsReplayed, foreignScriptsDoNotRun, layoutsStay, nonsenseDoesNoHarm, restartsAreSurvived, tokensAreAskedFor } from "./steps/life.mjs";
+import { aRecordingIsReplayed, foreignScriptsDoNotRun, layoutsStay, nonsenseDoesNoHarm, otherRobotsHaveNoFootball, restartsAreSurvived, tokensAreAskedFor } from "./steps/life.mjs";
 import { theRobotIsDriven, theWorldIsChanged } from "./steps/robotics.mjs";
 import { aParameterChangesAnOutput, curvesAndImagesMove, injectionsReplaceOutputs, parametersComeBack, valuesChange } from "./steps/values.mjs";
 
@@ -90,6 +90,7 @@ try {
   await theWorldIsChanged(page);
   await aPhoneShowsIt(browser);
   await nonsenseDoesNoHarm(browser, stage);
+  await otherRobotsHaveNoFootball(browser, stage);
   await aRecordingIsReplayed(page, stage);
   await picture(page, "replay");
   await tokensAreAskedFor(page, stage);

@@ -109,7 +109,7 @@ export class Robot {
   private hear(message: Message): void {
     if ("update" in message) this.subscriptions.update(message.update);
     else if ("lost" in message) this.subscriptions.lost(message.lost);
-    else if ("log" in message) this.kept.set([...this.kept.value.slice(1 - LOGS), message.log]);
+    else if ("log" in message && typeof message.log?.message === "string") this.kept.set([...this.kept.value.slice(1 - LOGS), message.log]);
     else if ("parameters_changed" in message) this.versions.set(this.versions.value + 1);
   }
 }
