@@ -3,7 +3,7 @@
 import { expect } from "../connection/socket";
 import type { Json } from "../protocol";
 import { trace, type Lane, type Span } from "../store/trace";
-import { button, complain, eachFrame, make, select } from "../view/dom";
+import { button, complain, eachFrame, make, select, sharp } from "../view/dom";
 import { microseconds } from "../view/format";
 import { numberSetting, textSetting, type Context, type Panel, type PanelKind } from "./panel";
 import { COLORS } from "./series";
@@ -144,13 +144,11 @@ class Cycles implements Panel {
 
   private paint(): void {
     const { canvas, lanes } = this;
-    const ratio = window.devicePixelRatio;
     const [width, height] = [canvas.clientWidth, Math.max(HEAD + lanes.length * ROW, 60)];
     canvas.style.height = `${height}px`;
-    const context = canvas.getContext("2d");
-    if (context === null || width === 0) return;
-    Object.assign(canvas, { width: Math.round(width * ratio), height: Math.round(height * ratio) });
-    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    const context = sharp(canvas);
+    if (context === null) return;
+    context.clearRect(0, 0, width, height);
     const style = getComputedStyle(document.body);
     const [ink, faint, rule] = ["--ink", "--faint", "--rule"].map((name) => style.getPropertyValue(name)) as [string, string, string];
     const begin = this.end() - this.window * 1000;

@@ -1,6 +1,6 @@
 // Owns the picture of a field on a canvas: metres to pixels, moved and zoomed by hand, and what is drawn on it again and again.
-import type { FieldSize } from "./field";
-import { markings } from "./field";
+import { sharp } from "../view/dom";
+import { markings, RULES, type FieldSize } from "./field";
 import { outOf, type Point, type Pose } from "./geometry";
 
 /** Colours that the style sheet has, so that they follow light and dark. */
@@ -14,6 +14,7 @@ export interface Palette {
 
 export class Chart {
   readonly canvas: HTMLCanvasElement;
+  private size: FieldSize = RULES;
   private zoom = 1;
   private middle: Point = [0, 0];
   private held: { id: number; at: Point; middle: Point } | null = null;
@@ -74,11 +75,9 @@ export class Chart {
     for (const name of ["pointerup", "pointercancel"]) this.canvas.addEventListener(name, end, { once: true });
   }
 
-  private size: FieldSize = { length: 9, width: 6 } as FieldSize;
-
   private scale(size: FieldSize): number {
     const [width, height] = [this.canvas.clientWidth, this.canvas.clientHeight];
-    const [length, across] = [size.length + 2 * (size.border || 0.7), size.width + 2 * (size.border || 0.7)];
+    const [length, across] = [size.length + 2 * size.border, size.width + 2 * size.border];
     return this.zoom * Math.min(width / length, height / across);
   }
 
@@ -96,13 +95,8 @@ export class Chart {
   begin(size: FieldSize, hasField: boolean): CanvasRenderingContext2D | null {
     this.size = size;
     const { canvas } = this;
-    const ratio = window.devicePixelRatio;
-    const [width, height] = [Math.round(canvas.clientWidth * ratio), Math.round(canvas.clientHeight * ratio)];
-    if (width === 0 || height === 0) return null;
-    if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
-    const context = canvas.getContext("2d");
+    const context = sharp(canvas);
     if (context === null) return null;
-    context.setTransform(ratio, 0, 0, ratio, 0, 0);
     const palette = paletteOf();
     context.fillStyle = palette.grass;
     context.fillRect(0, 0, canvas.clientWidth, canvas.clientHeight);

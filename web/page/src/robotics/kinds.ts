@@ -33,6 +33,15 @@ export const ROBOTICS_PRESETS: readonly Preset[] = [
       ),
   },
   {
+    name: "Match",
+    needs: ["replay", "map", "camera"],
+    layout: () =>
+      layoutOf(
+        [3, place("replay", {}, 2), place("map", {}, 3)],
+        [2, place("camera", { path: "VisionTop.main_outputs.image" }), place("camera", { path: "VisionBottom.main_outputs.image" })],
+      ),
+  },
+  {
     name: "Game",
     needs: ["map", "camera"],
     layout: () =>

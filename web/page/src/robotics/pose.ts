@@ -1,6 +1,6 @@
 // A panel with the body as its sensors feel it, in three dimensions, and what presses on its soles.
 // Drawn by hand on a plain canvas: a body of lines needs no library.
-import { button, eachFrame, make } from "../view/dom";
+import { button, eachFrame, make, sharp } from "../view/dom";
 import type { Context, Panel, PanelKind } from "../panels/panel";
 import { COLORS } from "../panels/series";
 import { paletteOf } from "./chart";
@@ -99,9 +99,12 @@ class PosePanel implements Panel {
   }
 
   private paint(): void {
-    const context = this.begin();
+    const context = sharp(this.canvas);
     const body = fields(this.values.get("kinematics"));
     if (context === null || body === null) return;
+    context.clearRect(0, 0, this.canvas.clientWidth, this.canvas.clientHeight);
+    context.lineCap = "round";
+    context.lineJoin = "round";
     const turn = level(quaternion(this.values.get("orientation")));
     const ground = SIDES.flatMap((side) => corners(part(body, "soles_to_torso", side)));
     // The lowest corner of a sole stands on the floor.
@@ -119,21 +122,6 @@ class PosePanel implements Panel {
     for (const stroke of all) this.stroke(context, stroke);
     if (mass !== null) this.mark(context, toWorld(mass), COLORS[4] as string);
     this.state.textContent = `left ${forces.sums.left.toFixed(1)} N, right ${forces.sums.right.toFixed(1)} N${mass === null ? "" : " · ● centre of mass"}`;
-  }
-
-  private begin(): CanvasRenderingContext2D | null {
-    const { canvas } = this;
-    const ratio = window.devicePixelRatio;
-    const [width, height] = [Math.round(canvas.clientWidth * ratio), Math.round(canvas.clientHeight * ratio)];
-    if (width === 0 || height === 0) return null;
-    if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
-    const context = canvas.getContext("2d");
-    if (context === null) return null;
-    context.setTransform(ratio, 0, 0, ratio, 0, 0);
-    context.clearRect(0, 0, canvas.clientWidth, canvas.clientHeight);
-    context.lineCap = "round";
-    context.lineJoin = "round";
-    return context;
   }
 
   /** In the torso frame. */

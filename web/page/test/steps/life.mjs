@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { existsSync } from "node:fs";
 import { join } from "node:path";
-import { add, begin, changes, clearLayout, hasCurve, isConnected, open, panel, reads, until } from "../page.mjs";
+import { add, begin, changes, clearLayout, hasCurve, hasPicture, isConnected, open, panel, reads, until } from "../page.mjs";
 import { PATIENCE, step } from "../robot.mjs";
 
 export async function restartsAreSurvived(page, stage) {
@@ -55,7 +55,9 @@ export async function aRecordingIsReplayed(page, stage) {
   for (const since = Date.now(); Number(await cycle.textContent()) >= at; await page.waitForTimeout(100)) {
     assert(Date.now() - since < PATIENCE, "time does not go backwards");
   }
-  await open(page, "VisionTop.main_outputs.lines", "Value");
+  await begin(page, "Match");
+  await panel(page, "replay").getByLabel(/^speed/).selectOption("1 ×");
+  await until(page, panel(page, "camera").locator(".stage canvas").first(), hasPicture, "a recorded image");
   step("a recording is played, stepped, and played backwards");
 }
 
