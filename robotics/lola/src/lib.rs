@@ -12,11 +12,14 @@ pub mod state;
 
 pub mod error;
 
+mod safety;
+
 mod messagepack;
 
 pub use client::{Client, Counts};
 pub use command::{COMMAND_BYTES, Command};
 pub use error::DecodeError;
+pub use safety::Safety;
 pub use state::STATE_BYTES;
 
 /// Where LoLA listens on the robot.

@@ -15,7 +15,8 @@ use std::time::Duration;
 
 use framework::{Clock, Error, Event, HardwareContext, NoEvent, Result, Stop, Timestamp, blocking};
 use hardware::{ActuatorInterface, CameraInterface, SensorInterface};
-use lola::Client;
+use links::sockets::RobotSockets;
+use lola::{Client, Safety};
 use types::camera::CameraPosition;
 use types::image::YuyvImage;
 use types::leds::Leds;
@@ -24,8 +25,6 @@ use types::sensor_data::SensorData;
 
 use crate::camera::{self, Exposure};
 use crate::field::Field;
-use crate::network::RobotSockets;
-use crate::safety::Safety;
 use crate::settings::Settings;
 use crate::simulator::{Shared, Simulator};
 use crate::stage::Stage;
@@ -156,7 +155,7 @@ impl Hardware {
         context: HardwareContext,
     ) -> Result<Self> {
         let clock = context.clock;
-        let sockets = Arc::new(RobotSockets::new(&settings.network)?);
+        let sockets = Arc::new(RobotSockets::new(&settings.network.ports())?);
         let is_stepped = clock.is_stepped();
         let shared = Shared::on(
             stage,

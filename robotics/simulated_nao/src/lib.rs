@@ -20,7 +20,6 @@ mod hardware;
 mod network;
 mod noise;
 pub mod posture;
-mod safety;
 mod senses;
 mod server;
 mod simulation;

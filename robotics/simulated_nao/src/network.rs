@@ -9,7 +9,6 @@ mod game;
 mod mate;
 mod referee;
 mod rhythm;
-mod robot;
 mod truth;
 
 #[cfg(test)]
@@ -21,14 +20,13 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use framework::{Result, Timestamp};
+use links::sockets::{RobotSockets, reachable};
 use spl_messages::control_data;
 use types::game::GameControllerMessage;
 use types::network::{Channel, Endpoint};
 
 use self::mate::Mate;
 use self::referee::Referee;
-pub(crate) use self::robot::RobotSockets;
-use self::robot::reachable;
 pub use self::truth::{NetworkTruth, Received};
 use crate::ground_truth::GroundTruth;
 use crate::settings::Settings;
@@ -39,9 +37,6 @@ const ECHO_LATENCY: Duration = Duration::from_millis(1);
 const RESPECT: Duration = Duration::from_secs(3);
 /// More than any buffer of a socket keeps is lost, as it is on every computer.
 const MOST_UNREAD: usize = 128;
-/// How long a datagram may need across the loopback interface: the kernel hands it over within the call
-/// that sends it, or on a busy computer soon after.
-pub(crate) const LONGEST_FLIGHT: Duration = Duration::from_secs(1);
 
 /// Everybody on the network but the robot's own program.
 pub(crate) struct Network {

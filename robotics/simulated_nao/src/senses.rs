@@ -5,9 +5,7 @@
 //! | `<lola>.top`, `<lola>.bottom` | images of a camera: 640x480, YUYV, 30 a second |
 //! | `<lola>.microphones` | blocks of sound: 2048 samples of 4 channels, 44.1 kHz, interleaved 32-bit floats |
 //!
-//! Everything is little endian. Each message has a header of 24 bytes: `NAOI` (image) or `NAOS` (sound); the length of what
-//! follows (u32); the time of the exposure or of the last sample, in ns of the simulator's clock (u64); for images width
-//! and height (2 u32), for sound samples and channels (2 u32). Nothing is ever sent to the simulator.
+//! [`links::senses`] says what stands before each message; times are those of the simulator's clock.
 //!
 //! Up to [`MOST_CLIENTS`] programs may listen at each. One that does not read for [`PATIENCE`] is told of and dropped: the world does not
 //! wait for it, and reading again means connecting again, as with LoLA.
@@ -20,6 +18,7 @@ use std::thread::JoinHandle;
 use std::time::Duration;
 
 use framework::{Clock, Error, Result, Stop, Timestamp};
+use links::senses::{Header, Kind};
 use types::audio::{AudioBlock, MICROPHONE_COUNT};
 use types::camera::CameraPosition;
 use types::image::YuyvImage;
@@ -36,8 +35,6 @@ const PATIENCE: Duration = Duration::from_millis(200);
 const MOST_CLIENTS: usize = 8;
 /// How long to wait before looking whether the simulator ends, or somebody has connected.
 const GLANCE: Duration = Duration::from_millis(50);
-/// What stands before each message.
-const HEADER_LENGTH: usize = 24;
 
 /// The sockets and their threads; both end with it.
 pub(crate) struct Senses {
@@ -171,13 +168,7 @@ fn show(
             return;
         }
         let size = [WIDTH as u32, HEIGHT as u32];
-        begin(
-            &mut message,
-            b"NAOI",
-            image.data.len(),
-            exposure.captured_at,
-            size,
-        );
+        begin(&mut message, Kind::Image, exposure.captured_at, size);
         message.extend_from_slice(&image.data);
         audience.tell(&message);
     }
@@ -193,9 +184,8 @@ fn sound(shared: &Shared, clock: &Clock, mut audience: Audience, closing: &Stop)
         };
         let called = shared.stage.lock().world.whistles().to_vec();
         shared.sound.record(number, &called, &mut block);
-        let length = BLOCK_LENGTH * MICROPHONE_COUNT * size_of::<f32>();
         let size = [BLOCK_LENGTH as u32, MICROPHONE_COUNT as u32];
-        begin(&mut message, b"NAOS", length, block_time(number), size);
+        begin(&mut message, Kind::Sound, block_time(number), size);
         for index in 0..BLOCK_LENGTH {
             for channel in &block.channels {
                 let sample = channel.get(index).copied().unwrap_or_default();
@@ -219,13 +209,7 @@ fn wait<T>(
     take(&mut waited.unwrap_or_else(PoisonError::into_inner).0)
 }
 
-fn begin(message: &mut Vec<u8>, kind: &[u8; 4], length: usize, at: Timestamp, size: [u32; 2]) {
+fn begin(message: &mut Vec<u8>, kind: Kind, at: Timestamp, size: [u32; 2]) {
     message.clear();
-    message.reserve(HEADER_LENGTH + length);
-    message.extend_from_slice(kind);
-    message.extend_from_slice(&(length as u32).to_le_bytes());
-    message.extend_from_slice(&at.as_nanos().to_le_bytes());
-    for number in size {
-        message.extend_from_slice(&number.to_le_bytes());
-    }
+    message.extend_from_slice(&Header::new(kind, at.as_nanos(), size).encode());
 }

@@ -6,10 +6,11 @@ use std::thread::JoinHandle;
 use std::time::Duration;
 
 use framework::{Clock, Error, Result, Stop, Timestamp};
+use links::sockets::RobotSockets;
 use tempfile::TempDir;
 
 use crate::ground_truth::GroundTruth;
-use crate::network::{Network, NetworkTruth, RobotSockets};
+use crate::network::{Network, NetworkTruth};
 use crate::physics::Disturbance;
 use crate::senses::Senses;
 use crate::server::LolaServer;

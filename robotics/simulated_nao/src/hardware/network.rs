@@ -5,10 +5,11 @@ use std::time::{Duration, Instant};
 
 use framework::{NoEvent, Result, Timestamp, blocking};
 use hardware::{MessageInterface, NetworkInterface};
+use links::sockets::{LONGEST_FLIGHT, tolerate_absence};
 use types::network::{Channel, Datagram, Endpoint};
 
 use super::{Hardware, PATIENCE};
-use crate::network::{LONGEST_FLIGHT, Network};
+use crate::network::Network;
 
 /// After so long without any datagram the caller hears about it.
 const SILENCE: Duration = Duration::from_secs(1);
@@ -86,7 +87,13 @@ impl Hardware {
         if is_behind {
             self.shared.lock().is_behind.insert("SplNetwork");
         }
-        if blocking(|| self.sockets.receive_arrival(&arrival, datagram, &self.stop))? {
+        let (channel, sender) = (arrival.channel, arrival.sender);
+        let receive = || {
+            self.sockets
+                .receive_arrival(channel, sender, datagram, &self.stop)
+        };
+        if blocking(receive)? {
+            datagram.sender = arrival.endpoint;
             Ok(arrival.at)
         } else {
             Err(NoEvent("a datagram was lost on the loopback interface".to_owned()).into())
@@ -104,22 +111,6 @@ impl Hardware {
             self.stop.wait(GLANCE)?;
         }
         Ok(())
-    }
-}
-
-/// Whether it was sent. Somebody who is not there, or a network that is gone for a while, is no error.
-fn tolerate_absence(sent: std::io::Result<usize>) -> Result<bool> {
-    use std::io::ErrorKind::{
-        ConnectionRefused, HostUnreachable, NetworkDown, NetworkUnreachable, WouldBlock,
-    };
-    match sent {
-        Ok(_) => Ok(true),
-        Err(error) => match error.kind() {
-            ConnectionRefused | HostUnreachable | NetworkDown | NetworkUnreachable | WouldBlock => {
-                Ok(false)
-            }
-            _ => Err(error.into()),
-        },
     }
 }
 

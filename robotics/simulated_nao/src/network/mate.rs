@@ -6,16 +6,16 @@ use std::net::{Ipv4Addr, SocketAddr, UdpSocket};
 use std::time::Duration;
 
 use framework::{Result, Timestamp};
+use links::sockets::{BUFFER_LENGTH, bind, receive_from};
 use nalgebra::Isometry2;
 use spl_messages::team_message;
 use types::team::{TeamBall, TeamMessage};
 
 use super::rhythm::Rhythm;
-use super::robot::{BUFFER_LENGTH, bind, receive_from};
 use super::truth::Inbox;
 use crate::ground_truth::GroundTruth;
 use crate::scene::{Robot, Team};
-use crate::settings::Settings;
+use crate::settings::{NetworkSettings, Settings};
 
 const PERIOD: Duration = Duration::from_secs(1);
 const FIRST: Duration = Duration::from_millis(650);
@@ -31,7 +31,12 @@ pub(crate) struct Mate {
 impl Mate {
     pub(super) fn new(settings: &Settings) -> Result<Self> {
         Ok(Self {
-            socket: bind(Ipv4Addr::LOCALHOST, settings.network.mate_port, "mate_port")?,
+            socket: bind(
+                NetworkSettings::TABLE,
+                Ipv4Addr::LOCALHOST,
+                settings.network.mate_port,
+                "mate_port",
+            )?,
             number: settings.game.mate_number(),
             rhythm: Rhythm::new(FIRST, PERIOD),
             inbox: Inbox::default(),

@@ -4,14 +4,14 @@ use std::net::{Ipv4Addr, SocketAddr, UdpSocket};
 use std::time::Duration;
 
 use framework::{Result, Timestamp};
+use links::sockets::{BUFFER_LENGTH, bind, receive_from};
 use spl_messages::{ReturnData, control_data, return_data};
 use types::game::GameControllerMessage;
 
 use super::game;
 use super::rhythm::Rhythm;
-use super::robot::{BUFFER_LENGTH, bind, receive_from};
 use super::truth::Inbox;
-use crate::settings::{GameSettings, Settings};
+use crate::settings::{GameSettings, NetworkSettings, Settings};
 
 /// As often as a real GameController speaks.
 const PERIOD: Duration = Duration::from_millis(500);
@@ -30,6 +30,7 @@ impl Referee {
     pub(super) fn new(settings: &Settings) -> Result<Self> {
         Ok(Self {
             socket: bind(
+                NetworkSettings::TABLE,
                 Ipv4Addr::LOCALHOST,
                 settings.network.return_port,
                 "return_port",

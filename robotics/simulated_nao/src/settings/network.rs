@@ -3,6 +3,7 @@
 use std::net::Ipv4Addr;
 
 use framework::{Error, Result};
+use links::sockets::Ports;
 use serde::Deserialize;
 
 /// The robot's address and UDP ports; port 0 takes a free one.
@@ -40,6 +41,19 @@ impl Default for NetworkSettings {
 }
 
 impl NetworkSettings {
+    /// Where they stand among the parameters.
+    pub(crate) const TABLE: &'static str = "hardware.simulated.network";
+
+    /// Where the robot's own sockets listen.
+    pub(crate) fn ports(&self) -> Ports<'static> {
+        Ports {
+            table: Self::TABLE,
+            address: self.address,
+            control: self.control_port,
+            team: self.team_port,
+        }
+    }
+
     /// Takes free ports, whatever was chosen.
     pub(super) fn free_ports(&mut self) {
         self.control_port = 0;
@@ -62,7 +76,8 @@ impl NetworkSettings {
                 && *port != 0
             {
                 return Err(Error::new(format!(
-                    "hardware.simulated.network.{key}: {port} is `{other}` already"
+                    "{}.{key}: {port} is `{other}` already",
+                    Self::TABLE
                 )));
             }
         }

@@ -1,4 +1,4 @@
-//! The robot's own sockets: one for the referee's computer, one for the team.
+//! The robot's own UDP sockets: one for the referee's computer, one for the team.
 
 use std::net::{Ipv4Addr, SocketAddr, UdpSocket};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -10,17 +10,30 @@ use rustix::io::Errno;
 use spl_messages::team_message::PERMITTED_LENGTH;
 use types::network::{Channel, Datagram, Endpoint};
 
-use super::{Arrival, LONGEST_FLIGHT, loopback};
-use crate::settings::NetworkSettings;
-
 /// A byte longer than every message, so that what is longer is noticed.
-pub(super) const BUFFER_LENGTH: usize = PERMITTED_LENGTH + 1;
+pub const BUFFER_LENGTH: usize = PERMITTED_LENGTH + 1;
+/// How long a datagram may need across the loopback interface: the kernel hands it over within the call
+/// that sends it, or on a busy computer soon after.
+pub const LONGEST_FLIGHT: Duration = Duration::from_secs(1);
 /// How long a reader waits before it looks whether the robot stops.
-pub(super) const PATIENCE: Duration = Duration::from_millis(50);
+const PATIENCE: Duration = Duration::from_millis(50);
+
+/// Where a robot listens; port 0 takes a free one.
+#[derive(Clone, Copy, Debug)]
+pub struct Ports<'a> {
+    /// The parameters that say so, for messages: `hardware.nao.network`.
+    pub table: &'a str,
+    /// To which of this machine's networks it listens; 0.0.0.0: all.
+    pub address: Ipv4Addr,
+    /// Where the referee's computer speaks to it.
+    pub control: u16,
+    /// Where its team speaks to it.
+    pub team: u16,
+}
 
 /// What the robot's program hears and speaks through.
 #[derive(Debug)]
-pub(crate) struct RobotSockets {
+pub struct RobotSockets {
     control: UdpSocket,
     team: UdpSocket,
     /// Whose turn it is where both have something, so that neither drowns the other.
@@ -28,36 +41,43 @@ pub(crate) struct RobotSockets {
 }
 
 impl RobotSockets {
+    /// Listens; the keys of the ports are `control_port` and `team_port`.
+    ///
     /// # Errors
     /// Names the port that is in use, or the address that this machine does not have.
-    pub(crate) fn new(settings: &NetworkSettings) -> Result<Self> {
+    pub fn new(ports: &Ports<'_>) -> Result<Self> {
         Ok(Self {
-            control: bind(settings.address, settings.control_port, "control_port")?,
-            team: bind(settings.address, settings.team_port, "team_port")?,
+            control: bind(ports.table, ports.address, ports.control, "control_port")?,
+            team: bind(ports.table, ports.address, ports.team, "team_port")?,
             is_teams_turn: AtomicBool::new(false),
         })
     }
 
-    pub(crate) fn control(&self) -> &UdpSocket {
+    /// The socket for the referee's computer.
+    pub fn control(&self) -> &UdpSocket {
         &self.control
     }
 
-    pub(crate) fn team(&self) -> &UdpSocket {
+    /// The socket for the team.
+    pub fn team(&self) -> &UdpSocket {
         &self.team
     }
 
     /// Where this machine reaches the socket for the referee's computer.
-    pub(crate) fn control_address(&self) -> Result<SocketAddr> {
+    pub fn control_address(&self) -> Result<SocketAddr> {
         reachable(&self.control)
     }
 
     /// Where this machine reaches the socket for the team.
-    pub(crate) fn team_address(&self) -> Result<SocketAddr> {
+    pub fn team_address(&self) -> Result<SocketAddr> {
         reachable(&self.team)
     }
 
     /// Waits for the next datagram on any socket; whether one came in time.
-    pub(crate) fn receive(&self, datagram: &mut Datagram, patience: Duration) -> Result<bool> {
+    ///
+    /// # Errors
+    /// Where the system does not let it wait.
+    pub fn receive(&self, datagram: &mut Datagram, patience: Duration) -> Result<bool> {
         if !wait_for([&self.control, &self.team], patience)? {
             return Ok(false);
         }
@@ -76,25 +96,24 @@ impl RobotSockets {
         Ok(false)
     }
 
-    /// Takes the datagram that has arrived, with a stepped clock; whatever foreign programs have sent
+    /// Takes the datagram that `sender` has sent to a channel; whatever foreign programs have sent
     /// to the same port is passed over. Whether it was there: after [`LONGEST_FLIGHT`] it is lost.
     ///
     /// # Errors
     /// `Stopped` once the robot stops.
-    pub(crate) fn receive_arrival(
+    pub fn receive_arrival(
         &self,
-        arrival: &Arrival,
+        channel: Channel,
+        sender: SocketAddr,
         datagram: &mut Datagram,
         stop: &Stop,
     ) -> Result<bool> {
-        let socket = self.of(arrival.channel);
+        let socket = self.of(channel);
         let begun = Instant::now();
         while begun.elapsed() < LONGEST_FLIGHT {
             stop.check()?;
-            if wait_for([socket], PATIENCE)?
-                && self.take(arrival.channel, datagram)? == Some(arrival.sender)
-            {
-                datagram.sender = arrival.endpoint;
+            if wait_for([socket], PATIENCE)? && self.take(channel, datagram)? == Some(sender) {
+                datagram.sender = endpoint(sender);
                 return Ok(true);
             }
         }
@@ -120,21 +139,21 @@ impl RobotSockets {
     }
 }
 
-/// A socket of the simulated network.
+/// A socket that does not block, at a port that the parameter `key` of `table` names.
 ///
 /// # Errors
 /// Names the port that is in use, or the address that this machine does not have.
-pub(super) fn bind(address: Ipv4Addr, port: u16, key: &str) -> Result<UdpSocket> {
+pub fn bind(table: &str, address: Ipv4Addr, port: u16, key: &str) -> Result<UdpSocket> {
     let socket = UdpSocket::bind((address, port)).map_err(|error| {
         let is_foreign = error.kind() == std::io::ErrorKind::AddrNotAvailable;
         Error::from(error).context(if is_foreign {
             format!(
                 "this machine does not have the address {address} \
-                 (hardware.simulated.network.address); 0.0.0.0 is all that it has"
+                 ({table}.address); 0.0.0.0 is all that it has"
             )
         } else {
             format!(
-                "cannot use UDP port {port} (hardware.simulated.network.{key}); stop the program \
+                "cannot use UDP port {port} ({table}.{key}); stop the program \
                  that does, choose another one, or use --free-ports"
             )
         })
@@ -143,23 +162,45 @@ pub(super) fn bind(address: Ipv4Addr, port: u16, key: &str) -> Result<UdpSocket>
     Ok(socket)
 }
 
-/// Who listens everywhere is reached on the loopback interface, too.
-pub(super) fn reachable(socket: &UdpSocket) -> Result<SocketAddr> {
+/// Where this machine reaches a socket: who listens everywhere is reached on the loopback interface, too.
+///
+/// # Errors
+/// Where the system does not say.
+pub fn reachable(socket: &UdpSocket) -> Result<SocketAddr> {
     let address = socket.local_addr()?;
     Ok(if address.ip().is_unspecified() {
-        loopback(address.port())
+        SocketAddr::from((Ipv4Addr::LOCALHOST, address.port()))
     } else {
         address
     })
 }
 
 /// Takes one datagram, if there is one. What went wrong with an earlier one is nobody's concern.
-pub(super) fn receive_from(socket: &UdpSocket, bytes: &mut [u8]) -> Option<(usize, SocketAddr)> {
+pub fn receive_from(socket: &UdpSocket, bytes: &mut [u8]) -> Option<(usize, SocketAddr)> {
     socket.recv_from(bytes).ok()
 }
 
+/// Whether a datagram was sent. Somebody who is not there, or a network that is gone for a while, is no error.
+///
+/// # Errors
+/// Everything else that the system has against it.
+pub fn tolerate_absence(sent: std::io::Result<usize>) -> Result<bool> {
+    use std::io::ErrorKind::{
+        ConnectionRefused, HostUnreachable, NetworkDown, NetworkUnreachable, WouldBlock,
+    };
+    match sent {
+        Ok(_) => Ok(true),
+        Err(error) => match error.kind() {
+            ConnectionRefused | HostUnreachable | NetworkDown | NetworkUnreachable | WouldBlock => {
+                Ok(false)
+            }
+            _ => Err(error.into()),
+        },
+    }
+}
+
 /// Waits until one of the sockets has something; whether one has.
-pub(super) fn wait_for<const SOCKETS: usize>(
+fn wait_for<const SOCKETS: usize>(
     sockets: [&UdpSocket; SOCKETS],
     patience: Duration,
 ) -> Result<bool> {
@@ -189,5 +230,15 @@ fn endpoint(address: SocketAddr) -> Endpoint {
     Endpoint {
         address: ip,
         port: address.port(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sockets_look_for_a_stop_more_often_than_every_100_ms() {
+        assert!(PATIENCE < Duration::from_millis(100));
     }
 }

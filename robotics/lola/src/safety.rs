@@ -11,7 +11,7 @@ const RAMP: Duration = Duration::from_millis(500);
 
 /// The commander, and what it said last.
 #[derive(Debug, Default)]
-pub(crate) struct Safety {
+pub struct Safety {
     last: MotorCommands,
     phase: Phase,
     /// The chest button, when somebody looked last.
@@ -31,27 +31,27 @@ enum Phase {
 
 impl Safety {
     /// Takes the motors away from the nodes.
-    pub(crate) fn enter(&mut self) {
+    pub fn enter(&mut self) {
         if matches!(self.phase, Phase::Armed) {
             self.phase = Phase::Entered;
         }
     }
 
     /// Gives the motors back.
-    pub(crate) fn rearm(&mut self) {
+    pub fn rearm(&mut self) {
         self.phase = Phase::Armed;
     }
 
     /// Whether the chest button, which is down or not now, was pressed to give the motors back: not while the robot is being
     /// let down, nor while the nodes have them.
-    pub(crate) fn is_rearm_wanted(&mut self, is_down: bool, now: Timestamp) -> bool {
+    pub fn is_rearm_wanted(&mut self, is_down: bool, now: Timestamp) -> bool {
         let is_pressed = is_down && !self.was_down;
         self.was_down = is_down;
         is_pressed && !matches!(self.phase, Phase::Armed) && !self.is_fading(now)
     }
 
     /// Remembers a command of the nodes; whether it may be sent.
-    pub(crate) fn permits(&mut self, commands: &MotorCommands) -> bool {
+    pub fn permits(&mut self, commands: &MotorCommands) -> bool {
         let permitted = matches!(self.phase, Phase::Armed);
         if permitted {
             self.last = *commands;
@@ -60,7 +60,7 @@ impl Safety {
     }
 
     /// What the hardware commands now: the last positions with fading stiffness.
-    pub(crate) fn command(&mut self, now: Timestamp) -> Option<MotorCommands> {
+    pub fn command(&mut self, now: Timestamp) -> Option<MotorCommands> {
         let since = match self.phase {
             Phase::Armed => return None,
             Phase::Entered => now,
@@ -76,7 +76,7 @@ impl Safety {
     }
 
     /// Whether the robot is about to be let down.
-    pub(crate) fn is_fading(&self, now: Timestamp) -> bool {
+    pub fn is_fading(&self, now: Timestamp) -> bool {
         match self.phase {
             Phase::Armed => false,
             Phase::Entered => true,
