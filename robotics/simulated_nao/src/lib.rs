@@ -19,6 +19,7 @@ pub mod settings;
 mod hardware;
 mod network;
 mod noise;
+mod pacing;
 pub mod posture;
 mod senses;
 mod server;
@@ -33,5 +34,6 @@ pub use ground_truth::{
 };
 pub use hardware::Hardware;
 pub use network::{NetworkTruth, Received};
+pub use server::Exchange;
 pub use simulator::Simulator;
 pub use sound::WhistleTruth;

@@ -60,6 +60,8 @@ pub struct ImageSettings {
     pub white_balance: [f32; 3],
     /// Images of another seed have other noise.
     pub seed: u32,
+    /// One in so many images of 30 a second is taken: 30 is one a second.
+    pub one_in: u32,
 }
 
 /// Another robot: it stands as long as nobody knocks it over.
@@ -88,6 +90,7 @@ impl Default for ImageSettings {
             exposure: 1.0,
             white_balance: [1.0; 3],
             seed: 0,
+            one_in: 1,
         }
     }
 }
@@ -171,6 +174,10 @@ pub fn check(robots: &[RobotSettings], images: &ImageSettings) -> Result<()> {
                 robot.number
             ));
         }
+    }
+    if !(1..=3600).contains(&images.one_in) {
+        let one_in = images.one_in;
+        return wrong(format!("images.one_in: {one_in} is not between 1 and 3600"));
     }
     let [red, green, blue] = images.white_balance;
     for (key, value, most) in [

@@ -25,7 +25,7 @@ use types::image::YuyvImage;
 
 use crate::camera::{self, HEIGHT, WIDTH};
 use crate::server::listen;
-use crate::simulation::block_time;
+use crate::simulation::{Simulation, block_time};
 use crate::simulator::Shared;
 use crate::sound::BLOCK_LENGTH;
 
@@ -51,11 +51,11 @@ struct Audience {
 }
 
 impl Senses {
-    /// Serves what the world of `shared` gives, beside LoLA's socket.
+    /// Serves what the world of `shared` gives, beside LoLA's socket; without a clock as soon as it is there.
     ///
     /// # Errors
     /// Names the socket that is in use or cannot be made.
-    pub(crate) fn serve(shared: &Arc<Shared>, clock: &Clock) -> Result<Self> {
+    pub(crate) fn serve(shared: &Arc<Shared>, clock: Option<&Clock>) -> Result<Self> {
         let mut senses = Self {
             closing: Stop::new(),
             paths: Vec::new(),
@@ -67,15 +67,15 @@ impl Senses {
             ("bottom", CameraPosition::Bottom),
         ] {
             let audience = senses.listen(&lola, name)?;
-            let (shared, clock) = (Arc::clone(shared), clock.clone());
+            let (shared, clock) = (Arc::clone(shared), clock.cloned());
             senses.spawn(name, move |closing| {
-                show(&shared, &clock, camera, audience, closing);
+                show(&shared, clock.as_ref(), camera, audience, closing);
             })?;
         }
         let audience = senses.listen(&lola, "microphones")?;
-        let (shared, clock) = (Arc::clone(shared), clock.clone());
+        let (shared, clock) = (Arc::clone(shared), clock.cloned());
         senses.spawn("microphones", move |closing| {
-            sound(&shared, &clock, audience, closing);
+            sound(&shared, clock.as_ref(), audience, closing);
         })?;
         Ok(senses)
     }
@@ -148,7 +148,7 @@ impl Audience {
 
 fn show(
     shared: &Shared,
-    clock: &Clock,
+    clock: Option<&Clock>,
     camera: CameraPosition,
     mut audience: Audience,
     closing: &Stop,
@@ -158,13 +158,14 @@ fn show(
     let mut message = Vec::new();
     while closing.check().is_ok() {
         let exposure = wait(shared, |simulation| {
-            simulation.take_image(camera, clock.now())
+            simulation.take_image(camera, now(simulation, clock))
         });
         let (Some(exposure), true) = (exposure, audience.is_there()) else {
             continue;
         };
         camera::render(&exposure, &field, &mut image);
-        if clock.wait_until(exposure.ready_at, closing).is_err() {
+        let waited = clock.map(|clock| clock.wait_until(exposure.ready_at, closing));
+        if waited.is_some_and(|waited| waited.is_err()) {
             return;
         }
         let size = [WIDTH as u32, HEIGHT as u32];
@@ -174,11 +175,13 @@ fn show(
     }
 }
 
-fn sound(shared: &Shared, clock: &Clock, mut audience: Audience, closing: &Stop) {
+fn sound(shared: &Shared, clock: Option<&Clock>, mut audience: Audience, closing: &Stop) {
     let mut block = AudioBlock::default();
     let mut message = Vec::new();
     while closing.check().is_ok() {
-        let taken = wait(shared, |simulation| simulation.take_block(clock.now()));
+        let taken = wait(shared, |simulation| {
+            simulation.take_block(now(simulation, clock))
+        });
         let (Some((number, _)), true) = (taken, audience.is_there()) else {
             continue;
         };
@@ -196,11 +199,12 @@ fn sound(shared: &Shared, clock: &Clock, mut audience: Audience, closing: &Stop)
     }
 }
 
+fn now(simulation: &Simulation, clock: Option<&Clock>) -> Timestamp {
+    clock.map_or_else(|| simulation.now(), Clock::now)
+}
+
 /// What there is to take, or nothing after a while.
-fn wait<T>(
-    shared: &Shared,
-    mut take: impl FnMut(&mut crate::simulation::Simulation) -> Option<T>,
-) -> Option<T> {
+fn wait<T>(shared: &Shared, mut take: impl FnMut(&mut Simulation) -> Option<T>) -> Option<T> {
     let mut simulation = shared.lock();
     if let Some(taken) = take(&mut simulation) {
         return Some(taken);

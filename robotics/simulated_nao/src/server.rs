@@ -38,6 +38,19 @@ pub(crate) struct LolaServer {
     reports: bool,
     /// States that were sent since the last command came.
     unanswered: u32,
+    /// States that were sent to any client.
+    sent: u64,
+}
+
+/// What went to and fro, with all clients together.
+#[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
+pub struct Exchange {
+    /// States that were sent.
+    pub states: u64,
+    /// Commands that were understood.
+    pub commands: u64,
+    /// How often something came that is no command.
+    pub rejected: u64,
 }
 
 /// More than this between two states is no robot's program: 80 commands.
@@ -72,6 +85,7 @@ impl LolaServer {
             dropped: 0,
             reports: false,
             unanswered: 0,
+            sent: 0,
         })
     }
 
@@ -116,6 +130,15 @@ impl LolaServer {
     /// What clients have asked for, as far as it was received.
     pub(crate) fn command(&self) -> &Command {
         &self.command
+    }
+
+    /// What went to and fro.
+    pub(crate) fn exchange(&self) -> Exchange {
+        Exchange {
+            states: self.sent,
+            commands: self.commands.back().map_or(0, |(last, _)| last + 1),
+            rejected: self.received.rejected(),
+        }
     }
 
     /// Everything that clients have asked for until now: the newest value of each key. Who stops asking leaves the motors with
@@ -176,7 +199,9 @@ impl LolaServer {
         };
         // A state that fits only in part would put every later one out of step.
         let sent = matches!(client.write(state), Ok(count) if count == state.len());
-        if !sent {
+        if sent {
+            self.sent += 1;
+        } else {
             self.drop_for("does not read its states");
         }
         self.unanswered = self.unanswered.saturating_add(1);

@@ -96,6 +96,7 @@ pub(crate) struct Simulation {
     server: LolaServer,
     pub(crate) network: Network,
     has_cameras: bool,
+    image_period: Duration,
     has_microphones: bool,
     /// The time of the last step.
     now: Timestamp,
@@ -136,6 +137,7 @@ impl Simulation {
             heard: 0,
             network,
             has_cameras: settings.cameras,
+            image_period: IMAGE_PERIOD * settings.images.one_in,
             has_microphones: settings.microphones,
             now: Timestamp::ZERO,
             state: Vec::new(),
@@ -210,6 +212,11 @@ impl Simulation {
         Ok(())
     }
 
+    /// The time of the last step.
+    pub(crate) fn now(&self) -> Timestamp {
+        self.now
+    }
+
     /// When the next step is due.
     pub(crate) fn next_time(&self) -> Timestamp {
         self.next().0
@@ -230,7 +237,7 @@ impl Simulation {
 
     fn due(&self, step: Step) -> Timestamp {
         let exposure = |camera, number| {
-            Timestamp::ZERO + *FIRST_EXPOSURE.of(camera) + times(IMAGE_PERIOD, number)
+            Timestamp::ZERO + *FIRST_EXPOSURE.of(camera) + times(self.image_period, number)
         };
         match step {
             Step::Expose(_) | Step::ImageReady(_) if !self.has_cameras => Timestamp::NEVER,
@@ -305,7 +312,7 @@ impl Simulation {
         for camera in [CameraPosition::Top, CameraPosition::Bottom] {
             let exposed = count(
                 passed.saturating_sub(*FIRST_EXPOSURE.of(camera)),
-                IMAGE_PERIOD,
+                self.image_period,
             );
             let images = self.images.of_mut(camera);
             *images = exposed.max(*images);

@@ -11,9 +11,10 @@ use tempfile::TempDir;
 
 use crate::ground_truth::GroundTruth;
 use crate::network::{Network, NetworkTruth};
+use crate::pacing;
 use crate::physics::Disturbance;
 use crate::senses::Senses;
-use crate::server::LolaServer;
+use crate::server::{Exchange, LolaServer};
 use crate::settings::Settings;
 use crate::simulation::Simulation;
 use crate::sound::{Sound, SoundSettings};
@@ -119,10 +120,43 @@ impl Simulator {
     pub fn serve(settings: &Settings, clock: Clock) -> Result<Self> {
         let shared = Arc::new(Shared::new(settings, None, false)?);
         shared.lock().server_mut().report();
-        let senses = Senses::serve(&shared, &clock)?;
+        let senses = Senses::serve(&shared, Some(&clock))?;
         let mut simulator = Self::run(shared, clock, |_| {})?;
         simulator.senses = Some(senses);
         Ok(simulator)
+    }
+
+    /// As [`Simulator::serve`], but the world turns as fast as the program answers, and stands still once so many states were
+    /// answered.
+    ///
+    /// # Errors
+    /// As [`Simulator::start`].
+    pub fn paced(settings: &Settings, answers: u64) -> Result<Self> {
+        let shared = Arc::new(Shared::new(settings, None, false)?);
+        shared.lock().server_mut().report();
+        let senses = Senses::serve(&shared, None)?;
+        let closing = Stop::new();
+        let thread = std::thread::Builder::new()
+            .name("simulated_nao".to_owned())
+            .spawn({
+                let (shared, closing) = (Arc::clone(&shared), closing.clone());
+                move || {
+                    if let Err(error) = pacing::turn(&shared, &closing, answers) {
+                        eprintln!("the simulated NAO stands still: {error}");
+                    }
+                }
+            })?;
+        Ok(Self {
+            senses: Some(senses),
+            shared,
+            closing,
+            thread: Some(thread),
+        })
+    }
+
+    /// What went through LoLA's socket.
+    pub fn exchange(&self) -> Exchange {
+        self.shared.lock().server().exchange()
     }
 
     /// Whether the world still turns.

@@ -3,7 +3,8 @@
 //! ```sh
 //! cargo run --release -p simulated_nao --bin nao_simulator -- --socket /tmp/robocup --pose -1,0,0
 //! ```
-//! `--export-mjcf FILE` writes the robot for MuJoCo, standing, and ends. All other options are those of the simulated hardware. Ctrl-C ends it; a socket that is left over is replaced at the next start.
+//! `--paced ANSWERS`, in front of all other options, turns the world as fast as the program answers, until so many states were
+//! answered: for programs under an emulator. `--export-mjcf FILE` writes the robot for MuJoCo, standing, and ends. All other options are those of the simulated hardware. Ctrl-C ends it; a socket that is left over is replaced at the next start.
 
 use std::process::ExitCode;
 
@@ -37,9 +38,16 @@ fn serve() -> Result<()> {
         };
         return Ok(std::fs::write(file, mjcf(&start))?);
     }
-    settings.apply(&options)?;
+    let (answers, options) = match &options[..] {
+        [option, answers, rest @ ..] if option == "--paced" => (Some(answers.parse()?), rest),
+        all => (None, all),
+    };
+    settings.apply(options)?;
     settings.socket.get_or_insert_with(|| LOLA.into());
-    let simulator = Simulator::serve(&settings, Clock::wall())?;
+    let simulator = match answers {
+        Some(answers) => Simulator::paced(&settings, answers)?,
+        None => Simulator::serve(&settings, Clock::wall())?,
+    };
     let lola = simulator.socket();
     let lola = lola.display();
     eprintln!(
