@@ -22,6 +22,7 @@ use types::head::HeadAngles;
 use types::joints::Joints;
 use types::leds::ChestColors;
 use types::leds::Color;
+use types::projection_noise::ProjectionNoise;
 use vision::ball_detection::BallDetectionParameters;
 use vision::field_border::FieldBorderParameters;
 use vision::field_color::FieldColor;
@@ -75,6 +76,9 @@ pub struct Parameters {
     /// control::game_controller_filter, control::game_controller_responder,
     /// control::self_report, spl_network::team_message_parser
     pub player: Player,
+    /// vision::ball_detection, vision::line_detection, vision::obstacle_detection,
+    /// vision::penalty_mark_detection
+    pub projection_noise: ProjectionNoise,
     pub recording_switch: RecordingSwitch,
     pub sit_down: SitDown,
     pub sonar_filter: SonarFilter,

@@ -143,6 +143,7 @@ impl Nodes {
                 parameters: &frame.parameters.ball_detection,
                 ball_radius: &frame.parameters.field_dimensions.ball_radius,
                 line_width: &frame.parameters.field_dimensions.line_width,
+                projection_noise: &frame.parameters.projection_noise,
                 ball_candidates: AdditionalOutput::new(
                     frame.subscribed.ball_candidates,
                     frame.cycle.number,
@@ -292,6 +293,7 @@ impl Nodes {
                 field_color: &frame.parameters.field_color,
                 line_width: &frame.parameters.field_dimensions.line_width,
                 parameters: &frame.instance_parameters.line_detection,
+                projection_noise: &frame.parameters.projection_noise,
                 line_points: AdditionalOutput::new(
                     frame.subscribed.line_points,
                     frame.cycle.number,
@@ -331,6 +333,7 @@ impl Nodes {
                 camera_matrix,
                 line_width: &frame.parameters.field_dimensions.line_width,
                 parameters: &frame.parameters.obstacle_detection,
+                projection_noise: &frame.parameters.projection_noise,
                 obstacle_feet: AdditionalOutput::new(
                     frame.subscribed.obstacle_feet,
                     frame.cycle.number,
@@ -367,6 +370,7 @@ impl Nodes {
                 line_width: &frame.parameters.field_dimensions.line_width,
                 mark_size: &frame.parameters.field_dimensions.penalty_mark_size,
                 parameters: &frame.parameters.penalty_mark_detection,
+                projection_noise: &frame.parameters.projection_noise,
                 penalty_mark_candidates: AdditionalOutput::new(
                     frame.subscribed.penalty_mark_candidates,
                     frame.cycle.number,

@@ -43,7 +43,11 @@ fn straight_lines() -> Vec<[Point2<f32>; 2]> {
 fn distance_to_line(point: Point2<f32>) -> f32 {
     let circle = (point.coords.norm() - CIRCLE_RADIUS).abs();
     let distances = straight_lines().into_iter().map(|[start, end]| {
-        let line = types::field_features::LineSegment { start, end };
+        let line = types::field_features::LineSegment {
+            start,
+            end,
+            ..Default::default()
+        };
         line.distance_to(point)
     });
     distances.fold(circle, f32::min)

@@ -1,7 +1,7 @@
 //! Owns balls: as an image shows them, and as the robot remembers them.
 
 use framework::{Clear, Reflect, Timestamp};
-use nalgebra::{Point2, Vector2};
+use nalgebra::{Matrix2, Point2, Vector2};
 use serde::{Deserialize, Serialize};
 
 /// A circle in an image that looks like a ball.
@@ -13,6 +13,8 @@ pub struct BallCandidate {
     pub radius: f32,
     /// Where it lies in the ground frame in m; `None` where the camera's pose is not known.
     pub position: Option<Point2<f32>>,
+    /// Of that place, along the axes of the ground frame, in m²; there where the place is.
+    pub covariance: Option<Matrix2<f32>>,
 }
 
 /// An image whose candidates a filter has learnt.

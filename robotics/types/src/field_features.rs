@@ -1,7 +1,7 @@
 //! Owns what an image shows of the field: its border, its lines, its penalty marks.
 
 use framework::{Clear, Reflect};
-use nalgebra::Point2;
+use nalgebra::{Matrix2, Point2};
 use serde::{Deserialize, Serialize};
 
 /// Where the field ends in an image: above it nothing belongs to the game.
@@ -27,6 +27,10 @@ pub struct LineSegment {
     pub start: Point2<f32>,
     /// The other end, in the ground frame, m.
     pub end: Point2<f32>,
+    /// Of the start, as of a single point that is seen there, in m².
+    pub start_covariance: Matrix2<f32>,
+    /// The same of the other end.
+    pub end_covariance: Matrix2<f32>,
 }
 
 /// A penalty mark.
@@ -36,6 +40,8 @@ pub struct PenaltyMark {
     pub center: Point2<f32>,
     /// Its middle in the ground frame, m.
     pub position: Point2<f32>,
+    /// Of that place, in m².
+    pub covariance: Matrix2<f32>,
 }
 
 impl FieldBorder {

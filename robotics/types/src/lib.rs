@@ -4,7 +4,8 @@
 //! only optical frames differ (z forward, x right, y down). In reading order: the body
 //! ([`joints`], [`feet`], [`sensor_data`], [`buttons`], [`sonar`], [`robot_kinematics`],
 //! [`fall_state`], [`odometry`]), its commands ([`motion`], [`motor_commands`], [`head`], [`leds`]),
-//! the cameras ([`image`], [`camera`], [`limbs`], [`field_features`]), sound ([`audio`]), the network
+//! the cameras ([`image`], [`camera`], [`limbs`], [`projection_noise`],
+//! [`field_features`]), sound ([`audio`]), the network
 //! ([`network`], [`game`], [`team`]), the world ([`ball`], [`obstacles`], [`world_state`]).
 
 pub mod joints;
@@ -27,6 +28,7 @@ pub mod camera;
 pub mod field_features;
 pub mod image;
 pub mod limbs;
+pub mod projection_noise;
 
 pub mod audio;
 

@@ -1,7 +1,7 @@
 //! Owns what stands in the way.
 
 use framework::{Clear, Reflect, Timestamp};
-use nalgebra::Point2;
+use nalgebra::{Matrix2, Point2};
 use serde::{Deserialize, Serialize};
 
 /// Something in an image that stands on the field.
@@ -11,6 +11,8 @@ pub struct ObstacleCandidate {
     pub foot: Point2<f32>,
     /// Where it touches the ground, in the ground frame, m.
     pub position: Point2<f32>,
+    /// Of that place, in m².
+    pub covariance: Matrix2<f32>,
 }
 
 /// Something that the robot must not run into.

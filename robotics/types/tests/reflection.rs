@@ -36,6 +36,7 @@ use types::motor_commands::MotorCommands;
 use types::network::{Channel, Datagram, Endpoint, PacketCounts};
 use types::obstacles::{Obstacle, ObstacleCandidate, ObstacleKind};
 use types::odometry::Odometry;
+use types::projection_noise::ProjectionNoise;
 use types::robot_kinematics::{Hands, RobotKinematics};
 use types::sensor_data::{
     Battery, InertialMeasurement, RobotConfiguration, SensorData, Sonar, Touch,
@@ -112,6 +113,7 @@ const KINDS: &[Kind] = kinds![
     ChestColors,
     LimbMask,
     LimbOutline,
+    ProjectionNoise,
     MotionCommand,
     BodyMotion,
     Script,

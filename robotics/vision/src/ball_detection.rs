@@ -19,6 +19,7 @@ use types::ball::BallCandidate;
 use types::camera::CameraMatrix;
 use types::field_features::{FieldBorder, LineSegment, PenaltyMark};
 use types::image::YuyvImage;
+use types::projection_noise::ProjectionNoise;
 
 use self::grid::Grid;
 use self::inspection::{Finding, inspect};
@@ -77,6 +78,7 @@ pub struct CycleContext {
     #[reflect(unit = "m", range = 0.0..)]
     ball_radius: Parameter<f32, "field_dimensions.ball_radius">,
     line_width: Parameter<f32, "field_dimensions.line_width">,
+    projection_noise: Parameter<ProjectionNoise, "projection_noise">,
     /// Where a ball was looked for.
     ball_candidates: AdditionalOutput<Vec<BallCandidate>, "ball_candidates">,
     /// What passed every test, best first; no two of them overlap.
@@ -99,6 +101,7 @@ impl BallDetection {
             matrix: context.camera_matrix,
             field_color: context.field_color,
             ball_radius: *context.ball_radius,
+            noise: context.projection_noise,
         };
         let known = Known {
             border: context.field_border,
@@ -131,10 +134,17 @@ impl BallDetection {
 }
 
 fn locate(view: &View<'_>, center: Point2<f32>, radius: f32) -> BallCandidate {
+    let position = view.matrix.pixel_to_ground(center, view.ball_radius);
+    let covariance = |place| {
+        view.matrix
+            .ground_covariance(place, view.ball_radius, view.noise)
+    };
+    let known = position.and_then(|position| Some((position, covariance(position)?)));
     BallCandidate {
         center,
         radius,
-        position: view.matrix.pixel_to_ground(center, view.ball_radius),
+        position: known.map(|(position, _)| position),
+        covariance: known.map(|(_, covariance)| covariance),
     }
 }
 
@@ -152,7 +162,7 @@ mod tests {
 
     use super::*;
     use crate::field_color::tests::{GREEN, field_color};
-    use crate::painting::border_at;
+    use crate::painting::{PROJECTION_NOISE, border_at};
     use crate::segments::Segment;
 
     const WHITE: [u8; 3] = [220, 220, 220];
@@ -251,6 +261,7 @@ mod tests {
                 parameters: &parameters(),
                 ball_radius: &0.05,
                 line_width: &0.05,
+                projection_noise: &PROJECTION_NOISE,
                 ball_candidates: candidates.output(),
                 balls: &mut balls,
             })

@@ -61,6 +61,7 @@ mod tests {
         let line = |y: f32| LineSegment {
             start: Point2::new(1.0, y),
             end: Point2::new(2.0, y),
+            ..LineSegment::default()
         };
         let lines = [line(0.0), line(1.0)];
         for (x, y, is_on) in [(1.5, 1.04, true), (1.5, 1.06, false), (2.04, 0.0, true)] {

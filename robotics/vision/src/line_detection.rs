@@ -17,6 +17,7 @@ use types::camera::CameraMatrix;
 use types::field_features::{FieldBorder, LineSegment};
 use types::image::YuyvImage;
 use types::limbs::LimbMask;
+use types::projection_noise::ProjectionNoise;
 
 use self::fit::Fit;
 use self::points::{LinePoint, View};
@@ -85,6 +86,7 @@ pub struct CycleContext {
     #[reflect(unit = "m", range = 0.0..)]
     line_width: Parameter<f32, "field_dimensions.line_width">,
     parameters: Parameter<LineDetectionParameters, "$cycler_instance.line_detection">,
+    projection_noise: Parameter<ProjectionNoise, "projection_noise">,
     /// Middles of the pieces that might belong to a line, px.
     line_points: AdditionalOutput<Vec<Point2<f32>>, "line_points">,
     /// Both ends of every line in the image, px.
@@ -130,6 +132,10 @@ impl LineDetection {
         self.fit
             .find(&mut self.points, context.parameters, context.lines);
         self.points.clear();
+        let noise = context.projection_noise;
+        context
+            .lines
+            .retain_mut(|line| know(line, context.camera_matrix, noise).is_some());
         context.image_lines.fill_if_subscribed(|| {
             let seen = |end: Point2<f32>| view.matrix.ground_to_pixel(end.coords.push(0.0).into());
             let lines = context.lines.iter();
@@ -141,6 +147,13 @@ impl LineDetection {
     }
 }
 
+/// Says how well the ends of a line are known; `None` where that cannot be said.
+fn know(line: &mut LineSegment, matrix: &CameraMatrix, noise: &ProjectionNoise) -> Option<()> {
+    line.start_covariance = matrix.ground_covariance(line.start, 0.0, noise)?;
+    line.end_covariance = matrix.ground_covariance(line.end, 0.0, noise)?;
+    Some(())
+}
+
 #[cfg(test)]
 mod tests {
     use framework::testing::{AdditionalProbe, parameter};
@@ -148,7 +161,7 @@ mod tests {
 
     use super::*;
     use crate::field_color::tests::{GREEN, field_color};
-    use crate::painting::{self, Board, WHITE, camera_matrix, paint};
+    use crate::painting::{self, Board, PROJECTION_NOISE, WHITE, camera_matrix, paint};
 
     fn parameters() -> LineDetectionParameters {
         parameter(
@@ -177,6 +190,7 @@ mod tests {
                 field_color: &field_color(),
                 line_width: &0.05,
                 parameters: &parameters(),
+                projection_noise: &PROJECTION_NOISE,
                 line_points: AdditionalProbe::unsubscribed().output(),
                 image_lines: image_lines.output(),
                 lines: &mut lines,

@@ -13,6 +13,7 @@ use serde::{Deserialize, Serialize};
 use types::camera::CameraMatrix;
 use types::field_features::{FieldBorder, LineSegment};
 use types::obstacles::ObstacleCandidate;
+use types::projection_noise::ProjectionNoise;
 
 use crate::landmarks::{is_near_border, is_on_line};
 use crate::segments::{ImageSegments, Segment};
@@ -88,6 +89,7 @@ pub struct CycleContext {
     camera_matrix: RequiredInput<Option<CameraMatrix>, "camera_matrix?">,
     line_width: Parameter<f32, "field_dimensions.line_width">,
     parameters: Parameter<ObstacleDetectionParameters, "obstacle_detection">,
+    projection_noise: Parameter<ProjectionNoise, "projection_noise">,
     /// Where something stands in each column, px.
     obstacle_feet: AdditionalOutput<Vec<Point2<f32>>, "obstacle_feet">,
     /// Nearest first.
@@ -135,7 +137,13 @@ impl ObstacleDetection {
                     .iter()
                     .any(|nearer| view.hides(nearer, mean, parameters.hidden_half_width));
             if !is_hidden {
-                obstacles.push(*mean);
+                let matrix = context.camera_matrix;
+                let covariance =
+                    matrix.ground_covariance(mean.position, 0.0, context.projection_noise);
+                obstacles.extend(covariance.map(|covariance| ObstacleCandidate {
+                    covariance,
+                    ..*mean
+                }));
             }
         }
         self.clusters.clear();
@@ -207,7 +215,11 @@ impl View<'_> {
             && !is_near_border(self.border, self.matrix, x, position, before_border)
             && self.is_high(piece, position, index == 0)
             && !self.is_line(piece);
-        let place = ObstacleCandidate { foot, position };
+        let place = ObstacleCandidate {
+            foot,
+            position,
+            ..ObstacleCandidate::default()
+        };
         is_obstacle.then_some(Foot { place, is_cut })
     }
 
@@ -275,7 +287,9 @@ mod tests {
 
     use super::*;
     use crate::field_color::tests::GREEN;
-    use crate::painting::{self, Board, GREY, WHITE, border_at, camera_matrix, paint, plain};
+    use crate::painting::{
+        self, Board, GREY, PROJECTION_NOISE, WHITE, border_at, camera_matrix, paint, plain,
+    };
 
     fn parameters() -> ObstacleDetectionParameters {
         parameter(
@@ -310,6 +324,7 @@ mod tests {
                 camera_matrix: &matrix,
                 line_width: &0.05,
                 parameters,
+                projection_noise: &PROJECTION_NOISE,
                 obstacle_feet: AdditionalProbe::unsubscribed().output(),
                 obstacles: &mut obstacles,
             })
@@ -400,6 +415,7 @@ mod tests {
         let line = LineSegment {
             start: Point2::new(1.0, 0.1),
             end: Point2::new(5.0, 0.1),
+            ..LineSegment::default()
         };
         // As it is, a line is too narrow; where lines meet they are wider.
         let parameters = ObstacleDetectionParameters {

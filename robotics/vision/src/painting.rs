@@ -5,12 +5,20 @@ use types::camera::{CameraMatrix, Intrinsics};
 use types::field_features::FieldBorder;
 use types::image::{Yuv, YuyvImage};
 use types::limbs::LimbMask;
+use types::projection_noise::ProjectionNoise;
 
 use crate::field_color::tests::{GREEN, field_color};
 use crate::image_segmenter::{self, ImageSegmenter, ScanSteps};
 use crate::segments::ImageSegments;
 
 pub(crate) const WHITE: [u8; 3] = [210, 212, 210];
+/// One standard deviation of everything.
+pub(crate) const PROJECTION_NOISE: ProjectionNoise = ProjectionNoise {
+    pixel: 1.0,
+    angle: 0.01,
+    ground: 0.005,
+};
+
 pub(crate) const GREY: [u8; 3] = [130, 120, 110];
 
 /// An upright rectangle across the line of sight.

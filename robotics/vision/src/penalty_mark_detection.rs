@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 use types::camera::CameraMatrix;
 use types::field_features::{FieldBorder, LineSegment, PenaltyMark};
 use types::image::YuyvImage;
+use types::projection_noise::ProjectionNoise;
 
 use crate::field_color::FieldColor;
 use crate::landmarks::{is_near_border, is_on_line};
@@ -57,6 +58,7 @@ pub struct CycleContext {
     #[reflect(unit = "m", range = 0.0..)]
     mark_size: Parameter<f32, "field_dimensions.penalty_mark_size">,
     parameters: Parameter<PenaltyMarkDetectionParameters, "penalty_mark_detection">,
+    projection_noise: Parameter<ProjectionNoise, "projection_noise">,
     /// Places that were looked at closely.
     penalty_mark_candidates: AdditionalOutput<Vec<PenaltyMark>, "penalty_mark_candidates">,
 }
@@ -82,6 +84,7 @@ impl PenaltyMarkDetection {
             line_width: *context.line_width,
             mark_size: *context.mark_size,
             parameters: context.parameters,
+            noise: context.projection_noise,
         };
         let candidates = || {
             candidates(
@@ -149,6 +152,7 @@ struct View<'a> {
     line_width: f32,
     mark_size: f32,
     parameters: &'a PenaltyMarkDetectionParameters,
+    noise: &'a ProjectionNoise,
 }
 
 /// What a square of the floor shows.
@@ -181,7 +185,12 @@ impl View<'_> {
 
     fn mark_at(&self, position: Point2<f32>) -> Option<PenaltyMark> {
         let center = self.pixel(position)?;
-        Some(PenaltyMark { center, position })
+        let covariance = self.matrix.ground_covariance(position, 0.0, self.noise)?;
+        Some(PenaltyMark {
+            center,
+            position,
+            covariance,
+        })
     }
 
     /// The share of field in a ring so many sizes of the mark away; what is not seen is none.
@@ -265,7 +274,7 @@ mod tests {
 
     use super::*;
     use crate::field_color::tests::{GREEN, field_color};
-    use crate::painting::{self, Board, WHITE, border_at, camera_matrix, paint};
+    use crate::painting::{self, Board, PROJECTION_NOISE, WHITE, border_at, camera_matrix, paint};
 
     fn parameters() -> PenaltyMarkDetectionParameters {
         parameter(
@@ -292,6 +301,7 @@ mod tests {
                 line_width: &0.05,
                 mark_size: &0.1,
                 parameters: &parameters(),
+                projection_noise: &PROJECTION_NOISE,
                 penalty_mark_candidates: AdditionalProbe::unsubscribed().output(),
             });
         outputs.unwrap().penalty_mark.value
@@ -367,6 +377,7 @@ mod tests {
         let line = LineSegment {
             start: Point2::new(1.5, -1.0),
             end: Point2::new(1.5, 1.0),
+            ..LineSegment::default()
         };
         assert_eq!(detect(&image, &FieldBorder::default(), &vec![line]), None);
     }

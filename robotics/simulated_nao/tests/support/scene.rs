@@ -152,6 +152,7 @@ impl Vision {
                 field_color: &self.parameters.get("field_color"),
                 line_width: &self.parameters.get("field_dimensions.line_width"),
                 parameters: &self.parameters.get(&look.own("line_detection")),
+                projection_noise: &self.parameters.get("projection_noise"),
                 line_points: AdditionalProbe::unsubscribed().output(),
                 image_lines: AdditionalProbe::unsubscribed().output(),
                 lines: &mut sight.lines,
@@ -177,6 +178,7 @@ impl Vision {
                 line_width: &self.parameters.get("field_dimensions.line_width"),
                 mark_size: &self.parameters.get("field_dimensions.penalty_mark_size"),
                 parameters: &self.parameters.get("penalty_mark_detection"),
+                projection_noise: &self.parameters.get("projection_noise"),
                 penalty_mark_candidates: AdditionalProbe::unsubscribed().output(),
             })
             .unwrap()
@@ -200,6 +202,7 @@ impl Vision {
                 camera_matrix,
                 field_color: &self.parameters.get("field_color"),
                 parameters: &self.parameters.get("ball_detection"),
+                projection_noise: &self.parameters.get("projection_noise"),
                 ball_radius: &self.parameters.get("field_dimensions.ball_radius"),
                 line_width: &self.parameters.get("field_dimensions.line_width"),
                 ball_candidates: AdditionalProbe::unsubscribed().output(),
@@ -222,6 +225,7 @@ impl Vision {
                 camera_matrix,
                 line_width: &self.parameters.get("field_dimensions.line_width"),
                 parameters: &self.parameters.get("obstacle_detection"),
+                projection_noise: &self.parameters.get("projection_noise"),
                 obstacle_feet: AdditionalProbe::unsubscribed().output(),
                 obstacles: &mut sight.obstacles,
             })

@@ -46,7 +46,7 @@ mod tests {
 
     use super::*;
     use crate::field_color::tests::field_color;
-    use crate::painting::{border_at, camera_matrix};
+    use crate::painting::{PROJECTION_NOISE, border_at, camera_matrix};
 
     const LINE_WIDTH: f32 = 0.05;
 
@@ -58,6 +58,7 @@ mod tests {
             matrix: &matrix,
             field_color: &field_color(),
             ball_radius: 0.05,
+            noise: &PROJECTION_NOISE,
         };
         let known = Known {
             border,
@@ -83,6 +84,7 @@ mod tests {
         LineSegment {
             start: Point2::new(from, 0.0),
             end: Point2::new(to, 0.0),
+            ..LineSegment::default()
         }
     }
 

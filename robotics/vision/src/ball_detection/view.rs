@@ -3,6 +3,7 @@
 use nalgebra::Point2;
 use types::camera::CameraMatrix;
 use types::image::YuyvImage;
+use types::projection_noise::ProjectionNoise;
 
 use crate::field_color::FieldColor;
 use crate::nearest_pixel::nearest_pixel;
@@ -15,6 +16,7 @@ pub(super) struct View<'a> {
     pub(super) field_color: &'a FieldColor,
     /// In m.
     pub(super) ball_radius: f32,
+    pub(super) noise: &'a ProjectionNoise,
 }
 
 impl View<'_> {

@@ -185,6 +185,7 @@ fn segment(supporters: &[(f32, LinePoint)]) -> Option<LineSegment> {
     Some(LineSegment {
         start: ray.at(start),
         end: ray.at(end),
+        ..LineSegment::default()
     })
 }
 
