@@ -1,6 +1,7 @@
 //! The cameras: what is in front of them at the moment of exposure, and the image it gives.
 
 mod ball;
+mod blur;
 mod color;
 mod development;
 mod exposure;
@@ -17,6 +18,7 @@ pub use exposure::{Exposure, OwnBody};
 use nalgebra::Point2;
 use types::image::YuyvImage;
 
+use self::blur::Blur;
 use self::development::Development;
 use self::row::Row;
 use self::scenery::Scenery;
@@ -36,12 +38,21 @@ pub fn render(exposure: &Exposure, field: &Field, image: &mut YuyvImage) {
     image.data.resize(WIDTH * HEIGHT * BYTES_PER_PIXEL, 0);
     let scenery = Scenery::new(exposure);
     let development = Development::new(&exposure.images);
+    let paint = |number: usize, row: &mut Row| {
+        ground::paint(exposure, field, number, row);
+        scenery.paint(exposure, number, row);
+    };
+    let blurred = Blur::new(exposure.images.blur).map(|blur| blur.apply(paint));
     let mut row = Row::new();
     let rows = image.data.chunks_exact_mut(WIDTH * BYTES_PER_PIXEL);
     for (number, bytes) in rows.enumerate() {
-        ground::paint(exposure, field, number, &mut row);
-        scenery.paint(exposure, number, &mut row);
-        development.develop(exposure.number, number, &row, bytes);
+        match &blurred {
+            Some(rows) => development.develop(exposure.number, number, &rows[number], bytes),
+            None => {
+                paint(number, &mut row);
+                development.develop(exposure.number, number, &row, bytes);
+            }
+        }
     }
 }
 

@@ -3,7 +3,7 @@
 //! | key of `[hardware.simulated]` | says |
 //! |---|---|
 //! | `[[robots]]` | another robot: where it stands, its team and number |
-//! | `[images]` | noise, exposure and white balance of the cameras |
+//! | `[images]` | noise, exposure, white balance and blur of the cameras, colour of the carpet |
 
 use framework::{Error, Result};
 use kinematics::forward_kinematics;
@@ -58,6 +58,10 @@ pub struct ImageSettings {
     pub exposure: f32,
     /// Factors on red, green and blue.
     pub white_balance: [f32; 3],
+    /// Standard deviation of what optics and motion smear, px.
+    pub blur: f32,
+    /// Red, green and blue of the carpet in the light for which the cameras are balanced.
+    pub carpet: [f32; 3],
     /// Images of another seed have other noise.
     pub seed: u32,
     /// One in so many images of 30 a second is taken: 30 is one a second.
@@ -89,6 +93,8 @@ impl Default for ImageSettings {
             noise: 1.2,
             exposure: 1.0,
             white_balance: [1.0; 3],
+            blur: 0.0,
+            carpet: [38.0, 127.95, 52.0],
             seed: 0,
             one_in: 1,
         }
@@ -180,12 +186,17 @@ pub fn check(robots: &[RobotSettings], images: &ImageSettings) -> Result<()> {
         return wrong(format!("images.one_in: {one_in} is not between 1 and 3600"));
     }
     let [red, green, blue] = images.white_balance;
+    let [carpet_red, carpet_green, carpet_blue] = images.carpet;
     for (key, value, most) in [
         ("noise", images.noise, 64.0),
         ("exposure", images.exposure, 16.0),
         ("white_balance[0]", red, 16.0),
         ("white_balance[1]", green, 16.0),
         ("white_balance[2]", blue, 16.0),
+        ("blur", images.blur, 8.0),
+        ("carpet[0]", carpet_red, 255.0),
+        ("carpet[1]", carpet_green, 255.0),
+        ("carpet[2]", carpet_blue, 255.0),
     ] {
         if !(0.0..=most).contains(&value) {
             return wrong(format!(

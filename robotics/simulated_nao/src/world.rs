@@ -20,7 +20,7 @@ use kinematics::cameras::{
 };
 use kinematics::forward_kinematics;
 use kinematics::links::LinkName;
-use nalgebra::{Isometry3, Point2, Point3, Vector2};
+use nalgebra::{Isometry3, Point2, Point3, UnitQuaternion, Vector2};
 use types::camera::{CameraPosition, Intrinsics};
 use types::motor_commands::MotorCommands;
 use types::sensor_data::{SensorData, Touch};
@@ -244,6 +244,7 @@ impl World {
             ground_to_field: body.ground_to_field().cast(),
             intrinsics: intrinsics(),
             ball: self.ball().map(|ball| ball.cast()),
+            ball_turn: UnitQuaternion::identity(),
             robots: Arc::clone(&self.inhabitants[robot].others),
             body: Some(OwnBody {
                 joints: body.joints.map(|angle| angle as f32),

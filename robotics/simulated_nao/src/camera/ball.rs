@@ -37,7 +37,7 @@ impl Ball {
         Some(Self {
             center: center.coords,
             up: turn(Vector3::z()),
-            patches: icosahedron().map(turn),
+            patches: icosahedron().map(|patch| turn(exposure.ball_turn * patch)),
             pixel: exposure.intrinsics.focal.x.recip(),
             columns,
             rows,

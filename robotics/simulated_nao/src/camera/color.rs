@@ -9,8 +9,6 @@ pub(crate) struct Color {
 }
 
 impl Color {
-    /// RGB (38, 128, 52).
-    pub(crate) const CARPET: Self = Self::new(92.4, -22.8, -38.8);
     pub(crate) const LINE: Self = Self::new(205.0, -1.0, -1.0);
     /// The floor around the carpet.
     pub(crate) const FLOOR: Self = Self::new(118.0, -9.0, 8.0);
@@ -35,6 +33,16 @@ impl Color {
             blue,
             red,
         }
+    }
+
+    /// Of red, green and blue, 0 to 255.
+    pub(crate) fn from_rgb([red, green, blue]: [f32; 3]) -> Self {
+        let luminance = 0.299 * red + 0.587 * green + 0.114 * blue;
+        Self::new(
+            luminance,
+            (blue - luminance) / 1.772,
+            (red - luminance) / 1.402,
+        )
     }
 
     pub(crate) fn mixed(self, other: Self, part: f32) -> Self {
@@ -66,12 +74,7 @@ impl Color {
         let red = red * (self.luminance + 1.402 * self.red);
         let green = green * (self.luminance - 0.344_136 * self.blue - 0.714_136 * self.red);
         let blue = blue * (self.luminance + 1.772 * self.blue);
-        let luminance = 0.299 * red + 0.587 * green + 0.114 * blue;
-        Self {
-            luminance,
-            blue: (blue - luminance) / 1.772,
-            red: (red - luminance) / 1.402,
-        }
+        Self::from_rgb([red, green, blue])
     }
 }
 
@@ -146,9 +149,10 @@ mod tests {
 
     #[test]
     fn neutral_white_balance_changes_nothing() {
-        let color = Color::CARPET.balanced([1.0; 3]);
-        assert!((color.luminance - Color::CARPET.luminance).abs() < 1e-3);
-        assert!((color.blue - Color::CARPET.blue).abs() < 1e-3);
-        assert!((color.red - Color::CARPET.red).abs() < 1e-3);
+        let carpet = Color::from_rgb([38.0, 128.0, 52.0]);
+        let color = carpet.balanced([1.0; 3]);
+        assert!((color.luminance - carpet.luminance).abs() < 1e-3);
+        assert!((color.blue - carpet.blue).abs() < 1e-3);
+        assert!((color.red - carpet.red).abs() < 1e-3);
     }
 }

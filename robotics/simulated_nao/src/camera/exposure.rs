@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use framework::Timestamp;
-use nalgebra::{Isometry3, Point2, Point3, Vector3};
+use nalgebra::{Isometry3, Point2, Point3, UnitQuaternion, Vector3};
 use types::camera::Intrinsics;
 use types::joints::Joints;
 
@@ -26,6 +26,8 @@ pub struct Exposure {
     pub intrinsics: Intrinsics,
     /// Centre in the field frame.
     pub ball: Option<Point3<f32>>,
+    /// How it has rolled.
+    pub ball_turn: UnitQuaternion<f32>,
     /// The other robots.
     pub robots: Arc<[Robot]>,
     /// The robot itself, which may stand in its own view; `None` leaves it out.

@@ -38,6 +38,7 @@ struct Rays {
     /// To the next row.
     down: Vector3<f32>,
     ball: Option<Point2<f32>>,
+    carpet: Color,
 }
 
 /// Where a ray meets the ground.
@@ -67,6 +68,7 @@ impl Rays {
             right: rotation * Vector3::new(1.0 / focal.x, 0.0, 0.0),
             down: rotation * Vector3::new(0.0, 1.0 / focal.y, 0.0),
             ball: exposure.ball.map(|ball| ball.xy()),
+            carpet: Color::from_rgb(exposure.images.carpet),
         }
     }
 
@@ -125,10 +127,10 @@ impl Rays {
             let scale = -self.origin.z / (first.z + self.right.z * index);
             let x = self.origin.x + scale * (first.x + self.right.x * index);
             let y = self.origin.y + scale * (first.y + self.right.y * index);
-            *luminance = Color::CARPET.luminance + block.blotches * blotch(x, y);
+            *luminance = self.carpet.luminance + block.blotches * blotch(x, y);
         }
-        row.blue[columns.clone()].fill(Color::CARPET.blue);
-        row.red[columns].fill(Color::CARPET.red);
+        row.blue[columns.clone()].fill(self.carpet.blue);
+        row.red[columns].fill(self.carpet.red);
     }
 
     fn footprint(&self, direction: &Vector3<f32>) -> Footprint {
@@ -146,7 +148,7 @@ impl Rays {
         let scale = -self.origin.z / direction.z;
         let point = Point2::from(self.origin.xy() + direction.xy() * scale);
         let on_carpet = (field::depth_in_carpet(point) / block.size + 0.5).clamp(0.0, 1.0);
-        let mut color = Color::CARPET;
+        let mut color = self.carpet;
         if on_carpet > 0.0 {
             color = color.brightened(block.blotches * blotch(point.x, point.y));
             if field.distance_to_marking(point) <= block.size {

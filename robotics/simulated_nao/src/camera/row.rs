@@ -50,6 +50,15 @@ impl Row {
         self.red[column] = color.red;
     }
 
+    /// What is smeared: colours, not depths.
+    pub(super) fn channels(&self) -> [&[f32; WIDTH]; 3] {
+        [&self.luminance, &self.blue, &self.red]
+    }
+
+    pub(super) fn channels_mut(&mut self) -> [&mut [f32; WIDTH]; 3] {
+        [&mut self.luminance, &mut self.blue, &mut self.red]
+    }
+
     pub(super) fn span(&mut self, columns: RangeInclusive<usize>) -> Span<'_> {
         Span {
             first: *columns.start(),
