@@ -186,7 +186,9 @@ mod tests {
             let expected = pixels
                 .iter()
                 .chain(&angles)
-                .fold(Matrix2::zeros(), |sum, off| sum + off * off.transpose());
+                .fold(Matrix2::identity() * NOISE.ground.powi(2), |sum, off| {
+                    sum + off * off.transpose()
+                });
             let covariance = matrix.ground_covariance(place, height, &NOISE).unwrap();
             let off = (covariance - expected).norm() / expected.norm();
             assert!(off < 0.03, "{covariance} instead of {expected}");
