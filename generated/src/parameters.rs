@@ -26,6 +26,7 @@ use types::projection_noise::ProjectionNoise;
 use vision::ball_detection::BallDetectionParameters;
 use vision::field_border::FieldBorderParameters;
 use vision::field_color::FieldColor;
+use vision::field_color_detection::FieldColorDetectionParameters;
 use vision::image_segmenter::ScanSteps;
 use vision::limb_projector::LimbProjectorParameters;
 use vision::line_detection::LineDetectionParameters;
@@ -45,9 +46,10 @@ pub struct Parameters {
     pub cameras: Cameras,
     pub client_wishes: ClientWishes,
     pub fall_state_filter: FallStateFilter,
-    /// vision::ball_detection, vision::image_segmenter, vision::line_detection,
-    /// vision::penalty_mark_detection
+    /// vision::field_color_detection
     pub field_color: FieldColor,
+    /// vision::field_color_detection
+    pub field_color_detection: FieldColorDetectionParameters,
     pub field_dimensions: FieldDimensions,
     pub foot_pressure_filter: FootPressureFilter,
     pub game_controller_filter: GameControllerFilter,

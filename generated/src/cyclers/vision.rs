@@ -12,6 +12,7 @@ use hardware::CameraInterface;
 use vision::ball_detection;
 use vision::camera_matrix_extractor;
 use vision::field_border;
+use vision::field_color_detection;
 use vision::image_receiver;
 use vision::image_segmenter;
 use vision::limb_projector;
@@ -26,6 +27,7 @@ pub struct Nodes {
     pub ball_detection: Guarded<ball_detection::BallDetection>,
     pub camera_matrix_extractor: Guarded<camera_matrix_extractor::CameraMatrixExtractor>,
     pub field_border: Guarded<field_border::FieldBorderDetection>,
+    pub field_color_detection: Guarded<field_color_detection::FieldColorDetection>,
     pub image_receiver: Guarded<image_receiver::ImageReceiver>,
     pub image_segmenter: Guarded<image_segmenter::ImageSegmenter>,
     pub limb_projector: Guarded<limb_projector::LimbProjector>,
@@ -51,6 +53,11 @@ impl Nodes {
                 "vision::limb_projector",
                 OnFailure::Restart,
                 Self::create_limb_projector()?,
+            ),
+            field_color_detection: Guarded::new(
+                "vision::field_color_detection",
+                OnFailure::Restart,
+                Self::create_field_color_detection()?,
             ),
             image_segmenter: Guarded::new(
                 "vision::image_segmenter",
@@ -104,6 +111,7 @@ impl Nodes {
     pub fn cycle<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
         self.camera_matrix_extractor(frame)?;
         self.limb_projector(frame)?;
+        self.field_color_detection(frame)?;
         self.image_segmenter(frame)?;
         self.field_border(frame)?;
         self.line_detection(frame)?;
@@ -123,8 +131,8 @@ impl Nodes {
         self.cycle(frame)
     }
 
-    /// image, image_segments, field_border, lines, penalty_mark, camera_matrix (required) ->
-    /// balls; when subscribed: ball_candidates
+    /// image, image_segments, field_border, lines, penalty_mark, camera_matrix (required),
+    /// field_color -> balls; when subscribed: ball_candidates, ball_proposals
     #[inline(always)]
     fn ball_detection<Hardware>(
         &mut self,
@@ -139,7 +147,7 @@ impl Nodes {
                 lines: &frame.own.lines,
                 penalty_mark: frame.own.penalty_mark.as_ref(),
                 camera_matrix,
-                field_color: &frame.parameters.field_color,
+                field_color: &frame.own.field_color,
                 parameters: &frame.parameters.ball_detection,
                 ball_radius: &frame.parameters.field_dimensions.ball_radius,
                 line_width: &frame.parameters.field_dimensions.line_width,
@@ -148,6 +156,11 @@ impl Nodes {
                     frame.subscribed.ball_candidates,
                     frame.cycle.number,
                     &mut frame.additional_outputs.ball_candidates,
+                ),
+                ball_proposals: AdditionalOutput::new(
+                    frame.subscribed.ball_proposals,
+                    frame.cycle.number,
+                    &mut frame.additional_outputs.ball_proposals,
                 ),
                 balls: &mut frame.shared.balls,
             };
@@ -208,6 +221,29 @@ impl Nodes {
         Ok(())
     }
 
+    /// image, camera_matrix, limb_mask -> field_color
+    #[inline(always)]
+    fn field_color_detection<Hardware>(
+        &mut self,
+        frame: &mut Frame<'_, Hardware>,
+    ) -> Result<()> {
+        let context = field_color_detection::CycleContext {
+            image: &frame.own.image,
+            camera_matrix: frame.own.camera_matrix.as_ref(),
+            limb_mask: &frame.own.limb_mask,
+            initial: &frame.parameters.field_color,
+            parameters: &frame.parameters.field_color_detection,
+        };
+        let outputs = self
+            .field_color_detection
+            .call(&frame.cycle, |node| node.cycle(context))?;
+        frame.own.field_color = outputs.field_color.value;
+        if let Some(injections) = frame.injections {
+            injections.field_color.replace(&mut frame.own.field_color);
+        }
+        Ok(())
+    }
+
     /// hardware -> image
     #[inline(always)]
     fn image_receiver(
@@ -227,7 +263,7 @@ impl Nodes {
         Ok(())
     }
 
-    /// image, camera_matrix, limb_mask -> image_segments
+    /// image, camera_matrix, limb_mask, field_color -> image_segments
     #[inline(always)]
     fn image_segmenter<Hardware>(
         &mut self,
@@ -238,7 +274,7 @@ impl Nodes {
             image: &frame.own.image,
             camera_matrix: frame.own.camera_matrix.as_ref(),
             limb_mask: &frame.own.limb_mask,
-            field_color: &frame.parameters.field_color,
+            field_color: &frame.own.field_color,
             steps: &frame.instance_parameters.scan_steps,
             image_segments: &mut frame.own.image_segments,
         };
@@ -275,8 +311,8 @@ impl Nodes {
         Ok(())
     }
 
-    /// image, image_segments, limb_mask, field_border, camera_matrix (required) -> lines; when
-    /// subscribed: line_points, image_lines
+    /// image, image_segments, limb_mask, field_border, camera_matrix (required), field_color ->
+    /// lines; when subscribed: line_points, image_lines
     #[inline(always)]
     fn line_detection<Hardware>(
         &mut self,
@@ -290,7 +326,7 @@ impl Nodes {
                 limb_mask: &frame.own.limb_mask,
                 field_border: &frame.own.field_border,
                 camera_matrix,
-                field_color: &frame.parameters.field_color,
+                field_color: &frame.own.field_color,
                 line_width: &frame.parameters.field_dimensions.line_width,
                 parameters: &frame.instance_parameters.line_detection,
                 projection_noise: &frame.parameters.projection_noise,
@@ -352,8 +388,8 @@ impl Nodes {
         Ok(())
     }
 
-    /// image, image_segments, field_border, lines, camera_matrix (required) -> penalty_mark;
-    /// when subscribed: penalty_mark_candidates
+    /// image, image_segments, field_border, lines, camera_matrix (required), field_color ->
+    /// penalty_mark; when subscribed: penalty_mark_candidates
     #[inline(always)]
     fn penalty_mark_detection<Hardware>(
         &mut self,
@@ -366,7 +402,7 @@ impl Nodes {
                 field_border: &frame.own.field_border,
                 lines: &frame.own.lines,
                 camera_matrix,
-                field_color: &frame.parameters.field_color,
+                field_color: &frame.own.field_color,
                 line_width: &frame.parameters.field_dimensions.line_width,
                 mark_size: &frame.parameters.field_dimensions.penalty_mark_size,
                 parameters: &frame.parameters.penalty_mark_detection,
@@ -408,6 +444,14 @@ impl Nodes {
     fn create_field_border() -> Result<field_border::FieldBorderDetection> {
         let context = field_border::CreationContext {};
         field_border::FieldBorderDetection::new(context).in_node("vision::field_border")
+    }
+
+    fn create_field_color_detection() -> Result<
+        field_color_detection::FieldColorDetection,
+    > {
+        let context = field_color_detection::CreationContext {};
+        field_color_detection::FieldColorDetection::new(context)
+            .in_node("vision::field_color_detection")
     }
 
     fn create_image_receiver() -> Result<image_receiver::ImageReceiver> {

@@ -23,6 +23,8 @@ use types::field_features::PenaltyMark;
 use types::image::YuyvImage;
 use types::limbs::LimbMask;
 use types::obstacles::ObstacleCandidate;
+use vision::ball_detection::BallProposal;
+use vision::field_color::FieldColor;
 use vision::segments::ImageSegments;
 
 use crate::databases::control;
@@ -36,6 +38,8 @@ pub struct OwnOutputs {
     pub camera_matrix: Option<CameraMatrix>,
     /// vision::field_border
     pub field_border: FieldBorder,
+    /// vision::field_color_detection
+    pub field_color: FieldColor,
     /// vision::image_receiver
     pub image: YuyvImage,
     /// vision::image_segmenter
@@ -62,6 +66,8 @@ pub struct SharedOutputs {
 pub struct AdditionalOutputs {
     /// vision::ball_detection
     pub ball_candidates: AdditionalSlot<Vec<BallCandidate>>,
+    /// vision::ball_detection
+    pub ball_proposals: AdditionalSlot<Vec<BallProposal>>,
     /// vision::field_border
     pub field_border_points: AdditionalSlot<Vec<Point2<f32>>>,
     /// vision::line_detection
@@ -78,6 +84,7 @@ pub struct AdditionalOutputs {
 #[derive(Clone, Copy, Debug, Default, Deserialize, Serialize)]
 pub struct Subscribed {
     pub ball_candidates: bool,
+    pub ball_proposals: bool,
     pub field_border_points: bool,
     pub image_lines: bool,
     pub line_points: bool,
@@ -91,6 +98,7 @@ pub struct Injections {
     pub balls: Injection<Vec<BallCandidate>>,
     pub camera_matrix: Injection<Option<CameraMatrix>>,
     pub field_border: Injection<FieldBorder>,
+    pub field_color: Injection<FieldColor>,
     pub image: Injection<YuyvImage>,
     pub image_segments: Injection<ImageSegments>,
     pub limb_mask: Injection<LimbMask>,
@@ -105,6 +113,7 @@ impl InjectionTable for Injections {
             "balls" => Some(&mut self.balls),
             "camera_matrix" => Some(&mut self.camera_matrix),
             "field_border" => Some(&mut self.field_border),
+            "field_color" => Some(&mut self.field_color),
             "image" => Some(&mut self.image),
             "image_segments" => Some(&mut self.image_segments),
             "limb_mask" => Some(&mut self.limb_mask),

@@ -72,6 +72,7 @@ impl<Hardware: CameraInterface + Send + Sync> Recorded for Vision<Hardware> {
         self.nodes.image_receiver.record(out)?;
         self.nodes.camera_matrix_extractor.record(out)?;
         self.nodes.limb_projector.record(out)?;
+        self.nodes.field_color_detection.record(out)?;
         self.nodes.image_segmenter.record(out)?;
         self.nodes.field_border.record(out)?;
         self.nodes.line_detection.record(out)?;
@@ -94,6 +95,11 @@ impl<Hardware: CameraInterface + Send + Sync> Recorded for Vision<Hardware> {
                 |body| &body.nodes.camera_matrix_extractor,
             );
         types.node("vision::limb_projector", |body| &body.nodes.limb_projector);
+        types
+            .node(
+                "vision::field_color_detection",
+                |body| &body.nodes.field_color_detection,
+            );
         types.node("vision::image_segmenter", |body| &body.nodes.image_segmenter);
         types.node("vision::field_border", |body| &body.nodes.field_border);
         types.node("vision::line_detection", |body| &body.nodes.line_detection);
@@ -147,6 +153,11 @@ impl<Hardware: CameraInterface + Send + Sync> Recorded for Vision<Hardware> {
             digest(&self.own.previous().limb_mask)?,
         );
         visit(
+            "vision::field_color_detection",
+            "field_color",
+            digest(&self.own.previous().field_color)?,
+        );
+        visit(
             "vision::image_segmenter",
             "image_segments",
             digest(&self.own.previous().image_segments)?,
@@ -183,6 +194,11 @@ fn load_nodes(from: &mut Loading<'_>) -> Result<Nodes> {
         )?,
         limb_projector: Guarded::recorded(
             "vision::limb_projector",
+            OnFailure::Restart,
+            from,
+        )?,
+        field_color_detection: Guarded::recorded(
+            "vision::field_color_detection",
             OnFailure::Restart,
             from,
         )?,

@@ -72,6 +72,7 @@ pub const VISION_BOTTOM: InstanceDescription = InstanceDescription {
 /// What clients can listen to, in the order of `Subscribed`.
 pub const ADDITIONAL_OUTPUTS: &[&str] = &[
     "ball_candidates",
+    "ball_proposals",
     "field_border_points",
     "image_lines",
     "line_points",
@@ -151,6 +152,7 @@ impl<Hardware: CameraInterface + Send + Sync> Body for Vision<Hardware> {
             let mut wanted = self.subscriptions.wanted();
             self.subscribed = Subscribed {
                 ball_candidates: wanted.next_one(),
+                ball_proposals: wanted.next_one(),
                 field_border_points: wanted.next_one(),
                 image_lines: wanted.next_one(),
                 line_points: wanted.next_one(),
@@ -192,6 +194,7 @@ impl<Hardware: CameraInterface + Send + Sync> Body for Vision<Hardware> {
             "image",
             "camera_matrix",
             "limb_mask",
+            "field_color",
             "image_segments",
             "field_border",
             "lines",
@@ -210,6 +213,7 @@ impl<Hardware: CameraInterface + Send + Sync> Body for Vision<Hardware> {
             "image" => Some(&self.own.previous().image),
             "camera_matrix" => Some(&self.own.previous().camera_matrix),
             "limb_mask" => Some(&self.own.previous().limb_mask),
+            "field_color" => Some(&self.own.previous().field_color),
             "image_segments" => Some(&self.own.previous().image_segments),
             "field_border" => Some(&self.own.previous().field_border),
             "lines" => Some(&self.own.previous().lines),
@@ -225,6 +229,7 @@ impl<Hardware: CameraInterface + Send + Sync> Body for Vision<Hardware> {
             "ball_candidates" => {
                 Some(self.additional_outputs.ball_candidates.get(cycle)?)
             }
+            "ball_proposals" => Some(self.additional_outputs.ball_proposals.get(cycle)?),
             "field_border_points" => {
                 Some(self.additional_outputs.field_border_points.get(cycle)?)
             }
@@ -247,6 +252,7 @@ impl<Hardware: CameraInterface + Send + Sync> Body for Vision<Hardware> {
         visitor.output(Some(&self.own.previous().image));
         visitor.output(Some(&self.own.previous().camera_matrix));
         visitor.output(Some(&self.own.previous().limb_mask));
+        visitor.output(Some(&self.own.previous().field_color));
         visitor.output(Some(&self.own.previous().image_segments));
         visitor.output(Some(&self.own.previous().field_border));
         visitor.output(Some(&self.own.previous().lines));
@@ -254,6 +260,7 @@ impl<Hardware: CameraInterface + Send + Sync> Body for Vision<Hardware> {
         visitor.output(Some(&shared.balls));
         visitor.output(Some(&shared.obstacles));
         visitor.output(self.additional_outputs.ball_candidates.get(cycle));
+        visitor.output(self.additional_outputs.ball_proposals.get(cycle));
         visitor.output(self.additional_outputs.field_border_points.get(cycle));
         visitor.output(self.additional_outputs.image_lines.get(cycle));
         visitor.output(self.additional_outputs.line_points.get(cycle));
@@ -265,6 +272,7 @@ impl<Hardware: CameraInterface + Send + Sync> Body for Vision<Hardware> {
         visit(self.nodes.image_receiver.report());
         visit(self.nodes.camera_matrix_extractor.report());
         visit(self.nodes.limb_projector.report());
+        visit(self.nodes.field_color_detection.report());
         visit(self.nodes.image_segmenter.report());
         visit(self.nodes.field_border.report());
         visit(self.nodes.line_detection.report());
@@ -282,6 +290,7 @@ impl<Hardware: CameraInterface + Send + Sync> Body for Vision<Hardware> {
             &mut self.nodes.camera_matrix_extractor,
         );
         visit("vision::limb_projector", &mut self.nodes.limb_projector);
+        visit("vision::field_color_detection", &mut self.nodes.field_color_detection);
         visit("vision::image_segmenter", &mut self.nodes.image_segmenter);
         visit("vision::field_border", &mut self.nodes.field_border);
         visit("vision::line_detection", &mut self.nodes.line_detection);

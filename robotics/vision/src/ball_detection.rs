@@ -1,17 +1,20 @@
 //! Finds the ball: a circle on the field, as large as a ball would be there, printed black and white.
 //!
 //! What lies flat on a known line or the penalty mark and what is beyond the border is not looked at.
-//! No learned classifier: a grid of places proposes, the rim and the print decide. Thresholds are
-//! parameters.
+//! A grid of places proposes, the rim says where exactly a circle is, and a small network decides; or, as it was before there
+//! was one, the rim and the print decide. Parameters choose.
+
+pub mod patch;
 
 mod circle;
 mod grid;
 mod inspection;
 mod known;
+mod network;
 mod view;
 
 use framework::{
-    AdditionalOutput, Input, MainOutput, Parameter, Reflect, RequiredInput, Result, context,
+    AdditionalOutput, Clear, Input, MainOutput, Parameter, Reflect, RequiredInput, Result, context,
 };
 use nalgebra::Point2;
 use serde::{Deserialize, Serialize};
@@ -22,16 +25,60 @@ use types::image::YuyvImage;
 use types::projection_noise::ProjectionNoise;
 
 use self::grid::Grid;
-use self::inspection::{Finding, inspect};
+use self::inspection::{Finding, Proposal, propose};
 use self::known::Known;
+use self::patch::{Patch, cut};
 use self::view::View;
 use crate::field_color::FieldColor;
 use crate::segments::ImageSegments;
+
+/// Who decides whether a circle is a ball.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, PartialEq, Reflect, Serialize)]
+pub enum BallClassifier {
+    /// The network; see `network.toml` for what it has learnt.
+    #[default]
+    Network,
+    /// Thresholds of the rim and of the print.
+    Print,
+}
+
+/// What lets the network see a circle, and believe in it.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct BallNetworkParameters {
+    /// Least share of the rim that must be found.
+    #[reflect(range = 0.0..=1.0)]
+    pub least_rim: f32,
+    /// Least share of field in the ring around it.
+    #[reflect(range = 0.0..=1.0)]
+    pub least_field_around: f32,
+    /// Least probability.
+    #[reflect(range = 0.0..=1.0)]
+    pub least_confidence: f32,
+}
+
+/// A circle that was looked at closely, for who wants to collect such.
+#[derive(Clear, Clone, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
+pub struct BallProposal {
+    /// The circle.
+    pub candidate: BallCandidate,
+    /// The share of its rim that was found, 0 to 1.
+    pub rim: f32,
+    /// Luminances of 16 rows of 16 cells; the circle has a third of the side as its radius.
+    #[serde(with = "framework::bytes")]
+    pub patch: Vec<u8>,
+    /// How sure the network is that it is a ball, 0 to 1.
+    pub confidence: f32,
+}
 
 /// What makes a circle a ball.
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct BallDetectionParameters {
+    /// Who decides.
+    pub classifier: BallClassifier,
+    /// For the network; what follows is for the print, but for the radii.
+    pub network: BallNetworkParameters,
     /// Smaller balls in px are not looked for.
     pub least_radius: f32,
     /// By which factor the radius may differ from what the distance says.
@@ -73,7 +120,7 @@ pub struct CycleContext {
     lines: Input<Vec<LineSegment>, "lines">,
     penalty_mark: Input<Option<PenaltyMark>, "penalty_mark?">,
     camera_matrix: RequiredInput<Option<CameraMatrix>, "camera_matrix?">,
-    field_color: Parameter<FieldColor, "field_color">,
+    field_color: Input<FieldColor, "field_color">,
     parameters: Parameter<BallDetectionParameters, "ball_detection">,
     #[reflect(unit = "m", range = 0.0..)]
     ball_radius: Parameter<f32, "field_dimensions.ball_radius">,
@@ -81,6 +128,8 @@ pub struct CycleContext {
     projection_noise: Parameter<ProjectionNoise, "projection_noise">,
     /// Where a ball was looked for.
     ball_candidates: AdditionalOutput<Vec<BallCandidate>, "ball_candidates">,
+    /// Circles that were looked at closely.
+    ball_proposals: AdditionalOutput<Vec<BallProposal>, "ball_proposals">,
     /// What passed every test, best first; no two of them overlap.
     balls: MainOutput<Vec<BallCandidate>>,
 }
@@ -117,9 +166,17 @@ impl BallDetection {
                 .map(|(center, radius)| locate(&view, center, radius))
                 .collect()
         });
-        let mut findings: Vec<_> = grid
+        let parameters = context.parameters;
+        let proposals: Vec<_> = grid
             .cells()
-            .filter_map(|(center, radius)| inspect(&view, context.parameters, center, radius))
+            .filter_map(|(center, radius)| propose(&view, parameters, center, radius))
+            .collect();
+        context
+            .ball_proposals
+            .fill_if_subscribed(|| proposals.iter().map(|one| told(&view, one)).collect());
+        let mut findings: Vec<_> = proposals
+            .iter()
+            .filter_map(|proposal| judge(&view, parameters, proposal))
             .collect();
         findings.sort_by(|one, other| other.score.total_cmp(&one.score));
         for Finding { circle, .. } in findings {
@@ -130,6 +187,34 @@ impl BallDetection {
             }
         }
         Ok(MainOutputs {})
+    }
+}
+
+/// How much a circle is like a ball; `None` if it is none.
+fn judge(
+    view: &View<'_>,
+    parameters: &BallDetectionParameters,
+    proposal: &Proposal,
+) -> Option<Finding> {
+    let circle = proposal.circle;
+    let score = match parameters.classifier {
+        BallClassifier::Print => {
+            inspection::is_printed(view, parameters, &circle).then_some(proposal.rim)?
+        }
+        BallClassifier::Network => network::confidence(&cut(view.image, &circle)),
+    };
+    let is_ball = parameters.classifier == BallClassifier::Print
+        || score >= parameters.network.least_confidence;
+    is_ball.then_some(Finding { circle, score })
+}
+
+fn told(view: &View<'_>, proposal: &Proposal) -> BallProposal {
+    let patch: Patch = cut(view.image, &proposal.circle);
+    BallProposal {
+        candidate: locate(view, proposal.circle.center, proposal.circle.radius),
+        rim: proposal.rim,
+        patch: patch.to_vec(),
+        confidence: network::confidence(&patch),
     }
 }
 
@@ -184,7 +269,8 @@ mod tests {
 
     fn parameters() -> BallDetectionParameters {
         parameter(
-            "{ least_radius = 3.5, radius_tolerance = 1.35, least_rim = 0.6, \
+            "{ classifier = \"Print\", network = { least_rim = 0.4, least_field_around = 0.4, least_confidence = 0.5 }, \
+             least_radius = 3.5, radius_tolerance = 1.35, least_rim = 0.6, \
              least_field_around = 0.6, most_field_inside = 0.15, least_contrast = 35.0, \
              dark_limit = 0.4, least_dark = 0.04, most_dark = 0.6 }",
         )
@@ -263,6 +349,7 @@ mod tests {
                 line_width: &0.05,
                 projection_noise: &PROJECTION_NOISE,
                 ball_candidates: candidates.output(),
+                ball_proposals: AdditionalProbe::unsubscribed().output(),
                 balls: &mut balls,
             })
             .unwrap();

@@ -3,12 +3,12 @@
 //! By chromaticity, the share of a channel in the sum of red, green and blue, which shade and light
 //! change little.
 
-use framework::Reflect;
+use framework::{Clear, Reflect};
 use serde::{Deserialize, Serialize};
 use types::image::Yuv;
 
 /// What counts as field.
-#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
+#[derive(Clear, Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct FieldColor {
     /// The least share of green.
@@ -24,17 +24,35 @@ pub struct FieldColor {
 impl FieldColor {
     /// Whether a pixel of this colour shows the field.
     pub fn matches(&self, color: Yuv) -> bool {
-        let luminance = f32::from(color.y);
-        let blue_difference = f32::from(color.u) - 128.0;
-        let red_difference = f32::from(color.v) - 128.0;
-        let red = (luminance + 1.402 * red_difference).max(0.0);
-        let green = (luminance - 0.344_14 * blue_difference - 0.714_14 * red_difference).max(0.0);
-        let blue = (luminance + 1.772 * blue_difference).max(0.0);
+        let [red, green, blue] = channels(color);
         let sum = red + green + blue;
         color.y >= self.minimum_luminance
             && green >= self.minimum_green * sum
             && red <= self.maximum_red * sum
             && blue <= self.maximum_blue * sum
+    }
+}
+
+/// Red, green and blue, 0 or more.
+fn channels(color: Yuv) -> [f32; 3] {
+    let luminance = f32::from(color.y);
+    let blue_difference = f32::from(color.u) - 128.0;
+    let red_difference = f32::from(color.v) - 128.0;
+    [
+        (luminance + 1.402 * red_difference).max(0.0),
+        (luminance - 0.344_14 * blue_difference - 0.714_14 * red_difference).max(0.0),
+        (luminance + 1.772 * blue_difference).max(0.0),
+    ]
+}
+
+/// The shares of red, green and blue in their sum; no colour where there is no light.
+pub(crate) fn shares(color: Yuv) -> [f32; 3] {
+    let channels = channels(color);
+    let sum: f32 = channels.iter().sum();
+    if sum > 0.0 {
+        channels.map(|channel| channel / sum)
+    } else {
+        [1.0 / 3.0; 3]
     }
 }
 

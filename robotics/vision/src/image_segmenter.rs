@@ -34,7 +34,7 @@ pub struct CycleContext {
     image: Input<YuyvImage, "image">,
     camera_matrix: Input<Option<CameraMatrix>, "camera_matrix?">,
     limb_mask: Input<LimbMask, "limb_mask">,
-    field_color: Parameter<FieldColor, "field_color">,
+    field_color: Input<FieldColor, "field_color">,
     steps: Parameter<ScanSteps, "$cycler_instance.scan_steps">,
     /// Columns from left to right, each from the horizon down to the robot's own limbs.
     image_segments: MainOutput<ImageSegments>,

@@ -82,7 +82,7 @@ pub struct CycleContext {
     limb_mask: Input<LimbMask, "limb_mask">,
     field_border: Input<FieldBorder, "field_border">,
     camera_matrix: RequiredInput<Option<CameraMatrix>, "camera_matrix?">,
-    field_color: Parameter<FieldColor, "field_color">,
+    field_color: Input<FieldColor, "field_color">,
     #[reflect(unit = "m", range = 0.0..)]
     line_width: Parameter<f32, "field_dimensions.line_width">,
     parameters: Parameter<LineDetectionParameters, "$cycler_instance.line_detection">,

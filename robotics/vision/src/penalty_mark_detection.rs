@@ -53,7 +53,7 @@ pub struct CycleContext {
     field_border: Input<FieldBorder, "field_border">,
     lines: Input<Vec<LineSegment>, "lines">,
     camera_matrix: RequiredInput<Option<CameraMatrix>, "camera_matrix?">,
-    field_color: Parameter<FieldColor, "field_color">,
+    field_color: Input<FieldColor, "field_color">,
     line_width: Parameter<f32, "field_dimensions.line_width">,
     #[reflect(unit = "m", range = 0.0..)]
     mark_size: Parameter<f32, "field_dimensions.penalty_mark_size">,

@@ -22,8 +22,10 @@ use types::joints::Joints;
 use types::limbs::LimbMask;
 use types::obstacles::ObstacleCandidate;
 use types::robot_kinematics::RobotKinematics;
-use vision::ball_detection::{self, BallDetection};
+use vision::ball_detection::{self, BallDetection, BallProposal};
 use vision::field_border::{self, FieldBorderDetection};
+use vision::field_color::FieldColor;
+use vision::field_color_detection::{self, FieldColorDetection};
 use vision::image_segmenter::{self, ImageSegmenter};
 use vision::limb_projector::{self, LimbProjector};
 use vision::line_detection::{self, LineDetection};
@@ -43,6 +45,7 @@ pub(crate) struct Look {
 /// What vision makes of one image.
 #[derive(Debug, Default)]
 pub(crate) struct Sight {
+    pub(crate) color: FieldColor,
     pub(crate) border: FieldBorder,
     pub(crate) lines: Vec<LineSegment>,
     pub(crate) penalty_mark: Option<PenaltyMark>,
@@ -62,6 +65,8 @@ pub(crate) struct Vision {
     mark: PenaltyMarkDetection,
     balls: BallDetection,
     obstacles: ObstacleDetection,
+    /// Circles that were looked at closely, if somebody subscribes.
+    pub(crate) proposals: AdditionalProbe<Vec<BallProposal>>,
 }
 
 impl Vision {
@@ -78,6 +83,7 @@ impl Vision {
             mark: PenaltyMarkDetection::new(penalty_mark_detection::CreationContext {}).unwrap(),
             balls: BallDetection::new(ball_detection::CreationContext {}).unwrap(),
             obstacles: ObstacleDetection::new(obstacle_detection::CreationContext {}).unwrap(),
+            proposals: AdditionalProbe::unsubscribed(),
         }
     }
 
@@ -86,8 +92,11 @@ impl Vision {
         render(exposure, &self.field, &mut self.image);
         let matrix = ImageTruth::from(exposure).camera_matrix;
         let limb_mask = self.limb_mask(look);
-        let image_segments = self.segments(look, &matrix, &limb_mask);
-        let mut sight = Sight::default();
+        let mut sight = Sight {
+            color: self.color(&matrix, &limb_mask),
+            ..Sight::default()
+        };
+        let image_segments = self.segments(look, &matrix, &limb_mask, sight.color);
         self.find_border(look, &matrix, &image_segments, &mut sight);
         self.find_lines(look, &matrix, &image_segments, &limb_mask, &mut sight);
         self.find_penalty_mark(&matrix, &image_segments, &mut sight);
@@ -96,11 +105,28 @@ impl Vision {
         sight
     }
 
+    fn color(&self, camera_matrix: &CameraMatrix, limb_mask: &LimbMask) -> FieldColor {
+        // A node of its own for each image: what it has learnt of other light does not count.
+        FieldColorDetection::new(field_color_detection::CreationContext {})
+            .unwrap()
+            .cycle(field_color_detection::CycleContext {
+                image: &self.image,
+                camera_matrix: Some(camera_matrix),
+                limb_mask,
+                initial: &self.parameters.get("field_color"),
+                parameters: &self.parameters.get("field_color_detection"),
+            })
+            .unwrap()
+            .field_color
+            .value
+    }
+
     fn segments(
         &mut self,
         look: &Look,
         camera_matrix: &CameraMatrix,
         limb_mask: &LimbMask,
+        color: FieldColor,
     ) -> ImageSegments {
         let mut image_segments = ImageSegments::default();
         self.segmenter
@@ -108,7 +134,7 @@ impl Vision {
                 image: &self.image,
                 camera_matrix: Some(camera_matrix),
                 limb_mask,
-                field_color: &self.parameters.get("field_color"),
+                field_color: &color,
                 steps: &self.parameters.get(&look.own("scan_steps")),
                 image_segments: &mut image_segments,
             })
@@ -149,7 +175,7 @@ impl Vision {
                 limb_mask,
                 field_border: &sight.border,
                 camera_matrix,
-                field_color: &self.parameters.get("field_color"),
+                field_color: &sight.color,
                 line_width: &self.parameters.get("field_dimensions.line_width"),
                 parameters: &self.parameters.get(&look.own("line_detection")),
                 projection_noise: &self.parameters.get("projection_noise"),
@@ -174,7 +200,7 @@ impl Vision {
                 field_border: &sight.border,
                 lines: &sight.lines,
                 camera_matrix,
-                field_color: &self.parameters.get("field_color"),
+                field_color: &sight.color,
                 line_width: &self.parameters.get("field_dimensions.line_width"),
                 mark_size: &self.parameters.get("field_dimensions.penalty_mark_size"),
                 parameters: &self.parameters.get("penalty_mark_detection"),
@@ -200,12 +226,13 @@ impl Vision {
                 lines: &sight.lines,
                 penalty_mark: sight.penalty_mark.as_ref(),
                 camera_matrix,
-                field_color: &self.parameters.get("field_color"),
+                field_color: &sight.color,
                 parameters: &self.parameters.get("ball_detection"),
                 projection_noise: &self.parameters.get("projection_noise"),
                 ball_radius: &self.parameters.get("field_dimensions.ball_radius"),
                 line_width: &self.parameters.get("field_dimensions.line_width"),
                 ball_candidates: AdditionalProbe::unsubscribed().output(),
+                ball_proposals: self.proposals.output(),
                 balls: &mut sight.balls,
             })
             .unwrap();

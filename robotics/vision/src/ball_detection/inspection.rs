@@ -1,12 +1,12 @@
-//! Looks at one place closely: is there a circle of the right size, and is it printed like a ball?
+//! Looks at one place closely: is there a circle of the right size on the field, and is it printed like a ball?
 
 use std::f32::consts::TAU;
 
 use nalgebra::{Point2, Vector2};
 
-use super::BallDetectionParameters;
 use super::circle::{self, Circle};
 use super::view::View;
+use super::{BallClassifier, BallDetectionParameters};
 
 /// Rays on which the rim is looked for.
 const RAYS: usize = 32;
@@ -19,35 +19,49 @@ const MOST_FIELD_AT_FIRST: f32 = 0.6;
 /// From a middle that is not yet the circle's at least this part of the needed rim is found.
 const RIM_AT_FIRST: f32 = 0.5;
 
+/// A circle that may be a ball.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Proposal {
+    pub(super) circle: Circle,
+    /// The share of the rim that was found, 0 to 1.
+    pub(super) rim: f32,
+}
+
 /// A circle that passed every test.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Finding {
     pub(super) circle: Circle,
-    /// The share of the rim that was found, 0 to 1.
+    /// How much it is like a ball, 0 to 1.
     pub(super) score: f32,
 }
 
-/// Looks for a ball around `center`, where it would have about this radius in px.
-pub(super) fn inspect(
+/// Looks for a circle on the field around `center`, where a ball would have about this radius in px.
+pub(super) fn propose(
     view: &View<'_>,
     parameters: &BallDetectionParameters,
     center: Point2<f32>,
     radius: f32,
-) -> Option<Finding> {
+) -> Option<Proposal> {
+    let (least_rim, least_field_around) = match parameters.classifier {
+        BallClassifier::Print => (parameters.least_rim, parameters.least_field_around),
+        BallClassifier::Network => (
+            parameters.network.least_rim,
+            parameters.network.least_field_around,
+        ),
+    };
     let middle = move_to_middle(view, center, radius)?;
     if field_inside(view, middle, radius) > MOST_FIELD_AT_FIRST {
         return None;
     }
     let first = find_rim(view, parameters, middle)?;
-    if first.score < parameters.least_rim * RIM_AT_FIRST {
+    if first.rim < least_rim * RIM_AT_FIRST {
         return None;
     }
     // From the middle of the circle every ray meets the rim squarely.
-    let finding = find_rim(view, parameters, first.circle.center)?;
-    let is_ball = finding.score >= parameters.least_rim
-        && ring_on_field(view, &finding.circle) >= parameters.least_field_around
-        && is_printed(view, parameters, &finding.circle);
-    is_ball.then_some(finding)
+    let proposal = find_rim(view, parameters, first.circle.center)?;
+    let is_proposed =
+        proposal.rim >= least_rim && ring_on_field(view, &proposal.circle) >= least_field_around;
+    is_proposed.then_some(proposal)
 }
 
 /// Follows what is not field to its middle.
@@ -87,7 +101,7 @@ fn find_rim(
     view: &View<'_>,
     parameters: &BallDetectionParameters,
     center: Point2<f32>,
-) -> Option<Finding> {
+) -> Option<Proposal> {
     let expected = view.expected_radius(center)?;
     let mut rim = Vec::with_capacity(RAYS);
     rim.extend(directions().filter_map(|direction| rim_on_ray(view, center, direction, expected)));
@@ -95,9 +109,9 @@ fn find_rim(
     let circle = circle::find(&rim, expected / tolerance..expected * tolerance)?;
     let expected = view.expected_radius(circle.center)?;
     let fits = (expected / tolerance..expected * tolerance).contains(&circle.radius);
-    fits.then(|| Finding {
+    fits.then(|| Proposal {
         circle,
-        score: circle.support(&rim) as f32 / RAYS as f32,
+        rim: circle.support(&rim) as f32 / RAYS as f32,
     })
 }
 
@@ -139,7 +153,11 @@ fn ring_on_field(view: &View<'_>, circle: &Circle) -> f32 {
 }
 
 /// Whether the disc has dark patches on a bright ground, and no field shows through.
-fn is_printed(view: &View<'_>, parameters: &BallDetectionParameters, circle: &Circle) -> bool {
+pub(super) fn is_printed(
+    view: &View<'_>,
+    parameters: &BallDetectionParameters,
+    circle: &Circle,
+) -> bool {
     let inside = || disc(circle.radius * 0.85).map(|offset| circle.center + offset);
     let count = inside().count() as f32;
     let field = inside()
