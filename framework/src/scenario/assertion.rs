@@ -21,6 +21,8 @@ pub struct Assertion {
     /// Whose, counted from 1.
     #[serde(default = "first")]
     pub robot: usize,
+    /// A truth; what counts is how far apart the value and it are.
+    pub apart_from: Option<String>,
     equals: Option<Value>,
     is_not: Option<Value>,
     below: Option<f64>,
@@ -28,6 +30,7 @@ pub struct Assertion {
     from: Option<f64>,
     until: Option<f64>,
     before: Option<f64>,
+    share: Option<f64>,
     #[serde(default)]
     at_end: bool,
 }
@@ -49,7 +52,7 @@ pub enum Condition<'a> {
 }
 
 /// When it has to be so.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Window {
     /// Whenever it is looked at between these, at least once.
     Always {
@@ -64,6 +67,15 @@ pub enum Window {
         from: Timestamp,
         /// Not after.
         until: Timestamp,
+    },
+    /// In so many of all looks between these.
+    Mostly {
+        /// Not before.
+        from: Timestamp,
+        /// Not after.
+        until: Timestamp,
+        /// Of the looks, 0 to 1.
+        share: f64,
     },
     /// When it is looked at for the last time.
     AtEnd,
@@ -89,16 +101,15 @@ impl Assertion {
             Timestamp::ZERO + since_start
         };
         let from = self.from.map_or(Timestamp::ZERO, time);
-        match (self.at_end, self.before) {
-            (true, _) => Window::AtEnd,
-            (false, Some(before)) => Window::Once {
+        let until = self.until.map_or(Timestamp::NEVER, time);
+        match (self.at_end, self.before, self.share) {
+            (true, _, _) => Window::AtEnd,
+            (false, Some(before), _) => Window::Once {
                 from,
                 until: time(before),
             },
-            (false, None) => Window::Always {
-                from,
-                until: self.until.map_or(Timestamp::NEVER, time),
-            },
+            (false, None, Some(share)) => Window::Mostly { from, until, share },
+            (false, None, None) => Window::Always { from, until },
         }
     }
 
@@ -124,6 +135,23 @@ impl Assertion {
         let windows = [self.at_end, self.before.is_some(), self.until.is_some()];
         if windows.iter().filter(|it| **it).count() > 1 || (self.at_end && self.from.is_some()) {
             return wrong("`before`, `until` and `at_end` exclude each other".to_owned());
+        }
+        if let Some(share) = self.share {
+            if self.at_end || self.before.is_some() {
+                return wrong("`share` goes with neither `before` nor `at_end`".to_owned());
+            }
+            if !(share > 0.0 && share <= 1.0) {
+                return wrong(format!(
+                    "`share = {share}` is no share of the looks: expected more than 0, up to 1"
+                ));
+            }
+        }
+        if let Some(path) = &self.apart_from
+            && (!ranges || !path.starts_with("truth.") || path.parse::<Path>().is_err())
+        {
+            return wrong(format!(
+                "`apart_from = \"{path}\"`: expected a truth (`truth.NAME`), with `below` or `above`"
+            ));
         }
         for (key, number) in [
             ("from", self.from),
@@ -174,6 +202,20 @@ impl Condition<'_> {
         };
         room(one) <= room(other)
     }
+}
+
+/// How far apart two numbers are, or two lists of as many numbers, as if they were places.
+pub(super) fn distance(one: &Value, other: &Value) -> Option<f64> {
+    if let (Some(one), Some(other)) = (one.as_f64(), other.as_f64()) {
+        return Some((one - other).abs());
+    }
+    let (one, other) = (one.as_array()?, other.as_array()?);
+    let mut pairs = one.iter().zip(other);
+    let squares: Option<f64> = pairs
+        .by_ref()
+        .map(|(one, other)| Some((one.as_f64()? - other.as_f64()?).powi(2)))
+        .sum();
+    squares.filter(|_| one.len() == other.len()).map(f64::sqrt)
 }
 
 /// `1` and `1.0` are the same number.

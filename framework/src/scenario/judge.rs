@@ -1,9 +1,11 @@
 //! Looks at values while a scenario is played, and says what came of each assertion.
 
-use serde::Serialize;
-use serde_json::Value;
+use std::cell::LazyCell;
 
-use super::assertion::{Assertion, TRUTH, Window};
+use serde::Serialize;
+use serde_json::{Value, json};
+
+use super::assertion::{Assertion, TRUTH, Window, distance};
 use crate::cycler::Instance;
 use crate::robot;
 use crate::time::Timestamp;
@@ -37,6 +39,16 @@ struct Looked<'a> {
     seen: Option<(Timestamp, Value)>,
     /// Decided before the end.
     decided: Option<bool>,
+    /// Where a share decides.
+    counted: Counted,
+}
+
+/// How often something was looked at.
+#[derive(Debug, Default)]
+struct Counted {
+    held: usize,
+    /// What was seen; infinite where it was no number.
+    seen: Vec<f64>,
 }
 
 impl<'a> Judge<'a> {
@@ -50,6 +62,7 @@ impl<'a> Judge<'a> {
             window: assertion.window(),
             seen: None,
             decided: None,
+            counted: Counted::default(),
         });
         Self {
             assertions: assertions.collect(),
@@ -60,20 +73,22 @@ impl<'a> Judge<'a> {
     pub fn look(&mut self, now: Timestamp, instance: &dyn Instance, truth: impl FnOnce() -> Value) {
         let name = instance.description().name;
         let mut undecided = self.assertions.iter_mut().filter(|one| one.asks(now));
-        let mut truth = Some(truth);
-        let mut known = None;
+        let truth = LazyCell::new(truth);
         for one in undecided.by_ref() {
             let value = match one.assertion.instance() {
-                None => {
-                    let truth = known
-                        .get_or_insert_with(|| truth.take().map_or(Value::Null, |truth| truth()));
-                    Ok(below(truth, &one.assertion.value).cloned())
-                }
+                None => Ok(below(&truth, &one.assertion.value).cloned()),
                 Some(of) if of == name => {
                     robot::read_output(instance, &one.assertion.value).map(Some)
                 }
                 Some(_) => continue,
             };
+            let value = value.map(|value| match &one.assertion.apart_from {
+                Some(path) => {
+                    let apart = below(&truth, path).zip(value.as_ref());
+                    apart.and_then(|(truth, value)| distance(value, truth).map(Value::from))
+                }
+                None => value,
+            });
             // What is not there is told as what was seen.
             let value = match value {
                 Ok(Some(value)) => value,
@@ -94,9 +109,9 @@ impl Looked<'_> {
     fn asks(&self, now: Timestamp) -> bool {
         self.decided.is_none()
             && match self.window {
-                Window::Always { from, until } | Window::Once { from, until } => {
-                    from <= now && now <= until
-                }
+                Window::Always { from, until }
+                | Window::Once { from, until }
+                | Window::Mostly { from, until, .. } => from <= now && now <= until,
                 Window::AtEnd => true,
             }
     }
@@ -113,14 +128,27 @@ impl Looked<'_> {
                     return;
                 }
             }
+            Window::Mostly { .. } => {
+                self.counted.held += usize::from(holds);
+                self.counted
+                    .seen
+                    .push(value.as_f64().unwrap_or(f64::INFINITY));
+            }
             Window::Once { .. } | Window::AtEnd => {}
         }
         self.seen = Some((now, value));
     }
 
-    fn verdict(self) -> Verdict {
+    fn verdict(mut self) -> Verdict {
+        if let Window::Mostly { share, .. } = self.window
+            && let Some((_, value)) = &mut self.seen
+        {
+            let seen = self.counted.share();
+            *value = json!({ "share": seen, "median": self.counted.median() });
+            self.decided = Some(seen >= share);
+        }
         let holds_at_last = match (&self.seen, self.window) {
-            (None, _) | (_, Window::Once { .. }) => false,
+            (None, _) | (_, Window::Once { .. } | Window::Mostly { .. }) => false,
             (Some(_), Window::Always { .. }) => true,
             (Some((_, value)), Window::AtEnd) => self.assertion.condition().holds(value),
         };
@@ -134,6 +162,19 @@ impl Looked<'_> {
                 .map(|(at, _)| (*at - Timestamp::ZERO).as_secs_f64()),
             seen: self.seen.map_or_else(never, |(_, value)| value),
         }
+    }
+}
+
+impl Counted {
+    fn share(&self) -> f64 {
+        self.held as f64 / self.seen.len().max(1) as f64
+    }
+
+    /// `None` where the middle one was no number.
+    fn median(&mut self) -> Option<f64> {
+        self.seen.sort_by(f64::total_cmp);
+        let middle = self.seen.get(self.seen.len() / 2)?;
+        middle.is_finite().then_some(*middle)
     }
 }
 

@@ -92,6 +92,30 @@ fn assertions_are_judged_over_outputs_and_truth() {
             "12",
         ),
         (
+            "value = 'truth.events'\nbelow = 51\nshare = 0.5",
+            true,
+            Some(1.0),
+            r#"{"share":0.5,"median":51.0}"#,
+        ),
+        (
+            "value = 'truth.events'\nbelow = 51\nshare = 0.51",
+            false,
+            Some(1.0),
+            r#"{"share":0.5,"#,
+        ),
+        (
+            "value = 'truth.events'\napart_from = 'truth.events'\nbelow = 0.1",
+            true,
+            Some(0.01),
+            "0.0",
+        ),
+        (
+            "value = 'truth.events'\napart_from = 'truth.nothing'\nbelow = 0.1",
+            false,
+            Some(0.01),
+            "\"there is no `truth.events`",
+        ),
+        (
             "value = 'truth.nothing'\nis_not = 0\nat_end = true",
             true,
             Some(1.0),

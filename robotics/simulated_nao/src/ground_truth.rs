@@ -38,6 +38,8 @@ pub struct GroundTruth {
     pub robots: Vec<Robot>,
     /// What the robot can run into: the middle of each obstacle in the field frame and its radius, m.
     pub obstacles: Vec<(Point2<f64>, f64)>,
+    /// The robot's team.
+    pub team: Team,
     /// The game, where a referee plays one.
     pub game: Option<GameTruth>,
 }
@@ -130,6 +132,7 @@ impl GroundTruth {
             ball: world.ball().map(|ball| ball.cast()),
             robots: world.robots(robot).to_vec(),
             obstacles: world.obstacles(robot).collect(),
+            team: world.team(robot),
             game: world.game_truth(),
         }
     }

@@ -32,7 +32,7 @@ use crate::camera::{Exposure, OwnBody};
 use crate::field::Field;
 use crate::physics::{Body, Disturbance, Dynamic, Kinematic, Physics, STEP, Situation, Start};
 use crate::posture;
-use crate::scene::{self, Robot, RobotSettings};
+use crate::scene::{self, Robot, RobotSettings, Team};
 use crate::settings::{PhysicsChoice, Press, Settings};
 
 /// From exposure to the arrival of the image.
@@ -120,6 +120,11 @@ impl World {
 
     pub(crate) fn ball(&self) -> Option<Point3<f64>> {
         self.physics.ball().map(|ball| ball.position)
+    }
+
+    /// Whose it is.
+    pub(crate) fn team(&self, robot: usize) -> Team {
+        self.inhabitants[robot].team
     }
 
     /// How far a robot has gone over the floor, m.

@@ -130,7 +130,7 @@ impl Deed {
 
 /// What is really the case: lengths in m, angles in rad, in the field frame unless it says otherwise.
 ///
-/// `x`, `y`, `heading` of the robot, how far it `walked`, `tilt` and `height` of its torso; `harmful_commands`, how many
+/// `x`, `y`, `heading` of the robot, `own.place` (x and y) and `own.direction` (cosine and sine) as its team sees the field, how far it `walked`, `tilt` and `height` of its torso; `harmful_commands`, how many
 /// wanted a joint beyond its limits; `ball.x`, `ball.y`, and from the robot `ball.ahead`, `ball.aside`, `ball.distance`;
 /// `robots` are the others: `x`, `y`, `heading`, `team` (`own` or `opponent`), `number`;
 /// `score.blue`, `score.red`, and where a game is played `game.state`, `game.set_play`, `game.kicking` (`blue` or `red`).
@@ -165,10 +165,20 @@ pub(super) fn truth(truth: &GroundTruth) -> Value {
         };
         json!({ "state": game.state, "set_play": game.set_play, "kicking": kicking })
     });
+    // Blue plays towards positive x, and every team says that it does.
+    let ahead = match truth.team {
+        Team::Own => 1.0,
+        Team::Opponent => -1.0,
+    };
+    let heading = heading(&torso);
     json!({
+        "own": {
+            "place": [ahead * ground.translation.x, ahead * ground.translation.y],
+            "direction": [ahead * heading.cos(), ahead * heading.sin()],
+        },
         "x": ground.translation.x,
         "y": ground.translation.y,
-        "heading": heading(&torso),
+        "heading": heading,
         "walked": truth.walked,
         "harmful_commands": truth.harmful_commands,
         "tilt": up.z.clamp(-1.0, 1.0).acos(),
