@@ -7,6 +7,7 @@ use control::ball_filter::BallFilterParameters;
 use control::behavior::Approach;
 use control::fall_state_filter::Sitting;
 use control::fall_state_filter::TiltLimits;
+use control::localization::LocalizationParameters;
 use control::obstacle_filter::ObstacleFilterParameters;
 use control::walking_engine::Heat;
 use framework::Reflect;
@@ -16,6 +17,7 @@ use serde::Serialize;
 use types::audio::Tone;
 use types::camera::CameraCalibration;
 use types::camera::CameraPosition;
+use types::field_markings::FieldMarkings;
 use types::game::Player;
 use types::game::PrimaryState;
 use types::head::HeadAngles;
@@ -60,6 +62,8 @@ pub struct Parameters {
     pub led_status: LedStatus,
     /// vision::limb_projector
     pub limb_projector: LimbProjectorParameters,
+    /// control::localization
+    pub localization: LocalizationParameters,
     pub look_around: LookAround,
     pub look_at: LookAt,
     pub motion_dispatcher: MotionDispatcher,
@@ -76,7 +80,7 @@ pub struct Parameters {
     /// vision::penalty_mark_detection
     pub penalty_mark_detection: PenaltyMarkDetectionParameters,
     /// control::game_controller_filter, control::game_controller_responder,
-    /// control::self_report, spl_network::team_message_parser
+    /// control::localization, control::self_report, spl_network::team_message_parser
     pub player: Player,
     /// vision::ball_detection, vision::line_detection, vision::obstacle_detection,
     /// vision::penalty_mark_detection
@@ -172,6 +176,8 @@ pub struct FieldDimensions {
     /// vision::penalty_mark_detection
     #[reflect(unit = "m", range = 0..)]
     pub line_width: f32,
+    /// control::localization
+    pub markings: FieldMarkings,
     /// vision::penalty_mark_detection
     #[reflect(unit = "m", range = 0..)]
     pub penalty_mark_size: f32,

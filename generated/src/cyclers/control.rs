@@ -18,6 +18,7 @@ use control::game_state_filter;
 use control::ground_contact_filter;
 use control::head_motion;
 use control::led_status;
+use control::localization;
 use control::look_around;
 use control::look_at;
 use control::motion_dispatcher;
@@ -78,6 +79,7 @@ pub struct Nodes {
     pub ground_contact_filter: Guarded<ground_contact_filter::GroundContactFilter>,
     pub head_motion: Guarded<head_motion::HeadMotion>,
     pub led_status: Guarded<led_status::LedStatus>,
+    pub localization: Guarded<localization::Localization>,
     pub look_around: Guarded<look_around::LookAround>,
     pub look_at: Guarded<look_at::LookAt>,
     pub motion_dispatcher: Guarded<motion_dispatcher::MotionDispatcher>,
@@ -188,6 +190,11 @@ impl Nodes {
                 "control::game_state_filter",
                 OnFailure::Stop,
                 Self::create_game_state_filter()?,
+            ),
+            localization: Guarded::new(
+                "control::localization",
+                OnFailure::Stop,
+                Self::create_localization()?,
             ),
             ball_filter: Guarded::new(
                 "control::ball_filter",
@@ -350,6 +357,7 @@ impl Nodes {
         self.team_message_filter(frame)?;
         self.whistle_filter(frame)?;
         self.game_state_filter(frame)?;
+        self.localization(frame)?;
         self.ball_filter(frame)?;
         self.obstacle_filter(frame)?;
         self.world_state_composer(frame)?;
@@ -797,6 +805,53 @@ impl Nodes {
         Ok(())
     }
 
+    /// perception Vision.lines, perception Vision.penalty_mark, historic odometry, fall_state,
+    /// primary_state -> ground_to_field; when subscribed: localization.hypotheses
+    #[inline(always)]
+    fn localization<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
+        let lines = Interleaved {
+            order: &frame.perception.vision,
+            instances: [
+                &frame.perception.vision_top.project(|outputs| &outputs.lines),
+                &frame.perception.vision_bottom.project(|outputs| &outputs.lines),
+            ],
+        };
+        let penalty_mark = Interleaved {
+            order: &frame.perception.vision,
+            instances: [
+                &frame.perception.vision_top.project(|outputs| &outputs.penalty_mark),
+                &frame.perception.vision_bottom.project(|outputs| &outputs.penalty_mark),
+            ],
+        };
+        let odometry = frame.historic.odometry.project(|odometry| odometry);
+        let context = localization::CycleContext {
+            lines: PerceptionInput::new(&lines),
+            penalty_mark: PerceptionInput::new(&penalty_mark),
+            odometry: HistoricInput::new(
+                &odometry,
+                frame.cycle.time.start,
+                &frame.own.odometry,
+            ),
+            fall_state: &frame.own.fall_state,
+            primary_state: &frame.own.primary_state,
+            cycle_time: frame.cycle.time,
+            player: &frame.parameters.player,
+            markings: &frame.parameters.field_dimensions.markings,
+            parameters: &frame.parameters.localization,
+            hypotheses: AdditionalOutput::new(
+                frame.subscribed.localization_hypotheses,
+                frame.cycle.number,
+                &mut frame.additional_outputs.localization.hypotheses,
+            ),
+        };
+        let outputs = self.localization.call(&frame.cycle, |node| node.cycle(context))?;
+        frame.own.ground_to_field = outputs.ground_to_field.value;
+        if let Some(injections) = frame.injections {
+            injections.ground_to_field.replace(&mut frame.own.ground_to_field);
+        }
+        Ok(())
+    }
+
     /// motion_command, previous head_command -> look_around
     #[inline(always)]
     fn look_around<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
@@ -1076,12 +1131,13 @@ impl Nodes {
         Ok(())
     }
 
-    /// primary_state, fall_state, ball -> self_report, team_report
+    /// primary_state, fall_state, ground_to_field, ball -> self_report, team_report
     #[inline(always)]
     fn self_report<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
         let context = self_report::CycleContext {
             primary_state: &frame.own.primary_state,
             fall_state: &frame.own.fall_state,
+            ground_to_field: &frame.own.ground_to_field,
             ball: &frame.own.ball,
             cycle_time: frame.cycle.time,
             player: &frame.parameters.player,
@@ -1345,8 +1401,8 @@ impl Nodes {
         Ok(())
     }
 
-    /// primary_state, game_controller_state, fall_state, has_ground_contact, ball, obstacles,
-    /// teammates -> world_state
+    /// primary_state, game_controller_state, fall_state, has_ground_contact, ground_to_field,
+    /// ball, obstacles, teammates -> world_state
     #[inline(always)]
     fn world_state_composer<Hardware>(
         &mut self,
@@ -1358,6 +1414,7 @@ impl Nodes {
             game_controller_state: &frame.own.game_controller_state,
             fall_state: &frame.own.fall_state,
             has_ground_contact: &frame.own.has_ground_contact,
+            ground_to_field: &frame.own.ground_to_field,
             ball: &frame.own.ball,
             obstacles: &frame.own.obstacles,
             teammates: &frame.own.teammates,
@@ -1464,6 +1521,11 @@ impl Nodes {
     fn create_led_status() -> Result<led_status::LedStatus> {
         let context = led_status::CreationContext {};
         led_status::LedStatus::new(context).in_node("control::led_status")
+    }
+
+    fn create_localization() -> Result<localization::Localization> {
+        let context = localization::CreationContext {};
+        localization::Localization::new(context).in_node("control::localization")
     }
 
     fn create_look_around() -> Result<look_around::LookAround> {

@@ -144,8 +144,8 @@ impl Nodes {
                 image: &frame.own.image,
                 image_segments: &frame.own.image_segments,
                 field_border: &frame.own.field_border,
-                lines: &frame.own.lines,
-                penalty_mark: frame.own.penalty_mark.as_ref(),
+                lines: &frame.shared.lines,
+                penalty_mark: frame.shared.penalty_mark.as_ref(),
                 camera_matrix,
                 field_color: &frame.own.field_color,
                 parameters: &frame.parameters.ball_detection,
@@ -318,7 +318,7 @@ impl Nodes {
         &mut self,
         frame: &mut Frame<'_, Hardware>,
     ) -> Result<()> {
-        Clear::clear(&mut frame.own.lines);
+        Clear::clear(&mut frame.shared.lines);
         if let Some(camera_matrix) = frame.own.camera_matrix.as_ref() {
             let context = line_detection::CycleContext {
                 image: &frame.own.image,
@@ -340,7 +340,7 @@ impl Nodes {
                     frame.cycle.number,
                     &mut frame.additional_outputs.image_lines,
                 ),
-                lines: &mut frame.own.lines,
+                lines: &mut frame.shared.lines,
             };
             self.line_detection.call(&frame.cycle, |node| node.cycle(context))?;
         } else {
@@ -348,7 +348,7 @@ impl Nodes {
             self.line_detection.skip();
         }
         if let Some(injections) = frame.injections {
-            injections.lines.replace(&mut frame.own.lines);
+            injections.lines.replace(&mut frame.shared.lines);
         }
         Ok(())
     }
@@ -365,7 +365,7 @@ impl Nodes {
             let context = obstacle_detection::CycleContext {
                 image_segments: &frame.own.image_segments,
                 field_border: &frame.own.field_border,
-                lines: &frame.own.lines,
+                lines: &frame.shared.lines,
                 camera_matrix,
                 line_width: &frame.parameters.field_dimensions.line_width,
                 parameters: &frame.parameters.obstacle_detection,
@@ -400,7 +400,7 @@ impl Nodes {
                 image: &frame.own.image,
                 image_segments: &frame.own.image_segments,
                 field_border: &frame.own.field_border,
-                lines: &frame.own.lines,
+                lines: &frame.shared.lines,
                 camera_matrix,
                 field_color: &frame.own.field_color,
                 line_width: &frame.parameters.field_dimensions.line_width,
@@ -416,14 +416,14 @@ impl Nodes {
             let outputs = self
                 .penalty_mark_detection
                 .call(&frame.cycle, |node| node.cycle(context))?;
-            frame.own.penalty_mark = outputs.penalty_mark.value;
+            frame.shared.penalty_mark = outputs.penalty_mark.value;
         } else {
             // A required input is absent: the main outputs take their defaults.
             self.penalty_mark_detection.skip();
-            frame.own.penalty_mark = Default::default();
+            frame.shared.penalty_mark = Default::default();
         }
         if let Some(injections) = frame.injections {
-            injections.penalty_mark.replace(&mut frame.own.penalty_mark);
+            injections.penalty_mark.replace(&mut frame.shared.penalty_mark);
         }
         Ok(())
     }

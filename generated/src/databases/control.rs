@@ -5,6 +5,7 @@
 use std::sync::Arc;
 
 use control::ball_filter::BallHypothesis;
+use control::localization::PoseHypothesis;
 use framework::AdditionalSlot;
 use framework::Answerer;
 use framework::Consumer;
@@ -17,6 +18,7 @@ use framework::InjectionTable;
 use framework::Interleaving;
 use framework::Reflect;
 use framework::Timestamp;
+use nalgebra::Isometry2;
 use nalgebra::Point3;
 use nalgebra::UnitQuaternion;
 use serde::Deserialize;
@@ -74,6 +76,8 @@ pub struct OwnOutputs {
     pub fall_state: FallState,
     /// control::game_controller_filter
     pub game_controller_state: Option<GameControllerState>,
+    /// control::localization
+    pub ground_to_field: Option<Isometry2<f32>>,
     /// control::ground_contact_filter
     pub has_ground_contact: bool,
     /// control::head_motion
@@ -146,6 +150,7 @@ pub struct SharedOutputs {
 pub struct AdditionalOutputs {
     pub ball_filter: AdditionalOutputsBallFilter,
     pub fall_state_filter: AdditionalOutputsFallStateFilter,
+    pub localization: AdditionalOutputsLocalization,
     pub orientation_filter: AdditionalOutputsOrientationFilter,
     pub whistle_filter: AdditionalOutputsWhistleFilter,
 }
@@ -167,6 +172,12 @@ pub struct AdditionalOutputsFallStateFilter {
 }
 
 #[derive(Debug, Default)]
+pub struct AdditionalOutputsLocalization {
+    /// control::localization
+    pub hypotheses: AdditionalSlot<Vec<PoseHypothesis>>,
+}
+
+#[derive(Debug, Default)]
 pub struct AdditionalOutputsOrientationFilter {
     /// control::orientation_filter
     pub innovation: AdditionalSlot<f32>,
@@ -185,6 +196,7 @@ pub struct Subscribed {
     pub ball_filter_hypotheses: bool,
     pub ball_filter_persistent_ball: bool,
     pub fall_state_filter_center_of_mass_overhang: bool,
+    pub localization_hypotheses: bool,
     pub orientation_filter_innovation: bool,
     pub whistle_filter_votes: bool,
 }
@@ -200,6 +212,7 @@ pub struct Injections {
     pub dispatch_commands: Injection<Option<MotorCommands>>,
     pub fall_state: Injection<FallState>,
     pub game_controller_state: Injection<Option<GameControllerState>>,
+    pub ground_to_field: Injection<Option<Isometry2<f32>>>,
     pub has_ground_contact: Injection<bool>,
     pub head_command: Injection<Option<HeadCommand>>,
     pub is_recording_wanted: Injection<bool>,
@@ -242,6 +255,7 @@ impl InjectionTable for Injections {
             "dispatch_commands" => Some(&mut self.dispatch_commands),
             "fall_state" => Some(&mut self.fall_state),
             "game_controller_state" => Some(&mut self.game_controller_state),
+            "ground_to_field" => Some(&mut self.ground_to_field),
             "has_ground_contact" => Some(&mut self.has_ground_contact),
             "head_command" => Some(&mut self.head_command),
             "is_recording_wanted" => Some(&mut self.is_recording_wanted),

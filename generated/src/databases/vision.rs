@@ -46,10 +46,6 @@ pub struct OwnOutputs {
     pub image_segments: ImageSegments,
     /// vision::limb_projector
     pub limb_mask: LimbMask,
-    /// vision::line_detection
-    pub lines: Vec<LineSegment>,
-    /// vision::penalty_mark_detection
-    pub penalty_mark: Option<PenaltyMark>,
 }
 
 /// Main outputs that other instances read, too: written in the slot that those will read.
@@ -57,8 +53,12 @@ pub struct OwnOutputs {
 pub struct SharedOutputs {
     /// vision::ball_detection
     pub balls: Vec<BallCandidate>,
+    /// vision::line_detection
+    pub lines: Vec<LineSegment>,
     /// vision::obstacle_detection
     pub obstacles: Vec<ObstacleCandidate>,
+    /// vision::penalty_mark_detection
+    pub penalty_mark: Option<PenaltyMark>,
 }
 
 /// Computed only while somebody listens.

@@ -108,6 +108,7 @@ impl<
         self.nodes.team_message_filter.record(out)?;
         self.nodes.whistle_filter.record(out)?;
         self.nodes.game_state_filter.record(out)?;
+        self.nodes.localization.record(out)?;
         self.nodes.ball_filter.record(out)?;
         self.nodes.obstacle_filter.record(out)?;
         self.nodes.world_state_composer.record(out)?;
@@ -191,6 +192,7 @@ impl<
             );
         types.node("control::whistle_filter", |body| &body.nodes.whistle_filter);
         types.node("control::game_state_filter", |body| &body.nodes.game_state_filter);
+        types.node("control::localization", |body| &body.nodes.localization);
         types.node("control::ball_filter", |body| &body.nodes.ball_filter);
         types.node("control::obstacle_filter", |body| &body.nodes.obstacle_filter);
         types
@@ -372,6 +374,11 @@ impl<
             "primary_state",
             digest(&self.own.previous().primary_state)?,
         );
+        visit(
+            "control::localization",
+            "ground_to_field",
+            digest(&self.own.previous().ground_to_field)?,
+        );
         visit("control::ball_filter", "ball", digest(&self.own.previous().ball)?);
         visit(
             "control::obstacle_filter",
@@ -540,6 +547,7 @@ fn load_nodes(from: &mut Loading<'_>) -> Result<Nodes> {
             OnFailure::Stop,
             from,
         )?,
+        localization: Guarded::recorded("control::localization", OnFailure::Stop, from)?,
         ball_filter: Guarded::recorded("control::ball_filter", OnFailure::Stop, from)?,
         obstacle_filter: Guarded::recorded(
             "control::obstacle_filter",

@@ -167,11 +167,11 @@ impl<Hardware: CameraInterface + Send + Sync> Recorded for Vision<Hardware> {
             "field_border",
             digest(&self.own.previous().field_border)?,
         );
-        visit("vision::line_detection", "lines", digest(&self.own.previous().lines)?);
+        visit("vision::line_detection", "lines", digest(&shared.lines)?);
         visit(
             "vision::penalty_mark_detection",
             "penalty_mark",
-            digest(&self.own.previous().penalty_mark)?,
+            digest(&shared.penalty_mark)?,
         );
         visit("vision::ball_detection", "balls", digest(&shared.balls)?);
         visit("vision::obstacle_detection", "obstacles", digest(&shared.obstacles)?);

@@ -68,6 +68,7 @@ pub const ADDITIONAL_OUTPUTS: &[&str] = &[
     "ball_filter.hypotheses",
     "ball_filter.persistent_ball",
     "fall_state_filter.center_of_mass_overhang",
+    "localization.hypotheses",
     "orientation_filter.innovation",
     "whistle_filter.votes",
 ];
@@ -168,6 +169,7 @@ impl<
                 ball_filter_hypotheses: wanted.next_one(),
                 ball_filter_persistent_ball: wanted.next_one(),
                 fall_state_filter_center_of_mass_overhang: wanted.next_one(),
+                localization_hypotheses: wanted.next_one(),
                 orientation_filter_innovation: wanted.next_one(),
                 whistle_filter_votes: wanted.next_one(),
             };
@@ -233,6 +235,7 @@ impl<
             "teammates",
             "whistle",
             "primary_state",
+            "ground_to_field",
             "ball",
             "obstacles",
             "world_state",
@@ -279,6 +282,7 @@ impl<
             "teammates" => Some(&self.own.previous().teammates),
             "whistle" => Some(&self.own.previous().whistle),
             "primary_state" => Some(&self.own.previous().primary_state),
+            "ground_to_field" => Some(&self.own.previous().ground_to_field),
             "ball" => Some(&self.own.previous().ball),
             "obstacles" => Some(&self.own.previous().obstacles),
             "world_state" => Some(&self.own.previous().world_state),
@@ -324,6 +328,9 @@ impl<
                         .get(cycle)?,
                 )
             }
+            "localization.hypotheses" => {
+                Some(self.additional_outputs.localization.hypotheses.get(cycle)?)
+            }
             "orientation_filter.innovation" => {
                 Some(self.additional_outputs.orientation_filter.innovation.get(cycle)?)
             }
@@ -356,6 +363,7 @@ impl<
         visitor.output(Some(&self.own.previous().teammates));
         visitor.output(Some(&self.own.previous().whistle));
         visitor.output(Some(&self.own.previous().primary_state));
+        visitor.output(Some(&self.own.previous().ground_to_field));
         visitor.output(Some(&self.own.previous().ball));
         visitor.output(Some(&self.own.previous().obstacles));
         visitor.output(Some(&self.own.previous().world_state));
@@ -388,6 +396,7 @@ impl<
                     .center_of_mass_overhang
                     .get(cycle),
             );
+        visitor.output(self.additional_outputs.localization.hypotheses.get(cycle));
         visitor.output(self.additional_outputs.orientation_filter.innovation.get(cycle));
         visitor.output(self.additional_outputs.whistle_filter.votes.get(cycle));
     }
@@ -409,6 +418,7 @@ impl<
         visit(self.nodes.team_message_filter.report());
         visit(self.nodes.whistle_filter.report());
         visit(self.nodes.game_state_filter.report());
+        visit(self.nodes.localization.report());
         visit(self.nodes.ball_filter.report());
         visit(self.nodes.obstacle_filter.report());
         visit(self.nodes.world_state_composer.report());
@@ -471,6 +481,7 @@ impl<
         visit("control::team_message_filter", &mut self.nodes.team_message_filter);
         visit("control::whistle_filter", &mut self.nodes.whistle_filter);
         visit("control::game_state_filter", &mut self.nodes.game_state_filter);
+        visit("control::localization", &mut self.nodes.localization);
         visit("control::ball_filter", &mut self.nodes.ball_filter);
         visit("control::obstacle_filter", &mut self.nodes.obstacle_filter);
         visit("control::world_state_composer", &mut self.nodes.world_state_composer);

@@ -216,8 +216,8 @@ impl<Hardware: CameraInterface + Send + Sync> Body for Vision<Hardware> {
             "field_color" => Some(&self.own.previous().field_color),
             "image_segments" => Some(&self.own.previous().image_segments),
             "field_border" => Some(&self.own.previous().field_border),
-            "lines" => Some(&self.own.previous().lines),
-            "penalty_mark" => Some(&self.own.previous().penalty_mark),
+            "lines" => Some(&shared.lines),
+            "penalty_mark" => Some(&shared.penalty_mark),
             "balls" => Some(&shared.balls),
             "obstacles" => Some(&shared.obstacles),
             _ => None,
@@ -255,8 +255,8 @@ impl<Hardware: CameraInterface + Send + Sync> Body for Vision<Hardware> {
         visitor.output(Some(&self.own.previous().field_color));
         visitor.output(Some(&self.own.previous().image_segments));
         visitor.output(Some(&self.own.previous().field_border));
-        visitor.output(Some(&self.own.previous().lines));
-        visitor.output(Some(&self.own.previous().penalty_mark));
+        visitor.output(Some(&shared.lines));
+        visitor.output(Some(&shared.penalty_mark));
         visitor.output(Some(&shared.balls));
         visitor.output(Some(&shared.obstacles));
         visitor.output(self.additional_outputs.ball_candidates.get(cycle));

@@ -15,7 +15,7 @@ use framework::{
     AdditionalOutput, CycleTime, HistoricInput, MainOutput, Parameter, PerceptionInput, Reflect,
     Result, RollBack, Timestamp, context,
 };
-use nalgebra::{Isometry2, Matrix2, Point2, Unit, Vector2};
+use nalgebra::{Isometry2, Matrix2, Point2, Vector2};
 use serde::{Deserialize, Serialize};
 use types::ball::{Ball, BallCandidate, LearntImage};
 use types::odometry::Odometry;
@@ -23,6 +23,7 @@ use types::odometry::Odometry;
 use self::hypotheses::Hypotheses;
 use self::hypothesis::{Hypothesis, Sighting};
 use crate::places::Hypothesis as _;
+use crate::sight_noise::SightNoise;
 use crate::start_frame::ground_to_start;
 
 /// What is believed of balls and of those who see them.
@@ -188,16 +189,14 @@ fn sightings(
     })
 }
 
-/// Covariance of a sighting: its distance is known less well than its direction.
+/// Covariance of a sighting.
 fn noise(sight: Vector2<f32>, parameters: &BallFilterParameters) -> Matrix2<f32> {
-    let direction = Unit::try_new(sight, f32::EPSILON).unwrap_or(Vector2::x_axis());
-    let variance = |share: f32| (parameters.least_noise + share * sight.norm()).powi(2);
-    let (along, across) = (
-        variance(parameters.noise_along),
-        variance(parameters.noise_across),
-    );
-    let along_sight = direction.into_inner() * direction.transpose();
-    along_sight * (along - across) + Matrix2::identity() * across
+    let noise = SightNoise {
+        least: parameters.least_noise,
+        along: parameters.noise_along,
+        across: parameters.noise_across,
+    };
+    noise.covariance(sight)
 }
 
 fn ball(

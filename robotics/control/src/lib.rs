@@ -25,6 +25,7 @@ pub mod team_message_filter;
 pub mod whistle_filter;
 
 pub mod ball_filter;
+pub mod localization;
 pub mod obstacle_filter;
 pub mod world_state_composer;
 
@@ -58,9 +59,11 @@ pub mod team_message_sender;
 
 pub mod command_sender;
 
+mod angle;
 pub mod hysteresis;
 mod level;
 pub mod low_pass;
 mod pace;
 mod places;
+mod sight_noise;
 mod start_frame;

@@ -9,8 +9,6 @@
 //! who turns a still robot more slowly than `odometry.still_rotation` is not noticed, nor how far
 //! anybody slides or carries it.
 
-use std::f32::consts::{PI, TAU};
-
 use framework::{CycleTime, Input, MainOutput, Parameter, Result, context};
 use nalgebra::{Isometry2, Isometry3, Point2, Rotation2, UnitQuaternion, Vector2, Vector3};
 use serde::{Deserialize, Serialize};
@@ -20,6 +18,7 @@ use types::odometry::Odometry;
 use types::robot_kinematics::RobotKinematics;
 use types::sensor_data::InertialMeasurement;
 
+use crate::angle::wrap;
 use crate::level::torso_to_level;
 
 /// Above this sine of its elevation the torso's x axis points to no direction on the ground.
@@ -182,11 +181,6 @@ fn soles_to_ground(
         left: to_left.xy(),
         right: -to_left.xy(),
     }
-}
-
-/// The same direction between -π and π.
-fn wrap(angle: f32) -> f32 {
-    (angle + PI).rem_euclid(TAU) - PI
 }
 
 #[cfg(test)]

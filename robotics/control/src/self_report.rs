@@ -1,6 +1,7 @@
 //! Says what this robot knows of itself and the ball, for those who may hear it.
 
 use framework::{CycleTime, Input, MainOutput, Parameter, Result, Timestamp, context};
+use nalgebra::Isometry2;
 use serde::{Deserialize, Serialize};
 use types::ball::Ball;
 use types::fall_state::FallState;
@@ -18,6 +19,7 @@ pub struct CreationContext {}
 pub struct CycleContext {
     primary_state: Input<PrimaryState, "primary_state">,
     fall_state: Input<FallState, "fall_state">,
+    ground_to_field: Input<Option<Isometry2<f32>>, "ground_to_field">,
     ball: Input<Option<Ball>, "ball">,
     cycle_time: CycleTime,
 
@@ -39,13 +41,13 @@ impl SelfReport {
         Ok(Self {})
     }
 
-    /// A robot that does not stand is fallen; where it is on the field nobody knows yet.
+    /// A robot that does not stand is fallen.
     pub fn cycle(&mut self, context: CycleContext) -> Result<MainOutputs> {
         let now = context.cycle_time.start;
         let report = TeamMessage {
             player_number: context.player.number,
             is_fallen: *context.fall_state != FallState::Upright,
-            ground_to_field: None,
+            ground_to_field: *context.ground_to_field,
             ball: context.ball.map(|ball| as_told(&ball, now)),
         };
         let is_in_the_game = matches!(
@@ -79,6 +81,7 @@ mod tests {
         let context = CycleContext {
             primary_state: &primary_state,
             fall_state: &fall_state,
+            ground_to_field: &Some(Isometry2::translation(-1.0, 0.5)),
             ball: &Some(Ball {
                 position: Point2::new(1.5, -0.5),
                 velocity: Vector2::zeros(),
@@ -103,6 +106,10 @@ mod tests {
             age: 1.5,
         };
         assert_eq!(report.ball, Some(ball));
+        assert_eq!(
+            report.ground_to_field,
+            Some(Isometry2::translation(-1.0, 0.5))
+        );
         assert_eq!(outputs.team_report.value, Some(report));
     }
 

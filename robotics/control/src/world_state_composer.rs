@@ -1,6 +1,7 @@
 //! Puts everything into one place that the behaviour decides on.
 
 use framework::{Input, MainOutput, Result, context};
+use nalgebra::Isometry2;
 use serde::{Deserialize, Serialize};
 use types::ball::Ball;
 use types::fall_state::FallState;
@@ -22,6 +23,7 @@ pub struct CycleContext {
     game_controller_state: Input<Option<GameControllerState>, "game_controller_state">,
     fall_state: Input<FallState, "fall_state">,
     has_ground_contact: Input<bool, "has_ground_contact">,
+    ground_to_field: Input<Option<Isometry2<f32>>, "ground_to_field">,
     ball: Input<Option<Ball>, "ball">,
     obstacles: Input<Vec<Obstacle>, "obstacles">,
     teammates: Input<Vec<Teammate>, "teammates">,
@@ -49,6 +51,7 @@ impl WorldStateComposer {
         world_state.kicking_team = kicking_team;
         world_state.fall_state = *context.fall_state;
         world_state.has_ground_contact = *context.has_ground_contact;
+        world_state.ground_to_field = *context.ground_to_field;
         world_state.ball = *context.ball;
         world_state.obstacles.extend_from_slice(context.obstacles);
         world_state.teammates.extend_from_slice(context.teammates);
@@ -75,6 +78,7 @@ mod tests {
             game_controller_state: &Some(referee),
             fall_state: &FallState::Lying(Facing::Up),
             has_ground_contact: &true,
+            ground_to_field: &Some(Isometry2::translation(1.0, 2.0)),
             ball: &Some(Ball::default()),
             obstacles: &vec![Obstacle::default(); 2],
             teammates: &vec![Teammate::default(); 3],
@@ -86,6 +90,7 @@ mod tests {
             kicking_team: KickingTeam::Own,
             fall_state: FallState::Lying(Facing::Up),
             has_ground_contact: true,
+            ground_to_field: Some(Isometry2::translation(1.0, 2.0)),
             ball: Some(Ball::default()),
             obstacles: vec![Obstacle::default(); 2],
             teammates: vec![Teammate::default(); 3],
@@ -102,6 +107,7 @@ mod tests {
             game_controller_state: &None,
             fall_state: &FallState::Upright,
             has_ground_contact: &false,
+            ground_to_field: &None,
             ball: &None,
             obstacles: &vec![],
             teammates: &vec![],

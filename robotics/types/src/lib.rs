@@ -5,7 +5,7 @@
 //! ([`joints`], [`feet`], [`sensor_data`], [`buttons`], [`sonar`], [`robot_kinematics`],
 //! [`fall_state`], [`odometry`]), its commands ([`motion`], [`motor_commands`], [`head`], [`leds`]),
 //! the cameras ([`image`], [`camera`], [`limbs`], [`projection_noise`],
-//! [`field_features`]), sound ([`audio`]), the network
+//! [`field_features`], [`field_markings`]), sound ([`audio`]), the network
 //! ([`network`], [`game`], [`team`]), the world ([`ball`], [`obstacles`], [`world_state`]).
 
 pub mod joints;
@@ -26,6 +26,7 @@ pub mod motor_commands;
 
 pub mod camera;
 pub mod field_features;
+pub mod field_markings;
 pub mod image;
 pub mod limbs;
 pub mod projection_noise;

@@ -1,6 +1,7 @@
 //! Owns everything that the behaviour decides on.
 
 use framework::{Clear, Reflect};
+use nalgebra::Isometry2;
 use serde::{Deserialize, Serialize};
 
 use crate::ball::Ball;
@@ -20,6 +21,8 @@ pub struct WorldState {
     pub fall_state: FallState,
     /// Whether its soles carry it.
     pub has_ground_contact: bool,
+    /// From the ground frame to the field frame, m and rad; `None` while the robot does not know where it is.
+    pub ground_to_field: Option<Isometry2<f32>>,
     /// The ball; `None` where nobody has seen it lately.
     pub ball: Option<Ball>,
     /// What stands in the way, nearest first.

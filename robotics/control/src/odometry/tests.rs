@@ -1,6 +1,6 @@
 //! Steps, turns and standing still, with the truth beside them.
 
-use std::f32::consts::FRAC_PI_2;
+use std::f32::consts::{FRAC_PI_2, PI};
 
 use framework::testing::cycle_time;
 use kinematics::forward_kinematics;

@@ -1,0 +1,317 @@
+//! Knows where the robot is on the field, from the lines and penalty marks that both cameras saw in order.
+//!
+//! A few hypotheses, each an extended Kalman filter over place and heading that odometry moves. What
+//! was seen belongs to the marking that was expected nearest; a hypothesis that explains little of it
+//! loses weight. A robot whose best hypothesis explains too little is lost: it looks for places from
+//! which the field looks as it was seen lately. It begins at the start pose of its number, and comes
+//! back from a penalty where the rules have it put.
+//!
+//! Cycles of Vision that nothing older can overtake any more are learnt; younger ones only refine
+//! this cycle's answer.
+
+mod belief;
+mod estimate;
+mod memory;
+mod search;
+mod sight;
+
+use std::f32::consts::FRAC_PI_2;
+
+use framework::{
+    AdditionalOutput, CycleTime, HistoricInput, Input, MainOutput, Parameter, PerceptionInput,
+    Reflect, Result, RollBack, Timestamp, context,
+};
+use nalgebra::{Isometry2, Matrix3, Vector2};
+use serde::{Deserialize, Serialize};
+use types::fall_state::FallState;
+use types::field_features::{LineSegment, PenaltyMark};
+use types::field_markings::FieldMarkings;
+use types::game::{Player, PrimaryState};
+use types::odometry::Odometry;
+
+use self::belief::{Belief, Hypothesis, Seen};
+use self::estimate::Estimate;
+use self::sight::View;
+use crate::start_frame::ground_to_start;
+
+/// What is believed of the robot, its eyes and its legs; noises are one standard deviation.
+#[derive(Clone, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct LocalizationParameters {
+    /// Where robots stand before the game, by the number of the shirt; others stand as the last one.
+    pub start_poses: Vec<FieldPose>,
+    /// How far beside the touch line robots are put after a penalty.
+    #[reflect(unit = "m", range = 0.0..)]
+    pub return_distance: f32,
+    /// How exactly people put robots down.
+    #[reflect(unit = "m", range = 0.0..)]
+    pub start_noise: f32,
+    /// Likewise.
+    #[reflect(unit = "rad", range = 0.0..)]
+    pub start_turn_noise: f32,
+    /// In m after 1 m of way.
+    pub way_noise: f32,
+    /// In rad after 1 rad of turning.
+    pub turn_noise: f32,
+    /// In rad after 1 m of way.
+    pub heading_noise: f32,
+    /// In m after 1 s.
+    pub standing_noise: f32,
+    /// In rad after 1 s.
+    pub standing_turn_noise: f32,
+    /// In m after 1 s of falling, lying and getting up.
+    pub fallen_noise: f32,
+    /// In rad after 1 s of falling, lying and getting up.
+    pub fallen_turn_noise: f32,
+    /// How wrong a place just in front of the robot is seen.
+    #[reflect(unit = "m", range = 0.0..)]
+    pub least_noise: f32,
+    /// By how much more per m of distance, along the line of sight.
+    pub noise_along: f32,
+    /// By how much more per m of distance, across the line of sight.
+    pub noise_across: f32,
+    /// In standard deviations: what is seen farther away from a marking is another one.
+    pub gate: f32,
+    /// In standard deviations: what another marking explains as well but for this says nothing about where.
+    pub clear_by: f32,
+    /// How far a seen line may reach beyond the end of the marking.
+    #[reflect(unit = "m", range = 0.0..)]
+    pub end_tolerance: f32,
+    /// A robot farther beside the field is elsewhere.
+    #[reflect(unit = "m", range = 0.0..)]
+    pub greatest_distance_outside: f32,
+    /// Over how many images evidence is averaged.
+    pub evidence_images: f32,
+    /// What speaks for a place where somebody put the robot, before it has seen anything.
+    #[reflect(range = 0.0..=1.0)]
+    pub start_evidence: f32,
+    /// More has to speak for another hypothesis than for the one that counts.
+    #[reflect(range = 0.0..=1.0)]
+    pub switch_margin: f32,
+    /// While less speaks for the best hypothesis, others are looked for.
+    #[reflect(range = 0.0..=1.0)]
+    pub doubted_evidence: f32,
+    /// While less speaks for the best hypothesis, the robot does not know where it is.
+    #[reflect(range = 0.0..=1.0)]
+    pub lost_evidence: f32,
+    /// How often places are looked for.
+    #[reflect(unit = "s", range = 0.0..)]
+    pub search_interval: f32,
+    /// What was seen longer ago does not count in the search.
+    #[reflect(unit = "s", range = 0.0..)]
+    pub memory_time: f32,
+    /// Lines are remembered so often.
+    #[reflect(unit = "s", range = 0.0..)]
+    pub memory_step: f32,
+    /// Share of what was seen lately that a place has to explain.
+    #[reflect(range = 0.0..=1.0)]
+    pub found_share: f32,
+    /// What speaks for a place that explains all of it.
+    #[reflect(range = 0.0..=1.0)]
+    pub found_evidence: f32,
+    /// How exactly a place is found.
+    #[reflect(unit = "m", range = 0.0..)]
+    pub found_noise: f32,
+    /// Likewise.
+    #[reflect(unit = "rad", range = 0.0..)]
+    pub found_turn_noise: f32,
+    /// Of a place and its twin in the other half the one counts that is so near to the last belief.
+    #[reflect(unit = "m", range = 0.0..)]
+    pub anchor_distance: f32,
+    /// Likewise.
+    #[reflect(unit = "rad", range = 0.0..)]
+    pub anchor_heading: f32,
+    /// Two hypotheses that are so near to each other are one.
+    #[reflect(unit = "m", range = 0.0..)]
+    pub same_place: f32,
+    /// Likewise.
+    #[reflect(unit = "rad", range = 0.0..)]
+    pub same_heading: f32,
+}
+
+/// A place and a heading in the field frame.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct FieldPose {
+    /// Towards the opponents' goal from the middle, m.
+    pub x: f32,
+    /// To the left, m.
+    pub y: f32,
+    /// From x to y, rad.
+    pub heading: f32,
+}
+
+/// A place where the robot may be.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
+pub struct PoseHypothesis {
+    /// From the ground frame to the field frame, m and rad.
+    pub ground_to_field: Isometry2<f32>,
+    /// Of x, y and heading, in m², m rad and rad².
+    pub covariance: Matrix3<f32>,
+    /// Share of what was seen lately that it explains, 0 to 1.
+    pub evidence: f32,
+}
+
+/// What was learnt of the own place.
+#[derive(Debug, Deserialize, Serialize)]
+pub struct Localization {
+    belief: RollBack<Belief>,
+    primary_state: PrimaryState,
+    /// What was seen before does not count.
+    begun_at: Timestamp,
+}
+
+#[context]
+pub struct CreationContext {}
+
+#[context]
+pub struct CycleContext {
+    lines: PerceptionInput<Vec<LineSegment>, "Vision", "lines">,
+    penalty_mark: PerceptionInput<Option<PenaltyMark>, "Vision", "penalty_mark">,
+    odometry: HistoricInput<Odometry, "odometry">,
+    fall_state: Input<FallState, "fall_state">,
+    primary_state: Input<PrimaryState, "primary_state">,
+    cycle_time: CycleTime,
+
+    /// Who this robot is in the game.
+    player: Parameter<Player, "player">,
+    markings: Parameter<FieldMarkings, "field_dimensions.markings">,
+    parameters: Parameter<LocalizationParameters, "localization">,
+
+    /// All places where the robot may be, the one that counts first.
+    hypotheses: AdditionalOutput<Vec<PoseHypothesis>, "localization.hypotheses">,
+}
+
+#[context]
+pub struct MainOutputs {
+    /// From the ground frame of this cycle to the field frame, m and rad; x points to the opponents' goal.
+    /// `None` while the robot does not know where it is.
+    ground_to_field: MainOutput<Option<Isometry2<f32>>>,
+}
+
+impl Localization {
+    /// Has seen nothing.
+    pub fn new(_context: CreationContext) -> Result<Self> {
+        Ok(Self {
+            belief: RollBack::default(),
+            primary_state: PrimaryState::default(),
+            begun_at: Timestamp::ZERO,
+        })
+    }
+
+    /// Learns from what is settled, then looks at what is not.
+    pub fn cycle(&mut self, mut context: CycleContext) -> Result<MainOutputs> {
+        let now = context.cycle_time.start;
+        let view = View {
+            markings: context.markings,
+            parameters: context.parameters,
+        };
+        let (odometry, begun_at) = (context.odometry, self.begun_at);
+        let is_upright = *context.fall_state == FallState::Upright;
+        let see = |belief: &mut Belief, timestamp, seen: Seen<'_>| {
+            if timestamp < begun_at {
+                return;
+            }
+            if let Some(pose) = ground_to_start(&odometry, timestamp) {
+                belief.predict(timestamp, pose, is_upright, &view);
+                belief.learn(timestamp, pose, seen, &view);
+            }
+        };
+        let marks = context.penalty_mark.persistent;
+        self.belief
+            .settle(context.lines.persistent, |belief, timestamp, lines| {
+                let mark = at(marks.iter(), timestamp);
+                see(belief, timestamp, Seen { lines, mark });
+            });
+        let pose = ground_to_start(&odometry, now);
+        if let Some(pose) = pose {
+            self.put(now, pose, *context.primary_state, *context.player, &view);
+        }
+        let marks = context.penalty_mark.transient;
+        let mut newest =
+            self.belief
+                .with_transient(context.lines.transient, |belief, timestamp, lines| {
+                    let mark = at(marks.iter(), timestamp);
+                    see(belief, timestamp, Seen { lines, mark });
+                });
+        if let Some(pose) = pose {
+            newest.predict(now, pose, is_upright, &view);
+        }
+        context
+            .hypotheses
+            .fill_if_subscribed(|| newest.iter().map(described).collect());
+        let best = newest.best();
+        let known = best.filter(|best| best.evidence >= context.parameters.lost_evidence);
+        Ok(MainOutputs {
+            ground_to_field: known.map(|known| known.estimate.pose()).into(),
+        })
+    }
+
+    /// What people do with a robot that does not play: before the game it is put to its start, after a
+    /// penalty beside the field, unless it was left where it stood.
+    fn put(
+        &mut self,
+        now: Timestamp,
+        ground_to_start: Isometry2<f32>,
+        primary_state: PrimaryState,
+        player: Player,
+        view: &View<'_>,
+    ) {
+        let before = std::mem::replace(&mut self.primary_state, primary_state);
+        let belief = self.belief.settled_mut();
+        if primary_state == PrimaryState::Unstiff || self.begun_at == Timestamp::ZERO {
+            self.begun_at = now;
+            let pose = start_pose(player, view.parameters);
+            belief.begin(now, ground_to_start, [put_at(pose, view)].into_iter());
+        } else if before == PrimaryState::Penalized && primary_state != before {
+            belief.or_at(
+                return_poses(view)
+                    .map(|pose| put_at(pose, view))
+                    .into_iter(),
+            );
+        }
+    }
+}
+
+/// What the image of that time shows.
+fn at<'a>(
+    mut marks: impl Iterator<Item = (Timestamp, &'a Option<PenaltyMark>)>,
+    timestamp: Timestamp,
+) -> Option<&'a PenaltyMark> {
+    let (_, mark) = marks.find(|(seen_at, _)| *seen_at == timestamp)?;
+    mark.as_ref()
+}
+
+fn start_pose(player: Player, parameters: &LocalizationParameters) -> Isometry2<f32> {
+    let poses = &parameters.start_poses;
+    let index = usize::from(player.number).saturating_sub(1);
+    let pose = poses.get(index).or(poses.last());
+    let FieldPose { x, y, heading } = pose.copied().unwrap_or_default();
+    Isometry2::new(Vector2::new(x, y), heading)
+}
+
+/// RoboCup SPL rules 2025: beside the field at the height of the own penalty mark, facing the field.
+fn return_poses(view: &View<'_>) -> [Isometry2<f32>; 2] {
+    let [_, own_mark] = view.markings.penalty_marks();
+    let y = view.markings.width / 2.0 + view.parameters.return_distance;
+    [1.0, -1.0].map(|side| Isometry2::new(Vector2::new(own_mark.x, side * y), -side * FRAC_PI_2))
+}
+
+fn put_at(pose: Isometry2<f32>, view: &View<'_>) -> Hypothesis {
+    let parameters = view.parameters;
+    Hypothesis {
+        estimate: Estimate::new(pose, parameters.start_noise, parameters.start_turn_noise),
+        evidence: parameters.start_evidence,
+    }
+}
+
+fn described(hypothesis: &Hypothesis) -> PoseHypothesis {
+    PoseHypothesis {
+        ground_to_field: hypothesis.estimate.pose(),
+        covariance: hypothesis.estimate.covariance,
+        evidence: hypothesis.evidence,
+    }
+}
+
+#[cfg(test)]
+mod tests;

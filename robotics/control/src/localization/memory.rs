@@ -1,0 +1,70 @@
+//! Owns `Memory`, lines that were seen lately: one image rarely shows enough to find a lost robot.
+
+use framework::Timestamp;
+use nalgebra::Isometry2;
+use serde::{Deserialize, Serialize};
+use types::field_features::LineSegment;
+
+use super::belief::moved;
+use super::sight::View;
+
+/// How many lines are remembered.
+const MOST_LINES: usize = 32;
+/// How many of one image.
+const OF_ONE_IMAGE: usize = 4;
+
+/// The newest ones, in the start frame of odometry.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Serialize)]
+pub(super) struct Memory {
+    lines: [Option<Remembered>; MOST_LINES],
+    next: usize,
+    newest: Timestamp,
+}
+
+#[derive(Clone, Copy, Debug, Deserialize, Serialize)]
+struct Remembered {
+    line: LineSegment,
+    seen_at: Timestamp,
+}
+
+impl Memory {
+    /// Keeps the first lines of an image, in which those with the most points stand first. Images that
+    /// follow at once show the same.
+    pub(super) fn remember(
+        &mut self,
+        seen_at: Timestamp,
+        ground_to_start: &Isometry2<f32>,
+        lines: &[LineSegment],
+        view: &View<'_>,
+    ) {
+        let since = (seen_at - self.newest).as_secs_f32();
+        if self.newest > Timestamp::ZERO && since < view.parameters.memory_step {
+            return;
+        }
+        self.newest = seen_at;
+        for line in lines.iter().take(OF_ONE_IMAGE) {
+            let line = moved(line, ground_to_start);
+            self.lines[self.next] = Some(Remembered { line, seen_at });
+            self.next = (self.next + 1) % MOST_LINES;
+        }
+    }
+
+    /// What is not too old, in the ground frame, the longest first.
+    pub(super) fn lines(
+        &self,
+        now: Timestamp,
+        ground_to_start: &Isometry2<f32>,
+        view: &View<'_>,
+    ) -> Vec<LineSegment> {
+        let to_ground = ground_to_start.inverse();
+        let is_recent = |remembered: &&Remembered| {
+            (now - remembered.seen_at).as_secs_f32() <= view.parameters.memory_time
+        };
+        let recent = self.lines.iter().flatten().filter(is_recent);
+        let mut lines: Vec<_> = recent
+            .map(|remembered| moved(&remembered.line, &to_ground))
+            .collect();
+        lines.sort_by(|a, b| b.length().total_cmp(&a.length()));
+        lines
+    }
+}

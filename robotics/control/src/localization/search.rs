@@ -1,0 +1,156 @@
+//! Finds places from which the field looks as it was seen, wherever the robot believed to be.
+//!
+//! Two lines that cross at a right angle fix the pose but for which lines they are: every pair of the
+//! field's lines is tried, and what else was seen lately decides. The field looks the same from both
+//! goals, so each place has a twin: the one near the last belief counts, else the one in the own half,
+//! where the rules have robots put back.
+
+use nalgebra::{Isometry2, Rotation2, Vector2};
+use types::field_features::LineSegment;
+use types::field_markings::{Course, FieldLine};
+
+use super::belief::{Hypothesis, quality};
+use super::estimate::Estimate;
+use super::sight::View;
+use crate::angle::wrap;
+
+/// How many places are found at most.
+pub(super) const MOST_PLACES: usize = 4;
+
+/// Two lines whose directions have a greater cosine do not cross at a right angle.
+const SQUARE: f32 = 0.17;
+/// Shorter lines may be pieces of the circle, m.
+const LEAST_LENGTH: f32 = 0.7;
+
+/// Places that explain enough of the lines, which are in the ground frame and the longest first; the best
+/// one first.
+pub(super) fn places(
+    lines: &[LineSegment],
+    anchor: Option<&Isometry2<f32>>,
+    view: &View<'_>,
+) -> [Option<Hypothesis>; MOST_PLACES] {
+    let mut found = [None; MOST_PLACES];
+    let Some((one, other)) = crossing(lines) else {
+        return found;
+    };
+    for (across, along) in [(one, other), (other, one)] {
+        let heading = heading(across, along);
+        for (first, second) in pairs(view) {
+            let pose = place(heading, (across, first.at), (along, second.at));
+            if let Some(hypothesis) = judged(&resolved(pose, anchor, view), lines, view) {
+                keep(&mut found, hypothesis, view);
+            }
+        }
+    }
+    found
+}
+
+/// Every line across the field with every one along it that has another place; ends are judged later.
+fn pairs(view: &View<'_>) -> impl Iterator<Item = (FieldLine, FieldLine)> {
+    let lines = view.markings.lines();
+    let of = move |course| lines.into_iter().filter(move |line| line.course == course);
+    let is_first = move |line: &FieldLine| {
+        let same = of(Course::Along).find(|other| other.at == line.at);
+        same == Some(*line)
+    };
+    let along = move || of(Course::Along).filter(is_first);
+    of(Course::Across).flat_map(move |first| along().map(move |second| (first, second)))
+}
+
+/// The longest two lines at a right angle.
+fn crossing(lines: &[LineSegment]) -> Option<(&LineSegment, &LineSegment)> {
+    let long = lines.iter().filter(|line| line.length() >= LEAST_LENGTH);
+    long.clone().find_map(|one| {
+        let direction = direction(one);
+        let other = long
+            .clone()
+            .find(|other| direction.dot(&self::direction(other)).abs() <= SQUARE)?;
+        Some((one, other))
+    })
+}
+
+fn direction(line: &LineSegment) -> Vector2<f32> {
+    (line.end - line.start) / line.length().max(f32::MIN_POSITIVE)
+}
+
+/// Of a robot that sees one line go across the field and one along it; the twin looks the other way.
+fn heading(across: &LineSegment, along: &LineSegment) -> Rotation2<f32> {
+    let (across_length, along_length) = (across.length(), along.length());
+    let (across, along) = (direction(across), direction(along));
+    // The line along the field turned by a right angle goes across it.
+    let turned = Vector2::new(-along.y, along.x);
+    let same_way = if turned.dot(&across) < 0.0 { -1.0 } else { 1.0 };
+    let mean = across * across_length + turned * (same_way * along_length);
+    Rotation2::rotation_between(&mean, &Vector2::y())
+}
+
+fn place(
+    heading: Rotation2<f32>,
+    (across, x): (&LineSegment, f32),
+    (along, y): (&LineSegment, f32),
+) -> Isometry2<f32> {
+    let middle = |line: &LineSegment| heading * nalgebra::center(&line.start, &line.end);
+    let position = Vector2::new(x - middle(across).x, y - middle(along).y);
+    Isometry2::new(position, heading.angle())
+}
+
+/// The pose or its twin.
+fn resolved(
+    pose: Isometry2<f32>,
+    anchor: Option<&Isometry2<f32>>,
+    view: &View<'_>,
+) -> Isometry2<f32> {
+    let twin = Isometry2::rotation(std::f32::consts::PI) * pose;
+    let is_near = |pose: &Isometry2<f32>| {
+        anchor.is_some_and(|anchor| {
+            let apart = anchor.inv_mul(pose);
+            apart.translation.vector.norm() <= view.parameters.anchor_distance
+                && wrap(apart.rotation.angle()).abs() <= view.parameters.anchor_heading
+        })
+    };
+    let is_twin = match (is_near(&pose), is_near(&twin)) {
+        (false, true) => true,
+        (true, false) => false,
+        _ => pose.translation.x > 0.0,
+    };
+    if is_twin { twin } else { pose }
+}
+
+/// `None` where it explains too little, or lies beside the field.
+fn judged(pose: &Isometry2<f32>, lines: &[LineSegment], view: &View<'_>) -> Option<Hypothesis> {
+    let parameters = view.parameters;
+    let margin = parameters.greatest_distance_outside;
+    if !view
+        .markings
+        .is_inside(pose.translation.vector.into(), margin)
+    {
+        return None;
+    }
+    let estimate = Estimate::new(*pose, parameters.found_noise, parameters.found_turn_noise);
+    let (mut total, mut explained) = (0.0, 0.0);
+    for line in lines {
+        let length = line.length();
+        total += length;
+        if let Some(found) = view.line(&estimate, line) {
+            explained += length * quality(&found, view);
+        }
+    }
+    let share = explained / total;
+    (share >= parameters.found_share).then_some(Hypothesis {
+        estimate,
+        evidence: share * parameters.found_evidence,
+    })
+}
+
+/// In the order of what speaks for them; of the same place once.
+fn keep(found: &mut [Option<Hypothesis>; MOST_PLACES], hypothesis: Hypothesis, view: &View<'_>) {
+    let evidence = |place: &Option<Hypothesis>| place.map_or(-1.0, |known| known.evidence);
+    let same = found
+        .iter()
+        .position(|known| known.is_some_and(|known| known.is_same(&hypothesis, view)));
+    let index = same.unwrap_or(MOST_PLACES - 1);
+    if evidence(&found[index]) < hypothesis.evidence {
+        found[index] = Some(hypothesis);
+        found.sort_by(|a, b| evidence(b).total_cmp(&evidence(a)));
+    }
+}

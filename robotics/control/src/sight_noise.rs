@@ -1,0 +1,26 @@
+//! Owns how wrong a camera is about a place on the ground: its distance is known less well than its
+//! direction.
+
+use nalgebra::{Matrix2, Unit, Vector2};
+
+/// What grows with the distance, one standard deviation each.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SightNoise {
+    /// Just in front of the robot, in m.
+    pub(crate) least: f32,
+    /// By how much more per m of distance, along the line of sight.
+    pub(crate) along: f32,
+    /// By how much more per m of distance, across the line of sight.
+    pub(crate) across: f32,
+}
+
+impl SightNoise {
+    /// Of a place that lies so from the robot (m), in the axes of that vector, in m².
+    pub(crate) fn covariance(&self, sight: Vector2<f32>) -> Matrix2<f32> {
+        let direction = Unit::try_new(sight, f32::EPSILON).unwrap_or(Vector2::x_axis());
+        let variance = |share: f32| (self.least + share * sight.norm()).powi(2);
+        let (along, across) = (variance(self.along), variance(self.across));
+        let along_sight = direction.into_inner() * direction.transpose();
+        along_sight * (along - across) + Matrix2::identity() * across
+    }
+}
