@@ -4,11 +4,12 @@
 
 use audio::whistle_detection::WhistleDetectionParameters;
 use control::ball_filter::BallFilterParameters;
-use control::behavior::Approach;
+use control::behavior::BehaviorParameters;
 use control::fall_state_filter::Sitting;
 use control::fall_state_filter::TiltLimits;
 use control::localization::LocalizationParameters;
 use control::obstacle_filter::ObstacleFilterParameters;
+use control::role_assignment::RoleParameters;
 use control::walking_engine::Heat;
 use framework::Reflect;
 use keyframes::Motions;
@@ -43,7 +44,8 @@ pub struct Parameters {
     pub ball_detection: BallDetectionParameters,
     /// control::ball_filter
     pub ball_filter: BallFilterParameters,
-    pub behavior: Behavior,
+    /// control::behavior
+    pub behavior: BehaviorParameters,
     pub button_filter: ButtonFilter,
     pub cameras: Cameras,
     pub client_wishes: ClientWishes,
@@ -80,12 +82,15 @@ pub struct Parameters {
     /// vision::penalty_mark_detection
     pub penalty_mark_detection: PenaltyMarkDetectionParameters,
     /// control::game_controller_filter, control::game_controller_responder,
-    /// control::localization, control::self_report, spl_network::team_message_parser
+    /// control::localization, control::role_assignment, control::self_report,
+    /// spl_network::team_message_parser
     pub player: Player,
     /// vision::ball_detection, vision::line_detection, vision::obstacle_detection,
     /// vision::penalty_mark_detection
     pub projection_noise: ProjectionNoise,
     pub recording_switch: RecordingSwitch,
+    /// control::role_assignment
+    pub role_assignment: RoleParameters,
     pub sit_down: SitDown,
     pub sonar_filter: SonarFilter,
     pub stand: Stand,
@@ -102,13 +107,6 @@ pub struct Parameters {
     /// audio::whistle_detection, control::tone_selector
     pub whistle_detection: WhistleDetectionParameters,
     pub whistle_filter: WhistleFilter,
-}
-
-#[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
-#[serde(deny_unknown_fields)]
-pub struct Behavior {
-    /// control::behavior
-    pub approach: Approach,
 }
 
 #[derive(Clone, Debug, Deserialize, Reflect, Serialize)]

@@ -29,6 +29,7 @@ use control::odometry;
 use control::orientation_filter;
 use control::penalized_pose;
 use control::recording_switch;
+use control::role_assignment;
 use control::scripted_motion;
 use control::self_report;
 use control::sensor_data_receiver;
@@ -92,6 +93,7 @@ pub struct Nodes {
     pub orientation_filter: Guarded<orientation_filter::OrientationFilter>,
     pub penalized_pose: Guarded<penalized_pose::PenalizedPose>,
     pub recording_switch: Guarded<recording_switch::RecordingSwitch>,
+    pub role_assignment: Guarded<role_assignment::RoleAssignment>,
     pub scripted_motion: Guarded<scripted_motion::ScriptedMotion>,
     pub self_report: Guarded<self_report::SelfReport>,
     pub sensor_data_receiver: Guarded<sensor_data_receiver::SensorDataReceiver>,
@@ -205,6 +207,11 @@ impl Nodes {
                 "control::obstacle_filter",
                 OnFailure::Stop,
                 Self::create_obstacle_filter()?,
+            ),
+            role_assignment: Guarded::new(
+                "control::role_assignment",
+                OnFailure::Stop,
+                Self::create_role_assignment()?,
             ),
             world_state_composer: Guarded::new(
                 "control::world_state_composer",
@@ -360,6 +367,7 @@ impl Nodes {
         self.localization(frame)?;
         self.ball_filter(frame)?;
         self.obstacle_filter(frame)?;
+        self.role_assignment(frame)?;
         self.world_state_composer(frame)?;
         self.client_wishes(frame)?;
         self.behavior(frame)?;
@@ -443,18 +451,26 @@ impl Nodes {
         Ok(())
     }
 
-    /// world_state, client_wish -> motion_command
+    /// world_state, client_wish -> motion_command, activity; when subscribed: plan
     #[inline(always)]
     fn behavior<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
         let context = behavior::CycleContext {
             world_state: &frame.own.world_state,
             client_wish: frame.own.client_wish.as_ref(),
-            approach: &frame.parameters.behavior.approach,
+            cycle_time: frame.cycle.time,
+            parameters: &frame.parameters.behavior,
+            plan: AdditionalOutput::new(
+                frame.subscribed.plan,
+                frame.cycle.number,
+                &mut frame.additional_outputs.plan,
+            ),
         };
         let outputs = self.behavior.call(&frame.cycle, |node| node.cycle(context))?;
         frame.own.motion_command = outputs.motion_command.value;
+        frame.own.activity = outputs.activity.value;
         if let Some(injections) = frame.injections {
             injections.motion_command.replace(&mut frame.own.motion_command);
+            injections.activity.replace(&mut frame.own.activity);
         }
         Ok(())
     }
@@ -1106,6 +1122,33 @@ impl Nodes {
         Ok(())
     }
 
+    /// primary_state, ground_to_field, ball, teammates -> role, team_ball
+    #[inline(always)]
+    fn role_assignment<Hardware>(
+        &mut self,
+        frame: &mut Frame<'_, Hardware>,
+    ) -> Result<()> {
+        let context = role_assignment::CycleContext {
+            primary_state: &frame.own.primary_state,
+            ground_to_field: &frame.own.ground_to_field,
+            ball: &frame.own.ball,
+            teammates: &frame.own.teammates,
+            cycle_time: frame.cycle.time,
+            player: &frame.parameters.player,
+            parameters: &frame.parameters.role_assignment,
+        };
+        let outputs = self
+            .role_assignment
+            .call(&frame.cycle, |node| node.cycle(context))?;
+        frame.own.role = outputs.role.value;
+        frame.own.team_ball = outputs.team_ball.value;
+        if let Some(injections) = frame.injections {
+            injections.role.replace(&mut frame.own.role);
+            injections.team_ball.replace(&mut frame.own.team_ball);
+        }
+        Ok(())
+    }
+
     /// motion_selection, sensor_data.positions, previous motor_commands, state
     /// safe_exits.script -> script_commands
     #[inline(always)]
@@ -1402,7 +1445,7 @@ impl Nodes {
     }
 
     /// primary_state, game_controller_state, fall_state, has_ground_contact, ground_to_field,
-    /// ball, obstacles, teammates -> world_state
+    /// ball, obstacles, teammates, role, team_ball -> world_state
     #[inline(always)]
     fn world_state_composer<Hardware>(
         &mut self,
@@ -1418,6 +1461,9 @@ impl Nodes {
             ball: &frame.own.ball,
             obstacles: &frame.own.obstacles,
             teammates: &frame.own.teammates,
+            ground_to_field: &frame.own.ground_to_field,
+            role: &frame.own.role,
+            team_ball: &frame.own.team_ball,
             world_state: &mut frame.own.world_state,
         };
         self.world_state_composer.call(&frame.cycle, |node| node.cycle(context))?;
@@ -1582,6 +1628,11 @@ impl Nodes {
         let context = recording_switch::CreationContext {};
         recording_switch::RecordingSwitch::new(context)
             .in_node("control::recording_switch")
+    }
+
+    fn create_role_assignment() -> Result<role_assignment::RoleAssignment> {
+        let context = role_assignment::CreationContext {};
+        role_assignment::RoleAssignment::new(context).in_node("control::role_assignment")
     }
 
     fn create_scripted_motion() -> Result<scripted_motion::ScriptedMotion> {

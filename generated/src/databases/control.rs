@@ -19,6 +19,7 @@ use framework::Interleaving;
 use framework::Reflect;
 use framework::Timestamp;
 use nalgebra::Isometry2;
+use nalgebra::Point2;
 use nalgebra::Point3;
 use nalgebra::UnitQuaternion;
 use serde::Deserialize;
@@ -27,6 +28,9 @@ use types::audio::Tone;
 use types::audio::Whistle;
 use types::ball::Ball;
 use types::ball::LearntImage;
+use types::behavior::Activity;
+use types::behavior::Plan;
+use types::behavior::Role;
 use types::buttons::Buttons;
 use types::camera::CameraMatrices;
 use types::fall_state::FallState;
@@ -62,6 +66,8 @@ use crate::parameters::Parameters;
 /// Main outputs that only nodes of `Control` read: they stay with the instance.
 #[derive(Clone, Debug, Default, Deserialize, Reflect, Serialize)]
 pub struct OwnOutputs {
+    /// control::behavior
+    pub activity: Activity,
     /// control::ball_filter
     pub ball: Option<Ball>,
     /// control::button_filter
@@ -106,6 +112,8 @@ pub struct OwnOutputs {
     pub penalized_commands: Option<MotorCommands>,
     /// control::game_state_filter
     pub primary_state: PrimaryState,
+    /// control::role_assignment
+    pub role: Role,
     /// control::scripted_motion
     pub script_commands: Option<MotorCommands>,
     /// control::self_report
@@ -122,6 +130,8 @@ pub struct OwnOutputs {
     pub stand_commands: Option<MotorCommands>,
     /// control::support_foot_filter
     pub support_side: Option<Side>,
+    /// control::role_assignment
+    pub team_ball: Option<Point2<f32>>,
     /// control::self_report
     pub team_report: Option<TeamMessage>,
     /// control::team_message_filter
@@ -152,6 +162,8 @@ pub struct AdditionalOutputs {
     pub fall_state_filter: AdditionalOutputsFallStateFilter,
     pub localization: AdditionalOutputsLocalization,
     pub orientation_filter: AdditionalOutputsOrientationFilter,
+    /// control::behavior
+    pub plan: AdditionalSlot<Plan>,
     pub whistle_filter: AdditionalOutputsWhistleFilter,
 }
 
@@ -198,12 +210,14 @@ pub struct Subscribed {
     pub fall_state_filter_center_of_mass_overhang: bool,
     pub localization_hypotheses: bool,
     pub orientation_filter_innovation: bool,
+    pub plan: bool,
     pub whistle_filter_votes: bool,
 }
 
 /// Values of clients in place of main outputs.
 #[derive(Clone, Debug, Default, Deserialize, Serialize)]
 pub struct Injections {
+    pub activity: Injection<Activity>,
     pub ball: Injection<Option<Ball>>,
     pub buttons: Injection<Buttons>,
     pub camera_matrices: Injection<Option<CameraMatrices>>,
@@ -228,6 +242,7 @@ pub struct Injections {
     pub penalized_commands: Injection<Option<MotorCommands>>,
     pub primary_state: Injection<PrimaryState>,
     pub robot_kinematics: Injection<RobotKinematics>,
+    pub role: Injection<Role>,
     pub script_commands: Injection<Option<MotorCommands>>,
     pub self_report: Injection<Option<TeamMessage>>,
     pub sensor_data: Injection<SensorData>,
@@ -236,6 +251,7 @@ pub struct Injections {
     pub sonar_distances: Injection<SonarDistances>,
     pub stand_commands: Injection<Option<MotorCommands>>,
     pub support_side: Injection<Option<Side>>,
+    pub team_ball: Injection<Option<Point2<f32>>>,
     pub team_report: Injection<Option<TeamMessage>>,
     pub teammates: Injection<Vec<Teammate>>,
     pub tone: Injection<Option<Tone>>,
@@ -247,6 +263,7 @@ pub struct Injections {
 impl InjectionTable for Injections {
     fn get_mut(&mut self, output: &str) -> Option<&mut dyn InjectionCell> {
         match output {
+            "activity" => Some(&mut self.activity),
             "ball" => Some(&mut self.ball),
             "buttons" => Some(&mut self.buttons),
             "camera_matrices" => Some(&mut self.camera_matrices),
@@ -271,6 +288,7 @@ impl InjectionTable for Injections {
             "penalized_commands" => Some(&mut self.penalized_commands),
             "primary_state" => Some(&mut self.primary_state),
             "robot_kinematics" => Some(&mut self.robot_kinematics),
+            "role" => Some(&mut self.role),
             "script_commands" => Some(&mut self.script_commands),
             "self_report" => Some(&mut self.self_report),
             "sensor_data" => Some(&mut self.sensor_data),
@@ -279,6 +297,7 @@ impl InjectionTable for Injections {
             "sonar_distances" => Some(&mut self.sonar_distances),
             "stand_commands" => Some(&mut self.stand_commands),
             "support_side" => Some(&mut self.support_side),
+            "team_ball" => Some(&mut self.team_ball),
             "team_report" => Some(&mut self.team_report),
             "teammates" => Some(&mut self.teammates),
             "tone" => Some(&mut self.tone),

@@ -111,6 +111,7 @@ impl<
         self.nodes.localization.record(out)?;
         self.nodes.ball_filter.record(out)?;
         self.nodes.obstacle_filter.record(out)?;
+        self.nodes.role_assignment.record(out)?;
         self.nodes.world_state_composer.record(out)?;
         self.nodes.client_wishes.record(out)?;
         self.nodes.behavior.record(out)?;
@@ -195,6 +196,7 @@ impl<
         types.node("control::localization", |body| &body.nodes.localization);
         types.node("control::ball_filter", |body| &body.nodes.ball_filter);
         types.node("control::obstacle_filter", |body| &body.nodes.obstacle_filter);
+        types.node("control::role_assignment", |body| &body.nodes.role_assignment);
         types
             .node(
                 "control::world_state_composer",
@@ -385,6 +387,12 @@ impl<
             "obstacles",
             digest(&self.own.previous().obstacles)?,
         );
+        visit("control::role_assignment", "role", digest(&self.own.previous().role)?);
+        visit(
+            "control::role_assignment",
+            "team_ball",
+            digest(&self.own.previous().team_ball)?,
+        );
         visit(
             "control::world_state_composer",
             "world_state",
@@ -395,6 +403,7 @@ impl<
             "client_wish",
             digest(&self.own.previous().client_wish)?,
         );
+        visit("control::behavior", "activity", digest(&self.own.previous().activity)?);
         visit(
             "control::behavior",
             "motion_command",
@@ -551,6 +560,11 @@ fn load_nodes(from: &mut Loading<'_>) -> Result<Nodes> {
         ball_filter: Guarded::recorded("control::ball_filter", OnFailure::Stop, from)?,
         obstacle_filter: Guarded::recorded(
             "control::obstacle_filter",
+            OnFailure::Stop,
+            from,
+        )?,
+        role_assignment: Guarded::recorded(
+            "control::role_assignment",
             OnFailure::Stop,
             from,
         )?,

@@ -70,6 +70,7 @@ pub const ADDITIONAL_OUTPUTS: &[&str] = &[
     "fall_state_filter.center_of_mass_overhang",
     "localization.hypotheses",
     "orientation_filter.innovation",
+    "plan",
     "whistle_filter.votes",
 ];
 
@@ -171,6 +172,7 @@ impl<
                 fall_state_filter_center_of_mass_overhang: wanted.next_one(),
                 localization_hypotheses: wanted.next_one(),
                 orientation_filter_innovation: wanted.next_one(),
+                plan: wanted.next_one(),
                 whistle_filter_votes: wanted.next_one(),
             };
         }
@@ -238,8 +240,11 @@ impl<
             "ground_to_field",
             "ball",
             "obstacles",
+            "role",
+            "team_ball",
             "world_state",
             "client_wish",
+            "activity",
             "motion_command",
             "is_recording_wanted",
             "motion_selection",
@@ -285,8 +290,11 @@ impl<
             "ground_to_field" => Some(&self.own.previous().ground_to_field),
             "ball" => Some(&self.own.previous().ball),
             "obstacles" => Some(&self.own.previous().obstacles),
+            "role" => Some(&self.own.previous().role),
+            "team_ball" => Some(&self.own.previous().team_ball),
             "world_state" => Some(&self.own.previous().world_state),
             "client_wish" => Some(&self.own.previous().client_wish),
+            "activity" => Some(&self.own.previous().activity),
             "motion_command" => Some(&self.own.previous().motion_command),
             "is_recording_wanted" => Some(&self.own.previous().is_recording_wanted),
             "motion_selection" => Some(&self.own.previous().motion_selection),
@@ -334,6 +342,7 @@ impl<
             "orientation_filter.innovation" => {
                 Some(self.additional_outputs.orientation_filter.innovation.get(cycle)?)
             }
+            "plan" => Some(self.additional_outputs.plan.get(cycle)?),
             "whistle_filter.votes" => {
                 Some(self.additional_outputs.whistle_filter.votes.get(cycle)?)
             }
@@ -366,8 +375,11 @@ impl<
         visitor.output(Some(&self.own.previous().ground_to_field));
         visitor.output(Some(&self.own.previous().ball));
         visitor.output(Some(&self.own.previous().obstacles));
+        visitor.output(Some(&self.own.previous().role));
+        visitor.output(Some(&self.own.previous().team_ball));
         visitor.output(Some(&self.own.previous().world_state));
         visitor.output(Some(&self.own.previous().client_wish));
+        visitor.output(Some(&self.own.previous().activity));
         visitor.output(Some(&self.own.previous().motion_command));
         visitor.output(Some(&self.own.previous().is_recording_wanted));
         visitor.output(Some(&self.own.previous().motion_selection));
@@ -398,6 +410,7 @@ impl<
             );
         visitor.output(self.additional_outputs.localization.hypotheses.get(cycle));
         visitor.output(self.additional_outputs.orientation_filter.innovation.get(cycle));
+        visitor.output(self.additional_outputs.plan.get(cycle));
         visitor.output(self.additional_outputs.whistle_filter.votes.get(cycle));
     }
 
@@ -421,6 +434,7 @@ impl<
         visit(self.nodes.localization.report());
         visit(self.nodes.ball_filter.report());
         visit(self.nodes.obstacle_filter.report());
+        visit(self.nodes.role_assignment.report());
         visit(self.nodes.world_state_composer.report());
         visit(self.nodes.client_wishes.report());
         visit(self.nodes.behavior.report());
@@ -484,6 +498,7 @@ impl<
         visit("control::localization", &mut self.nodes.localization);
         visit("control::ball_filter", &mut self.nodes.ball_filter);
         visit("control::obstacle_filter", &mut self.nodes.obstacle_filter);
+        visit("control::role_assignment", &mut self.nodes.role_assignment);
         visit("control::world_state_composer", &mut self.nodes.world_state_composer);
         visit("control::client_wishes", &mut self.nodes.client_wishes);
         visit("control::behavior", &mut self.nodes.behavior);

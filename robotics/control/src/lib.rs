@@ -27,6 +27,7 @@ pub mod whistle_filter;
 pub mod ball_filter;
 pub mod localization;
 pub mod obstacle_filter;
+pub mod role_assignment;
 pub mod world_state_composer;
 
 pub mod behavior;

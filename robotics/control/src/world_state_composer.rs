@@ -1,11 +1,12 @@
 //! Puts everything into one place that the behaviour decides on.
 
 use framework::{Input, MainOutput, Result, context};
-use nalgebra::Isometry2;
+use nalgebra::{Isometry2, Point2};
 use serde::{Deserialize, Serialize};
 use types::ball::Ball;
+use types::behavior::Role;
 use types::fall_state::FallState;
-use types::game::{GameControllerState, KickingTeam, PrimaryState};
+use types::game::{GameControllerState, KickingTeam, PrimaryState, SetPlay};
 use types::obstacles::Obstacle;
 use types::team::Teammate;
 use types::world_state::WorldState;
@@ -27,6 +28,8 @@ pub struct CycleContext {
     ball: Input<Option<Ball>, "ball">,
     obstacles: Input<Vec<Obstacle>, "obstacles">,
     teammates: Input<Vec<Teammate>, "teammates">,
+    role: Input<Role, "role">,
+    team_ball: Input<Option<Point2<f32>>, "team_ball">,
 
     /// The robot and what is around it.
     world_state: MainOutput<WorldState>,
@@ -43,16 +46,21 @@ impl WorldStateComposer {
 
     /// Copies; while no referee is heard, nobody kicks first.
     pub fn cycle(&mut self, context: CycleContext) -> Result<MainOutputs> {
-        let kicking_team = context
+        let (kicking_team, set_play) = context
             .game_controller_state
-            .map_or(KickingTeam::Nobody, |referee| referee.kicking_team);
+            .map_or((KickingTeam::Nobody, SetPlay::None), |referee| {
+                (referee.kicking_team, referee.set_play)
+            });
         let world_state = context.world_state;
         world_state.primary_state = *context.primary_state;
         world_state.kicking_team = kicking_team;
+        world_state.set_play = set_play;
+        world_state.role = *context.role;
         world_state.fall_state = *context.fall_state;
         world_state.has_ground_contact = *context.has_ground_contact;
         world_state.ground_to_field = *context.ground_to_field;
         world_state.ball = *context.ball;
+        world_state.team_ball = *context.team_ball;
         world_state.obstacles.extend_from_slice(context.obstacles);
         world_state.teammates.extend_from_slice(context.teammates);
         Ok(MainOutputs {})
@@ -70,6 +78,7 @@ mod tests {
         let mut world_state = WorldState::default();
         let referee = GameControllerState {
             kicking_team: KickingTeam::Own,
+            set_play: SetPlay::CornerKick,
             ..GameControllerState::default()
         };
         let mut node = WorldStateComposer::new(CreationContext {}).unwrap();
@@ -82,16 +91,21 @@ mod tests {
             ball: &Some(Ball::default()),
             obstacles: &vec![Obstacle::default(); 2],
             teammates: &vec![Teammate::default(); 3],
+            role: &Role::Supporter,
+            team_ball: &Some(Point2::new(1.0, 2.0)),
             world_state: &mut world_state,
         };
         node.cycle(context).unwrap();
         let expected = WorldState {
             primary_state: PrimaryState::Ready,
             kicking_team: KickingTeam::Own,
+            set_play: SetPlay::CornerKick,
+            role: Role::Supporter,
             fall_state: FallState::Lying(Facing::Up),
             has_ground_contact: true,
             ground_to_field: Some(Isometry2::translation(1.0, 2.0)),
             ball: Some(Ball::default()),
+            team_ball: Some(Point2::new(1.0, 2.0)),
             obstacles: vec![Obstacle::default(); 2],
             teammates: vec![Teammate::default(); 3],
         };
@@ -111,6 +125,8 @@ mod tests {
             ball: &None,
             obstacles: &vec![],
             teammates: &vec![],
+            role: &Role::Striker,
+            team_ball: &None,
             world_state: &mut world_state,
         };
         node.cycle(context).unwrap();

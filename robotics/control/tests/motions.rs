@@ -5,7 +5,7 @@ use control::{
     motion_selector, motor_commands_collector, penalized_pose, sit_down, stand,
 };
 use framework::CycleTime;
-use framework::testing::{self, ParameterFile};
+use framework::testing::{self, AdditionalProbe, ParameterFile};
 use kinematics::{forward_kinematics, limits};
 use nalgebra::{Point2, Point3};
 use types::ball::Ball;
@@ -139,10 +139,13 @@ impl Robot {
     /// One cycle of all nodes, then of the body.
     fn cycle(&mut self) {
         self.cycles += 1;
+        let mut plan = AdditionalProbe::unsubscribed();
         let context = behavior::CycleContext {
             world_state: &self.world_state,
             client_wish: None,
-            approach: &self.parameters.get("behavior.approach"),
+            cycle_time: self.time(),
+            parameters: &self.parameters.get("behavior"),
+            plan: plan.output(),
         };
         let command = self.behavior.cycle(context).unwrap().motion_command.value;
         let context = motion_selector::CycleContext {

@@ -6,7 +6,8 @@
 //! [`fall_state`], [`odometry`]), its commands ([`motion`], [`motor_commands`], [`head`], [`leds`]),
 //! the cameras ([`image`], [`camera`], [`limbs`], [`projection_noise`],
 //! [`field_features`], [`field_markings`]), sound ([`audio`]), the network
-//! ([`network`], [`game`], [`team`]), the world ([`ball`], [`obstacles`], [`world_state`]).
+//! ([`network`], [`game`], [`team`]), the world ([`ball`], [`obstacles`], [`world_state`]),
+//! and what to do in it ([`behavior`]).
 
 pub mod joints;
 
@@ -38,5 +39,6 @@ pub mod network;
 pub mod team;
 
 pub mod ball;
+pub mod behavior;
 pub mod obstacles;
 pub mod world_state;

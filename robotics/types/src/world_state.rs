@@ -1,12 +1,13 @@
 //! Owns everything that the behaviour decides on.
 
 use framework::{Clear, Reflect};
-use nalgebra::Isometry2;
+use nalgebra::{Isometry2, Point2};
 use serde::{Deserialize, Serialize};
 
 use crate::ball::Ball;
+use crate::behavior::Role;
 use crate::fall_state::FallState;
-use crate::game::{KickingTeam, PrimaryState};
+use crate::game::{KickingTeam, PrimaryState, SetPlay};
 use crate::obstacles::Obstacle;
 use crate::team::Teammate;
 
@@ -17,6 +18,10 @@ pub struct WorldState {
     pub primary_state: PrimaryState,
     /// Who kicks first.
     pub kicking_team: KickingTeam,
+    /// How the game was resumed.
+    pub set_play: SetPlay,
+    /// What this robot is for its team.
+    pub role: Role,
     /// Whether the robot stands, falls, or lies.
     pub fall_state: FallState,
     /// Whether its soles carry it.
@@ -25,6 +30,8 @@ pub struct WorldState {
     pub ground_to_field: Option<Isometry2<f32>>,
     /// The ball; `None` where nobody has seen it lately.
     pub ball: Option<Ball>,
+    /// Where a team mate has seen the ball lately, m; `None` where nobody says so, or the own pose is not known.
+    pub team_ball: Option<Point2<f32>>,
     /// What stands in the way, nearest first.
     pub obstacles: Vec<Obstacle>,
     /// The robots of the own team that were heard lately, by their number.

@@ -1,0 +1,147 @@
+//! Owns what a decision is made from and what it consists of.
+
+use framework::Timestamp;
+use nalgebra::{Isometry2, Point2};
+use serde::{Deserialize, Serialize};
+use types::behavior::{Activity, Plan};
+use types::game::PrimaryState;
+use types::motion::{BodyMotion, HeadMotion, MotionCommand, Step};
+use types::world_state::WorldState;
+
+use super::parameters::BehaviorParameters;
+use super::walk_to::step_to;
+use super::way::{Circle, first_way_point};
+
+/// What the robot does, and why.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Decision {
+    pub(super) activity: Activity,
+    pub(super) command: MotionCommand,
+    pub(super) plan: Plan,
+}
+
+/// What was decided and seen before.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Serialize)]
+pub(super) struct Memory {
+    /// What the robot did in the game in the last cycle.
+    state: PrimaryState,
+    /// When it began to play after Set; `None` where it plays for another reason.
+    kick_off_at: Option<Timestamp>,
+    /// When the ball was known last, or the robot began to do without it.
+    pub(super) ball_known_at: Timestamp,
+    pub(super) is_walking: bool,
+    pub(super) activity: Activity,
+}
+
+/// Everything that is decided on.
+#[derive(Clone, Copy)]
+pub(super) struct View<'a> {
+    pub(super) world: &'a WorldState,
+    pub(super) parameters: &'a BehaviorParameters,
+    pub(super) memory: Memory,
+    pub(super) now: Timestamp,
+}
+
+impl Decision {
+    pub(super) fn of_body(activity: Activity, body: BodyMotion, head: HeadMotion) -> Self {
+        Self {
+            activity,
+            command: MotionCommand {
+                body,
+                head,
+                step: Step::ZERO,
+            },
+            plan: Plan::default(),
+        }
+    }
+
+    pub(super) fn walk(activity: Activity, step: Step, head: HeadMotion) -> Self {
+        let mut decision = Self::of_body(activity, BodyMotion::Walk, head);
+        decision.command.step = step;
+        decision
+    }
+}
+
+impl Memory {
+    /// Before anything is decided.
+    pub(super) fn notice(&mut self, world: &WorldState, now: Timestamp) {
+        let is_playing = world.primary_state == PrimaryState::Playing;
+        if world.primary_state != self.state {
+            self.kick_off_at = (is_playing && self.state == PrimaryState::Set).then_some(now);
+            self.state = world.primary_state;
+        }
+        if world.ball.is_some() || !is_playing {
+            self.ball_known_at = now;
+        }
+    }
+
+    /// Once it is decided.
+    pub(super) fn keep(&mut self, decision: &Decision) {
+        self.activity = decision.activity;
+        self.is_walking = decision.command.body == BodyMotion::Walk;
+    }
+}
+
+impl View<'_> {
+    /// Since the kick-off, s; `None` where the game goes on for another reason.
+    pub(super) fn since_kick_off(&self) -> Option<f32> {
+        let kick_off_at = self.memory.kick_off_at?;
+        Some((self.now - kick_off_at).as_secs_f32())
+    }
+
+    /// On the ball, where one is known.
+    pub(super) fn head(&self) -> HeadMotion {
+        self.world.ball.map_or(HeadMotion::LookAround, |ball| {
+            HeadMotion::LookAt(ball.position)
+        })
+    }
+
+    /// The ball in the field frame, m.
+    pub(super) fn ball_on_field(&self) -> Option<Point2<f32>> {
+        let ball = self.world.ball.map(|ball| ball.position);
+        Some(self.world.ground_to_field? * ball.or(self.world.team_ball)?)
+    }
+
+    /// Walks to a pose of the field frame around what stands in the way, and stands there as something else.
+    ///
+    /// Where the robot does not know where it is it stands.
+    pub(super) fn go_to(
+        &self,
+        pose: &Isometry2<f32>,
+        on_the_way: Activity,
+        there: Activity,
+    ) -> Decision {
+        match self.world.ground_to_field {
+            Some(ground_to_field) => {
+                let target = ground_to_field.inverse() * pose;
+                self.walk_to(&target, None, on_the_way, there)
+            }
+            None => Decision::of_body(there, BodyMotion::Stand, self.head()),
+        }
+    }
+
+    /// Likewise in the ground frame, and around one more circle.
+    pub(super) fn walk_to(
+        &self,
+        target: &Isometry2<f32>,
+        more: Option<Circle>,
+        on_the_way: Activity,
+        there: Activity,
+    ) -> Decision {
+        let walk = &self.parameters.walk;
+        let obstacles = self.world.obstacles.iter().map(|obstacle| Circle {
+            middle: obstacle.position,
+            radius: obstacle.radius + walk.clearance,
+        });
+        let place = Point2::from(target.translation.vector);
+        let way_point = first_way_point(place, obstacles.chain(more));
+        let step = step_to(target, way_point, self.memory.is_walking, walk);
+        let mut decision = match step {
+            Some(step) => Decision::walk(on_the_way, step, self.head()),
+            None => Decision::of_body(there, BodyMotion::Stand, self.head()),
+        };
+        decision.plan.target = Some(*target);
+        decision.plan.way_point = step.map(|_| way_point);
+        decision
+    }
+}

@@ -1,0 +1,252 @@
+//! Owns where robots stand and where the ball shall go, in the field frame: the opponents' goal lies at positive x.
+
+use nalgebra::{Isometry2, Point2, Vector2};
+use types::behavior::Role;
+use types::game::{KickingTeam, SetPlay};
+
+use super::parameters::{KeeperParameters, PlaceParameters};
+
+impl PlaceParameters {
+    /// The middle of the own goal, m.
+    pub(super) fn own_goal(&self) -> Point2<f32> {
+        Point2::new(-self.goal_line, 0.0)
+    }
+
+    /// In Ready: where a robot waits for the kick-off or the penalty kick.
+    pub(super) fn before_kick(
+        &self,
+        role: Role,
+        kicking_team: KickingTeam,
+        set_play: SetPlay,
+        keeper: &KeeperParameters,
+    ) -> Isometry2<f32> {
+        let is_own = kicking_team == KickingTeam::Own;
+        let is_penalty_kick = set_play == SetPlay::PenaltyKick;
+        let defender = self.goal_line - self.defender_ring;
+        let (x, y) = match role {
+            Role::Keeper => (keeper.before_line - self.goal_line, 0.0),
+            Role::Striker if is_penalty_kick && is_own => {
+                (self.goal_line - self.penalty_mark - self.kick_off, 0.0)
+            }
+            Role::Striker if is_own => (-self.kick_off, 0.0),
+            Role::Striker => (-self.other_kick_off, 0.0),
+            Role::Supporter => (-self.other_kick_off, self.other_kick_off),
+            Role::DefenderLeft => (-defender, self.defender_aside),
+            Role::DefenderRight => (-defender, -self.defender_aside),
+        };
+        let pose = Isometry2::translation(x, y);
+        match is_penalty_kick && !is_own && role != Role::Keeper {
+            true => self.outside_own_penalty_area(&pose),
+            false => pose,
+        }
+    }
+
+    /// In Playing: where a robot that does not play the ball stands, with its face to the ball.
+    pub(super) fn of_role(
+        &self,
+        role: Role,
+        ball: Point2<f32>,
+        keeper: &KeeperParameters,
+    ) -> Isometry2<f32> {
+        let goal = self.own_goal();
+        let to_ball = (ball - goal)
+            .try_normalize(f32::EPSILON)
+            .unwrap_or_else(Vector2::x);
+        let to_left = Vector2::new(-to_ball.y, to_ball.x);
+        // Not behind the ball's back: who defends stays on the goal's side of it.
+        let ring = self.defender_ring.min(0.7 * (ball - goal).norm());
+        let place = match role {
+            Role::Keeper => {
+                let place = goal + to_ball * keeper.radius;
+                let nearest = keeper.before_line - self.goal_line;
+                Point2::new(place.x.max(nearest), place.y.clamp(-self.post, self.post))
+            }
+            Role::Striker => ball - to_ball * self.distance_to_free_kick,
+            Role::Supporter => {
+                let side = if ball.y > 0.0 { -1.0 } else { 1.0 };
+                ball + Vector2::new(-self.supporter_behind, side * self.supporter_aside)
+            }
+            Role::DefenderLeft => goal + to_ball * ring + to_left * self.defender_aside,
+            Role::DefenderRight => goal + to_ball * ring - to_left * self.defender_aside,
+        };
+        self.facing(self.on_the_field(place), ball)
+    }
+
+    /// Pushed away from a ball that is the other team's, towards the own goal.
+    pub(super) fn at_a_distance(&self, pose: &Isometry2<f32>, ball: Point2<f32>) -> Isometry2<f32> {
+        let place = Point2::from(pose.translation.vector);
+        if (place - ball).norm() >= self.distance_to_free_kick {
+            return *pose;
+        }
+        let away = (self.own_goal() - ball)
+            .try_normalize(f32::EPSILON)
+            .unwrap_or_else(|| -Vector2::x());
+        self.facing(ball + away * self.distance_to_free_kick, ball)
+    }
+
+    /// Moved to the front of the own penalty area where it lies inside.
+    pub(super) fn outside_own_penalty_area(&self, pose: &Isometry2<f32>) -> Isometry2<f32> {
+        let front = self.penalty_area_length + self.margin - self.goal_line;
+        self.moved_out(pose, pose.translation.x < front, front)
+    }
+
+    /// Moved to the front of the opponents' penalty area where it lies inside.
+    pub(super) fn outside_other_penalty_area(&self, pose: &Isometry2<f32>) -> Isometry2<f32> {
+        let front = self.goal_line - self.penalty_area_length - self.margin;
+        self.moved_out(pose, pose.translation.x > front, front)
+    }
+
+    fn moved_out(&self, pose: &Isometry2<f32>, is_behind: bool, front: f32) -> Isometry2<f32> {
+        let is_beside = pose.translation.y.abs() > self.penalty_area_side + self.margin;
+        let mut moved = *pose;
+        if is_behind && !is_beside {
+            moved.translation.x = front;
+        }
+        moved
+    }
+
+    /// The direction in which a ball gets into the opponents' goal; the nearest such direction to one that would be easy, rad.
+    pub(super) fn aim(&self, ball: Point2<f32>, easy: f32, post_margin: f32) -> f32 {
+        let post = (self.post - post_margin).max(0.0);
+        let to = |y: f32| (y - ball.y).atan2(self.goal_line - ball.x);
+        let (right, left) = (to(-post), to(post));
+        if ball.x < self.goal_line && left - right > NARROW {
+            // Both lie within a quarter of a turn of the direction to the goal, so nothing wraps.
+            let middle = to(0.0);
+            let off = wrapped(easy - middle);
+            return (middle + off).clamp(right, left);
+        }
+        // Beside the goal: back to where it can be seen from.
+        (-ball.y).atan2(self.goal_line - self.penalty_mark - ball.x)
+    }
+
+    /// How far a ball is from the opponents' goal, m.
+    pub(super) fn distance_to_goal(&self, ball: Point2<f32>) -> f32 {
+        let beside = (ball.y.abs() - self.post).max(0.0);
+        beside.hypot(self.goal_line - ball.x)
+    }
+
+    fn on_the_field(&self, place: Point2<f32>) -> Point2<f32> {
+        let (x, y) = (self.goal_line, self.touch_line - self.margin);
+        Point2::new(place.x.clamp(-x, x), place.y.clamp(-y, y))
+    }
+
+    fn facing(&self, place: Point2<f32>, ball: Point2<f32>) -> Isometry2<f32> {
+        let to_ball = ball - place;
+        Isometry2::new(place.coords, to_ball.y.atan2(to_ball.x))
+    }
+}
+
+/// A goal that opens less, rad, is not aimed at.
+const NARROW: f32 = 0.15;
+
+/// The same direction, from -π to π.
+fn wrapped(angle: f32) -> f32 {
+    angle.sin().atan2(angle.cos())
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f32::consts::{FRAC_PI_2, PI};
+
+    use super::*;
+    use crate::behavior::tests::parameters;
+
+    const ROLES: [Role; 5] = [
+        Role::Striker,
+        Role::Keeper,
+        Role::Supporter,
+        Role::DefenderLeft,
+        Role::DefenderRight,
+    ];
+
+    #[test]
+    fn places_before_a_kick_off_are_legal_and_nobody_stands_in_the_way() {
+        let parameters = parameters();
+        for (kicking_team, least) in [(KickingTeam::Own, 0.2), (KickingTeam::Opponent, 0.75)] {
+            let places = ROLES.map(|role| {
+                let places = &parameters.places;
+                let pose =
+                    places.before_kick(role, kicking_team, SetPlay::None, &parameters.keeper);
+                pose.translation.vector
+            });
+            for (index, place) in places.iter().enumerate() {
+                assert!(place.x < -0.1 && place.norm() > least + 0.1, "{place}");
+                assert!(place.x > -4.5 && place.y.abs() < 3.0, "{place}");
+                let others = places.iter().skip(index + 1);
+                assert!(others.into_iter().all(|other| (place - other).norm() > 0.5));
+            }
+        }
+    }
+
+    #[test]
+    fn at_a_penalty_kick_of_the_others_only_the_keeper_is_in_the_penalty_area() {
+        let parameters = parameters();
+        for role in ROLES {
+            let pose = parameters.places.before_kick(
+                role,
+                KickingTeam::Opponent,
+                SetPlay::PenaltyKick,
+                &parameters.keeper,
+            );
+            let place = pose.translation.vector;
+            let is_inside = place.x < -2.85 && place.y.abs() < 2.0;
+            assert_eq!(is_inside, role == Role::Keeper, "{role:?}");
+        }
+    }
+
+    #[test]
+    fn roles_stand_between_ball_and_goal_and_look_at_the_ball() {
+        let parameters = parameters();
+        for ball in [[0.0, 0.0], [-3.0, 1.5], [4.0, -2.5], [-4.4, 0.1]] {
+            let ball = Point2::from(ball);
+            for role in ROLES {
+                let pose = parameters.places.of_role(role, ball, &parameters.keeper);
+                let place = Point2::from(pose.translation.vector);
+                assert!(
+                    place.x.abs() <= 4.5 && place.y.abs() <= 3.0,
+                    "{role:?}: {place}"
+                );
+                let ahead = pose.rotation * Vector2::x();
+                if (ball - place).norm() > 0.1 {
+                    assert!(ahead.dot(&(ball - place)) > 0.0, "{role:?}");
+                }
+                if role == Role::Keeper {
+                    assert!(place.y.abs() <= 0.75 && place.x < -3.8, "{place}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_free_kick_of_the_others_is_given_room() {
+        let places = parameters().places;
+        for (place, is_moved) in [([0.5, 0.0], true), ([-2.0, 0.0], false)] {
+            let pose = Isometry2::translation(place[0], place[1]);
+            let moved = places.at_a_distance(&pose, Point2::new(0.2, 0.3));
+            assert_eq!(moved != pose, is_moved);
+            let distance = (moved.translation.vector - Vector2::new(0.2, 0.3)).norm();
+            assert!(distance > 0.75, "{distance}");
+        }
+    }
+
+    #[test]
+    fn the_aim_is_the_easiest_direction_into_the_goal() {
+        let places = parameters().places;
+        let aim = |x: f32, y: f32, easy: f32| places.aim(Point2::new(x, y), easy, 0.2);
+        // Straight ahead gets there.
+        assert!((aim(3.0, 0.3, 0.0)).abs() < 1e-6);
+        // Whoever heads elsewhere aims at what is in from the nearer post.
+        let left = 0.55_f32.atan2(1.5);
+        for easy in [0.5, FRAC_PI_2, 3.0] {
+            assert!((aim(3.0, 0.0, easy) - left).abs() < 1e-5);
+        }
+        assert!((aim(3.0, 0.0, -2.0) + left).abs() < 1e-5);
+        // From beside the goal it goes back to where it can be seen from.
+        for (x, y) in [(4.48, 2.0), (4.6, -1.0)] {
+            let aim = aim(x, y, 0.0);
+            assert!(aim.cos() < 0.0 && aim.sin() * y < 0.0, "{aim}");
+        }
+        assert!(aim(-4.0, 0.0, PI).abs() < 0.1);
+    }
+}

@@ -1,0 +1,313 @@
+//! Owns what a robot does in the game: what the referee lets it do with the ball, else what its role asks of it.
+
+use nalgebra::{Isometry2, Point2};
+use types::ball::Ball;
+use types::behavior::{Activity, Role};
+use types::game::{KickingTeam, SetPlay};
+use types::motion::{BodyMotion, HeadMotion, Step};
+
+use super::attack::attack;
+use super::decision::{Decision, View};
+use super::walk_to::within;
+
+/// In Ready: to the place of the role.
+pub(super) fn get_ready(view: &View<'_>) -> Decision {
+    let (places, keeper) = (&view.parameters.places, &view.parameters.keeper);
+    let world = view.world;
+    let pose = places.before_kick(world.role, world.kicking_team, world.set_play, keeper);
+    view.go_to(&pose, Activity::WalkToPlace, Activity::WaitInReady)
+}
+
+/// In Playing.
+pub(super) fn play(view: &View<'_>) -> Decision {
+    let Some(ball) = view.world.ball else {
+        return without_ball(view);
+    };
+    if let Some(restricted) = restricted(view, &ball) {
+        return restricted;
+    }
+    match view.world.role {
+        Role::Striker => attack(view, ball.position),
+        Role::Keeper => guard(view, &ball),
+        role => hold(view, role),
+    }
+}
+
+/// What the rules ask of this robot while one of the teams has the ball for itself; `None` where it may play.
+fn restricted(view: &View<'_>, ball: &Ball) -> Option<Decision> {
+    let world = view.world;
+    let on_field = world.ground_to_field? * ball.position;
+    let places = &view.parameters.places;
+    let is_penalty_kick = world.set_play == SetPlay::PenaltyKick;
+    let stay_away = |activity| {
+        let of_role = places.of_role(world.role, on_field, &view.parameters.keeper);
+        let pose = match activity {
+            Activity::LeavePenaltyArea if world.kicking_team == KickingTeam::Own => {
+                places.outside_other_penalty_area(&of_role)
+            }
+            Activity::LeavePenaltyArea => places.outside_own_penalty_area(&of_role),
+            _ => places.at_a_distance(&of_role, on_field),
+        };
+        Some(view.go_to(&pose, activity, activity))
+    };
+    match (world.kicking_team, world.role) {
+        (KickingTeam::Own, Role::Striker) => None,
+        (KickingTeam::Opponent, Role::Keeper) if is_penalty_kick => Some(stay_on_line(view, ball)),
+        (KickingTeam::Own, Role::Keeper) => None,
+        (KickingTeam::Own | KickingTeam::Opponent, _) if is_penalty_kick => {
+            stay_away(Activity::LeavePenaltyArea)
+        }
+        (KickingTeam::Opponent, Role::Keeper) if world.set_play == SetPlay::None => None,
+        (KickingTeam::Opponent, _) if world.set_play != SetPlay::None => {
+            stay_away(Activity::KeepDistance)
+        }
+        (KickingTeam::Opponent, _) => {
+            let is_kick_off = view
+                .since_kick_off()
+                .is_some_and(|since| since < places.kick_off_duration);
+            let lies_there = on_field.coords.norm() < places.kicked_off;
+            match is_kick_off && lies_there {
+                true => stay_away(Activity::KeepDistance),
+                false => None,
+            }
+        }
+        (KickingTeam::Own | KickingTeam::Nobody, _) => None,
+    }
+}
+
+/// With the head first, then with the body, then from somewhere else.
+fn without_ball(view: &View<'_>) -> Decision {
+    if let Some(ball) = view.world.team_ball {
+        return towards(view, ball);
+    }
+    let search = &view.parameters.search;
+    let (places, keeper) = (&view.parameters.places, &view.parameters.keeper);
+    let lost_for = (view.now - view.memory.ball_known_at).as_secs_f32();
+    let place = places.of_role(view.world.role, Point2::origin(), keeper);
+    let round = search.with_head + search.turning + search.walking;
+    let phase = if round > 0.0 { lost_for % round } else { 0.0 };
+    if view.world.role == Role::Keeper {
+        return view.go_to(&place, Activity::GuardGoal, Activity::GuardGoal);
+    }
+    if phase < search.with_head {
+        return Decision::of_body(
+            Activity::SearchWithHead,
+            BodyMotion::Stand,
+            HeadMotion::LookAround,
+        );
+    }
+    if phase < search.with_head + search.turning {
+        let step = Step {
+            turn: search.turn,
+            ..Step::ZERO
+        };
+        return Decision::walk(Activity::SearchByTurning, step, HeadMotion::LookAround);
+    }
+    view.go_to(&place, Activity::HoldPosition, Activity::SearchWithHead)
+}
+
+/// Turns to where a team mate sees the ball, or to the place from which the role plays it.
+fn towards(view: &View<'_>, ball: Point2<f32>) -> Decision {
+    match view.world.role {
+        Role::Striker => {
+            let away = ball.coords.cap_magnitude(view.parameters.attack.reach);
+            let heading = ball.y.atan2(ball.x);
+            let target = Isometry2::new(ball.coords - away, heading);
+            let look = Activity::LookWhereTeamSees;
+            view.walk_to(&target, None, look, Activity::SearchWithHead)
+        }
+        role => hold(view, role),
+    }
+}
+
+/// At the place of the role, which goes with the ball.
+fn hold(view: &View<'_>, role: Role) -> Decision {
+    let ball = view.ball_on_field().unwrap_or_else(Point2::origin);
+    let places = &view.parameters.places;
+    let pose = places.of_role(role, ball, &view.parameters.keeper);
+    let (on_the_way, there) = match role {
+        Role::Keeper => (Activity::GuardGoal, Activity::GuardGoal),
+        _ => (Activity::HoldPosition, Activity::HoldPosition),
+    };
+    view.go_to(&pose, on_the_way, there)
+}
+
+/// The goalkeeper: into the way of a ball that comes, at one that lies near the goal, else between the two.
+fn guard(view: &View<'_>, ball: &Ball) -> Decision {
+    if let Some(step) = block(view, ball) {
+        return Decision::walk(Activity::Block, step, view.head());
+    }
+    let (places, keeper) = (&view.parameters.places, &view.parameters.keeper);
+    let from_goal = view
+        .ball_on_field()
+        .map(|ball| (ball - places.own_goal()).norm());
+    match from_goal {
+        Some(distance) if distance < keeper.clears => attack(view, ball.position),
+        _ => hold(view, Role::Keeper),
+    }
+}
+
+/// On the goal line until the ball is played, only sideways.
+fn stay_on_line(view: &View<'_>, ball: &Ball) -> Decision {
+    match block(view, ball) {
+        Some(step) => Decision::walk(Activity::Block, step, view.head()),
+        None => Decision::of_body(Activity::GuardGoal, BodyMotion::Stand, view.head()),
+    }
+}
+
+/// The step into the way of a ball that comes fast; `None` where none does, or it hits the robot anyway.
+fn block(view: &View<'_>, ball: &Ball) -> Option<Step> {
+    let keeper = &view.parameters.keeper;
+    let (place, velocity) = (ball.position, ball.velocity);
+    if velocity.x > -keeper.fast || place.x <= 0.0 {
+        return None;
+    }
+    let time = place.x / -velocity.x;
+    let aside = place.y + time * velocity.y;
+    let is_needed = time <= keeper.soon && aside.abs() > keeper.covered;
+    is_needed.then(|| Step {
+        left: within(aside, view.parameters.walk.left),
+        ..Step::ZERO
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Vector2;
+
+    use super::*;
+    use crate::behavior::tests::Scene;
+
+    #[test]
+    fn what_each_role_does_with_a_ball_two_metres_ahead() {
+        for (role, activity) in [
+            (Role::Striker, Activity::WalkBehindBall),
+            (Role::Keeper, Activity::GuardGoal),
+            (Role::Supporter, Activity::HoldPosition),
+            (Role::DefenderLeft, Activity::HoldPosition),
+            (Role::DefenderRight, Activity::HoldPosition),
+        ] {
+            let mut scene = Scene::at(-1.0, 0.0, 0.0).with_ball(2.0, 0.0);
+            scene.world.role = role;
+            assert_eq!(scene.view(play).activity, activity, "{role:?}");
+        }
+    }
+
+    #[test]
+    fn what_the_referee_gives_to_one_team_the_other_stays_away_from() {
+        use Activity::{GuardGoal, HoldPosition, KeepDistance, LeavePenaltyArea, WalkBehindBall};
+        use KickingTeam::{Nobody, Opponent, Own};
+        for (set_play, kicking_team, role, activity) in [
+            (SetPlay::None, Nobody, Role::Striker, WalkBehindBall),
+            (SetPlay::KickIn, Own, Role::Striker, WalkBehindBall),
+            (SetPlay::KickIn, Own, Role::Supporter, HoldPosition),
+            (SetPlay::KickIn, Opponent, Role::Striker, KeepDistance),
+            (SetPlay::CornerKick, Opponent, Role::Supporter, KeepDistance),
+            (SetPlay::GoalKick, Opponent, Role::Striker, KeepDistance),
+            (
+                SetPlay::PushingFreeKick,
+                Opponent,
+                Role::Striker,
+                KeepDistance,
+            ),
+            (SetPlay::PenaltyKick, Own, Role::Striker, WalkBehindBall),
+            (SetPlay::PenaltyKick, Own, Role::Supporter, LeavePenaltyArea),
+            (
+                SetPlay::PenaltyKick,
+                Opponent,
+                Role::DefenderLeft,
+                LeavePenaltyArea,
+            ),
+            (SetPlay::PenaltyKick, Opponent, Role::Keeper, GuardGoal),
+            // Long after the kick-off the ball is everybody's.
+            (SetPlay::None, Opponent, Role::Striker, WalkBehindBall),
+        ] {
+            let mut scene = Scene::at(0.0, 0.0, 0.0).with_ball(0.6, 0.1);
+            scene.world.set_play = set_play;
+            scene.world.kicking_team = kicking_team;
+            scene.world.role = role;
+            let decided = scene.view(play);
+            assert_eq!(
+                decided.activity, activity,
+                "{set_play:?} {kicking_team:?} {role:?}"
+            );
+            if activity == KeepDistance {
+                let target = decided.plan.target.unwrap().translation.vector;
+                assert!((target - Vector2::new(0.6, 0.1)).norm() > 0.75, "{target}");
+            }
+        }
+    }
+
+    #[test]
+    fn after_a_kick_off_of_the_others_the_ball_is_theirs_for_ten_seconds_or_until_it_moves() {
+        for (since, ball_ahead, is_free) in [(1.0, 1.2, false), (11.0, 1.2, true), (1.0, 1.8, true)]
+        {
+            let mut scene = Scene::at(-1.2, 0.0, 0.0).with_ball(ball_ahead, 0.0);
+            scene.world.kicking_team = KickingTeam::Opponent;
+            scene.kicked_off(since);
+            let is_away = scene.view(play).activity == Activity::KeepDistance;
+            assert_eq!(is_away, !is_free, "{since} s, {ball_ahead} m");
+        }
+    }
+
+    #[test]
+    fn a_lost_ball_is_looked_for_with_the_head_then_with_the_body_then_elsewhere() {
+        let mut scene = Scene::at(-2.0, 1.0, 0.0);
+        let search = scene.parameters.search;
+        for (lost_for, activity) in [
+            (0.5 * search.with_head, Activity::SearchWithHead),
+            (search.with_head + 1.0, Activity::SearchByTurning),
+            (
+                search.with_head + search.turning + 1.0,
+                Activity::HoldPosition,
+            ),
+        ] {
+            scene.lost_for(lost_for);
+            assert_eq!(scene.view(play).activity, activity, "{lost_for} s");
+        }
+        scene.world.team_ball = Some(Point2::new(2.0, 1.0));
+        assert_eq!(scene.view(play).activity, Activity::LookWhereTeamSees);
+        scene.world.role = Role::Supporter;
+        assert_eq!(scene.view(play).activity, Activity::HoldPosition);
+    }
+
+    #[test]
+    fn the_keeper_steps_into_the_way_of_a_ball_that_comes() {
+        for (aside, speed, left) in [
+            (0.4, 1.5, Some(true)),
+            (-0.4, 1.5, Some(false)),
+            (0.02, 1.5, None),
+            (0.4, 0.05, None),
+        ] {
+            let mut scene = Scene::at(-4.2, 0.0, 0.0).with_ball(2.0, aside);
+            scene.world.role = Role::Keeper;
+            scene.roll(Vector2::new(-speed, 0.0));
+            let decided = scene.view(play);
+            let blocks = decided.activity == Activity::Block;
+            assert_eq!(
+                blocks.then_some(decided.command.step.left > 0.0),
+                left,
+                "{aside}"
+            );
+        }
+    }
+
+    #[test]
+    fn the_keeper_plays_away_what_lies_before_its_goal() {
+        let mut scene = Scene::at(-4.2, 0.0, 0.0).with_ball(0.6, 0.1);
+        scene.world.role = Role::Keeper;
+        assert_eq!(scene.view(play).activity, Activity::WalkBehindBall);
+    }
+
+    #[test]
+    fn in_ready_everybody_walks_to_a_place_and_waits_there() {
+        let mut scene = Scene::at(-3.0, 3.0, -1.5);
+        scene.world.kicking_team = KickingTeam::Own;
+        assert_eq!(scene.view(get_ready).activity, Activity::WalkToPlace);
+        let mut scene = Scene::at(-0.35, 0.0, 0.0);
+        scene.world.kicking_team = KickingTeam::Own;
+        assert_eq!(scene.view(get_ready).activity, Activity::WaitInReady);
+        scene.world.ground_to_field = None;
+        assert_eq!(scene.view(get_ready).activity, Activity::WaitInReady);
+    }
+}

@@ -1,0 +1,156 @@
+//! Owns the way around what stands on the floor: straight to the goal, else along tangents of circles.
+
+use nalgebra::{Isometry2, Point2, Vector2};
+
+/// How many obstacles after each other a way goes around; behind that it is thought to be free.
+const DETOURS: usize = 3;
+/// A way point lies so much farther from a circle's middle than its edge, so that the next way is free of it.
+const BEYOND: f32 = 1.05;
+/// As much longer, m, counts a way through a point that another obstacle takes: longer than any field.
+const TOLL: f32 = 20.0;
+
+/// What the middle of the robot must stay out of, in the ground frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Circle {
+    /// In m.
+    pub(super) middle: Point2<f32>,
+    /// In m.
+    pub(super) radius: f32,
+}
+
+/// Where a robot at the origin goes first on the shortest way that was found to a point of its ground frame, m.
+///
+/// A circle in which the robot or the point lies does not count, but the robot leaves one before it goes through its middle.
+pub(super) fn first_way_point(
+    target: Point2<f32>,
+    circles: impl Iterator<Item = Circle> + Clone,
+) -> Point2<f32> {
+    detour(Point2::origin(), target, &circles, DETOURS).0
+}
+
+/// The first point of the way and how long that is, m.
+fn detour(
+    start: Point2<f32>,
+    target: Point2<f32>,
+    circles: &(impl Iterator<Item = Circle> + Clone),
+    detours: usize,
+) -> (Point2<f32>, f32) {
+    let straight = (target, (target - start).norm());
+    let blocking = circles
+        .clone()
+        .filter_map(|circle| Some((blocks(start, target, &circle)?, circle)))
+        .min_by(|(one, _), (other, _)| one.total_cmp(other));
+    let Some((_, circle)) = blocking.filter(|_| detours > 0) else {
+        return straight;
+    };
+    let around = [1.0, -1.0].map(|side| {
+        let way_point = beside(start, &circle, side);
+        let (_, rest) = detour(way_point, target, circles, detours - 1);
+        let is_taken = circles
+            .clone()
+            .any(|circle| (way_point - circle.middle).norm() < circle.radius);
+        let toll = if is_taken { TOLL } else { 0.0 };
+        (way_point, (way_point - start).norm() + rest + toll)
+    });
+    let [left, right] = around;
+    if left.1 <= right.1 { left } else { right }
+}
+
+/// How far along the way it comes nearest to the middle of a circle that is in the way, m.
+fn blocks(start: Point2<f32>, target: Point2<f32>, circle: &Circle) -> Option<f32> {
+    let (way, to_middle) = (target - start, circle.middle - start);
+    let length = way.norm();
+    if length <= f32::EPSILON || (target - circle.middle).norm() < circle.radius {
+        return None;
+    }
+    let along = to_middle.dot(&way) / length;
+    let across = way.perp(&to_middle).abs() / length;
+    (along > 0.0 && along < length && across < circle.radius).then_some(along)
+}
+
+/// Where a way touches the circle on one side (1: left of its middle), or goes past it from inside.
+fn beside(start: Point2<f32>, circle: &Circle, side: f32) -> Point2<f32> {
+    let to_middle = circle.middle - start;
+    let distance = to_middle.norm();
+    let radius = circle.radius * BEYOND;
+    let direction = match distance > f32::EPSILON {
+        true => to_middle / distance,
+        false => Vector2::x(),
+    };
+    let aside = (radius / distance.max(radius)).asin() * side;
+    let length = (distance * distance - radius * radius).max(0.0).sqrt();
+    let turned: Vector2<f32> = Isometry2::rotation(aside) * direction;
+    start + turned * length.max(radius / 2.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn way_point(target: [f32; 2], circles: &[[f32; 3]]) -> Point2<f32> {
+        let circles = circles.iter().map(|&[x, y, radius]| Circle {
+            middle: Point2::new(x, y),
+            radius,
+        });
+        first_way_point(Point2::from(target), circles)
+    }
+
+    #[test]
+    fn a_way_that_is_free_is_straight() {
+        let target = Point2::new(3.0, 0.0);
+        for circles in [
+            vec![],
+            vec![[1.5, 0.6, 0.5]],
+            vec![[-1.0, 0.0, 0.5]],
+            vec![[4.0, 0.0, 0.5]],
+            // Who wants to get into a circle goes there.
+            vec![[3.1, 0.0, 0.5]],
+        ] {
+            assert_eq!(way_point([3.0, 0.0], &circles), target, "{circles:?}");
+        }
+    }
+
+    #[test]
+    fn an_obstacle_is_passed_on_the_shorter_side() {
+        for (y, is_left) in [(0.1, false), (-0.1, true)] {
+            let around = way_point([3.0, 0.0], &[[1.5, y, 0.5]]);
+            assert_eq!(around.y > 0.0, is_left, "{around}");
+            assert!((around - Point2::new(1.5, y)).norm() > 0.5);
+        }
+        // Where a second one closes the shorter side, the other one is shorter.
+        let around = way_point([3.0, 0.0], &[[1.5, 0.1, 0.5], [1.5, -0.8, 0.5]]);
+        assert!(around.y > 0.0, "{around}");
+    }
+
+    #[test]
+    fn who_stands_in_a_circle_does_not_go_through_its_middle() {
+        let around = way_point([1.0, 0.0], &[[0.2, 0.02, 0.4]]);
+        assert!(around.x.abs() < 0.1 && around.y < -0.1, "{around}");
+        // And leaves it straight where the way leads out.
+        let out = way_point([-1.0, 0.0], &[[0.2, 0.0, 0.4]]);
+        assert_eq!(out, Point2::new(-1.0, 0.0));
+    }
+
+    #[test]
+    fn whoever_walks_so_gets_there_without_touching_anything() {
+        let circles = [
+            [1.0, 0.0, 0.4],
+            [1.6, 0.5, 0.4],
+            [2.2, -0.3, 0.4],
+            [0.4, 1.0, 0.3],
+        ];
+        let target = Point2::new(3.0, 0.2);
+        let mut position = Vector2::new(0.0, 0.0);
+        for _ in 0..400 {
+            let seen = circles.map(|[x, y, radius]| [x - position.x, y - position.y, radius]);
+            let there = target - position;
+            let way_point = way_point([there.x, there.y], &seen);
+            position += way_point.coords.cap_magnitude(0.02);
+            for [x, y, radius] in circles {
+                let distance = (position - Vector2::new(x, y)).norm();
+                assert!(distance > radius - 0.03, "{position} in {x} {y}");
+            }
+        }
+        assert!((target.coords - position).norm() < 0.03, "{position}");
+    }
+}

@@ -1,0 +1,313 @@
+//! Decides what this robot is for its team, and where the team sees the ball.
+//!
+//! Every robot decides for itself, from the last messages of the others, by the same rule: the goalkeeper's shirt guards the
+//! goal, of the others the one that is nearest to the ball plays it, the rest take their places in the order of their numbers.
+//! Messages come every few seconds, so that robots may disagree for as long; who plays the ball already counts as nearer than
+//! it is. Before the ball is in play numbers alone count. A robot that hears nobody plays the ball itself.
+
+use framework::{CycleTime, Input, MainOutput, Parameter, Reflect, Result, Timestamp, context};
+use nalgebra::{Isometry2, Point2};
+use serde::{Deserialize, Serialize};
+use types::ball::Ball;
+use types::behavior::Role;
+use types::game::{Player, PrimaryState};
+use types::team::Teammate;
+
+/// In the order in which players without gloves and without the ball take them.
+const PLACES: [Role; 3] = [Role::DefenderLeft, Role::Supporter, Role::DefenderRight];
+
+/// What this robot was last.
+#[derive(Debug, Deserialize, Serialize)]
+pub struct RoleAssignment {
+    role: Role,
+}
+
+/// How robots of a team share the work.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct RoleParameters {
+    /// Number of the goalkeeper's shirt.
+    pub keeper: u8,
+    /// So much nearer to the ball than it is the robot counts that plays it.
+    #[reflect(unit = "m", range = 0.0..)]
+    pub hysteresis: f32,
+    /// A ball that a team mate has seen longer ago is not looked for there.
+    #[reflect(unit = "s", range = 0.0..)]
+    pub ball_age: f32,
+}
+
+#[context]
+pub struct CreationContext {}
+
+#[context]
+pub struct CycleContext {
+    primary_state: Input<PrimaryState, "primary_state">,
+    ground_to_field: Input<Option<Isometry2<f32>>, "ground_to_field">,
+    ball: Input<Option<Ball>, "ball">,
+    teammates: Input<Vec<Teammate>, "teammates">,
+    cycle_time: CycleTime,
+
+    /// Who this robot is in the game.
+    player: Parameter<Player, "player">,
+    parameters: Parameter<RoleParameters, "role_assignment">,
+}
+
+#[context]
+pub struct MainOutputs {
+    /// What this robot is for its team.
+    role: MainOutput<Role>,
+    /// Where a team mate has seen the ball lately, in the own ground frame, m.
+    team_ball: MainOutput<Option<Point2<f32>>>,
+}
+
+impl RoleAssignment {
+    /// Alone until somebody is heard.
+    pub fn new(_context: CreationContext) -> Result<Self> {
+        Ok(Self {
+            role: Role::Striker,
+        })
+    }
+
+    /// From what is known now.
+    pub fn cycle(&mut self, context: CycleContext) -> Result<MainOutputs> {
+        let team_ball = newest_ball(
+            context.teammates,
+            context.ground_to_field.as_ref(),
+            context.cycle_time.start,
+            context.parameters.ball_age,
+        );
+        let own = context
+            .ball
+            .map(|ball| ball.position)
+            .or(team_ball)
+            .map(|ball| ball.coords.norm());
+        let head_start = match self.role {
+            Role::Striker => context.parameters.hysteresis,
+            _ => 0.0,
+        };
+        let others = context.teammates.iter().map(|teammate| Candidate {
+            number: teammate.message.player_number,
+            distance: distance_to_ball(teammate),
+        });
+        self.role = role(
+            Candidate {
+                number: context.player.number,
+                distance: own.map(|distance| distance - head_start),
+            },
+            others,
+            context.parameters.keeper,
+            *context.primary_state == PrimaryState::Playing,
+        );
+        Ok(MainOutputs {
+            role: self.role.into(),
+            team_ball: team_ball.into(),
+        })
+    }
+}
+
+/// Who could play the ball.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Candidate {
+    number: u8,
+    /// From the ball in m; `None` for one that does not know, or lies.
+    distance: Option<f32>,
+}
+
+fn role(
+    own: Candidate,
+    others: impl Iterator<Item = Candidate> + Clone,
+    keeper: u8,
+    is_playing: bool,
+) -> Role {
+    let others = others.filter(|other| other.number != own.number);
+    let is_alone = others.clone().next().is_none();
+    if own.number == keeper {
+        // Nobody else plays, so there is nothing to win at the goal.
+        return match is_alone && is_playing {
+            true => Role::Striker,
+            false => Role::Keeper,
+        };
+    }
+    let field_players = || others.clone().filter(|other| other.number != keeper);
+    let comes_before = |one: Candidate, other: Candidate| {
+        let key = |candidate: Candidate| match is_playing {
+            true => candidate.distance.unwrap_or(f32::INFINITY),
+            false => 0.0,
+        };
+        key(one)
+            .total_cmp(&key(other))
+            .then(one.number.cmp(&other.number))
+            .is_lt()
+    };
+    let striker = field_players().fold(own, |best, other| match comes_before(other, best) {
+        true => other,
+        false => best,
+    });
+    if striker.number == own.number {
+        return Role::Striker;
+    }
+    let before =
+        field_players().filter(|other| other.number != striker.number && other.number < own.number);
+    PLACES[before.count() % PLACES.len()]
+}
+
+fn distance_to_ball(teammate: &Teammate) -> Option<f32> {
+    let message = &teammate.message;
+    let ball = message.ball.filter(|_| !message.is_fallen)?;
+    Some(ball.position.coords.norm())
+}
+
+/// What a team mate has seen last, of those that know where they are.
+fn newest_ball(
+    teammates: &[Teammate],
+    ground_to_field: Option<&Isometry2<f32>>,
+    now: Timestamp,
+    oldest: f32,
+) -> Option<Point2<f32>> {
+    let field_to_ground = ground_to_field?.inverse();
+    let balls = teammates.iter().filter_map(|teammate| {
+        let ball = teammate.message.ball?;
+        let age = ball.age + (now - teammate.heard_at).as_secs_f32();
+        let place = field_to_ground * teammate.message.ground_to_field? * ball.position;
+        (age <= oldest).then_some((age, place))
+    });
+    balls
+        .min_by(|(one, _), (other, _)| one.total_cmp(other))
+        .map(|(_, place)| place)
+}
+
+#[cfg(test)]
+mod tests {
+    use framework::testing::{at_millis, cycle_time};
+    use types::team::{TeamBall, TeamMessage};
+
+    use super::*;
+
+    fn roles(distances: &[(u8, Option<f32>)], is_playing: bool) -> Vec<Role> {
+        let candidate = |&(number, distance)| Candidate { number, distance };
+        let all = distances.iter();
+        all.clone()
+            .map(|own| role(candidate(own), all.clone().map(candidate), 1, is_playing))
+            .collect()
+    }
+
+    #[test]
+    fn roles_by_who_is_there_and_how_far_the_ball_is() {
+        use Role::{DefenderLeft, DefenderRight, Keeper, Striker, Supporter};
+        let far = Some(4.0);
+        for (distances, is_playing, expected) in [
+            // Alone, the goalkeeper plays the ball, but not before the game is on.
+            (vec![(1, far)], true, vec![Striker]),
+            (vec![(1, far)], false, vec![Keeper]),
+            (vec![(4, None)], true, vec![Striker]),
+            (vec![(1, Some(0.5)), (2, far)], true, vec![Keeper, Striker]),
+            // The nearest plays it, whatever its number.
+            (
+                vec![
+                    (1, None),
+                    (2, far),
+                    (3, Some(1.0)),
+                    (4, None),
+                    (5, Some(2.0)),
+                ],
+                true,
+                vec![Keeper, DefenderLeft, Striker, Supporter, DefenderRight],
+            ),
+            // Until it is in play numbers count, and so they do where nobody knows the ball.
+            (
+                vec![(1, None), (2, far), (3, Some(1.0)), (4, None), (5, None)],
+                false,
+                vec![Keeper, Striker, DefenderLeft, Supporter, DefenderRight],
+            ),
+            (
+                vec![(1, None), (2, None), (3, None)],
+                true,
+                vec![Keeper, Striker, DefenderLeft],
+            ),
+            // A sixth takes the first place again.
+            (
+                vec![
+                    (1, None),
+                    (2, Some(1.0)),
+                    (3, None),
+                    (4, None),
+                    (5, None),
+                    (6, None),
+                ],
+                true,
+                vec![
+                    Keeper,
+                    Striker,
+                    DefenderLeft,
+                    Supporter,
+                    DefenderRight,
+                    DefenderLeft,
+                ],
+            ),
+        ] {
+            assert_eq!(roles(&distances, is_playing), expected, "{distances:?}");
+        }
+    }
+
+    fn teammate(number: u8, ball: f32, age: f32, is_fallen: bool) -> Teammate {
+        Teammate {
+            message: TeamMessage {
+                player_number: number,
+                is_fallen,
+                ground_to_field: Some(Isometry2::translation(1.0, 0.0)),
+                ball: Some(TeamBall {
+                    position: Point2::new(ball, 0.0),
+                    age,
+                }),
+            },
+            heard_at: at_millis(1000),
+        }
+    }
+
+    fn cycle(node: &mut RoleAssignment, ball: f32, teammates: Vec<Teammate>) -> MainOutputs {
+        let context = CycleContext {
+            primary_state: &PrimaryState::Playing,
+            ground_to_field: &Some(Isometry2::translation(-1.0, 0.0)),
+            ball: &Some(Ball {
+                position: Point2::new(ball, 0.0),
+                ..Ball::default()
+            }),
+            teammates: &teammates,
+            cycle_time: cycle_time(2000, 12),
+            player: &Player {
+                number: 2,
+                team: 77,
+            },
+            parameters: &RoleParameters {
+                keeper: 1,
+                hysteresis: 0.5,
+                ball_age: 3.0,
+            },
+        };
+        node.cycle(context).unwrap()
+    }
+
+    #[test]
+    fn who_plays_the_ball_goes_on_while_the_other_is_hardly_nearer() {
+        let mut node = RoleAssignment::new(CreationContext {}).unwrap();
+        let mut role = |ball, other| cycle(&mut node, ball, vec![other]).role.value;
+        assert_eq!(role(1.0, teammate(3, 0.8, 0.0, false)), Role::Striker);
+        assert_eq!(role(1.0, teammate(3, 0.4, 0.0, false)), Role::DefenderLeft);
+        assert_eq!(role(1.0, teammate(3, 0.8, 0.0, false)), Role::DefenderLeft);
+        assert_eq!(
+            role(1.0, teammate(3, 0.4, 0.0, true)),
+            Role::Striker,
+            "it lies"
+        );
+    }
+
+    #[test]
+    fn the_newest_sighting_of_the_team_is_seen_from_here() {
+        let mut node = RoleAssignment::new(CreationContext {}).unwrap();
+        let heard = vec![teammate(3, 0.5, 1.5, false), teammate(4, 2.0, 0.5, false)];
+        let there = cycle(&mut node, 1.0, heard).team_ball.value.unwrap();
+        assert!((there - Point2::new(4.0, 0.0)).norm() < 1e-6, "{there}");
+        let old = vec![teammate(3, 0.5, 2.5, false)];
+        assert_eq!(cycle(&mut node, 1.0, old).team_ball.value, None);
+    }
+}
