@@ -1,17 +1,19 @@
 //! A referee who plays a game: what state it is in, who may kick, who is taken off the field, and when the whistle sounds.
 //!
 //! It sees the world as it is and rules as the RoboCup SPL rules 2025 say, as far as this goes: kick-off, goals, kick-in,
-//! goal kick, corner kick, removal of robots that lie too long, walk in Set, stand where they must not in Set, or leave the
-//! field. It sees no pushing, no holding of the ball, and no second half.
+//! goal kick, corner kick, free kick after pushing, removal of robots that lie too long, walk in Set, stand where they must
+//! not in Set, push, or leave the field, and two halves, in which the teams keep their sides. It sees no holding of the ball.
 
 mod announcement;
 mod ball;
+mod pushing;
 mod removal;
 
 use nalgebra::{Point2, Point3};
 use types::game::{GameState, Penalty, SetPlay};
 
 pub use self::announcement::message;
+use self::pushing::Movement;
 use self::removal::Record;
 use crate::scene::Team;
 use crate::settings::PlaySettings;
@@ -58,6 +60,8 @@ pub struct Referee {
     pub kicking: Team,
     /// Goals of blue and red.
     pub score: [u8; 2],
+    /// Which half it is, 1 first.
+    half: u8,
     /// How long the half has been played, s.
     played: f64,
     /// When it looked last, s.
@@ -68,6 +72,7 @@ pub struct Referee {
     records: Vec<Record>,
     /// How many robots of each team were removed.
     removals: [u32; 2],
+    movements: Vec<Movement>,
 }
 
 /// What the referee's computer goes on saying meanwhile.
@@ -90,12 +95,14 @@ impl Referee {
             set_play_since: 0.0,
             kicking: Team::Own,
             score: [0; 2],
+            half: 1,
             played: 0.0,
             looked: 0.0,
             touched_last: None,
             secret: None,
             records: Vec::new(),
             removals: [0; 2],
+            movements: Vec::new(),
         }
     }
 
@@ -117,6 +124,10 @@ impl Referee {
             self.watch_ball(now, &ball, players, &mut rulings);
         }
         self.watch_players(now, passed, players, &mut rulings);
+        if self.state == GameState::Playing {
+            let ball = ball.map(|ball| ball.xy());
+            self.watch_pushing(now, passed, ball, players, &mut rulings);
+        }
         rulings
     }
 
@@ -150,6 +161,13 @@ impl Referee {
                 self.enter(now, GameState::Finished);
                 self.secret = None;
                 rulings.push(Ruling::Whistle);
+            }
+            GameState::Finished if self.half < settings.halves && since >= settings.pause => {
+                self.half += 1;
+                self.played = 0.0;
+                // Who did not kick off the game kicks off now.
+                self.kicking = Team::Opponent;
+                self.enter(now, GameState::Initial);
             }
             GameState::Playing
                 if self.set_play != SetPlay::None

@@ -12,6 +12,8 @@ const QUICK: PlaySettings = PlaySettings {
     ready: 2.0,
     set: 1.0,
     half: 100.0,
+    halves: 2,
+    pause: 10.0,
     delay: 3.0,
     kick_off: 10.0,
     free_kick: 30.0,
@@ -230,4 +232,83 @@ fn set_has_rules_of_its_own() {
     assert_ne!(penalty(&game, 0), Penalty::None, "time stands still in Set");
     game.run_until(20.0);
     assert_eq!(penalty(&game, 0), Penalty::None);
+}
+
+#[test]
+fn after_the_break_the_others_kick_off_the_second_half() {
+    let mut game = Game::playing();
+    game.run_until(104.2);
+    let said = game.said();
+    assert_eq!(said.game_state, GameState::Finished);
+    assert!(said.is_first_half);
+    for (time, state) in [
+        (113.9, GameState::Finished),
+        (114.3, GameState::Initial),
+        (116.0, GameState::Ready),
+        (119.0, GameState::Playing),
+    ] {
+        game.run_until(time);
+        assert_eq!(game.referee.state, state, "at {time} s");
+    }
+    let said = game.said();
+    assert!(!said.is_first_half);
+    assert_eq!(said.kicking_team, Some(6));
+    assert!((98..=100).contains(&said.seconds_remaining));
+    // There is no third one.
+    game.run_until(260.0);
+    assert_eq!(game.referee.state, GameState::Finished);
+}
+
+/// Blue walks towards the middle of red at that speed, m/s, red at another one towards blue, and stands in between; the
+/// penalties of both then.
+fn walk_into_each_other(game: &mut Game, blue: f64, red: f64, touching: bool) -> [Penalty; 2] {
+    let apart = if touching { 0.3 } else { 0.6 };
+    let begun = game.now;
+    while game.now < begun + 2.0 {
+        let passed = game.now - begun;
+        let x = -2.0 + blue * passed;
+        game.move_player(0, [x, 1.0, 0.0]);
+        // Who is pushed gives way.
+        let away = if red > 0.0 {
+            -red * passed
+        } else {
+            blue * passed
+        };
+        game.move_player(1, [-2.0 + apart + away, 1.0, 0.0]);
+        game.run_until(game.now + 0.012);
+        let said = game.said();
+        let penalties = [0, 1].map(|team: usize| said.teams[team].players[0].penalty);
+        if penalties != [Penalty::None; 2] {
+            return penalties;
+        }
+    }
+    [Penalty::None; 2]
+}
+
+#[test]
+fn who_pushes_is_removed_and_who_is_pushed_is_not() {
+    for (blue, red, touching, penalty) in [
+        (0.15, 0.0, true, Penalty::PlayerPushing),
+        (0.15, 0.0, false, Penalty::None),
+        (0.0, 0.0, true, Penalty::None),
+        // Both come: nobody's foul.
+        (0.1, 0.1, true, Penalty::None),
+    ] {
+        let mut game = Game::playing();
+        let seen = walk_into_each_other(&mut game, blue, red, touching);
+        assert_eq!(seen, [penalty, Penalty::None], "{blue} {red} {touching}");
+    }
+}
+
+#[test]
+fn pushing_at_the_ball_is_a_free_kick() {
+    let mut game = Game::playing();
+    game.ball = Point3::new(-1.8, 1.3, 0.05);
+    let seen = walk_into_each_other(&mut game, 0.1, 0.0, true);
+    assert_eq!(seen, [Penalty::None; 2]);
+    let referee = &game.referee;
+    assert_eq!(
+        (referee.set_play, referee.kicking),
+        (SetPlay::PushingFreeKick, Team::Opponent)
+    );
 }

@@ -38,7 +38,7 @@ pub fn message(
         competition_phase: CompetitionPhase::RoundRobin,
         game_state: said.state,
         set_play: said.set_play,
-        is_first_half: true,
+        is_first_half: referee.half == 1,
         kicking_team: Some(game.team_of(said.kicking)),
         seconds_remaining: rounded_up(referee.settings.half - referee.played),
         secondary_seconds: secondary(referee, now),

@@ -58,6 +58,7 @@ impl Referee {
         // Ten goals more are enough.
         let [blue, red] = self.score;
         let state = if blue.abs_diff(red) >= 10 {
+            self.half = self.settings.halves;
             GameState::Finished
         } else {
             GameState::Ready
@@ -87,7 +88,7 @@ impl Referee {
         }
     }
 
-    fn restart(
+    pub(super) fn restart(
         &mut self,
         now: f64,
         set_play: SetPlay,

@@ -14,8 +14,12 @@ pub struct PlaySettings {
     pub ready: f64,
     /// In Set until the whistle.
     pub set: f64,
-    /// A half; the game has one.
+    /// A half.
     pub half: f64,
+    /// How many halves are played, one or two.
+    pub halves: u8,
+    /// Between them.
+    pub pause: f64,
     /// So much later than the whistle the referee's computer says what it means.
     pub delay: f64,
     /// Until the ball is free after a kick-off.
@@ -37,6 +41,8 @@ impl Default for PlaySettings {
             ready: 45.0,
             set: 5.0,
             half: 600.0,
+            halves: 2,
+            pause: 600.0,
             delay: 15.0,
             kick_off: 10.0,
             free_kick: 30.0,
@@ -55,6 +61,7 @@ impl PlaySettings {
             ("ready", self.ready),
             ("set", self.set),
             ("half", self.half),
+            ("pause", self.pause),
             ("delay", self.delay),
             ("kick_off", self.kick_off),
             ("free_kick", self.free_kick),
@@ -66,6 +73,12 @@ impl PlaySettings {
                     "hardware.simulated.game.play.{key}: {time} is not from 0 to 3600 s"
                 )));
             }
+        }
+        if !(1..=2).contains(&self.halves) {
+            return Err(Error::new(format!(
+                "hardware.simulated.game.play.halves: a game has 1 or 2, not {}",
+                self.halves
+            )));
         }
         Ok(())
     }
