@@ -30,6 +30,10 @@ pub struct GroundTruth {
     pub ground_to_field: Isometry3<f32>,
     /// How far the robot has gone over the floor, m: from place to place, a second apart.
     pub walked: f64,
+    /// For how long it has been stuck, s: it lies, or its legs move, and it gets nowhere.
+    pub stuck: f64,
+    /// How often the feet of any robot have come to the ball.
+    pub ball_contacts: u64,
     /// How many commands have come until now that want a joint beyond its limits.
     pub harmful_commands: u64,
     /// Centre of the ball in the field frame, m.
@@ -128,6 +132,8 @@ impl GroundTruth {
             torso_to_field: body.torso_to_field.cast(),
             ground_to_field: body.ground_to_field().cast(),
             walked: world.walked(robot),
+            stuck: world.stuck(robot),
+            ball_contacts: world.ball_contacts(),
             harmful_commands,
             ball: world.ball().map(|ball| ball.cast()),
             robots: world.robots(robot).to_vec(),

@@ -64,8 +64,6 @@ pub struct ImageSettings {
     pub carpet: [f32; 3],
     /// Images of another seed have other noise.
     pub seed: u32,
-    /// One in so many images of 30 a second is taken: 30 is one a second.
-    pub one_in: u32,
 }
 
 /// Another robot: it stands as long as nobody knocks it over.
@@ -96,7 +94,6 @@ impl Default for ImageSettings {
             blur: 0.0,
             carpet: [38.0, 127.95, 52.0],
             seed: 0,
-            one_in: 1,
         }
     }
 }
@@ -180,10 +177,6 @@ pub fn check(robots: &[RobotSettings], images: &ImageSettings) -> Result<()> {
                 robot.number
             ));
         }
-    }
-    if !(1..=3600).contains(&images.one_in) {
-        let one_in = images.one_in;
-        return wrong(format!("images.one_in: {one_in} is not between 1 and 3600"));
     }
     let [red, green, blue] = images.white_balance;
     let [carpet_red, carpet_green, carpet_blue] = images.carpet;

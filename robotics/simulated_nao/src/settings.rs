@@ -45,6 +45,9 @@ pub use self::player::PlayerSettings;
 use crate::scene::{self, ImageSettings, RobotSettings};
 pub use crate::sound::SoundSettings;
 
+/// Images a second of a NAO's camera.
+pub const CAMERA_RATE: u32 = 30;
+
 /// The choices; every key may be left out.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -79,6 +82,8 @@ pub struct Settings {
     pub sound: SoundSettings,
     /// Whether the cameras give images.
     pub cameras: bool,
+    /// How many images each of them gives in a second: 30 as a NAO's, or a divisor of that.
+    pub camera_rate: u32,
     /// Whether the microphones give sound.
     pub microphones: bool,
 }
@@ -136,6 +141,7 @@ impl Default for Settings {
             buttons: Press::usual(),
             sound: SoundSettings::default(),
             cameras: true,
+            camera_rate: CAMERA_RATE,
             microphones: true,
         }
     }
@@ -168,6 +174,12 @@ impl Settings {
         if let Some(number) = numbers.into_iter().find(|number| !number.is_finite()) {
             return Err(Error::new(format!(
                 "hardware.simulated: {number} is no place on the field"
+            )));
+        }
+        if self.camera_rate == 0 || !CAMERA_RATE.is_multiple_of(self.camera_rate) {
+            return Err(Error::new(format!(
+                "hardware.simulated.camera_rate: {CAMERA_RATE} images a second cannot be thinned to {}; take a divisor",
+                self.camera_rate
             )));
         }
         self.imperfections.check()?;
@@ -310,6 +322,15 @@ mod tests {
             (
                 "[imperfections]\ncommand_delay = 84",
                 "imperfections.command_delay: 84 cycles are more than 83",
+            ),
+            (
+                "camera_rate = 20",
+                "camera_rate: 30 images a second cannot be thinned to 20; take a divisor",
+            ),
+            ("camera_rate = 0", "camera_rate: 30 images"),
+            (
+                "[game]\nplay = { halves = 3 }",
+                "game.play.halves: a game has 1 or 2, not 3",
             ),
             ("[game]\nteam = 255", "game.team: no team has number 255"),
             (

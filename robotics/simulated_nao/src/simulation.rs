@@ -15,14 +15,14 @@ use crate::camera::Exposure;
 use crate::ground_truth::{BodyTruth, GroundTruth, ImageTruth};
 use crate::network::{Network, Received};
 use crate::server::LolaServer;
-use crate::settings::Settings;
+use crate::settings::{CAMERA_RATE, Settings};
 use crate::sound::{BLOCK_LENGTH, SAMPLE_RATE};
 use crate::stage::{Broadcast, Scene, Stage};
 use crate::world::{IMAGE_LATENCY, NO_ECHO};
 
 /// LoLA's cycle.
 pub(crate) const TICK: Duration = Duration::from_millis(12);
-/// 30 images a second.
+/// 30 images a second; slower cameras leave some of them out.
 const IMAGE_PERIOD: Duration = Duration::from_nanos(33_333_333);
 /// The first exposures; the cameras take turns.
 const FIRST_EXPOSURE: PerCamera<Duration> = PerCamera {
@@ -96,6 +96,7 @@ pub(crate) struct Simulation {
     server: LolaServer,
     pub(crate) network: Network,
     has_cameras: bool,
+    /// Between two images of a camera.
     image_period: Duration,
     has_microphones: bool,
     /// The time of the last step.
@@ -137,7 +138,7 @@ impl Simulation {
             heard: 0,
             network,
             has_cameras: settings.cameras,
-            image_period: IMAGE_PERIOD * settings.images.one_in,
+            image_period: IMAGE_PERIOD * (CAMERA_RATE / settings.camera_rate.max(1)),
             has_microphones: settings.microphones,
             now: Timestamp::ZERO,
             state: Vec::new(),

@@ -1,11 +1,13 @@
 //! The simulated world at one moment: the robots' bodies, their motors and cameras, and the ball.
 
+mod contacts;
 mod game;
 mod imperfections;
 mod inertial;
 mod inhabitant;
 mod motor_boards;
 mod power;
+mod progress;
 mod sensors;
 mod sonar;
 mod touch;
@@ -132,6 +134,17 @@ impl World {
         self.inhabitants[robot].way.length()
     }
 
+    /// For how long a robot has been stuck, s.
+    pub(crate) fn stuck(&self, robot: usize) -> f64 {
+        self.inhabitants[robot].progress.stuck()
+    }
+
+    /// How often the feet of any robot have come to the ball.
+    pub(crate) fn ball_contacts(&self) -> u64 {
+        let contacts = self.inhabitants.iter().map(|robot| robot.contacts.count());
+        contacts.sum()
+    }
+
     /// The others.
     pub(crate) fn robots(&self, robot: usize) -> &[Robot] {
         &self.inhabitants[robot].others
@@ -170,8 +183,13 @@ impl World {
             inhabitant.power.advance(time - self.now, &stiffnesses);
         }
         self.now = time;
+        let ball = self.ball().map(|ball| ball.xy());
         for (body, inhabitant) in self.physics.bodies().iter().zip(&mut self.inhabitants) {
             inhabitant.way.go(time, body);
+            inhabitant.progress.go(time, body);
+            let soles = [body.soles_to_field.left, body.soles_to_field.right];
+            let soles = soles.map(|sole| sole.translation.vector.xy().into());
+            inhabitant.contacts.look(ball, soles);
         }
     }
 

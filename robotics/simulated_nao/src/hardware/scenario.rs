@@ -130,8 +130,10 @@ impl Deed {
 
 /// What is really the case: lengths in m, angles in rad, in the field frame unless it says otherwise.
 ///
-/// `x`, `y`, `heading` of the robot, `own.place` (x and y) and `own.direction` (cosine and sine) as its team sees the field, how far it `walked`, `tilt` and `height` of its torso; `harmful_commands`, how many
-/// wanted a joint beyond its limits; `ball.x`, `ball.y`, and from the robot `ball.ahead`, `ball.aside`, `ball.distance`;
+/// `x`, `y`, `heading` of the robot, `own.place` (x and y) and `own.direction` (cosine and sine) as its team sees the field,
+/// how far it `walked`, `tilt` and `height` of its torso; `stuck`, for how many seconds it has lain or moved its legs without
+/// getting anywhere; `harmful_commands`, how many wanted a joint beyond its limits; `ball.x`, `ball.y`, from the robot
+/// `ball.ahead`, `ball.aside`, `ball.distance`, and `ball_contacts` of all robots;
 /// `robots` are the others: `x`, `y`, `heading`, `team` (`own` or `opponent`), `number`;
 /// `score.blue`, `score.red`, and where a game is played `game.state`, `game.set_play`, `game.kicking` (`blue` or `red`).
 pub(super) fn truth(truth: &GroundTruth) -> Value {
@@ -180,6 +182,8 @@ pub(super) fn truth(truth: &GroundTruth) -> Value {
         "y": ground.translation.y,
         "heading": heading,
         "walked": truth.walked,
+        "stuck": truth.stuck,
+        "ball_contacts": truth.ball_contacts,
         "harmful_commands": truth.harmful_commands,
         "tilt": up.z.clamp(-1.0, 1.0).acos(),
         "height": torso.translation.z,

@@ -285,3 +285,52 @@ fn a_foreign_flood_does_not_keep_a_reader_waiting_for_what_is_lost() {
         assert!(begun.elapsed() < 10 * LONGEST_FLIGHT);
     });
 }
+
+#[test]
+fn our_referee_is_silent_while_another_one_speaks_and_a_while_longer() {
+    let lockstep = Lockstep::new(&["--no-mate"]);
+    let stranger = Endpoint {
+        address: [192, 168, 1, 2],
+        port: 4000,
+    };
+    let speaks = |millis: u64| {
+        let now = Timestamp::ZERO + Duration::from_millis(millis);
+        let network = &mut lockstep.shared.lock().network;
+        network.referee_speaks(now, None).unwrap()
+    };
+    let overheard = |millis: u64, sender: &Endpoint, bytes: &[u8]| {
+        let now = Timestamp::ZERO + Duration::from_millis(millis);
+        lockstep.shared.lock().network.overheard(now, sender, bytes);
+    };
+    let data = control_data::encode(&GameControllerMessage::default());
+    assert!(speaks(500));
+    // What is no control data silences nobody, and neither does our own.
+    overheard(600, &stranger, b"nonsense");
+    assert!(speaks(1000));
+    let own = lockstep
+        .shared
+        .lock()
+        .network
+        .referee
+        .as_ref()
+        .unwrap()
+        .address()
+        .unwrap()
+        .port();
+    overheard(
+        1100,
+        &Endpoint {
+            address: [127, 0, 0, 1],
+            port: own,
+        },
+        &data,
+    );
+    assert!(speaks(1500));
+    for millis in [1600, 2600] {
+        overheard(millis, &stranger, &data);
+    }
+    for millis in [2000, 3000, 5500] {
+        assert!(!speaks(millis), "at {millis} ms");
+    }
+    assert!(speaks(5700));
+}

@@ -46,9 +46,9 @@ impl Settings {
                 "--free-ports" => self.network.free_ports(),
                 "--no-buttons" => self.buttons.clear(),
                 "--no-cameras" => self.cameras = false,
-                "--one-image-in" => {
+                "--camera-rate" => {
                     let number = value()?;
-                    self.images.one_in = number.parse().map_err(|_| {
+                    self.camera_rate = number.parse().map_err(|_| {
                         Error::new(format!(
                             "option `{option}` needs a whole number, not `{number}`"
                         ))
@@ -66,7 +66,7 @@ fn unknown(option: &str) -> Error {
     Error::new(format!(
         "unknown option `{option}` of the simulated NAO; it knows --socket PATH, --physics NAME, --imperfect SEED, --pose X,Y,HEADING, \
          --ball X,Y, --no-ball, --game STATE, --no-referee, --no-mate, --free-ports, --no-buttons, \
-         --no-cameras, --one-image-in NUMBER, --no-sound"
+         --no-cameras, --camera-rate NUMBER, --no-sound"
     ))
 }
 

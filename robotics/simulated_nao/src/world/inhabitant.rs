@@ -7,10 +7,12 @@ use types::joints::Joints;
 use types::motor_commands::MotorCommands;
 use types::sensor_data::{RobotConfiguration, SensorData, Sonar};
 
+use super::contacts::Contacts;
 use super::imperfections::Imperfections;
 use super::inertial::InertialUnit;
 use super::motor_boards::MotorBoards;
 use super::power::{self, Power};
+use super::progress::Progress;
 use super::way::Way;
 use super::{sensors, touch};
 use crate::physics::Body;
@@ -21,6 +23,8 @@ use crate::settings::{Press, Settings};
 /// One robot's.
 pub(super) struct Inhabitant {
     pub(super) way: Way,
+    pub(super) progress: Progress,
+    pub(super) contacts: Contacts,
     pub(super) inertial: InertialUnit,
     imperfections: Imperfections,
     pub(super) motors: MotorBoards,
@@ -38,6 +42,8 @@ impl Inhabitant {
     pub(super) fn new(settings: &Settings, body: &Body, others: Arc<[Robot]>) -> Self {
         Self {
             way: Way::new(body),
+            progress: Progress::default(),
+            contacts: Contacts::default(),
             inertial: InertialUnit::default(),
             imperfections: Imperfections::new(&settings.imperfections),
             motors: MotorBoards::new(&posture::sitting()),
