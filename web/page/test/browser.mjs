@@ -28,7 +28,7 @@ const stage = await Stage.at(program, options, folder);
 async function picture(page, name) {
   if (screenshots === null) return;
   const png = await page.screenshot();
-  const blank = await page.context().newPage();
+  const blank = await page.context().browser().newPage();
   const webp = await blank.evaluate(async (address) => {
     const image = await createImageBitmap(await (await fetch(address)).blob());
     const canvas = Object.assign(document.createElement("canvas"), { width: image.width, height: image.height });

@@ -126,6 +126,7 @@ class Plot implements Panel {
       this.input,
     );
     this.drawn?.destroy();
+    this.chart.classList.toggle("unused", this.curves.length === 0);
     const ink = getComputedStyle(document.body).getPropertyValue("--faint");
     const line = getComputedStyle(document.body).getPropertyValue("--rule");
     const font = `${getComputedStyle(document.body).getPropertyValue("--small")} system-ui, sans-serif`;

@@ -24,7 +24,7 @@ export function header(robot: Robot, arrangement: Arrangement): HTMLElement {
   };
   robot.state.watch(showState);
   robot.welcome.watch(showState);
-  return make("header", {}, paths, name, state, token(robot), make("span", { class: "space" }), look("theme", ["auto", "light", "dark"], "light or dark"), look("size", ["normal", "large"], "size of the text: large is read from two metres"), panels(robot, arrangement), layouts(robot, arrangement));
+  return make("header", {}, paths, name, state, token(robot), make("span", { class: "space" }), look("theme", ["system colours", "light", "dark"], "light or dark"), look("size", ["normal text", "large text"], "size of the text: large is read from two metres"), panels(robot, arrangement), layouts(robot, arrangement));
 }
 
 function panels(robot: Robot, arrangement: Arrangement): HTMLElement {
@@ -70,7 +70,7 @@ function look(name: "theme" | "size", choices: readonly string[], about: string)
   const root = document.documentElement;
   const show = (choice: string): void => {
     if (choice === choices[0]) delete root.dataset[name];
-    else root.dataset[name] = choice;
+    else root.dataset[name] = choice.split(" ")[0];
     window.dispatchEvent(new Event("look"));
   };
   const kept = localStorage.getItem(name) ?? choices[0] ?? "";
