@@ -7,6 +7,7 @@ mod replay;
 mod running;
 mod scaffold;
 mod simulate;
+mod vision;
 
 use std::ffi::OsString;
 
@@ -23,6 +24,7 @@ pub use scaffold::{
 };
 
 pub use simulate::Simulate;
+pub use vision::Vision;
 
 /// Heading of the options of every command.
 const GLOBAL: &str = "Global options";
@@ -80,6 +82,7 @@ pub enum Command {
     Show(Show),
     Run(Run),
     Simulate(Simulate),
+    Vision(Vision),
     Topic(Topic),
     Param(Param),
     Call(Call),

@@ -25,6 +25,7 @@ mod session;
 pub mod show;
 mod simulate;
 mod terminal;
+mod vision;
 mod watch;
 
 use crate::arguments::{Arguments, Command, Recording, RecordingCommand};
@@ -103,6 +104,7 @@ fn with_session(
         Command::Show(show) => show::run(&mut session, show),
         Command::Run(run) => run::run(&mut session, run),
         Command::Simulate(simulate) => simulate::run(&mut session, simulate),
+        Command::Vision(vision) => vision::run(&mut session, vision),
         Command::Replay(replay) => replay::run(&mut session, replay),
         Command::Capture(capture) => capture::run(&mut session, capture),
         Command::Deploy(deploy) => deploy::deploy(&mut session, deploy),

@@ -1,5 +1,6 @@
 //! What the framework asks of a robot's hardware, and what hardware is given.
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use serde::de::DeserializeOwned;
@@ -9,6 +10,7 @@ use crate::error::{Error, Result};
 use crate::parameters;
 use crate::stop::Stop;
 use crate::time::Timestamp;
+use crate::tool::Bench;
 
 /// The platform, as far as the framework needs it; everything else are traits of the application.
 pub trait Hardware: Send + Sync {
@@ -93,6 +95,31 @@ pub trait Hardware: Send + Sync {
     /// and what a read gives is the newest that was ready at `Clock::now`.
     fn next_event(&self) -> Result<Option<Event>> {
         Ok(None)
+    }
+
+    /// Names of the tools that this hardware offers beside running the robot.
+    fn tools() -> &'static [&'static str]
+    where
+        Self: Sized,
+    {
+        &[]
+    }
+
+    /// One of [`Hardware::tools`], in place of running. Its own command line stands in `context.options`, what it answers goes
+    /// to `output`; instances of the robot can be tried out on the `bench`.
+    ///
+    /// # Errors
+    /// Says what was wrong with its input.
+    fn tool(
+        name: &str,
+        _context: HardwareContext,
+        _bench: &mut dyn Bench<Self>,
+        _output: &mut dyn Write,
+    ) -> Result<()>
+    where
+        Self: Sized,
+    {
+        Err(Error::new(format!("this hardware has no tool `{name}`")))
     }
 }
 

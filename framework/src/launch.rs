@@ -13,6 +13,7 @@ mod scenario;
 mod serving;
 mod signals;
 mod status;
+mod tool;
 
 use std::ffi::OsString;
 use std::io::Write;
@@ -123,6 +124,9 @@ where
         let supervisor = Supervisor::start(signals.clone(), stop.clone())?;
         let result = match &options.scenario {
             Some(file) => scenario::run(&target, &options, file, &stop, output, &mut create),
+            None if options.tool.is_some() => {
+                tool::run(&target, &options, &stop, output, &mut create)
+            }
             None => start_and_run(
                 &target,
                 &options,

@@ -65,6 +65,7 @@ pub mod temporal;
 pub mod testing;
 pub mod time;
 pub mod timing;
+pub mod tool;
 mod unwinding;
 pub mod world;
 

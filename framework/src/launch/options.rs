@@ -51,6 +51,8 @@ pub(super) struct Options {
     pub(super) threads: Option<usize>,
     /// Whether a scenario tells digests.
     pub(super) digests: bool,
+    /// Instead of running: one of the hardware's tools.
+    pub(super) tool: Option<String>,
     /// `--listen`: nobody may come if it is `off`.
     pub(super) listen: Option<String>,
     pub(super) token: Option<String>,
@@ -115,6 +117,7 @@ Usage: {name} [OPTIONS] [-- HARDWARE OPTIONS]
   --seed NUMBER       what a scenario draws its random numbers from; 1 without it
   --repeat COUNT      play a scenario with so many seeds, one after the other
   --threads COUNT     let a scenario's robots live on so many threads; changes nothing but the time it takes
+  --tool NAME         use a tool of the hardware in place of running; its command line stands after `--`
   --digests           tell a digest of all that each robot of a scenario wrote
   --listen ADDRESS    where clients connect, e.g. 0.0.0.0:4857; off: nowhere; default: this machine alone, port 4857 or a free one
   --token TOKEN       clients have to know it before they may change anything; without it none from other machines may
@@ -176,6 +179,7 @@ pub(super) fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Com
             Arg::Long("repeat") => options.repeat = Some(parser.value()?.parse()?),
             Arg::Long("threads") => options.threads = Some(parser.value()?.parse()?),
             Arg::Long("digests") => options.digests = true,
+            Arg::Long("tool") => options.tool = Some(parser.value()?.string()?),
             Arg::Long("listen") => options.listen = Some(parser.value()?.string()?),
             Arg::Long("token") => options.token = Some(parser.value()?.string()?),
             Arg::Long("read-only") => options.is_read_only = true,
@@ -317,6 +321,7 @@ mod tests {
             "3",
             "--threads=2",
             "--digests",
+            "--tool=lens",
             "--listen",
             "0.0.0.0:1",
             "--token=secret",
@@ -352,6 +357,7 @@ mod tests {
             repeat: Some(3),
             threads: Some(2),
             digests: true,
+            tool: Some("lens".to_owned()),
             listen: Some("0.0.0.0:1".to_owned()),
             token: Some("secret".to_owned()),
             is_read_only: true,

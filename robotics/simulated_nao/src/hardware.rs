@@ -25,6 +25,7 @@ use types::sensor_data::SensorData;
 
 use crate::camera::{self, Exposure};
 use crate::field::Field;
+use crate::photograph::{self, Photograph};
 use crate::settings::Settings;
 use crate::simulator::{Shared, Simulator};
 use crate::stage::Stage;
@@ -43,6 +44,8 @@ pub struct Hardware {
     /// Parameters that follow from who it is in a scenario.
     player: Vec<(String, String)>,
     field: Arc<Field>,
+    /// In place of what the cameras would see; nothing else happens then.
+    photograph: Option<Photograph>,
     sockets: Arc<RobotSockets>,
     /// Where the referee's computer hears answers; 0 where there is none.
     return_port: u16,
@@ -124,6 +127,9 @@ impl framework::Hardware for Hardware {
                 "with a wall clock the simulated NAO turns itself",
             ));
         }
+        if let Some(photograph) = &self.photograph {
+            return Ok(photograph.event());
+        }
         let mut simulation = self.shared.lock();
         // Whoever has missed an event reads again at once.
         if let Some(instance) = simulation.is_behind.pop_first() {
@@ -144,9 +150,38 @@ impl framework::Hardware for Hardware {
         }
         Ok(None)
     }
+
+    fn tools() -> &'static [&'static str] {
+        &[photograph::TOOL]
+    }
+
+    fn tool(
+        _name: &str,
+        context: HardwareContext,
+        bench: &mut dyn framework::tool::Bench<Self>,
+        output: &mut dyn std::io::Write,
+    ) -> Result<()> {
+        photograph::look(&context, bench, output)
+    }
 }
 
 impl Hardware {
+    /// A robot that sees a photograph and nothing else.
+    pub(crate) fn of_photograph(photograph: Photograph, context: HardwareContext) -> Result<Self> {
+        let mut settings = Settings::of(&context)?;
+        let alone = [
+            "--physics",
+            "kinematic",
+            "--no-referee",
+            "--no-mate",
+            "--free-ports",
+        ];
+        settings.apply(&alone.map(str::to_owned))?;
+        let mut hardware = Self::on(Arc::new(Stage::new(&settings)), 0, &settings, context)?;
+        hardware.photograph = Some(photograph);
+        Ok(hardware)
+    }
+
     /// The robot with that place in a world.
     fn on(
         stage: Arc<Stage>,
@@ -201,6 +236,7 @@ impl Hardware {
             ],
             player: settings.player_parameters(),
             field,
+            photograph: None,
             sockets,
             return_port,
             mate,
@@ -238,6 +274,9 @@ impl ActuatorInterface for Hardware {
 
 impl CameraInterface for Hardware {
     fn read_image(&self, position: CameraPosition, image: &mut YuyvImage) -> Result<Timestamp> {
+        if let Some(photograph) = &self.photograph {
+            return photograph.read(position, image);
+        }
         // Drawing stands for the camera's own work, so it counts as waiting for the hardware.
         blocking(|| {
             let exposure = self.next_exposure(position)?;

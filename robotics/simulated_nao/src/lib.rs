@@ -20,6 +20,7 @@ mod hardware;
 mod network;
 mod noise;
 mod pacing;
+mod photograph;
 pub mod posture;
 mod senses;
 mod server;

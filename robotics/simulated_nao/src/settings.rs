@@ -16,7 +16,7 @@
 //! | `--free-ports` | takes free UDP ports instead of those of `[hardware.simulated.network]` |
 //! | `--no-buttons` | lets nobody press a button |
 //! | `--no-cameras` | takes the cameras away: no cycle of `Vision` |
-//! | `--one-image-in NUMBER` | takes one in so many of the 30 images a second |
+//! | `--camera-rate NUMBER` | takes so many images a second: 30, or a divisor |
 //! | `--no-sound` | takes the microphones away: no cycle of `Audio` |
 
 mod buttons;

@@ -1,0 +1,73 @@
+//! `--tool`: what the hardware offers beside running the robot.
+
+use std::collections::BTreeMap;
+use std::io::Write;
+use std::sync::Arc;
+
+use super::options::Options;
+use super::{DONE, Target, WRONG_USAGE, known_identities, layers};
+use crate::clock::Clock;
+use crate::data::ParameterData;
+use crate::error::Result;
+use crate::hardware::{Hardware, HardwareContext};
+use crate::report::tell;
+use crate::robot::{Robot, Start};
+use crate::stop::Stop;
+use crate::tool::{Bench, Trial};
+
+/// Hands over to the hardware; gives the exit status.
+pub(super) fn run<H: Hardware, P: ParameterData>(
+    target: &Target,
+    options: &Options,
+    stop: &Stop,
+    output: &mut dyn Write,
+    create: &mut impl FnMut(&Arc<H>, Start<P>) -> Result<Robot<P>>,
+) -> Result<u8> {
+    let name = options.tool.as_deref().unwrap_or_default();
+    if !H::tools().contains(&name) {
+        let known = match H::tools() {
+            [] => "it has none".to_owned(),
+            tools => format!("there are {}", tools.join(", ")),
+        };
+        let target = target.name;
+        tell(format_args!(
+            "error: the hardware of target `{target}` has no tool `{name}`; {known}"
+        ));
+        return Ok(WRONG_USAGE);
+    }
+    let context = HardwareContext {
+        options: options.hardware.clone(),
+        table: layers(target, options).load()?.hardware(target.name)?,
+        run_folder: options.run_folder.clone(),
+        clock: Clock::stepped(),
+        stop: stop.clone(),
+    };
+    let mut workbench = Workbench {
+        target,
+        options,
+        create,
+    };
+    H::tool(name, context, &mut workbench, output)?;
+    Ok(DONE)
+}
+
+/// Creates robots with the parameters that the command line asks for.
+struct Workbench<'run, H, P> {
+    target: &'run Target,
+    options: &'run Options,
+    create: &'run mut dyn FnMut(&Arc<H>, Start<P>) -> Result<Robot<P>>,
+}
+
+impl<H: Hardware, P: ParameterData> Bench<H> for Workbench<'_, H, P> {
+    fn try_out(&mut self, trial: &Trial<'_, H>) -> Result<BTreeMap<String, serde_json::Value>> {
+        let mut layers = layers(self.target, self.options);
+        layers.identities = known_identities(self.target, trial.hardware.identities());
+        let start = Start {
+            clock: trial.clock.clone(),
+            stop: Stop::new(),
+            parameters: layers.load()?.deserialize()?,
+        };
+        let mut robot = (self.create)(&trial.hardware, start)?;
+        trial.run(&mut robot)
+    }
+}
