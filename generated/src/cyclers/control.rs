@@ -1383,7 +1383,7 @@ impl Nodes {
         Ok(())
     }
 
-    /// motion_command, motion_selection, sensor_data.inertial.gyroscope,
+    /// motion_command, motion_selection, sensor_data.inertial.gyroscope, orientation,
     /// sensor_data.force_sensitive_resistors, sensor_data.temperatures, state safe_exits.walk
     /// -> walk_commands
     #[inline(always)]
@@ -1395,6 +1395,7 @@ impl Nodes {
             motion_command: &frame.own.motion_command,
             motion_selection: &frame.own.motion_selection,
             gyroscope: &frame.own.sensor_data.inertial.gyroscope,
+            orientation: &frame.own.orientation,
             resistors: &frame.own.sensor_data.force_sensitive_resistors,
             temperatures: &frame.own.sensor_data.temperatures,
             cycle_time: frame.cycle.time,

@@ -3,7 +3,7 @@
 //! What it computes stands in the crate `walking`; the node gives it the robot's senses and says when the walk can be left.
 
 use framework::{CycleTime, CyclerState, Input, MainOutput, Parameter, Reflect, Result, context};
-use nalgebra::Vector3;
+use nalgebra::{UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
 use types::feet::Feet;
 use types::joints::Joints;
@@ -38,6 +38,7 @@ pub struct CycleContext {
     motion_command: Input<MotionCommand, "motion_command">,
     motion_selection: Input<MotionSelection, "motion_selection">,
     gyroscope: Input<Vector3<f32>, "sensor_data.inertial.gyroscope">,
+    orientation: Input<UnitQuaternion<f32>, "orientation">,
     // Not the smoothed ones: they would feel the floor later.
     resistors: Input<Feet<[f32; 4]>, "sensor_data.force_sensitive_resistors">,
     temperatures: Input<Joints<f32>, "sensor_data.temperatures">,
@@ -85,6 +86,7 @@ impl WalkingEngine {
         let senses = Senses {
             since_last: context.cycle_time.since_last.as_secs_f32(),
             angular_velocity: [context.gyroscope.x, context.gyroscope.y],
+            heading: heading(context.orientation),
             pressures: shares(context.resistors),
         };
         let commands = self.engine.cycle(wanted, &senses, context.parameters);
@@ -107,6 +109,12 @@ impl Heat {
             left.clamp(0.0, 1.0)
         }
     }
+}
+
+/// Where the torso's x axis points on the ground, in rad.
+fn heading(torso_to_world: &UnitQuaternion<f32>) -> f32 {
+    let ahead = torso_to_world * Vector3::x();
+    ahead.y.atan2(ahead.x)
 }
 
 /// How the weight is spread over the feet, 0 to 1: resistors measure shares better than weights.
@@ -197,6 +205,7 @@ mod tests {
             motion_command,
             motion_selection: &motion_selection,
             gyroscope: &Vector3::repeat(gyroscope),
+            orientation: &UnitQuaternion::identity(),
             resistors: &Feet {
                 left: [load; 4],
                 right: [load; 4],

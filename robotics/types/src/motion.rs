@@ -85,9 +85,9 @@ impl Script {
 pub struct Step {
     /// In m.
     pub forward: f32,
-    /// In m.
+    /// In m; only the foot on that side goes aside, which is every second step.
     pub left: f32,
-    /// In rad, positive to the left.
+    /// In rad, positive to the left: of the body, in every step.
     pub turn: f32,
 }
 

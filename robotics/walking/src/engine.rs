@@ -12,6 +12,7 @@ use types::motor_commands::MotorCommands;
 
 use crate::arms;
 use crate::balance::Balance;
+use crate::course::Course;
 use crate::parameters::Parameters;
 use crate::stride::{Sole, Stride, other, standing};
 
@@ -25,6 +26,8 @@ pub struct Senses {
     pub since_last: f32,
     /// Of the body about x and y, in rad/s.
     pub angular_velocity: [f32; 2],
+    /// Of the body about the vertical, against anything that does not turn, in rad.
+    pub heading: f32,
     /// Share of the body's weight on each foot, 0 to 1.
     pub pressures: Feet<f32>,
 }
@@ -38,6 +41,7 @@ pub struct Engine {
     elapsed: f32,
     /// The step before this one.
     last: Step,
+    course: Course,
     balance: Balance,
 }
 
@@ -83,10 +87,11 @@ impl Engine {
             None => self.begin(wanted, parameters),
             Some(stride) => {
                 self.elapsed += senses.since_last;
-                if wanted.is_none() && stride.step == Step::ZERO && self.last == Step::ZERO {
+                let ends_standing = stride.end == standing(parameters);
+                if wanted.is_none() && ends_standing && self.last == Step::ZERO {
                     self.stand(&stride);
                 } else if is_done(self.elapsed, &stride, &senses.pressures, parameters) {
-                    self.go_on(&stride, wanted, parameters);
+                    self.go_on(&stride, wanted, senses.heading, parameters);
                 }
             }
         }
@@ -102,11 +107,12 @@ impl Engine {
         } else {
             Side::Left
         };
-        self.last = Step::ZERO;
+        (self.last, self.course) = (Step::ZERO, Course::default());
         self.elapsed = 0.0;
         self.stride = Some(Stride::plan(
             standing(parameters),
             Step::ZERO,
+            0.0,
             support,
             parameters,
         ));
@@ -119,14 +125,30 @@ impl Engine {
         }
     }
 
-    fn go_on(&mut self, stride: &Stride, wanted: Option<Step>, parameters: &Parameters) {
+    fn go_on(
+        &mut self,
+        stride: &Stride,
+        wanted: Option<Step>,
+        heading: f32,
+        parameters: &Parameters,
+    ) {
         let soles = stride.soles(self.elapsed);
         let support = other(stride.support);
-        let wanted = wanted.unwrap_or_default();
-        let step = parameters.limits.apply(wanted, stride.step, support);
+        self.course
+            .end_stride(stride.step.turn, heading, &parameters.course);
+        let (step, turn) = match wanted {
+            Some(wanted) => {
+                let step = parameters.limits.apply(wanted, stride.step, support);
+                (
+                    step,
+                    self.course.turn_of_feet(step.turn, &parameters.course),
+                )
+            }
+            None => (Step::ZERO, 0.0),
+        };
         self.last = stride.step;
         self.elapsed = 0.0;
-        self.stride = Some(Stride::plan(soles, step, support, parameters));
+        self.stride = Some(Stride::plan(soles, step, turn, support, parameters));
     }
 
     fn commands(&self, parameters: &Parameters) -> MotorCommands {

@@ -11,6 +11,7 @@ use crate::step::StepLimits;
 pub struct Parameters {
     pub limits: StepLimits,
     pub stride: StrideParameters,
+    pub course: CourseParameters,
     pub balance: BalanceParameters,
     pub arms: ArmParameters,
     /// From the soles up to the axis of the hips, in m.
@@ -43,6 +44,18 @@ pub struct StrideParameters {
     pub contact_threshold: f32,
     /// In s: without any contact the feet change roles after so long.
     pub timeout: f32,
+}
+
+/// How the walk keeps to the turns that are wanted.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct CourseParameters {
+    /// Share of a turn of the feet that the body makes, greater than 0.
+    pub effect: f32,
+    /// Share of what is owed that the next step makes good, 0 to 1.
+    pub gain: f32,
+    /// In rad: more is not owed.
+    pub most: f32,
 }
 
 /// How the ankles answer the gyroscope.

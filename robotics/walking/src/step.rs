@@ -29,10 +29,9 @@ impl StepLimits {
         let step = self.in_volume(wanted);
         let forward = accelerated(step.forward, last.forward, self.acceleration);
         let turn = accelerated(step.turn, last.turn, self.turn_acceleration);
-        let (left, turn) = self.outwards(step.left, turn, support);
         Step {
             forward,
-            left,
+            left: outwards(step.left, support),
             turn,
         }
     }
@@ -61,13 +60,13 @@ impl StepLimits {
             turn,
         }
     }
+}
 
-    /// The swing foot goes away from the support foot: it would step on it.
-    fn outwards(&self, left: f32, turn: f32, support: Side) -> (f32, f32) {
-        match support {
-            Side::Right => (left.max(0.0), turn.max(0.0)),
-            Side::Left => (left.min(0.0), turn.min(0.0)),
-        }
+/// What is left of it for a swing foot that goes away from the support foot: it would step on it.
+pub(crate) fn outwards(wanted: f32, support: Side) -> f32 {
+    match support {
+        Side::Right => wanted.max(0.0),
+        Side::Left => wanted.min(0.0),
     }
 }
 

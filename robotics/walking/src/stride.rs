@@ -7,6 +7,7 @@ use types::feet::{Feet, Side};
 use types::motion::Step;
 
 use crate::parameters::{Parameters, StrideParameters};
+use crate::step::outwards;
 
 /// A sole in the walk frame; it is level.
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
@@ -50,7 +51,11 @@ pub(crate) fn standing(parameters: &Parameters) -> Feet<Sole> {
 }
 
 /// Where the feet are when this step is done: half of it each, as the body goes on in between.
+///
+/// A foot does not turn inwards. The one that turns outwards turns for the next step as well, in which the other one comes to
+/// stand beside it: the body turns by the same in both.
 fn after(step: Step, support: Side, parameters: &Parameters) -> Feet<Sole> {
+    let apart = 2.0 * outwards(step.turn, support);
     let sole = |side: Side| {
         let (half, outward) = (
             if side == support { -0.5 } else { 0.5 },
@@ -60,7 +65,7 @@ fn after(step: Step, support: Side, parameters: &Parameters) -> Feet<Sole> {
             forward: half * step.forward,
             left: outward * parameters.foot_offset + half * step.left,
             height: 0.0,
-            yaw: half * step.turn,
+            yaw: half * apart,
         }
     };
     Feet {
@@ -70,9 +75,15 @@ fn after(step: Step, support: Side, parameters: &Parameters) -> Feet<Sole> {
 }
 
 impl Stride {
-    /// From where the soles are now.
-    pub fn plan(start: Feet<Sole>, step: Step, support: Side, parameters: &Parameters) -> Self {
-        let end = after(step, support, parameters);
+    /// From where the soles are now; `turn` is what the feet turn for the turn of the step, in rad.
+    pub fn plan(
+        start: Feet<Sole>,
+        step: Step,
+        turn: f32,
+        support: Side,
+        parameters: &Parameters,
+    ) -> Self {
+        let end = after(Step { turn, ..step }, support, parameters);
         let StrideParameters {
             duration,
             duration_per_meter,

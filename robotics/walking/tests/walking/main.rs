@@ -40,6 +40,7 @@ fn cycle(engine: &mut Engine, wanted: Option<Step>, floor_at: f32) -> Joints<f32
     let senses = Senses {
         since_last: CYCLE,
         angular_velocity: [0.0; 2],
+        heading: f32::NAN,
         pressures: pressures(engine, floor_at),
     };
     engine.cycle(wanted, &senses, &parameters()).positions
@@ -127,6 +128,7 @@ proptest! {
             let senses = Senses {
                 since_last: CYCLE,
                 angular_velocity: [gyro, gyro],
+                heading: gyro,
                 pressures: pressures(&engine, 1.0),
             };
             let wanted = Some(Step { forward, left, turn });
@@ -158,6 +160,29 @@ fn steps_add_up_to_the_way() {
     }
     // 0, 1, 2, 3, 4 and then 15 of 5 cm, of which the last only begins; half of a step before it is made good by the next.
     assert!((way - 0.80).abs() < 0.05, "{way}");
+}
+
+#[test]
+fn every_step_turns_the_body_by_the_same() {
+    for turn in [0.1, -0.1] {
+        let mut engine = Engine::new();
+        let wish = Step { turn, ..Step::ZERO };
+        let (mut turned, mut last, mut strides) = (0.0, None, 0);
+        while strides < 22 {
+            cycle(&mut engine, Some(wish), 1.0);
+            let stride = *engine.stride().expect("it walks");
+            if last != Some(stride) {
+                (last, strides) = (Some(stride), strides + 1);
+            }
+            // The body turns as the support foot turns back.
+            let soles = stride.soles(engine.elapsed());
+            let next = stride.soles(engine.elapsed() + CYCLE);
+            turned += soles.on(stride.support).yaw - next.on(stride.support).yaw;
+        }
+        // One on the spot, and 20 that turn, more than asked since soles slip.
+        let all = 20.0 * turn / parameters().course.effect;
+        assert!((turned - all).abs() < 0.1 * all.abs(), "{turned} of {all}");
+    }
 }
 
 #[test]
@@ -193,6 +218,7 @@ fn a_body_that_falls_forward_turns_its_toes_down() {
         let senses = |about_y| Senses {
             since_last: CYCLE,
             angular_velocity: [0.0, about_y],
+            heading: 0.0,
             pressures: Feet {
                 left: 0.5,
                 right: 0.5,
