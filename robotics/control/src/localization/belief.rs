@@ -261,9 +261,13 @@ pub(super) fn quality(found: &Match, view: &View<'_>) -> f32 {
 }
 
 pub(super) fn moved(line: &LineSegment, by: &Isometry2<f32>) -> LineSegment {
+    let rotation = by.rotation.to_rotation_matrix();
+    let turned = |covariance| rotation.matrix() * covariance * rotation.matrix().transpose();
     LineSegment {
         start: by * line.start,
         end: by * line.end,
+        start_covariance: turned(line.start_covariance),
+        end_covariance: turned(line.end_covariance),
     }
 }
 

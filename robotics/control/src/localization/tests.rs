@@ -131,6 +131,7 @@ fn view_from(ground_to_field: &Isometry2<f32>) -> Vec<LineSegment> {
         (run.len() > 6).then(|| LineSegment {
             start: run[0],
             end: run[run.len() - 1],
+            ..LineSegment::default()
         })
     });
     seen.collect()
@@ -326,6 +327,7 @@ fn odometry_and_lines_that_are_no_numbers_are_survived() {
         LineSegment {
             start: Point2::new(f32::NAN, 0.0),
             end: Point2::new(1.0, f32::INFINITY),
+            ..LineSegment::default()
         };
         3
     ];
@@ -368,6 +370,7 @@ proptest! {
             let lines = lines.into_iter().map(|[a, b, c, d]| LineSegment {
                 start: Point2::new(a, b),
                 end: Point2::new(c, d),
+                ..LineSegment::default()
             });
             let lines = lines.collect();
             let found = cycle(&mut node, &playing(200 * index, odometry, &lines));
