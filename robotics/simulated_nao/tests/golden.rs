@@ -3,7 +3,6 @@
 //! `INSTA_UPDATE=always` writes `golden.txt` anew, to be read like every other change.
 
 #[path = "support/conditions.rs"]
-#[expect(dead_code, reason = "golden images need a part of it")]
 mod conditions;
 #[path = "support/scene.rs"]
 #[expect(dead_code, reason = "golden images need a part of it")]
