@@ -8,6 +8,8 @@ mod conditions;
 #[expect(dead_code, reason = "the conditions have scenes of their own")]
 mod scene;
 
+use std::time::Duration;
+
 use conditions::{Draw, Half};
 use nalgebra::Point2;
 use scene::{Sight, Vision};
@@ -39,6 +41,8 @@ struct Score {
     wrong: u32,
     /// How far off the balls were found, in parts of what is allowed.
     off: Vec<f32>,
+    /// Time of the processor for each image.
+    spent: Vec<Duration>,
 }
 
 impl Score {
@@ -84,6 +88,13 @@ impl Score {
             .get(self.off.len() / 2)
             .copied()
             .unwrap_or(f32::NAN);
+        self.spent.sort_unstable();
+        let slow = self
+            .spent
+            .get(self.spent.len() * 99 / 100)
+            .copied()
+            .unwrap_or_default();
+        println!("{half:?}: of 100 images 99 take at most {slow:?} of the processor");
         println!(
             "{half:?}: {} images, a ball where there is none in {}; median error {median:.2} of what is allowed",
             self.images, self.wrong
@@ -121,7 +132,9 @@ fn score(half: Half) -> Score {
         let place = exposure
             .ball
             .map(|ball| exposure.ground_to_field.inverse_transform_point(&ball).xy());
-        score.add(&truth, place, &vision.see(&look, &exposure));
+        let sight = vision.see(&look, &exposure);
+        score.add(&truth, place, &sight);
+        score.spent.push(vision.spent);
     }
     score.print(half);
     score

@@ -1,5 +1,7 @@
 //! All nodes of vision on rendered images with the true camera pose, and places to look from.
 
+use std::time::Duration;
+
 use framework::testing::{AdditionalProbe, ParameterFile};
 use framework::{Timestamp, testing};
 use kinematics::cameras::{
@@ -65,6 +67,8 @@ pub(crate) struct Vision {
     mark: PenaltyMarkDetection,
     balls: BallDetection,
     obstacles: ObstacleDetection,
+    /// Time of the processor that all nodes together took for the image that was seen last.
+    pub(crate) spent: Duration,
     /// Circles that were looked at closely, if somebody subscribes.
     pub(crate) proposals: AdditionalProbe<Vec<BallProposal>>,
 }
@@ -83,6 +87,7 @@ impl Vision {
             mark: PenaltyMarkDetection::new(penalty_mark_detection::CreationContext {}).unwrap(),
             balls: BallDetection::new(ball_detection::CreationContext {}).unwrap(),
             obstacles: ObstacleDetection::new(obstacle_detection::CreationContext {}).unwrap(),
+            spent: Duration::ZERO,
             proposals: AdditionalProbe::unsubscribed(),
         }
     }
@@ -91,6 +96,7 @@ impl Vision {
     pub(crate) fn see(&mut self, look: &Look, exposure: &Exposure) -> Sight {
         render(exposure, &self.field, &mut self.image);
         let matrix = ImageTruth::from(exposure).camera_matrix;
+        let begun = processor_time();
         let limb_mask = self.limb_mask(look);
         let mut sight = Sight {
             color: self.color(&matrix, &limb_mask),
@@ -102,6 +108,7 @@ impl Vision {
         self.find_penalty_mark(&matrix, &image_segments, &mut sight);
         self.find_balls(&matrix, &image_segments, &mut sight);
         self.find_obstacles(&matrix, &image_segments, &mut sight);
+        self.spent = processor_time() - begun;
         sight
     }
 
@@ -277,6 +284,12 @@ impl Vision {
             .unwrap();
         limb_mask
     }
+}
+
+/// Of this thread, whatever else the machine does.
+fn processor_time() -> Duration {
+    let now = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);
+    Duration::new(now.tv_sec.unsigned_abs(), now.tv_nsec as u32)
 }
 
 impl Look {
