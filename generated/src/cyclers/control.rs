@@ -495,7 +495,7 @@ impl Nodes {
         Ok(())
     }
 
-    /// support_side (required), robot_kinematics, orientation -> camera_matrices
+    /// support_side (required), robot_kinematics, sensor_data.inertial -> camera_matrices
     #[inline(always)]
     fn camera_matrices<Hardware>(
         &mut self,
@@ -505,7 +505,7 @@ impl Nodes {
             let context = camera_matrices::CycleContext {
                 support_side,
                 robot_kinematics: &frame.shared.robot_kinematics,
-                orientation: &frame.own.orientation,
+                inertial: &frame.own.sensor_data.inertial,
                 top: &frame.parameters.cameras.top,
                 bottom: &frame.parameters.cameras.bottom,
             };

@@ -18,6 +18,7 @@ use types::joints::Joints;
 use types::motion::{BodyMotion, MotionSelection, SafeExits};
 use types::motor_commands::MotorCommands;
 use types::robot_kinematics::RobotKinematics;
+use types::sensor_data::InertialMeasurement;
 use types::world_state::WorldState;
 
 /// In s, of the NAO's body.
@@ -125,10 +126,16 @@ impl Robot {
 
     fn camera_matrices(&mut self) -> CameraMatrices {
         let kinematics = self.kinematics();
+        let torso_to_world = kinematics.soles_to_torso.left.rotation.inverse();
+        let (roll, pitch, _) = torso_to_world.euler_angles();
         let context = camera_matrices::CycleContext {
             support_side: &Side::Left,
             robot_kinematics: &kinematics,
-            orientation: &kinematics.soles_to_torso.left.rotation.inverse(),
+            inertial: &InertialMeasurement {
+                roll,
+                pitch,
+                ..InertialMeasurement::default()
+            },
             top: &self.top,
             bottom: &self.bottom,
         };
