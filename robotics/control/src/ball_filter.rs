@@ -194,6 +194,7 @@ fn noise(sight: Vector2<f32>, parameters: &BallFilterParameters) -> Matrix2<f32>
     let noise = SightNoise {
         least: parameters.least_noise,
         along: parameters.noise_along,
+        tilt: 0.0,
         across: parameters.noise_across,
     };
     noise.covariance(sight)

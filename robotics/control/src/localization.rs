@@ -68,6 +68,8 @@ pub struct LocalizationParameters {
     pub least_noise: f32,
     /// By how much more per m of distance, along the line of sight.
     pub noise_along: f32,
+    /// By how much more per m² of distance, along the line of sight: an error of the camera's tilt over its height.
+    pub noise_by_tilt: f32,
     /// By how much more per m of distance, across the line of sight.
     pub noise_across: f32,
     /// In standard deviations: what is seen farther away from a marking is another one.

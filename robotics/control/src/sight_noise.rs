@@ -10,6 +10,9 @@ pub(crate) struct SightNoise {
     pub(crate) least: f32,
     /// By how much more per m of distance, along the line of sight.
     pub(crate) along: f32,
+    /// By how much more per m² of distance, along the line of sight: what an error of the camera's tilt
+    /// makes of it.
+    pub(crate) tilt: f32,
     /// By how much more per m of distance, across the line of sight.
     pub(crate) across: f32,
 }
@@ -18,8 +21,9 @@ impl SightNoise {
     /// Of a place that lies so from the robot (m), in the axes of that vector, in m².
     pub(crate) fn covariance(&self, sight: Vector2<f32>) -> Matrix2<f32> {
         let direction = Unit::try_new(sight, f32::EPSILON).unwrap_or(Vector2::x_axis());
-        let variance = |share: f32| (self.least + share * sight.norm()).powi(2);
-        let (along, across) = (variance(self.along), variance(self.across));
+        let distance = sight.norm();
+        let along = (self.least + (self.along + self.tilt * distance) * distance).powi(2);
+        let across = (self.least + self.across * distance).powi(2);
         let along_sight = direction.into_inner() * direction.transpose();
         along_sight * (along - across) + Matrix2::identity() * across
     }

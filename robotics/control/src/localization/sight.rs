@@ -158,6 +158,7 @@ impl View<'_> {
         let noise = SightNoise {
             least: self.parameters.least_noise,
             along: self.parameters.noise_along,
+            tilt: self.parameters.noise_by_tilt,
             across: self.parameters.noise_across,
         };
         noise.covariance(pose.rotation * seen.coords)

@@ -40,6 +40,13 @@ fn node() -> Localization {
     Localization::new(CreationContext {}).unwrap()
 }
 
+fn segment(start: Point2<f32>, end: Point2<f32>) -> LineSegment {
+    let nowhere = LineSegment::default();
+    let mut segment = nowhere;
+    [segment.start, segment.end] = [start, end];
+    segment
+}
+
 fn pose(x: f32, y: f32, heading: f32) -> Isometry2<f32> {
     Isometry2::new(Vector2::new(x, y), heading)
 }
@@ -128,11 +135,7 @@ fn view_from(ground_to_field: &Isometry2<f32>) -> Vec<LineSegment> {
                 run.clear();
             }
         }
-        (run.len() > 6).then(|| LineSegment {
-            start: run[0],
-            end: run[run.len() - 1],
-            ..LineSegment::default()
-        })
+        (run.len() > 6).then(|| segment(run[0], run[run.len() - 1]))
     });
     seen.collect()
 }
@@ -323,14 +326,8 @@ fn transient_images_answer_but_are_not_learnt() {
 #[test]
 fn odometry_and_lines_that_are_no_numbers_are_survived() {
     let mut node = node();
-    let nonsense = vec![
-        LineSegment {
-            start: Point2::new(f32::NAN, 0.0),
-            end: Point2::new(1.0, f32::INFINITY),
-            ..LineSegment::default()
-        };
-        3
-    ];
+    let nothing = segment(Point2::new(f32::NAN, 0.0), Point2::new(1.0, f32::INFINITY));
+    let nonsense = vec![nothing; 3];
     for index in 1..100 {
         let odometry = if index % 7 == 0 {
             pose(f32::NAN, 0.0, f32::INFINITY)
@@ -367,11 +364,8 @@ proptest! {
         let mut odometry = Isometry2::identity();
         for (index, (lines, [x, y, turn])) in (1_u64..).zip(images) {
             odometry *= pose(x, y, turn);
-            let lines = lines.into_iter().map(|[a, b, c, d]| LineSegment {
-                start: Point2::new(a, b),
-                end: Point2::new(c, d),
-                ..LineSegment::default()
-            });
+            let lines = lines.into_iter();
+            let lines = lines.map(|[a, b, c, d]| segment(Point2::new(a, b), Point2::new(c, d)));
             let lines = lines.collect();
             let found = cycle(&mut node, &playing(200 * index, odometry, &lines));
             for hypothesis in found.hypotheses {
