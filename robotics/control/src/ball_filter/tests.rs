@@ -337,3 +337,58 @@ fn odometry_and_parameters_that_are_no_numbers_are_survived() {
     let lost = cycle_at(&mut node, 400, around, &nonsense, images());
     assert_eq!(lost.ball, None);
 }
+
+/// A camera's node needs so long for an image; the other camera's images wait for it, ms.
+const SLOW: u64 = 250;
+/// When the ball is kicked away, ms.
+const KICKED: u64 = 1100;
+
+/// Where it lies at that time, m ahead.
+fn kicked_ball(millis: u64) -> f32 {
+    0.5 + rolled(millis.saturating_sub(KICKED))
+}
+
+fn shown(images: Vec<&(u64, Vec<BallCandidate>)>) -> Seen<'_> {
+    let images = images.into_iter();
+    images.map(|(at, seen)| (at_millis(*at), seen)).collect()
+}
+
+#[test]
+fn with_a_slow_camera_what_is_not_settled_shows_a_kick_earlier() {
+    let mut node = node();
+    let images: Vec<_> = (0..90)
+        .map(|index| (33 * index, candidate(kicked_ball(33 * index), 0.0)))
+        .collect();
+    // Of what is settled, and of what is not, too: sum of the errors (m), and when the kick is noticed (ms).
+    let mut errors = [0.0_f32; 2];
+    let mut noticed = [None; 2];
+    let (mut settled, mut cycles) = (0, 0.0);
+    for now in (504..2500).step_by(12) {
+        // An image takes 33 ms; the slow one that is under way was begun then.
+        let pending = now / SLOW * SLOW;
+        let done = |captured: u64| captured + 33 <= now;
+        let ready = images.iter().filter(|(captured, _)| done(*captured));
+        let (persistent, transient): (Vec<_>, Vec<_>) = ready
+            .skip(settled)
+            .partition(|(captured, _)| *captured < pending);
+        settled += persistent.len();
+        let cycle = cycle(&mut node, now, shown(persistent), shown(transient));
+        let truth = kicked_ball(now);
+        let balls = [cycle.persistent_ball, cycle.ball];
+        for (index, ball) in balls.into_iter().enumerate() {
+            let ball = ball.expect("the ball is known from the beginning");
+            errors[index] += (ball.position.x - truth).abs();
+            if ball.velocity.x > 0.5 {
+                noticed[index].get_or_insert(now - KICKED);
+            }
+        }
+        cycles += 1.0;
+    }
+    let [settled, newest] = errors.map(|sum| sum / cycles);
+    let [late, early] = noticed.map(|at| at.expect("the kick is noticed"));
+    println!(
+        "settled: {settled:.3} m off, kick noticed after {late} ms; newest: {newest:.3} m off, after {early} ms"
+    );
+    assert!(newest < 0.6 * settled, "{newest} m and {settled} m");
+    assert!(early + 100 <= late, "{early} ms and {late} ms");
+}
