@@ -1,6 +1,6 @@
 //! One robot behind ssh.
 
-use std::io::{BufReader, Read, Write as _};
+use std::io::{BufRead, BufReader, Read as _, Write as _};
 use std::process::{Child, Command, Stdio};
 use std::thread;
 
@@ -172,7 +172,7 @@ fn watch(mut command: Command, percent: impl FnMut(u8)) -> Result<(), Failed> {
 }
 
 /// rsync writes `  1,234  45%  1.2MB/s` again and again, with nothing but a carriage return between.
-fn tell_percents(stdout: impl Read, mut percent: impl FnMut(u8)) {
+fn tell_percents(stdout: impl BufRead, mut percent: impl FnMut(u8)) {
     let mut word = Vec::new();
     for byte in stdout.bytes().map_while(Result::ok) {
         match byte {
