@@ -101,7 +101,7 @@ fn a_connection_that_breaks_leaves_the_old_version_running() {
     let log = field.read("systemctl.log");
     fs::write(
         field.path("robot/motions/large"),
-        fs::read(field.path("padding")).expect("it is there")[1..].to_vec(),
+        &fs::read(field.path("padding")).expect("it is there")[1..],
     )
     .expect("the folder is ours");
     let cut = field.cut_connections_after(1 << 20);
