@@ -20,6 +20,7 @@
 //! | [`subscriptions`], [`injection`] | clients: listen to an output, replace one |
 //! | [`logs`] | what nodes say, with instance and cycle, for whoever collects it |
 //! | [`tap`], [`link`] | copies of outputs for a communication server, and all else that it may see and change |
+//! | [`world`] | what clients may know of a simulated world, and do to it |
 //! | [`time`], [`clock`], [`stop`], [`timing`], [`report`] | when, until when, how long, and how to tell |
 //! | [`reflect`], [`data`], [`clear`], [`digest`] | what values must be able to do |
 //! | [`testing`] | all of it for the test of a single node |
