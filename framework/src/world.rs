@@ -7,7 +7,8 @@ use std::time::Duration;
 
 use serde_json::Value;
 
-use crate::error::Result;
+use crate::error::{Error, Result};
+use crate::guarded::contain;
 use crate::hardware::Hardware;
 use crate::procedure::{Answer, CallAny, PendingAny, Refused};
 
@@ -45,7 +46,8 @@ impl CallAny for Truth {
         request: &mut dyn erased_serde::Deserializer<'_>,
     ) -> Result<Box<dyn PendingAny>> {
         erased_serde::deserialize::<()>(request)?;
-        Ok(Box::new(Answered(Ok(self.0.truth()))))
+        let truth = contain("Hardware::truth", || Ok(self.0.truth()));
+        Ok(Box::new(Answered(truth.map_err(refused))))
     }
 }
 
@@ -59,11 +61,9 @@ impl CallAny for Disturb {
         request: &mut dyn erased_serde::Deserializer<'_>,
     ) -> Result<Box<dyn PendingAny>> {
         let deed: toml::Table = erased_serde::deserialize(request)?;
-        let done = self.0.disturb(&deed);
-        let refused = |error: crate::Error| Refused(error.to_string().into());
-        Ok(Box::new(Answered(
-            done.map(|()| Value::Null).map_err(refused),
-        )))
+        let done = contain("Hardware::disturb", || self.0.disturb(&deed));
+        let answer = done.map(|()| Value::Null);
+        Ok(Box::new(Answered(answer.map_err(refused))))
     }
 }
 
@@ -74,4 +74,8 @@ impl PendingAny for Answered {
             Err(refused) => Err(refused.clone()),
         })
     }
+}
+
+fn refused(error: Error) -> Refused {
+    Refused(error.to_string().into())
 }
