@@ -34,6 +34,8 @@ struct Shared {
 struct State {
     safety: Safety,
     is_safe: bool,
+    /// Stiffness 0 was commanded.
+    is_released: bool,
     is_closing: bool,
 }
 
@@ -67,6 +69,7 @@ impl Body {
         let mut state = self.shared.lock();
         state.safety.enter();
         state.is_safe = true;
+        state.is_released = false;
         self.shared.changed.notify_all();
     }
 
@@ -131,10 +134,11 @@ impl Shared {
         loop {
             let now: Timestamp = self.clock.now();
             let command = state.is_safe.then(|| state.safety.command(now)).flatten();
-            if state.is_closing && (command.is_none() || !state.safety.is_fading(now)) {
+            if state.is_closing && (command.is_none() || state.is_released) {
                 return None;
             }
             if command.is_some() {
+                state.is_released = !state.safety.is_fading(now);
                 return command;
             }
             let woken = self.changed.wait(state);
