@@ -104,6 +104,14 @@ fn the_zoo_is_current() {
 }
 
 #[test]
+fn the_second_body_is_current() {
+    assert_success(&hulkgen(
+        &root().join("tests/robots/k1"),
+        &["generate", "--check"],
+    ));
+}
+
+#[test]
 fn the_partial_zoos_are_current() {
     for only in ["Control", "Vision,Reflexes,Lights"] {
         assert_success(&hulkgen(
