@@ -81,6 +81,7 @@ pub enum Command {
     Diff(Diff),
     Show(Show),
     Run(Run),
+    Build(BuildTarget),
     Simulate(Simulate),
     Vision(Vision),
     Topic(Topic),
@@ -238,7 +239,7 @@ Exit status: that of the robot's program: 0 ended in order, 1 failed, 130 ended 
 Examples:
   hulkgen run
   hulkgen run simulated --for 10s --headless --format json
-  hulkgen run nao -- OPTIONS       # options of the hardware")]
+  hulkgen run simulated -- --no-ball       # options of the hardware")]
 pub struct Run {
     /// The target [default: the first of hulk.toml]
     pub target: Option<String>,
@@ -277,6 +278,28 @@ pub struct Run {
     /// Options of the hardware
     #[arg(last = true, value_name = "OPTIONS")]
     pub options: Vec<OsString>,
+}
+
+/// Build the program of a target for its machine, and tell whether it would start there
+///
+/// A target with a `triple` is built with zig and cargo-zigbuild, which pip brings once, pinned and checked by digest, into the
+/// user's cache folder. The program is stripped. It is refused if it asks for a newer glibc than the triple names, for a
+/// library that the robot need not have, or for another processor.
+#[derive(Args, Clone, Debug)]
+#[command(after_help = "\
+Exit status: 0 built; 1 an error was found, or the program would not start there; 2 wrong usage.
+
+Examples:
+  hulkgen build nao
+  hulkgen build nao --profile release --format json")]
+pub struct BuildTarget {
+    /// The target [default: the first of hulk.toml]
+    pub target: Option<String>,
+    /// Form of the answer
+    #[arg(long, value_enum, default_value = "text")]
+    pub format: TextOrJson,
+    #[command(flatten)]
+    pub build: Build,
 }
 
 /// How the robot's program is built.

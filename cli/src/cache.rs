@@ -97,7 +97,7 @@ impl Place {
     }
 }
 
-fn user_folder() -> Option<Utf8PathBuf> {
+pub(crate) fn user_folder() -> Option<Utf8PathBuf> {
     let folder = |variable: &str| {
         let folder = Utf8PathBuf::try_from(std::path::PathBuf::from(std::env::var_os(variable)?));
         // Relative ones are to be ignored, says the XDG Base Directory Specification.

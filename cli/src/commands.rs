@@ -2,6 +2,7 @@
 //!
 //! Invariant: only these modules print; a command returns its outcome and never ends the process.
 
+mod build;
 mod capture;
 mod cargo;
 mod check;
@@ -103,6 +104,7 @@ fn with_session(
         Command::Diff(diff) => return diff::run(&mut session, diff),
         Command::Show(show) => show::run(&mut session, show),
         Command::Run(run) => run::run(&mut session, run),
+        Command::Build(build) => build::run(&mut session, build),
         Command::Simulate(simulate) => simulate::run(&mut session, simulate),
         Command::Vision(vision) => vision::run(&mut session, vision),
         Command::Replay(replay) => replay::run(&mut session, replay),

@@ -29,6 +29,7 @@
 pub mod arguments;
 pub mod cache;
 pub mod commands;
+pub mod cross;
 mod deploy;
 pub mod diagnostics;
 pub mod digest;

@@ -9,6 +9,7 @@ use camino::{Utf8Path, Utf8PathBuf};
 use super::generate;
 use super::session::Session;
 use super::terminal::Terminal;
+use crate::cross::Tools;
 use crate::diagnostics::Diagnostics;
 use crate::late::rustc::{Line, Message};
 use crate::late::{self, Home};
@@ -39,6 +40,10 @@ pub(super) struct Request<'a> {
     arguments: Vec<OsString>,
     /// The program that is wanted.
     program: Option<&'a str>,
+    /// What stands in for cargo: `cargo-zigbuild zigbuild …` for `cargo build …`.
+    stand_in: Option<Utf8PathBuf>,
+    /// Variables of its environment.
+    variables: Vec<(String, OsString)>,
 }
 
 impl<'a> Request<'a> {
@@ -59,6 +64,8 @@ impl<'a> Request<'a> {
         Self {
             arguments,
             program: Some(&target.name),
+            stand_in: None,
+            variables: Vec::new(),
         }
     }
 
@@ -69,7 +76,23 @@ impl<'a> Request<'a> {
         Self {
             arguments,
             program: None,
+            stand_in: None,
+            variables: Vec::new(),
         }
+    }
+
+    /// Builds for another machine; the triple may end with a version of glibc.
+    pub(super) fn cross(&mut self, tools: &Tools, triple: &str) {
+        self.arguments[0] = "zigbuild".into();
+        self.arguments
+            .extend(["--target", triple].map(OsString::from));
+        self.stand_in = Some(tools.zigbuild.clone());
+        self.set("CARGO_ZIGBUILD_ZIG_PATH", tools.zig.as_str().into());
+    }
+
+    /// Sets a variable of cargo's environment.
+    pub(super) fn set(&mut self, variable: &str, value: OsString) {
+        self.variables.push((variable.to_owned(), value));
     }
 
     /// Runs cargo in the robot's folder; what is not for programs goes to stderr as cargo says it.
@@ -90,15 +113,21 @@ impl<'a> Request<'a> {
         } else {
             "--message-format=json"
         };
-        let mut child = Command::new(&cargo)
+        let program = match &self.stand_in {
+            Some(tool) => tool.as_os_str(),
+            None => cargo.as_os_str(),
+        };
+        let mut child = Command::new(program)
             .args(&self.arguments)
             .arg(form)
+            .envs(self.variables.iter().map(|(name, value)| (name, value)))
+            .env("CARGO", &cargo)
             .current_dir(folder)
             .stdin(Stdio::null())
             .stdout(Stdio::piped())
             .spawn()
             .map_err(|error| {
-                Refusal::bad(format!("cannot start `{}`: {error}", cargo.display()))
+                Refusal::bad(format!("cannot start `{}`: {error}", program.display()))
                     .help("install Rust from rustup.rs, or name cargo in the variable CARGO")
             })?;
         let stdout = child.stdout.take().expect("it was asked for above");
@@ -180,6 +209,7 @@ mod tests {
     use super::Request;
     use crate::arguments::Color;
     use crate::commands::terminal::Terminal;
+    use crate::cross::Tools;
     use crate::graph::fixture;
 
     #[test]
@@ -195,6 +225,22 @@ mod tests {
         let said = request.read(output.as_bytes(), &Terminal::new(Color::Never));
         let executable = said.map(|said| said.executable);
         assert_eq!(executable, Ok(Some("/t/simulated".into())));
+    }
+
+    #[test]
+    fn a_stand_in_for_cargo_gets_the_triple_and_its_linker() {
+        let robot = fixture::robot();
+        let mut request = Request::build(&robot, &robot.targets[0], "dev", None);
+        let tools = Tools {
+            zigbuild: "/tools/cargo-zigbuild".into(),
+            zig: "/tools/zig".into(),
+        };
+        request.cross(&tools, "x86_64-unknown-linux-gnu.2.28");
+        assert_eq!(request.arguments[0], "zigbuild");
+        let end = &request.arguments[request.arguments.len() - 2..];
+        assert_eq!(end, ["--target", "x86_64-unknown-linux-gnu.2.28"]);
+        assert_eq!(request.stand_in, Some(tools.zigbuild));
+        assert_eq!(request.variables[0].1, "/tools/zig");
     }
 
     #[test]

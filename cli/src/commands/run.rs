@@ -106,7 +106,10 @@ pub(super) fn build_with(
 }
 
 /// The target of this name, or the first.
-fn choose_target<'r>(robot: &'r Robot, name: Option<&str>) -> Result<&'r Target, Refusal> {
+pub(super) fn choose_target<'r>(
+    robot: &'r Robot,
+    name: Option<&str>,
+) -> Result<&'r Target, Refusal> {
     let Some(name) = name else {
         return robot.targets.first().ok_or_else(|| {
             Refusal::bad("the robot has no target").help("add a `[[target]]` to hulk.toml")
@@ -140,11 +143,13 @@ fn refuse_other_machines(target: &Target) -> Result<(), Refusal> {
     Err(Refusal::bad(format!(
         "target `{name}` is for `{triple}`: `run` builds for this machine only"
     ))
-    .help("run a target without a `triple`; `hulkgen build`, which builds for others, is a later step"))
+    .help(format!(
+        "run a target without a `triple`; `hulkgen build {name}` builds its program"
+    )))
 }
 
 /// What is asked for, else what the target asks for.
-fn profile<'a>(asked: Option<&'a str>, target: &'a Target) -> Option<&'a str> {
+pub(super) fn profile<'a>(asked: Option<&'a str>, target: &'a Target) -> Option<&'a str> {
     asked.or(target.profile.as_deref())
 }
 
