@@ -13,6 +13,7 @@ use nalgebra::{Point2, Point3};
 use types::game::{GameState, Penalty, SetPlay};
 
 pub use self::announcement::message;
+pub(crate) use self::ball::TOUCH;
 use self::pushing::Movement;
 use self::removal::Record;
 use crate::scene::Team;

@@ -10,7 +10,7 @@ use crate::field::{
 use crate::scene::Team;
 
 /// Nearer to the middle of a sole than this, m, the ball is touched: half the length of a foot, and the ball.
-const TOUCH: f64 = 0.16;
+pub(crate) const TOUCH: f64 = 0.16;
 
 impl Referee {
     pub(super) fn watch_ball(

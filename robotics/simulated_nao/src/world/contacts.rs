@@ -2,8 +2,8 @@
 
 use nalgebra::Point2;
 
-/// Nearer to the middle of a sole than this, m, the ball is touched: half the length of a foot, and the ball.
-const TOUCH: f64 = 0.16;
+use crate::referee::TOUCH;
+
 /// Farther away, m, it has been left.
 const LEFT: f64 = 0.25;
 
