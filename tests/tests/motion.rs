@@ -243,16 +243,22 @@ fn in_the_game_the_robot_walks_to_the_ball() {
             ball,
         ];
         let mut robot = Robot::new(&options, &[]);
-        robot.live(25.0, |_| {});
-        let truth = robot.truth();
-        let ball = truth.ground_to_field.inverse() * truth.ball.expect("there is one");
+        // Once there it plays the ball, so it does not stay near.
+        let mut nearest = f32::INFINITY;
+        for _ in 0..50 {
+            robot.live(0.5, |_| {});
+            let truth = robot.truth();
+            let ball = truth.ground_to_field.inverse() * truth.ball.expect("there is one");
+            assert!(tilt(&truth) < UPRIGHT);
+            if ball.x > 0.0 {
+                nearest = nearest.min(ball.coords.xy().norm());
+            }
+        }
         println!(
-            "after 25 s the ball is at {ball}, lean {}",
+            "within 25 s the ball is {nearest} m ahead, lean {}",
             robot.greatest_lean()
         );
-        assert!(tilt(&truth) < UPRIGHT);
-        assert!(ball.coords.xy().norm() < 0.4, "{ball}");
-        assert!(ball.y.abs() < 0.3 && ball.x > 0.0, "{ball}");
+        assert!(nearest < 0.3, "{nearest}");
     }
 }
 
