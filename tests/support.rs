@@ -1,5 +1,6 @@
 //! What the tests of this crate share: where the repository is, and its own source files.
 
+pub mod api;
 pub mod fuzzed;
 pub mod nao;
 
