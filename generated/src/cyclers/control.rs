@@ -1462,7 +1462,6 @@ impl Nodes {
             ball: &frame.own.ball,
             obstacles: &frame.own.obstacles,
             teammates: &frame.own.teammates,
-            ground_to_field: &frame.own.ground_to_field,
             role: &frame.own.role,
             team_ball: &frame.own.team_ball,
             world_state: &mut frame.own.world_state,
