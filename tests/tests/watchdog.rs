@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use framework::parameters::Layers;
 use framework::testing::created;
-use framework::{Clock, Hardware as _, HardwareContext, Result, Stop, Threads, Timestamp};
+use framework::{Clock, HardwareContext, Result, Stop, Threads, Timestamp};
 use hardware::{
     ActuatorInterface, CameraInterface, MessageInterface, MicrophoneInterface, NetworkInterface,
     SensorInterface, SpeakerInterface,

@@ -69,7 +69,7 @@ fn the_robots_program_stands_up_on_the_robots_processor() {
         physics: PhysicsChoice::Kinematic,
         ..Settings::default()
     };
-    settings.images.one_in = 30;
+    settings.camera_rate = 1;
     let simulator = Simulator::paced(&settings, ANSWERS).unwrap();
     let recording = std::env::var("HULKGEN_NAO_RECORDING").unwrap_or("off".to_owned());
     let runs = folder.path().join("runs");

@@ -22,7 +22,7 @@ fn a_k1_stands_and_moves_its_head_and_arms() {
         ..Layers::default()
     };
     let (hardware, mut robot): (Arc<Hardware>, _) =
-        created(&layers, "simulated", &[], &clock, &stop, runtime::create);
+        created(&layers, "on_a_stand", &[], &clock, &stop, runtime::create);
     // Least and greatest angles while it stands.
     let mut ranges = [[f32::MAX, f32::MIN]; 3];
     let mut cycles = 0;

@@ -1,4 +1,4 @@
-//! The robot `k1` on target `simulated`.
+//! The robot `k1` on target `on_a_stand`.
 //!
 //! Written by `hulkgen generate` from hulk.toml and the nodes it names. Do not edit.
 
@@ -13,7 +13,7 @@ use k1_runtime::runtime;
 
 const TARGET: Target = Target {
     robot: "k1",
-    name: "simulated",
+    name: "on_a_stand",
     parameters: "parameters",
     location: None,
     identities: &[],
