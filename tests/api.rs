@@ -54,7 +54,10 @@ fn shown(mut item: Item) -> Option<Item> {
         }
         Item::Mod(module) => {
             if let Some((_, items)) = &mut module.content {
-                *items = std::mem::take(items).into_iter().filter_map(shown).collect();
+                *items = std::mem::take(items)
+                    .into_iter()
+                    .filter_map(shown)
+                    .collect();
             }
         }
         _ => {}
@@ -76,7 +79,12 @@ fn parts(item: &mut Item) -> Option<(&mut Vec<Attribute>, Option<&Visibility>)> 
         Item::Type(item) => (&mut item.attrs, Some(&item.vis)),
         Item::Use(item) => (&mut item.attrs, Some(&item.vis)),
         // Exported or not, it says so itself.
-        Item::Macro(item) if item.attrs.iter().any(|seen| seen.path().is_ident("macro_export")) => {
+        Item::Macro(item)
+            if item
+                .attrs
+                .iter()
+                .any(|seen| seen.path().is_ident("macro_export")) =>
+        {
             (&mut item.attrs, None)
         }
         _ => return None,

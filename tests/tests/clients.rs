@@ -69,7 +69,7 @@ impl Robot {
         let said = child.stderr.take().expect("it is a pipe");
         // Read to the end, so that the robot is never blocked by a full pipe.
         std::thread::spawn(move || BufReader::new(said).lines().count());
-        let robot = Self {
+        let mut robot = Self {
             child,
             address,
             folder,
@@ -77,6 +77,8 @@ impl Robot {
         };
         let begin = Instant::now();
         while robot.hulkgen("topic list").status.code() != Some(0) {
+            let ended = robot.child.try_wait().expect("it is our child");
+            assert_eq!(ended, None, "the robot has ended");
             assert!(begin.elapsed() < PATIENCE, "the robot does not answer");
             std::thread::sleep(Duration::from_millis(200));
         }
@@ -268,7 +270,7 @@ fn procedures_timings_and_logs_are_there() {
 
 #[test]
 fn a_simulated_world_tells_the_truth_and_is_disturbed() {
-    let robot = Robot::start(&["--set", "hardware.simulated.ball=[3.0, 0.0]"]);
+    let robot = Robot::start(&["--set", "hardware.simulated.ball.position=[3.0, 0.0]"]);
     robot.answer(r#"call framework.procedures.disturb {"ball":[1.5,-0.5]}"#);
     let truth = &robot.lines("call framework.procedures.truth")[0];
     let truth = truth.get("response").unwrap_or(truth);

@@ -11,6 +11,7 @@ use super::generate;
 use super::run::{absolute, choose_target, profile};
 use super::session::Session;
 use crate::arguments::{self, TextOrJson};
+use crate::cache::user_folder;
 use crate::cross::{self, Elf, Tools, Wanted};
 use crate::outcome::{Outcome, Refusal};
 use crate::resolve::robot::Target;
@@ -47,7 +48,7 @@ pub(super) fn run(
         .transpose()?;
     let mut request = Request::build(&understood.robot, target, profile, target_dir);
     if let Some(triple) = &target.triple {
-        let tools = Tools::bring(|what| session.terminal.note(what))?;
+        let tools = Tools::bring(user_folder(), |what| session.terminal.note(what))?;
         request.cross(&tools, triple);
     }
     if let Some(cpu) = &target.cpu {

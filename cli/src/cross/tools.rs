@@ -6,7 +6,6 @@ use std::process::{Command, Stdio};
 use camino::{Utf8Path, Utf8PathBuf};
 
 use super::requirements::REQUIREMENTS;
-use crate::cache;
 use crate::digest::Digest;
 use crate::outcome::Refusal;
 
@@ -20,12 +19,12 @@ pub struct Tools {
 }
 
 impl Tools {
-    /// The tools in the user's cache folder, brought there if they are not; `tell` hears that this takes a while.
+    /// The tools in the folder of the user's caches, brought there if they are not; `tell` hears that this takes a while.
     ///
     /// # Errors
     /// If there is no cache folder, no Python with pip, no network, or what comes has other digests.
-    pub fn bring(tell: impl FnOnce(&str)) -> Result<Self, Refusal> {
-        let caches = cache::user_folder().ok_or_else(|| {
+    pub fn bring(caches: Option<Utf8PathBuf>, tell: impl FnOnce(&str)) -> Result<Self, Refusal> {
+        let caches = caches.ok_or_else(|| {
             Refusal::bad("there is no cache folder for the tools that build for other machines")
                 .help("set XDG_CACHE_HOME")
         })?;

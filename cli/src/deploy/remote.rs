@@ -213,8 +213,8 @@ impl Failed {
 
     /// Whether it was never reached, or no longer.
     pub(crate) fn is_unreachable(&self) -> bool {
-        // 255 of ssh; 12 and 30 of rsync: the stream ended, or nothing came any more.
-        matches!(self.status, Some(255 | 12 | 30))
+        // 255 of ssh; 10, 12 and 30 of rsync: nobody reads any more, the stream ended, or nothing came any more.
+        matches!(self.status, Some(255 | 10 | 12 | 30))
     }
 
     /// Whether there was no space left.
