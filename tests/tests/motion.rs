@@ -185,15 +185,18 @@ fn a_client_walks_the_robot_and_its_odometry_says_where() {
         let mut robot = Robot::driven(pose);
         let before = [robot.pose(), robot.odometry()];
         robot.greatest_lean();
-        robot.walk(10.0, forward, left, turn);
+        let mut turned = 0.0;
+        for _ in 0..10 {
+            let from = robot.pose();
+            robot.walk(1.0, forward, left, turn);
+            turned += from.rotation.angle_to(&robot.pose().rotation).abs();
+        }
         let (lean, after) = (robot.greatest_lean(), [robot.pose(), robot.odometry()]);
         let way = before[0].inverse() * after[0];
         let (place, heading) = error([before[0], after[0]], [before[1], after[1]]);
         println!(
-            "{forward} {left} {turn}: {:.2} m {:.2} m {:.2} rad in 10 s, lean {lean:.2} rad, odometry off by {place:.3} m {heading:.3} rad",
-            way.translation.x,
-            way.translation.y,
-            way.rotation.angle()
+            "{forward} {left} {turn}: {:.2} m {:.2} m {turned:.2} rad in 10 s, lean {lean:.2} rad, odometry off by {place:.3} m {heading:.3} rad",
+            way.translation.x, way.translation.y
         );
         assert!(lean < UPRIGHT, "it leant by {lean} rad");
         let distance = way.translation.vector.norm();
@@ -205,9 +208,10 @@ fn a_client_walks_the_robot_and_its_odometry_says_where() {
             );
             assert!(way.rotation.angle().abs() < 0.5, "{way}");
         }
-        // 10 % of the way, 10 degrees of a turn.
+        // 10 % of the way, 10 degrees of each full turn.
         assert!(place < 0.1 * distance + 0.05, "{place} of {distance} m");
-        assert!(heading < 0.18, "{heading} rad");
+        let allowed = 0.05 + turned * 10.0 / 360.0;
+        assert!(heading < allowed, "{heading} of {turned} rad");
     }
 }
 
@@ -393,7 +397,12 @@ fn a_robot_that_is_pushed_over_protects_itself_and_stands_up() {
         );
         assert!(tilt(&truth) < UPRIGHT, "it leans by {} rad", tilt(&truth));
         assert!(truth.torso_to_field.translation.z > 0.28);
-        assert!(robot.selection().is_at(BodyMotion::Stand));
+        // From there it looks for the ball.
+        let current = robot.selection().current;
+        assert!(
+            matches!(current, BodyMotion::Stand | BodyMotion::Walk),
+            "{current:?}"
+        );
     }
     println!("on its feet {times:.1?} s after the push");
     assert!(times.iter().all(|time| *time < 12.0), "{times:?}");

@@ -120,7 +120,9 @@ fn the_nao_with_control_alone_names_only_what_control_needs() {
     let outside: Vec<&str> = outside.map(|output| output.name.as_str()).collect();
     let expected = [
         "balls",
+        "lines",
         "obstacles",
+        "penalty_mark",
         "game_controller_packet",
         "team_message",
         "whistle_evidence",

@@ -198,9 +198,12 @@ fn is_complete(robot: &Robot, file: &str, data: &str, values: &[&Value<'_>]) -> 
     let Some(last) = values.last() else {
         return false;
     };
-    if let (Some(data), Some(items)) = (argument(data, "Vec"), last.get_ref().as_array()) {
-        return items
+    if let (Some(data), Some(_)) = (argument(data, "Vec"), last.get_ref().as_array()) {
+        // Layers do not mend each other's lists, and another target's robot may have the earlier one.
+        return values
             .iter()
+            .filter_map(|value| value.get_ref().as_array())
+            .flatten()
             .all(|item| is_complete(robot, file, data, &[item]));
     }
     let head = data.split('<').next().unwrap_or(data);
