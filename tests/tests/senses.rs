@@ -475,7 +475,8 @@ fn what_leaves_the_robot_is_what_people_and_computers_expect() {
 
 #[test]
 fn what_the_robot_tells_of_itself_and_the_ball_is_true() {
-    let options = ["--no-sound", "--game", "Playing", "--ball", "2.9,0.3"];
+    // In Set it looks at the ball and lets it lie.
+    let options = ["--no-sound", "--game", "Set", "--ball", "2.9,0.3"];
     let mut nao = Nao::new(&options, &[]);
     let (mut looks, mut worst) = (0, 0.0_f32);
     nao.run(16.0, |hardware, instance| {

@@ -22,7 +22,13 @@ fn the_robot_stands_up_and_stands_for_a_minute() {
         location: Some("simulated".to_owned()),
         ..Layers::default()
     };
-    let options = ["--no-cameras", "--no-sound", "--free-ports"];
+    let options = [
+        "--no-cameras",
+        "--no-sound",
+        "--free-ports",
+        "--game",
+        "Set",
+    ];
     let (hardware, mut robot): (Arc<Hardware>, _) = created(
         &layers,
         "simulated",

@@ -7,17 +7,19 @@ use std::{fs, io};
 
 use framework::Reflect;
 use framework::reflect::binary::{Layout, decode, encode};
-use framework::reflect::{Content, Leaf, Shape, VariantContent, at, at_mut};
+use framework::reflect::{Content, FieldShape, Leaf, Shape, VariantContent, at, at_mut};
 use framework::testing::skip;
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Value, json};
 use types::audio::{AudioBlock, Tone, Whistle, WhistleEvidence};
 use types::ball::{Ball, BallCandidate, LearntImage};
+use types::behavior::{Activity, Plan, Role};
 use types::buttons::Buttons;
 use types::camera::{CameraCalibration, CameraMatrices, CameraMatrix, CameraPosition, Intrinsics};
 use types::fall_state::{Facing, FallDirection, FallState};
 use types::feet::{Feet, Side};
 use types::field_features::{FieldBorder, ImageLine, LineSegment, PenaltyMark};
+use types::field_markings::FieldMarkings;
 use types::game::{
     CompetitionPhase, CompetitionType, GameControllerMessage, GameControllerPacket,
     GameControllerState, GamePhase, GameState, KickingTeam, Penalty, Player, PlayerState,
@@ -69,6 +71,9 @@ const KINDS: &[Kind] = kinds![
     WhistleEvidence,
     Whistle,
     Tone,
+    Activity,
+    Plan,
+    Role,
     BallCandidate,
     LearntImage,
     Ball,
@@ -87,6 +92,7 @@ const KINDS: &[Kind] = kinds![
     ImageLine,
     LineSegment,
     PenaltyMark,
+    FieldMarkings,
     GameControllerMessage,
     GameControllerPacket,
     TeamState,
@@ -200,12 +206,27 @@ impl Draw {
         match content {
             Content::Struct(fields) => {
                 let entries = fields.iter();
-                let entries = entries.map(|it| (it.name.to_owned(), self.value(&it.shape)));
+                let entries = entries.map(|it| (it.name.to_owned(), self.field(it)));
                 Value::Object(entries.collect::<Map<_, _>>())
             }
             Content::Tuple(items) => items.iter().map(|item| self.value(item)).collect(),
             _ => Value::Null,
         }
+    }
+
+    /// Drawn again until it lies in the field's range; a value that has none never does.
+    fn field(&mut self, field: &FieldShape) -> Value {
+        let lies_in_range = |value: &Value| {
+            field.range.is_none_or(|range| {
+                let number = value
+                    .as_f64()
+                    .expect("ranges of types are those of numbers");
+                range.contains(number)
+            })
+        };
+        let mut values = std::iter::repeat_with(|| self.value(&field.shape));
+        let found = values.by_ref().take(100).find(lies_in_range);
+        found.expect("numbers from -4 to 4 reach into the range")
     }
 
     fn leaf(&mut self, leaf: Leaf) -> Value {

@@ -49,13 +49,13 @@ fn main() -> Result<(), Box<dyn Error>> {
     let weights = train(&samples, &held_out);
     let right = score(&weights, &held_out);
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../vision/src/ball_detection");
-    let bytes: Vec<u8> = weights
+    let lines: String = weights
         .iter()
-        .flat_map(|weight| weight.to_le_bytes())
+        .map(|weight| format!("{:08x}\n", weight.to_bits()))
         .collect();
-    fs::write(folder.join("network.bin"), bytes)?;
+    fs::write(folder.join("network.txt"), lines)?;
     let text = format!(
-        "# What made network.bin; layout in network.rs.\n\
+        "# What made network.txt; layout in network.rs.\n\
          made_by = \"cargo run --release -p simulated_nao --example train_ball_network {images}\"\n\
          seed = {SEED}\n\
          images = {images}\n\

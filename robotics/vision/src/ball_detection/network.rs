@@ -5,8 +5,9 @@
 //!         -> 3 x 3 convolution, 16 channels, ReLU -> 5 x 5 -> maximum of 2 x 2 -> 2 x 2
 //!         -> 16 neurons, ReLU -> the logarithm of the odds of a ball
 //! ```
-//! `network.bin` holds the weights in this order, each layer's biases behind its weights, the channel that is computed varying
-//! fastest; numbers are little-endian. `network.toml` says what made them.
+//! `network.txt` holds the weights in this order, each layer's biases behind its weights, the channel that is computed varying
+//! fastest; each line is the bits of one `f32` in hexadecimal digits, so that the file is
+//! exact and still text. `network.toml` says what made them.
 //!
 //! Invariant: no heap, and sums in a fixed order: the same patch gives the same bits everywhere.
 
@@ -30,7 +31,10 @@ const FLAT: usize = POOLED_AGAIN * POOLED_AGAIN * SECOND;
 const COUNT: usize =
     KERNEL * FIRST + FIRST + KERNEL * FIRST * SECOND + SECOND + FLAT * DENSE + DENSE + DENSE + 1;
 
-static WEIGHTS: [f32; COUNT] = numbers(include_bytes!("network.bin"));
+/// Bytes of a line of the file: eight digits and its end.
+const LINE: usize = 9;
+
+static WEIGHTS: [f32; COUNT] = numbers(include_bytes!("network.txt"));
 
 /// The probability that a patch shows a ball, 0 to 1.
 pub(super) fn confidence(patch: &Patch) -> f32 {
@@ -111,16 +115,31 @@ impl<'a> Weights<'a> {
 
 /// At compile time: a file of another length is no network.
 const fn numbers(bytes: &[u8]) -> [f32; COUNT] {
-    assert!(bytes.len() == 4 * COUNT, "network.bin has another length");
+    assert!(
+        bytes.len() == LINE * COUNT,
+        "network.txt has another length"
+    );
     let mut numbers = [0.0; COUNT];
     let mut index = 0;
     while index < COUNT {
-        let at = 4 * index;
-        let bits = [bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]];
-        numbers[index] = f32::from_le_bytes(bits);
+        let (mut bits, mut at) = (0, LINE * index);
+        while at < LINE * (index + 1) - 1 {
+            bits = bits << 4 | digit(bytes[at]);
+            at += 1;
+        }
+        assert!(bytes[at] == b'\n', "network.txt has one number per line");
+        numbers[index] = f32::from_bits(bits);
         index += 1;
     }
     numbers
+}
+
+const fn digit(character: u8) -> u32 {
+    match character {
+        b'0'..=b'9' => (character - b'0') as u32,
+        b'a'..=b'f' => (character - b'a' + 10) as u32,
+        _ => panic!("network.txt has hexadecimal digits"),
+    }
 }
 
 #[cfg(test)]
