@@ -51,11 +51,14 @@ pub(super) fn run<H: Hardware, P: ParameterData>(
     Ok(DONE)
 }
 
+/// What creates a robot with its nodes.
+type Create<'run, H, P> = dyn FnMut(&Arc<H>, Start<P>) -> Result<Robot<P>> + 'run;
+
 /// Creates robots with the parameters that the command line asks for.
 struct Workbench<'run, H, P> {
     target: &'run Target,
     options: &'run Options,
-    create: &'run mut dyn FnMut(&Arc<H>, Start<P>) -> Result<Robot<P>>,
+    create: &'run mut Create<'run, H, P>,
 }
 
 impl<H: Hardware, P: ParameterData> Bench<H> for Workbench<'_, H, P> {

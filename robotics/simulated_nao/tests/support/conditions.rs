@@ -106,6 +106,10 @@ fn balance(temperature: f32) -> [f32; 3] {
     WAVELENGTHS.map(|wavelength| (gain(wavelength) / gain(WAVELENGTHS[1])).powf(GAMMA))
 }
 
+/// Nearly, rad: the weights were learnt from images that were drawn with it.
+#[expect(clippy::approx_constant, reason = "another value draws other images")]
+const HALF_TURN: f32 = 3.14;
+
 /// A robot somewhere among others, under some conditions; three of four times with a ball before it.
 pub(crate) fn scene(half: Half, number: u64, draw: &mut Draw) -> (Look, Exposure) {
     let is_top = draw.next() < 0.7;
@@ -113,7 +117,7 @@ pub(crate) fn scene(half: Half, number: u64, draw: &mut Draw) -> (Look, Exposure
         robot: [
             f64::from(draw.between(-4.2, 4.2)),
             f64::from(draw.between(-2.8, 2.8)),
-            f64::from(draw.between(-3.14, 3.14)),
+            f64::from(draw.between(-HALF_TURN, HALF_TURN)),
         ],
         yaw: f64::from(draw.between(-0.9, 0.9)),
         pitch: f64::from(draw.between(-0.1, 0.45)),
