@@ -384,7 +384,7 @@ fn a_robot_that_is_pushed_over_protects_itself_and_stands_up() {
                 BodyMotion::Scripted(script) if script == expected => {
                     begun.get_or_insert(robot.now);
                 }
-                BodyMotion::Stand if begun.is_some() => break,
+                BodyMotion::Stand | BodyMotion::Walk if begun.is_some() => break,
                 _ => {}
             }
         }

@@ -70,7 +70,7 @@ impl Announcement {
 }
 
 impl Default for GameSettings {
-    /// A kick-off of a robot that stands where it begins: nobody has to walk to a place first. The whistle sounds at 12 s; the referee's computer says so 15 s later (RoboCup SPL
+    /// A kick-off. The whistle sounds at 12 s; the referee's computer says so 15 s later (RoboCup SPL
     /// rules 2025).
     fn default() -> Self {
         Self {
@@ -81,7 +81,8 @@ impl Default for GameSettings {
             play: None,
             schedule: vec![
                 Announcement::of(0.0, GameState::Initial),
-                Announcement::of(3.0, GameState::Set),
+                Announcement::of(3.0, GameState::Ready),
+                Announcement::of(8.0, GameState::Set),
                 Announcement::of(27.0, GameState::Playing),
             ],
         }
