@@ -9,6 +9,8 @@ use framework::{Error, Result, Stop};
 
 use crate::simulator::Shared;
 
+/// From one state to the next at least: programs have a clock of their own, which the world must not overtake.
+const PERIOD: Duration = Duration::from_millis(12);
 /// Between two looks for an answer.
 const GLANCE: Duration = Duration::from_micros(200);
 /// A state that is not answered for so long will not be: programs read their first states before they command.
@@ -23,6 +25,7 @@ const GONE: u32 = 240;
 pub(crate) fn turn(shared: &Shared, closing: &Stop, answers: u64) -> Result<()> {
     let mut unanswered = 0;
     while closing.check().is_ok() && shared.lock().server().exchange().commands < answers {
+        let begun = Instant::now();
         let before = {
             let mut simulation = shared.lock();
             while !simulation.next_is_tick() {
@@ -37,6 +40,12 @@ pub(crate) fn turn(shared: &Shared, closing: &Stop, answers: u64) -> Result<()> 
             unanswered = 0;
         } else {
             unanswered += 1;
+        }
+        if closing
+            .wait(PERIOD.saturating_sub(begun.elapsed()))
+            .is_err()
+        {
+            break;
         }
         if unanswered == GONE {
             return Err(Error::new(format!(
