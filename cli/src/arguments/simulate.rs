@@ -5,7 +5,7 @@ use std::ffi::OsString;
 use camino::Utf8PathBuf;
 use clap::Args;
 
-use super::TextOrJson;
+use super::{Build, TextOrJson};
 
 /// Play scenarios: a simulated robot in lockstep, judged by what the file asserts
 ///
@@ -41,12 +41,8 @@ pub struct Simulate {
     /// Set a parameter, for example `walk.speed=0.2`; may be repeated
     #[arg(long, value_name = "PATH=VALUE")]
     pub set: Vec<String>,
-    /// cargo's profile [default: as for `run`]
-    #[arg(long, value_name = "NAME")]
-    pub profile: Option<String>,
-    /// Folder for what cargo builds [default: cargo's]
-    #[arg(long, value_name = "FOLDER")]
-    pub target_dir: Option<Utf8PathBuf>,
+    #[command(flatten)]
+    pub build: Build,
     /// Options of the hardware
     #[arg(last = true, value_name = "OPTIONS")]
     pub options: Vec<OsString>,

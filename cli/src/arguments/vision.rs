@@ -3,7 +3,7 @@
 use camino::Utf8PathBuf;
 use clap::Args;
 
-use super::TextOrJson;
+use super::{Build, TextOrJson};
 
 /// Run the vision nodes of the robot on photographs
 ///
@@ -44,12 +44,8 @@ pub struct Vision {
     /// Set a parameter, for example `ball_detection.least_radius=3`; may be repeated
     #[arg(long, value_name = "PATH=VALUE")]
     pub set: Vec<String>,
-    /// cargo's profile [default: as for `run`]
-    #[arg(long, value_name = "NAME")]
-    pub profile: Option<String>,
-    /// Folder for what cargo builds [default: cargo's]
-    #[arg(long, value_name = "FOLDER")]
-    pub target_dir: Option<Utf8PathBuf>,
+    #[command(flatten)]
+    pub build: Build,
 }
 
 /// 2, 3 or 6 finite numbers.

@@ -29,8 +29,7 @@ pub(super) fn run(session: &mut Session<'_>, capture: &Capture) -> Result<Outcom
     let instance = instance(cycler, node, capture.instance.as_deref())?;
     let wanted = Wanted {
         target: capture.target.as_deref(),
-        profile: capture.build.profile.as_deref(),
-        target_dir: capture.build.target_dir.as_deref(),
+        build: &capture.build,
     };
     let Some(executable) = build(session, &wanted)? else {
         return Ok(Outcome::Bad);

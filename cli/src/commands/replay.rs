@@ -23,8 +23,7 @@ pub(super) fn run(session: &mut Session<'_>, replay: &Replay) -> Result<Outcome,
     let mut arguments = arguments(replay)?;
     let wanted = Wanted {
         target: replay.target.as_deref(),
-        profile: replay.build.profile.as_deref(),
-        target_dir: replay.build.target_dir.as_deref(),
+        build: &replay.build,
     };
     let Some(built) = build_with(session, &wanted)? else {
         return Ok(Outcome::Bad);

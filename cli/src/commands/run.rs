@@ -19,8 +19,7 @@ pub(super) fn run(session: &mut Session<'_>, run: &arguments::Run) -> Result<Out
     let arguments = program::arguments(run)?;
     let wanted = Wanted {
         target: run.target.as_deref(),
-        profile: run.build.profile.as_deref(),
-        target_dir: run.build.target_dir.as_deref(),
+        build: &run.build,
     };
     let Some(executable) = build(session, &wanted)? else {
         return Ok(Outcome::Bad);
@@ -33,8 +32,7 @@ pub(super) fn run(session: &mut Session<'_>, run: &arguments::Run) -> Result<Out
 pub(super) struct Wanted<'a> {
     /// `None`: the first.
     pub(super) target: Option<&'a str>,
-    pub(super) profile: Option<&'a str>,
-    pub(super) target_dir: Option<&'a Utf8Path>,
+    pub(super) build: &'a arguments::Build,
 }
 
 /// A program that was built.
@@ -83,10 +81,13 @@ pub(super) fn build_with(
         return Ok(None);
     }
     generate::write(session, &understood)?;
-    let (name, profile) = (target.name.clone(), profile(wanted.profile, target));
+    let (name, profile) = (
+        target.name.clone(),
+        profile(wanted.build.profile.as_deref(), target),
+    );
     let own = profile.map(str::to_owned);
     let profile = profile.unwrap_or(OWN_PROFILE);
-    let target_dir = wanted.target_dir.map(program::absolute);
+    let target_dir = wanted.build.target_dir.as_deref().map(program::absolute);
     let request = Request::build(&understood.robot, target, profile, target_dir.transpose()?);
     let said = request.said(session, session.terminal.colors_notes())?;
     session.diagnostics = said.diagnostics(session, &understood)?;

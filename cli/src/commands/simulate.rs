@@ -19,8 +19,7 @@ pub(super) fn run(session: &mut Session<'_>, simulate: &Simulate) -> Result<Outc
     }
     let wanted = Wanted {
         target: simulate.target.as_deref(),
-        profile: simulate.profile.as_deref(),
-        target_dir: simulate.target_dir.as_deref(),
+        build: &simulate.build,
     };
     let Some(executable) = build(session, &wanted)? else {
         return Ok(Outcome::Bad);

@@ -17,8 +17,7 @@ pub(super) fn run(session: &mut Session<'_>, vision: &Vision) -> Result<Outcome,
     }
     let wanted = Wanted {
         target: vision.target.as_deref(),
-        profile: vision.profile.as_deref(),
-        target_dir: vision.target_dir.as_deref(),
+        build: &vision.build,
     };
     let Some(executable) = build(session, &wanted)? else {
         return Ok(Outcome::Bad);
