@@ -2,6 +2,7 @@
 //!
 //! Foxglove's server has threads of its own; only [`Bridge::turn`] talks to the robot.
 
+use std::mem;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::{SystemTime, UNIX_EPOCH};
@@ -11,9 +12,9 @@ use foxglove::websocket::{
     ParameterHandler, ServerListener, SetParametersResponder,
 };
 use foxglove::{WebSocketServer, WebSocketServerHandle};
-use protocol::{Ask, Good, Message};
+use protocol::{Ask, Message};
 
-use crate::channels::{Output, channels};
+use crate::channels::{Output, channels, describe};
 use crate::robot::{Heard, Robot};
 use crate::{Options, Result, parameters};
 
@@ -83,7 +84,7 @@ impl Ear {
 impl<'options> Bridge<'options> {
     /// From now on Foxglove can connect.
     pub(crate) fn start(mut robot: Robot, options: &'options Options) -> Result<Self> {
-        let outputs = channels(&mut robot)?;
+        let outputs = channels(describe(&mut robot)?, Vec::new())?;
         let (sender, wishes) = channel();
         let listen = options.listen;
         let server = WebSocketServer::new()
@@ -94,16 +95,29 @@ impl<'options> Bridge<'options> {
             .parameter_handler(Arc::new(Ear(sender)))
             .start_blocking()
             .map_err(|error| format!("--listen {listen}: {error}"))?;
-        let now = SystemTime::now().duration_since(UNIX_EPOCH);
-        let now = now.map_or(0, |now| u64::try_from(now.as_nanos()).unwrap_or_default());
         Ok(Self {
             options,
-            start: now.saturating_sub(robot.welcome.time),
+            start: start_of(&robot),
             robot,
             outputs,
             server,
             wishes,
         })
+    }
+
+    /// Goes on with a robot that has come back: what is looked at is asked of it again.
+    ///
+    /// # Errors
+    /// If it goes away meanwhile.
+    pub(crate) fn go_on_with(&mut self, mut robot: Robot) -> Result<()> {
+        let described = describe(&mut robot)?;
+        self.start = start_of(&robot);
+        self.robot = robot;
+        self.outputs = channels(described, mem::take(&mut self.outputs))?;
+        for output in self.outputs.iter_mut().filter(|it| it.watching > 0) {
+            output.subscribe(&mut self.robot, self.options)?;
+        }
+        Ok(())
     }
 
     /// The robot's.
@@ -186,12 +200,10 @@ impl<'options> Bridge<'options> {
         };
         output.watching += 1;
         // Whoever comes later may get what an earlier one was refused.
-        if output.subscription.is_none()
-            && let Good::Subscribed(subscribed) = self.robot.ask(output.ask(self.options))?
-        {
-            output.subscription = Some(subscribed.subscription);
+        match output.subscription {
+            None => output.subscribe(&mut self.robot, self.options),
+            Some(_) => Ok(()),
         }
-        Ok(())
     }
 
     fn leave(&mut self, topic: &str) -> Result<()> {
@@ -206,6 +218,13 @@ impl<'options> Bridge<'options> {
         }
         Ok(())
     }
+}
+
+/// Nanoseconds from 1970 to the start of the robot's clock.
+fn start_of(robot: &Robot) -> u64 {
+    let now = SystemTime::now().duration_since(UNIX_EPOCH);
+    let now = now.map_or(0, |now| u64::try_from(now.as_nanos()).unwrap_or_default());
+    now.saturating_sub(robot.welcome.time)
 }
 
 fn or_none(result: Result<Vec<Parameter>>) -> (Vec<Parameter>, Result<()>) {

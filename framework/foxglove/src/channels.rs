@@ -34,8 +34,19 @@ enum Kind {
     Image(Channel<CompressedImage>),
 }
 
-/// A channel for each output of the robot.
-pub(crate) fn channels(robot: &mut Robot) -> Result<Vec<Output>> {
+/// What a robot says of one output.
+pub(crate) struct Described {
+    path: String,
+    form: Form,
+}
+
+enum Form {
+    Json { schema: Schema, is_wrapped: bool },
+    Image,
+}
+
+/// All outputs of the robot.
+pub(crate) fn describe(robot: &mut Robot) -> Result<Vec<Described>> {
     let listed = robot.ask(Ask::Paths {
         below: String::new(),
         depth: Some(DEPTH),
@@ -43,7 +54,7 @@ pub(crate) fn channels(robot: &mut Robot) -> Result<Vec<Output>> {
     let Good::Paths(entries) = listed else {
         return Err("the robot does not tell its paths".to_owned());
     };
-    let mut outputs: Vec<Output> = Vec::new();
+    let mut outputs: Vec<Described> = Vec::new();
     for entry in entries {
         let is_part = outputs.last().is_some_and(|output| {
             let rest = entry.path.strip_prefix(output.path.as_str());
@@ -54,39 +65,71 @@ pub(crate) fn channels(robot: &mut Robot) -> Result<Vec<Output>> {
             EntryKind::MainOutput | EntryKind::AdditionalOutput
         );
         if is_output && !is_part {
-            outputs.push(Output::new(robot, entry)?);
+            outputs.push(Described::new(robot, entry)?);
         }
     }
     Ok(outputs)
 }
 
-impl Output {
+/// A channel for each of them. What was shown before goes on in its channel where it looks the same, with those who look at
+/// it; other channels are closed.
+pub(crate) fn channels(described: Vec<Described>, mut before: Vec<Output>) -> Result<Vec<Output>> {
+    let mut kept = Vec::new();
+    for output in described {
+        let is_same = |earlier: &Output| earlier.path == output.path && earlier.has(&output.form);
+        let earlier = before.iter().position(is_same);
+        kept.push((output, earlier.map(|index| before.swap_remove(index))));
+    }
+    // Before others get their topics.
+    before.into_iter().for_each(Output::close);
+    let outputs = kept.into_iter().map(|(output, earlier)| match earlier {
+        Some(earlier) => Ok(Output {
+            subscription: None,
+            ..earlier
+        }),
+        None => Output::new(output),
+    });
+    outputs.collect()
+}
+
+impl Described {
     fn new(robot: &mut Robot, entry: Entry) -> Result<Self> {
-        let topic = format!("/{}", entry.path.replace('.', "/"));
-        let channel = if entry.image.is_some() {
-            Kind::Image(ChannelBuilder::new(&topic).build())
-        } else {
-            let path = entry.path.clone();
-            let Good::Schema(schema) = robot.ask(Ask::Schema { path })? else {
-                return Err(format!(
-                    "the robot does not tell the schema of `{}`",
-                    entry.path
-                ));
-            };
-            let (schema, is_wrapped) = as_object(schema);
-            let name = entry.type_name.unwrap_or_else(|| entry.path.clone());
-            let text = serde_json::to_vec(&schema).map_err(|error| error.to_string())?;
-            let built = ChannelBuilder::new(&topic)
-                .message_encoding("json")
-                .schema(Schema::new(name, "jsonschema", text))
-                .build_raw();
-            Kind::Json {
-                channel: built.map_err(|error| error.to_string())?,
-                is_wrapped,
+        let path = entry.path;
+        if entry.image.is_some() {
+            let form = Form::Image;
+            return Ok(Self { path, form });
+        }
+        let ask = Ask::Schema { path: path.clone() };
+        let Good::Schema(schema) = robot.ask(ask)? else {
+            return Err(format!("the robot does not tell the schema of `{path}`"));
+        };
+        let (schema, is_wrapped) = as_object(schema);
+        let name = entry.type_name.unwrap_or_else(|| path.clone());
+        let text = serde_json::to_vec(&schema).map_err(|error| error.to_string())?;
+        let schema = Schema::new(name, "jsonschema", text);
+        let form = Form::Json { schema, is_wrapped };
+        Ok(Self { path, form })
+    }
+}
+
+impl Output {
+    fn new(described: Described) -> Result<Self> {
+        let topic = format!("/{}", described.path.replace('.', "/"));
+        let channel = match described.form {
+            Form::Image => Kind::Image(ChannelBuilder::new(&topic).build()),
+            Form::Json { schema, is_wrapped } => {
+                let built = ChannelBuilder::new(&topic)
+                    .message_encoding("json")
+                    .schema(schema)
+                    .build_raw();
+                Kind::Json {
+                    channel: built.map_err(|error| error.to_string())?,
+                    is_wrapped,
+                }
             }
         };
         Ok(Self {
-            path: entry.path,
+            path: described.path,
             topic,
             channel,
             subscription: None,
@@ -94,8 +137,33 @@ impl Output {
         })
     }
 
+    fn has(&self, form: &Form) -> bool {
+        match (&self.channel, form) {
+            (Kind::Image(_), Form::Image) => true,
+            (Kind::Json { channel, .. }, Form::Json { schema, .. }) => {
+                channel.schema() == Some(schema)
+            }
+            _ => false,
+        }
+    }
+
+    fn close(self) {
+        match self.channel {
+            Kind::Json { channel, .. } => channel.close(),
+            Kind::Image(channel) => channel.close(),
+        }
+    }
+
+    /// Asks the robot for its values from now on.
+    pub(crate) fn subscribe(&mut self, robot: &mut Robot, options: &Options) -> Result<()> {
+        if let Good::Subscribed(subscribed) = robot.ask(self.ask(options))? {
+            self.subscription = Some(subscribed.subscription);
+        }
+        Ok(())
+    }
+
     /// How the robot sends its values.
-    pub(crate) fn ask(&self, options: &Options) -> Ask {
+    fn ask(&self, options: &Options) -> Ask {
         Ask::Subscribe {
             path: self.path.clone(),
             rate: Some(options.rate),

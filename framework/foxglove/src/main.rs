@@ -14,11 +14,16 @@ mod robot;
 
 use std::net::SocketAddr;
 use std::process::ExitCode;
+use std::thread;
+use std::time::Duration;
 
 use lexopt::prelude::{Long, Short, ValueExt as _};
 
 use bridge::Bridge;
 use robot::Robot;
+
+/// Between two looks whether a robot is back.
+const PAUSE: Duration = Duration::from_millis(500);
 
 const HELP: &str = "\
 Shows a running robot in Foxglove: open ws://127.0.0.1:8765 there.
@@ -62,7 +67,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// As long as the robot runs.
+/// Until it is ended: a robot that goes away may come back.
 fn run(options: &Options) -> Result<()> {
     let robot = Robot::connect(&options.host, options.token.as_deref())?;
     let mut bridge = Bridge::start(robot, options)?;
@@ -73,8 +78,18 @@ fn run(options: &Options) -> Result<()> {
         bridge.port()
     );
     loop {
-        bridge.turn()?;
+        if let Err(message) = bridge.turn() {
+            eprintln!("{message}; waiting for it to come back");
+            while reconnect(&mut bridge, options).is_err() {
+                thread::sleep(PAUSE);
+            }
+            eprintln!("{} is back", bridge.name());
+        }
     }
+}
+
+fn reconnect(bridge: &mut Bridge<'_>, options: &Options) -> Result<()> {
+    bridge.go_on_with(Robot::connect(&options.host, options.token.as_deref())?)
 }
 
 /// `None`: somebody wants help.

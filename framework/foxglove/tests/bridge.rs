@@ -1,5 +1,6 @@
 //! The simulated robot of this repository, the bridge, and a client of Foxglove's protocol that knows neither.
 
+use std::io::{BufRead as _, BufReader, Write as _};
 use std::net::{SocketAddr, TcpListener};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
@@ -58,39 +59,51 @@ fn the_bridge_shows_the_robot() {
     }
     let folder = std::env::temp_dir().join(format!("hulkgen-foxglove-{}", std::process::id()));
     let (robot_at, bridge_at) = (free_address(), free_address());
-    let mut robot = Command::new(program);
-    robot
-        .args([
-            "--headless",
-            "--listen",
-            &robot_at.to_string(),
-            "--run-folder",
-        ])
-        .arg(&folder)
-        .args(["--", "--free-ports"])
-        .current_dir(root())
-        .stdout(Stdio::null())
-        .stderr(Stdio::null());
-    let _robot = Running(robot.spawn().expect("the robot can be started"));
-    wait_for(robot_at);
+    let start = || {
+        let mut robot = Command::new(&program);
+        robot.args(["--headless", "--listen", &robot_at.to_string()]);
+        robot.arg("--run-folder").arg(&folder);
+        robot.args(["--", "--free-ports"]).current_dir(root());
+        robot.stdout(Stdio::null()).stderr(Stdio::null());
+        let robot = Running(robot.spawn().expect("the robot can be started"));
+        wait_for(robot_at);
+        robot
+    };
+    let robot = start();
     let mut bridge = Command::new(env!("CARGO_BIN_EXE_hulkgen-foxglove"));
-    bridge.args([
-        "--host",
-        &robot_at.to_string(),
-        "--listen",
-        &bridge_at.to_string(),
-    ]);
+    bridge.args(["--host", &robot_at.to_string()]);
+    bridge.args(["--listen", &bridge_at.to_string()]);
     let _bridge = Running(bridge.spawn().expect("the bridge can be started"));
     wait_for(bridge_at);
-    let client = Command::new("python3")
-        .arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/client.py"))
-        .arg(format!("ws://{bridge_at}"))
-        .output()
-        .expect("python3 was there a moment ago");
-    let said = String::from_utf8_lossy(&client.stdout);
-    let stderr = String::from_utf8_lossy(&client.stderr);
+    let client = || {
+        let mut client = Command::new("python3");
+        client.arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/client.py"));
+        client.arg(format!("ws://{bridge_at}"));
+        client
+    };
+    let look = || {
+        let looked = client().output().expect("python3 was there a moment ago");
+        let said = String::from_utf8_lossy(&looked.stdout);
+        let stderr = String::from_utf8_lossy(&looked.stderr);
+        assert!(looked.status.success(), "{said}{stderr}");
+        assert!(said.contains("channels"), "{said}");
+        println!("{said}");
+    };
+    look();
+
+    // A robot that is started anew is shown again, also to those who look meanwhile.
+    let mut staying = client();
+    staying.arg("stay").stdin(Stdio::piped());
+    let staying = staying.stdout(Stdio::piped()).spawn();
+    let mut staying = Running(staying.expect("python3 was there a moment ago"));
+    let said = staying.0.stdout.take().expect("it is piped");
+    let mut lines = BufReader::new(said).lines().map_while(Result::ok);
+    assert_eq!(lines.next().as_deref(), Some("watching"));
+    drop(robot);
+    let _robot = start();
+    let mut told = staying.0.stdin.take().expect("it is piped");
+    writeln!(told, "the robot is back").expect("it reads");
+    assert_eq!(lines.next().as_deref(), Some("watched on"));
+    look();
     let _ = std::fs::remove_dir_all(&folder);
-    assert!(client.status.success(), "{said}{stderr}");
-    assert!(said.contains("channels"), "{said}");
-    println!("{said}");
 }

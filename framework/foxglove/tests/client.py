@@ -1,6 +1,7 @@
 """A client of Foxglove's protocol: does the handshake, lists channels, decodes messages, changes a parameter.
+With `stay` it looks at one channel, and again when it is told to by a line.
 
-usage: python3 client.py ws://127.0.0.1:8765     (needs: websockets, jsonschema)
+usage: python3 client.py ws://127.0.0.1:8765 [stay]     (needs: websockets, jsonschema)
 """
 
 import json
@@ -42,10 +43,11 @@ class Client:
     def send(self, op, **content):
         self.socket.send(json.dumps({"op": op, **content}))
 
-    def values(self, number, topic, count):
-        """So many messages of a channel, with their times in nanoseconds."""
-        channel = self.channels[topic]
-        self.send("subscribe", subscriptions=[{"id": number, "channelId": channel["id"]}])
+    def watch(self, number, topic):
+        self.send("subscribe", subscriptions=[{"id": number, "channelId": self.channels[topic]["id"]}])
+
+    def next(self, number, count):
+        """The next messages of a subscription, with their times in nanoseconds."""
         head = struct.Struct("<BIQ")
         found = []
         while len(found) < count:
@@ -53,6 +55,13 @@ class Client:
             _, subscription, when = head.unpack_from(message)
             if subscription == number:
                 found.append((when, message[head.size:]))
+        return found
+
+    def values(self, number, topic, count):
+        """So many messages of a channel."""
+        channel = self.channels[topic]
+        self.watch(number, topic)
+        found = self.next(number, count)
         self.send("unsubscribe", subscriptionIds=[number])
         times = [when for when, _ in found]
         assert times == sorted(set(times)), times
@@ -87,13 +96,32 @@ def fields(data):
     return found
 
 
-def main():
+IMAGE, NUMBERS = "/VisionTop/main_outputs/image", "/Control/main_outputs/sensor_data"
+
+
+def connected():
     client = Client(sys.argv[1])
     info = client.op("serverInfo")
     assert "parameters" in info["capabilities"], info
-    image, numbers = "/VisionTop/main_outputs/image", "/Control/main_outputs/sensor_data"
-    if numbers not in client.channels:
+    if NUMBERS not in client.channels:
         client.op("advertise")
+    return client
+
+
+def stay():
+    client = connected()
+    client.watch(1, NUMBERS)
+    client.next(1, 3)
+    print("watching", flush=True)
+    sys.stdin.readline()
+    client.end = time.monotonic() + PATIENCE
+    # What was on its way when the robot went, and then what the next one says.
+    client.next(1, 100)
+    print("watched on")
+
+
+def main():
+    client = connected()
     client.end = time.monotonic() + PATIENCE
     for channel in client.channels.values():
         if channel["encoding"] == "json":
@@ -103,13 +131,13 @@ def main():
     json_topics = [topic for topic, channel in client.channels.items() if channel["encoding"] == "json"]
     assert len(json_topics) > 20, json_topics
 
-    channel, values = client.values(1, numbers, 5)
+    channel, values = client.values(1, NUMBERS, 5)
     for value in values:
         jsonschema.validate(json.loads(value), json.loads(channel["schema"]))
     others = [topic for topic in json_topics if list(json.loads(client.channels[topic]["schema"])["properties"]) == ["value"]]
     assert others, "no output that is no object"
 
-    channel, values = client.values(2, image, 2)
+    channel, values = client.values(2, IMAGE, 2)
     assert (channel["encoding"], channel["schemaName"]) == ("protobuf", "foxglove.CompressedImage"), channel
     picture = fields(values[0])
     assert picture[3] == b"jpeg" and picture[2][:3] == b"\xff\xd8\xff" and picture[2][-2:] == b"\xff\xd9"
@@ -125,4 +153,4 @@ def main():
     print(f"{len(client.channels)} channels, {len(before)} parameters, an image of {len(picture[2])} bytes")
 
 
-main()
+stay() if "stay" in sys.argv else main()
