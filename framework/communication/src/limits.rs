@@ -23,6 +23,8 @@ pub struct Limits {
     pub subscriptions: usize,
     /// Images that are compressed at the same time, of all clients; those with the same image and quality share one.
     pub jpegs: usize,
+    /// As `jpegs`, of those that one client takes: so that others can have theirs.
+    pub jpegs_of_client: usize,
     /// Requests of one client that wait for a cycle or a node.
     pub waiting: usize,
     /// Updates of one subscription that wait to be sent: at 83 Hz a third of a second.
@@ -53,6 +55,7 @@ impl Default for Limits {
             path_bytes: 1024,
             subscriptions: 1024,
             jpegs: 16,
+            jpegs_of_client: 8,
             waiting: 64,
             queued_updates: 32,
             queued_bytes: 16 << 20,

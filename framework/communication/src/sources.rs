@@ -114,8 +114,18 @@ impl Source {
 
     /// The JPEG files that are made of each of its values.
     pub(crate) fn jpegs(&self) -> usize {
+        self.jpeg_streams().count()
+    }
+
+    /// Those of them that the client takes.
+    pub(crate) fn jpegs_of(&self, client: ClientId) -> usize {
+        let takes = |stream: &&Stream| stream.subscribers.iter().any(|it| it.client == client);
+        self.jpeg_streams().filter(takes).count()
+    }
+
+    fn jpeg_streams(&self) -> impl Iterator<Item = &Stream> {
         let is_jpeg = |stream: &&Stream| matches!(stream.encoding, Encoding::Jpeg { .. });
-        self.streams.iter().filter(is_jpeg).count()
+        self.streams.iter().filter(is_jpeg)
     }
 
     /// Whether somebody has the part in this encoding already.

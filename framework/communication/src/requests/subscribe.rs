@@ -52,7 +52,7 @@ impl Hub {
                 .map_err(|message| Failure::new(format!("`{path}`: {message}")))?;
             if let Encoding::Jpeg { quality } = encoding {
                 check_jpeg(path, &part, quality)?;
-                self.check_room_for_jpeg(source, &part, encoding)?;
+                self.check_room_for_jpeg(id, source, &part, encoding)?;
             }
             let source_of = &mut self.sources[source];
             if encoding == Encoding::Binary {
@@ -77,10 +77,18 @@ impl Hub {
     /// Compressing is the one thing that a client can ask which takes the server milliseconds.
     fn check_room_for_jpeg(
         &self,
+        client: ClientId,
         source: usize,
         part: &ResolvedPath,
         encoding: Encoding,
     ) -> Result<(), Failure> {
+        let most = self.limits.jpegs_of_client;
+        let of_client = self.sources.iter().map(|source| source.jpegs_of(client));
+        if of_client.sum::<usize>() >= most {
+            return Err(Failure::new(format!(
+                "this client takes {most} compressed images already, which is the most for one"
+            )));
+        }
         let most = self.limits.jpegs;
         let is_new = !self.sources[source].has(part, encoding);
         if is_new && self.sources.iter().map(Source::jpegs).sum::<usize>() >= most {

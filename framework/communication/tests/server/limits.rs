@@ -33,6 +33,7 @@ fn unlimited() -> Limits {
         path_bytes: usize::MAX,
         subscriptions: usize::MAX,
         jpegs: usize::MAX,
+        jpegs_of_client: usize::MAX,
         waiting: usize::MAX,
         queued_updates: usize::MAX,
         queued_bytes: usize::MAX,
@@ -123,16 +124,31 @@ fn images_that_are_compressed_are_counted() {
     };
     with_and_without(limited, |zoo| {
         let (mut client, mut other) = (zoo.client(), zoo.client());
-        let ask = |quality: u8| {
-            json!({ "subscribe": {
-                "path": "VisionTop.main_outputs.image", "encoding": { "jpeg": { "quality": quality } },
-            } })
-        };
-        let all = (1..4).all(|quality| is_ok(&mut client, ask(quality)));
+        let all = (1..4).all(|quality| is_ok(&mut client, jpeg(quality)));
         // What is made already is for everybody.
-        assert!(is_ok(&mut other, ask(2)));
+        assert!(is_ok(&mut other, jpeg(2)));
         all
     });
+}
+
+#[test]
+fn one_client_leaves_compressed_images_for_others() {
+    let limited = Limits {
+        jpegs_of_client: 2,
+        ..Limits::default()
+    };
+    with_and_without(limited, |zoo| {
+        let (mut client, mut other) = (zoo.client(), zoo.client());
+        let all = (1..4).all(|quality| is_ok(&mut client, jpeg(quality)));
+        assert!(is_ok(&mut other, jpeg(10)));
+        all
+    });
+}
+
+fn jpeg(quality: u8) -> Value {
+    json!({ "subscribe": {
+        "path": "VisionTop.main_outputs.image", "encoding": { "jpeg": { "quality": quality } },
+    } })
 }
 
 #[test]
