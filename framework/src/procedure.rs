@@ -17,6 +17,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use crate::error::Result;
+use crate::reflect::{Reflect, Shape};
 
 /// Calls that may wait for an instance; more are refused, so that clients cannot fill the memory.
 const WAITING_CALLS: usize = 64;
@@ -67,6 +68,11 @@ pub type Answer<Response> = Result<Response, Refused>;
 pub trait CallAny: Send + Sync {
     /// Full names of the types of its request and its response, for people.
     fn types(&self) -> (&'static str, &'static str);
+
+    /// What its request and its response look like; `None` where they may be anything.
+    fn shapes(&self) -> Option<(Shape, Shape)> {
+        None
+    }
 
     /// Makes a call with a request in any format; an error if it is no request of this procedure.
     fn call_any(
@@ -202,11 +208,15 @@ impl<Request, Response> Asked<Request, Response> {
 
 impl<Request, Response> CallAny for Caller<Request, Response>
 where
-    Request: DeserializeOwned + Send,
-    Response: Serialize + Send + 'static,
+    Request: DeserializeOwned + Reflect + Send,
+    Response: Reflect + Serialize + Send + 'static,
 {
     fn types(&self) -> (&'static str, &'static str) {
         (type_name::<Request>(), type_name::<Response>())
+    }
+
+    fn shapes(&self) -> Option<(Shape, Shape)> {
+        Some((Request::shape(), Response::shape()))
     }
 
     fn call_any(

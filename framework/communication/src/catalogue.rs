@@ -31,7 +31,7 @@ struct Place<'hub> {
     kind: EntryKind,
     /// Of a value.
     shape: Option<Shape>,
-    /// Of a procedure: of its request and its response.
+    /// Of a procedure: the names of its request's type and its response's.
     types: Option<(&'static str, &'static str)>,
     below: Vec<Place<'hub>>,
 }
@@ -81,6 +81,25 @@ pub(crate) fn list(hub: &Hub, below: &str, depth: usize) -> Result<Vec<Entry>, S
         ));
     }
     Ok(listing.entries)
+}
+
+/// What a procedure is asked or answers, or a part of it: `INSTANCE.procedures.NAME.request`.
+pub(crate) fn message<'path>(hub: &Hub, path: &'path str) -> Option<(Shape, &'path str)> {
+    let fits = |message: &Place<'_>| -> Option<(Shape, &'path str)> {
+        let rest = path.strip_prefix(message.path.as_str())?;
+        let rest = match rest {
+            "" => rest,
+            _ => rest.strip_prefix('.')?,
+        };
+        Some((message.shape.clone()?, rest))
+    };
+    let root = tree(hub);
+    let folders = root.below.iter().flat_map(|place| &place.below);
+    let procedures = folders.flat_map(|folder| &folder.below);
+    let messages = procedures
+        .filter(|place| place.kind == EntryKind::Procedure)
+        .flat_map(|procedure| &procedure.below);
+    messages.into_iter().find_map(fits)
 }
 
 /// The output that a path names, with what follows behind its name.
@@ -168,7 +187,7 @@ fn tree(hub: &Hub) -> Place<'_> {
         let path = format!("{name}.procedures");
         let mut procedures = Place::folder("procedures", path);
         for (procedure, caller) in &instance.access.procedures {
-            procedures.add_procedure(procedure, caller.types());
+            procedures.add_procedure(procedure, caller.types(), caller.shapes());
         }
         place.below.extend(procedures.unless_empty());
         root.below.push(place);
@@ -179,9 +198,9 @@ fn tree(hub: &Hub) -> Place<'_> {
     root.below.push(parameters);
     let mut framework = Place::folder("framework", "framework".to_owned());
     let mut procedures = Place::folder("procedures", "framework.procedures".to_owned());
-    procedures.add_procedure("rearm", ("()", "()"));
+    procedures.add_procedure("rearm", ("()", "()"), None);
     for (procedure, caller) in &hub.link.procedures {
-        procedures.add_procedure(procedure, caller.types());
+        procedures.add_procedure(procedure, caller.types(), caller.shapes());
     }
     framework.below.push(procedures);
     root.below.push(framework);
@@ -229,11 +248,29 @@ impl<'hub> Place<'hub> {
         }
     }
 
-    fn add_procedure(&mut self, name: &'hub str, types: (&'static str, &'static str)) {
+    fn add_procedure(
+        &mut self,
+        name: &'hub str,
+        types: (&'static str, &'static str),
+        shapes: Option<(Shape, Shape)>,
+    ) {
         let mut procedure = Self::folder(name, format!("{}.{name}", self.path));
         procedure.kind = EntryKind::Procedure;
         procedure.types = Some(types);
+        if let Some((request, response)) = shapes {
+            let below = [("request", request), ("response", response)];
+            procedure.below = below
+                .map(|(name, shape)| procedure.message(name, shape))
+                .into();
+        }
         self.below.push(procedure);
+    }
+
+    fn message(&self, name: &'hub str, shape: Shape) -> Self {
+        let mut message = Self::folder(name, format!("{}.{name}", self.path));
+        message.kind = EntryKind::Message;
+        message.shape = Some(shape);
+        message
     }
 }
 

@@ -193,10 +193,13 @@ impl Hub {
         self.check_path(path)?;
         let shape = match below_parameters(path) {
             Some(path) => resolve(self.link.parameters.shape(), path),
-            None => {
-                let (source, below) = self.find(path)?;
-                resolve(&self.sources[source].shape, below)
-            }
+            None => match catalogue::message(self, path) {
+                Some((shape, below)) => resolve(&shape, below),
+                None => {
+                    let (source, below) = self.find(path)?;
+                    resolve(&self.sources[source].shape, below)
+                }
+            },
         };
         let part = shape.map_err(|message| Failure::new(format!("`{path}`: {message}")))?;
         Ok(Some(Good::Schema(part.shape().json_schema())))

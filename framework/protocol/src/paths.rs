@@ -55,6 +55,8 @@ pub enum EntryKind {
     Parameter,
     /// Call.
     Procedure,
+    /// What a procedure is asked or answers, or a part of it, for forms: only its schema can be had.
+    Message,
 }
 
 /// Numbers from `minimum` to `maximum`; absent: without bound.

@@ -1,17 +1,18 @@
 //! What happened to the cycles of a recording: which are missing, were not finished, or began anew.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::Players;
+use crate::Reflect;
 use crate::time::Timestamp;
 
 /// More are no picture, and slow to send.
 pub const MOST_EVENTS: usize = 1000;
 
 /// What happened to cycles of one instance.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Deserialize, PartialEq, Reflect, Serialize)]
 pub struct Happened {
-    pub instance: &'static str,
+    pub instance: String,
     /// Seconds of the run: the recorded cycle before, or the one that it is about.
     pub from: f64,
     /// The recorded cycle behind, or the same.
@@ -20,7 +21,7 @@ pub struct Happened {
 }
 
 /// Kinds of [`Happened`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, Reflect, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum What {
     /// The recording does not have the cycles between.
@@ -37,9 +38,8 @@ pub(super) fn events(players: &Players<'_>) -> Vec<Happened> {
     for player in &players.players {
         let mut tell = |from: Timestamp, to: Timestamp, what| {
             let [from, to] = [from, to].map(|at| at.as_nanos() as f64 / 1e9);
-            let instance = player.instance;
             events.push(Happened {
-                instance,
+                instance: player.instance.to_owned(),
                 from,
                 to,
                 what,

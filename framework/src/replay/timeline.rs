@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::events::{Happened, events};
 use super::{Players, Ran};
+use crate::Reflect;
 use crate::clock::Clock;
 use crate::cycler::{Counters, InstanceDescription, Kind, Record};
 use crate::data::ParameterData;
@@ -42,7 +43,7 @@ const SHOWN_EVERY: Duration = Duration::from_millis(100);
 const FASTEST: f64 = 1000.0;
 
 /// What a client asks for; what is left out stays as it is.
-#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, Reflect, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Move {
     /// Whether time goes on.
@@ -62,7 +63,7 @@ pub struct Move {
 }
 
 /// Where the replay is.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Deserialize, PartialEq, Reflect, Serialize)]
 pub struct Place {
     /// Seconds of the run.
     pub time: f64,
@@ -78,9 +79,9 @@ pub struct Place {
 }
 
 /// Where one instance is.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, Deserialize, PartialEq, Eq, Reflect, Serialize)]
 pub struct InstancePlace {
-    pub instance: &'static str,
+    pub instance: String,
     /// The cycle that is shown; `None` before its first one.
     pub cycle: Option<u64>,
     /// Recorded cycles.
@@ -293,7 +294,7 @@ impl<'r> Timeline<'r> {
             let number = |position: usize| player.frames[position].head.number;
             let last = player.frames.len() - 1;
             InstancePlace {
-                instance: player.instance,
+                instance: player.instance.to_owned(),
                 cycle: self.current(index).map(number),
                 frames: player.frames.len(),
                 missing: (number(last) - number(0)).saturating_sub(last as u64),

@@ -175,7 +175,7 @@ export type Entry = {
 };
 
 /** What can be done with something. */
-export type EntryKind = "folder" | "main_output" | "additional_output" | "parameter" | "procedure";
+export type EntryKind = "folder" | "main_output" | "additional_output" | "parameter" | "procedure" | "message";
 
 /** Why something was not done. */
 export type Failure = {

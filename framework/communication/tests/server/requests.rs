@@ -107,6 +107,37 @@ fn everything_has_a_path() {
 }
 
 #[test]
+fn procedures_tell_what_they_are_asked_and_answer() {
+    let zoo = Zoo::new();
+    let mut client = zoo.client();
+    let messages = paths(&mut client, "Control.procedures.walk", 2);
+    let expected = ["request", "request.speed", "response"]
+        .map(|name| format!("Control.procedures.walk.{name}"));
+    assert_eq!(names(&messages), expected);
+    assert!(
+        messages
+            .iter()
+            .all(|entry| entry["kind"] == json!("message"))
+    );
+    let mut schema =
+        |path: &str| client.ok(json!({ "schema": { "path": path } }))["schema"].clone();
+    let request = schema("Control.procedures.walk.request");
+    assert_eq!(request["required"], json!(["speed"]), "{request}");
+    let part = schema("Control.procedures.walk.request.speed");
+    assert_eq!(part["type"], "number", "{part}");
+    assert_eq!(schema("Control.procedures.stop.request")["type"], "null");
+    assert_eq!(
+        schema("Control.procedures.stop.response")["type"],
+        "boolean"
+    );
+    let wrong = json!({ "schema": { "path": "Control.procedures.walk.request.sped" } });
+    let error = client.error(wrong);
+    assert!(error.contains("speed"), "{error}");
+    // They have no value.
+    client.error(json!({ "read": { "path": "Control.procedures.walk.request" } }));
+}
+
+#[test]
 fn values_are_read_once() {
     let zoo = Zoo::new();
     let mut client = zoo.client();

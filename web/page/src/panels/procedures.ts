@@ -50,8 +50,41 @@ function procedure(context: Context, entry: Entry): HTMLElement {
   argument.addEventListener("keydown", (event) => {
     if (event.key === "Enter") void call();
   });
+  void context.robot.ask({ schema: { path: `${entry.path}.request` } }).then(
+    (good) => {
+      const example = JSON.stringify(exampleOf(expect(good, "schema")));
+      argument.placeholder = example === "null" ? "no argument" : `argument in JSON, for example ${example}`;
+    },
+    // Some take anything: they have no schema.
+    () => undefined,
+  );
   const about = [entry.type, entry.documentation].filter((text) => text != null).join(" · ");
   return make("section", { class: "card" }, make("h3", {}, entry.path), make("p", { class: "muted" }, about), make("div", { class: "bar" }, argument, deed), failure, said);
+}
+
+/** A value that a schema lets pass: the simplest of each type. */
+function exampleOf(schema: Json): Json {
+  if (typeof schema !== "object" || schema === null || Array.isArray(schema)) return null;
+  const first = [schema["enum"], schema["oneOf"], schema["anyOf"]].find((all) => Array.isArray(all) && all.length > 0) as Json[] | undefined;
+  if (first !== undefined) return schema["enum"] === first ? first[0]! : exampleOf(first[0]!);
+  if (schema["const"] !== undefined) return schema["const"];
+  switch (schema["type"]) {
+    case "object": {
+      const properties = (schema["properties"] ?? {}) as Record<string, Json>;
+      return Object.fromEntries(Object.entries(properties).map(([name, inner]) => [name, exampleOf(inner)]));
+    }
+    case "array":
+      return Array.isArray(schema["items"]) ? schema["items"].map(exampleOf) : [];
+    case "string":
+      return "";
+    case "boolean":
+      return false;
+    case "number":
+    case "integer":
+      return typeof schema["minimum"] === "number" ? Math.max(0, schema["minimum"]) : 0;
+    default:
+      return null;
+  }
 }
 
 export const procedures: PanelKind = { kind: "procedures", name: "Procedures", open };

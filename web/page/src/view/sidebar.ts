@@ -90,7 +90,7 @@ export class Sidebar {
   }
 
   private line(entry: Entry, text: string, caret: HTMLElement | null, toggle?: () => void): HTMLElement {
-    const isValue = entry.kind !== "folder" && entry.kind !== "procedure";
+    const isValue = entry.kind !== "folder" && entry.kind !== "procedure" && entry.kind !== "message";
     const name = make("button", { type: "button", class: "name", title: [entry.path, entry.type, entry.documentation].filter((part) => part != null).join("\n") }, text);
     const type = make("span", { class: "muted type" }, [entry.type ?? "", entry.unit ?? ""].filter((part) => part !== "").join(" "));
     const line = make("div", { class: "line", "data-path": entry.path }, caret ?? make("span", { class: "caret leaf" }), name, type);
