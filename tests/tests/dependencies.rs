@@ -1,5 +1,6 @@
 //! The rules of deny.toml, and how many crates hulkgen may need.
 
+use std::path::Path;
 use std::process::Command;
 
 use serde_json::Value;
@@ -229,4 +230,59 @@ fn no_crate_is_compiled_twice_on_the_way_of_the_first_command() {
         ways.len() > 50 && twice.is_empty(),
         "compiled in more than one way: {twice:#?}"
     );
+}
+
+/// Packages that `cargo publish` may take.
+fn publishable() -> Vec<String> {
+    let packages = packages();
+    let own = packages
+        .iter()
+        .filter(|package| package["source"].is_null() && package["publish"].is_null());
+    own.map(|package| package["name"].as_str().expect("a name").to_owned())
+        .collect()
+}
+
+#[test]
+fn what_is_published_can_be_packaged_in_one_call() {
+    let names = publishable();
+    assert!(
+        names.iter().any(|name| name == "hulkgen") && names.len() > 5,
+        "{names:?}"
+    );
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let target = folder.path().to_str().expect("UTF-8");
+    // It is built by hand before a release (CONTRIBUTING.md), which takes minutes.
+    let mut arguments = vec!["package", "--no-verify", "--allow-dirty", "--offline"];
+    arguments.extend(["--target-dir", target]);
+    for name in &names {
+        arguments.extend(["--package", name]);
+    }
+    cargo(&arguments);
+    let packed = folder.path().join("package");
+    for name in &names {
+        let found = packed.join(format!("{name}-{}.crate", env!("CARGO_PKG_VERSION")));
+        assert!(found.is_file(), "{name} was not packaged");
+    }
+}
+
+#[test]
+fn packages_include_no_file_from_outside() {
+    let names = publishable();
+    for package in packages() {
+        if !names.iter().any(|name| package["name"] == name.as_str()) {
+            continue;
+        }
+        let manifest = package["manifest_path"].as_str().expect("a path");
+        let folder = Path::new(manifest).parent().expect("it is in a folder");
+        let relative = folder.strip_prefix(root()).expect("it is in the workspace");
+        for file in support::sources(&[&format!("{}/src", relative.display())], ".rs") {
+            let levels = Path::new(&file.path).components().count()
+                - relative.components().count()
+                - 1;
+            let outside = format!("\"{}", "../".repeat(levels + 1));
+            let includes = file.text.lines().filter(|line| line.contains("include"));
+            let wrong: Vec<_> = includes.filter(|line| line.contains(&outside)).collect();
+            assert!(wrong.is_empty(), "{}: {wrong:?}", file.path);
+        }
+    }
 }

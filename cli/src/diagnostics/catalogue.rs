@@ -51,7 +51,7 @@ macro_rules! catalogue {
             pub fn page(self) -> &'static str {
                 match self {
                     $(Self::$variant => {
-                        include_str!(concat!("../../../docs/diagnostics/", $name, ".md"))
+                        include_str!(concat!("../../diagnostics/", $name, ".md"))
                     })*
                 }
             }
