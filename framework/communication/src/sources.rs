@@ -52,7 +52,8 @@ struct Reader {
 pub(crate) struct Rate {
     /// Nanoseconds.
     period: u64,
-    due: u64,
+    /// `None` before the first value, which is always due.
+    due: Option<u64>,
 }
 
 impl Rate {
@@ -67,22 +68,24 @@ impl Rate {
                 reason = "it saturates"
             )]
             period: period as u64,
-            due: 0,
+            due: None,
         }
     }
 
     /// Whether a value of this time is to be sent.
     pub(crate) fn is_due(&mut self, time: u64) -> bool {
-        if time < self.due {
+        let due = self.due.unwrap_or(time);
+        if time < due {
             return false;
         }
-        // In step where it can be, so that 83 Hz at a rate of 40 gives 40 and not 27.
-        let next = self.due.saturating_add(self.period);
-        self.due = if next > time {
-            next
+        // In step where it can be, so that 83 Hz at a rate of 40 gives 40 and not 27; but never in less than half the period.
+        let in_step = due.saturating_add(self.period);
+        let next = if in_step > time {
+            in_step.max(time.saturating_add(self.period / 2))
         } else {
             time.saturating_add(self.period)
         };
+        self.due = Some(next);
         true
     }
 }
@@ -364,6 +367,17 @@ mod tests {
         let mut rate = Rate::new(rate);
         let times = (0..1_000_000_000).step_by(usize::try_from(period).expect("small"));
         times.filter(|time| rate.is_due(*time)).count()
+    }
+
+    #[test]
+    fn a_late_value_is_not_followed_at_once() {
+        let mut rate = Rate::new(Some(20.0));
+        let times = [48, 60, 98, 100, 148, 240, 252, 268];
+        let sent: Vec<_> = times
+            .into_iter()
+            .filter(|time| rate.is_due(time * 1_000_000))
+            .collect();
+        assert_eq!(sent, [48, 98, 148, 240, 268]);
     }
 
     #[test]

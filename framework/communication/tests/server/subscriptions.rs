@@ -55,11 +55,11 @@ fn a_rate_is_not_exceeded() {
     let times: Vec<u64> = (0..10)
         .map(|_| client.update(slow)["time"].as_u64().expect("a number"))
         .collect();
-    // In step with 20 Hz: an update may be a cycle late and the next in time.
+    // In step with 20 Hz: where the robot stalls, an update is late and the next in time, but half a period lies between.
     let shortest = times.windows(2).map(|pair| pair[1] - pair[0]).min();
-    assert!(shortest >= Some(50_000_000 - 13_000_000), "{times:?}");
+    assert!(shortest >= Some(25_000_000), "{times:?}");
     assert!(
-        times[9] - times[0] >= 9 * 50_000_000 - 13_000_000,
+        times[9] - times[0] >= 9 * 50_000_000 - 25_000_000,
         "{times:?}"
     );
 }
