@@ -232,9 +232,9 @@ class Robot:
                 self.waiting.append(message)
             elif "error" in answer and answer["id"] in (number, None):
                 failure = answer["error"]
-                lines = [failure["message"]]
-                lines += [f"  {one['path']}: {one['message']}" for one in failure.get("refusals", [])]
-                raise Refused("\n".join(lines))
+                # The message says in one line what is wrong with each.
+                lines = [": ".join(filter(None, (one["path"], one["message"]))) for one in failure.get("refusals", [])]
+                raise Refused("\n".join(lines) or failure["message"])
             elif answer["id"] == number:
                 (good,) = answer["ok"].values()
                 return good

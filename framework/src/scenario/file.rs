@@ -10,6 +10,9 @@ use super::draw::Draw;
 use crate::error::{Error, Result};
 use crate::time::Timestamp;
 
+/// Between two calls of one client.
+const SHORTEST: Duration = Duration::from_millis(1);
+
 /// A scenario as it was written.
 #[derive(Clone, Debug)]
 pub struct Scenario {
@@ -264,8 +267,11 @@ impl Call {
             None => from,
         };
         let every = seconds("every", self.every)?;
-        if every.is_zero() {
-            return Err(Error::new("`every = 0` never ends"));
+        if every < SHORTEST {
+            let every = self.every;
+            return Err(Error::new(format!(
+                "`every = {every}`: a call comes at most once in a millisecond"
+            )));
         }
         let times = std::iter::successors(Some(from), move |at| Some(*at + every));
         Ok(times.take_while(move |at| *at <= until))
@@ -395,6 +401,10 @@ mod tests {
             (
                 format!("ends = 1\npasses = 2\n{ASSERTION}"),
                 "`passes = 2` is no share",
+            ),
+            (
+                format!("ends = 1\n[[call]]\npath = 'a.procedures.b'\nevery = 1e-9\n{ASSERTION}"),
+                "a call comes at most once in a millisecond",
             ),
             (
                 format!("ends = 1\n[[event]]\npush = 1\n{ASSERTION}"),

@@ -25,8 +25,10 @@ pub struct WalkingEngine {
 #[serde(deny_unknown_fields)]
 pub struct Heat {
     /// In °C, of the hottest motor of the legs: from here on steps become shorter.
+    #[reflect(unit = "°C", range = 0.0..)]
     pub shorter_from: f32,
     /// In °C: from here on the robot stands still.
+    #[reflect(unit = "°C", range = 0.0..)]
     pub stops_at: f32,
 }
 

@@ -257,11 +257,19 @@ fn lost(address: &str, reason: &str) -> Refusal {
 }
 
 fn refused(failure: &protocol::Failure, needs_token: bool) -> Refusal {
-    let mut message = failure.message.clone();
-    for refusal in &failure.refusals {
-        message.push_str(&format!("\n  {}: {}", refusal.path, refusal.message));
-    }
-    let refusal = Refusal::bad(message);
+    let each = failure
+        .refusals
+        .iter()
+        .map(|refusal| match refusal.path.as_str() {
+            "" => refusal.message.clone(),
+            path => format!("`{path}`: {}", refusal.message),
+        });
+    let each: Vec<_> = each.collect();
+    // The message says the same in one line.
+    let refusal = Refusal::bad(match each.is_empty() {
+        true => failure.message.clone(),
+        false => each.join("\n  "),
+    });
     if needs_token {
         return refusal.help(format!(
             "writing needs the robot's token: `--token TOKEN`, or {TOKEN} in the environment"

@@ -16,7 +16,9 @@ export interface Listener {
 /** What the robot refused, or what was in the way of an answer. */
 export class Refused extends Error {
   constructor(readonly failure: Failure) {
-    super([failure.message, ...(failure.refusals ?? []).map((one) => `${one.path}: ${one.message}`)].join("\n"));
+    // The message says in one line what is wrong with each.
+    const each = (failure.refusals ?? []).map((one) => (one.path === "" ? one.message : `${one.path}: ${one.message}`));
+    super(each.length > 0 ? each.join("\n") : failure.message);
   }
 }
 
