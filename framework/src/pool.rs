@@ -1,4 +1,4 @@
-//! Large values (images) that are handed on by handle: made once, filled by one owner, read by many.
+//! Large values (images) that are handed on by handle: made once, filled by one owner again and again, read by many.
 //!
 //! ```
 //! use framework::{Leased, Pool};
@@ -11,7 +11,8 @@
 //! let in_a_history = output.clone();
 //! assert_eq!(in_a_history.expect("it was leased")[0], 7);
 //! ```
-//! A value is free again when its last handle is gone. As an output it is an `Option`: absent until something is leased, and
+//! A value is free again when its last handle is gone. A pool has as many values as have had handles at once, and makes no more
+//! of them than it may. As an output it is an `Option`: absent until something is leased, and
 //! absent again, without the handle, when the output is cleared.
 
 use std::fmt;
@@ -21,13 +22,17 @@ use std::sync::Arc;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use crate::clear::Clear;
+use crate::error::NoEvent;
 use crate::foxglove::Form;
 use crate::reflect::{Children, EncodeError, Reflect, Segment, Shape};
 
-/// Values that are filled again and again; none is made after the start.
+/// Values that are filled again and again. It is their owner's alone: a camera has one of its own.
 #[derive(Debug)]
 pub struct Pool<T> {
     values: Vec<Arc<T>>,
+    /// So many it may have.
+    most: usize,
+    make: fn() -> T,
     /// Where the search begins: values are given back in about the order in which they were leased.
     next: usize,
 }
@@ -42,26 +47,49 @@ pub struct Free<'pool, T> {
 pub struct Leased<T>(Arc<T>);
 
 impl<T> Pool<T> {
-    /// A pool of so many values. A slot, a history entry and a reader that holds a value hold one each.
-    pub fn new(count: usize, make: impl FnMut() -> T) -> Self {
-        let values = std::iter::repeat_with(make).take(count).map(Arc::new);
+    /// A pool of at most so many values. A slot, a history entry and a reader that holds a value hold one each; while
+    /// clients watch an output, up to [`WINDOW`](crate::tap::WINDOW) and a few more.
+    pub fn new(most: usize, make: fn() -> T) -> Self {
         Self {
-            values: values.collect(),
+            values: Vec::new(),
+            most,
+            make,
             next: 0,
         }
     }
 
-    /// A value without handles, as it was left; `None` if there are handles of all of them.
-    pub fn free(&mut self) -> Option<Free<'_, T>> {
+    /// A value without handles, as it was left, and the same until it is leased. Only if there are handles of all of them, one
+    /// more is made.
+    ///
+    /// # Errors
+    /// `NoEvent` if there are as many as there may be, and handles of all of them: a camera that gives this to its setup node
+    /// takes the newest image as soon as a handle goes, and those before are counted.
+    pub fn free(&mut self) -> Result<Free<'_, T>, NoEvent> {
         let count = self.values.len();
-        let from_next = (self.next..count).chain(0..self.next);
-        let index = from_next
-            .into_iter()
-            .find(|index| Arc::get_mut(&mut self.values[*index]).is_some())?;
-        self.next = (index + 1) % count;
-        Some(Free {
+        let index = (self.next..count)
+            .chain(0..self.next)
+            .find(|index| Arc::get_mut(&mut self.values[*index]).is_some());
+        let index = match index {
+            Some(index) => index,
+            None if count < self.most => {
+                self.values.push(Arc::new((self.make)()));
+                count
+            }
+            None => {
+                return Err(NoEvent(format!(
+                    "readers hold all {count} values of the pool"
+                )));
+            }
+        };
+        self.next = index;
+        Ok(Free {
             value: &mut self.values[index],
         })
+    }
+
+    /// How many values it has made.
+    pub fn made(&self) -> usize {
+        self.values.len()
     }
 }
 

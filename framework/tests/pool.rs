@@ -33,6 +33,7 @@ proptest! {
     ) {
         let mut pool = Pool::new(count, || 0);
         let mut handles: Vec<(usize, Leased<usize>)> = Vec::new();
+        let mut most_leased = 0;
         for (number, step) in steps.into_iter().enumerate() {
             match step {
                 Step::Fill => {
@@ -41,11 +42,13 @@ proptest! {
                     leased.sort_unstable();
                     leased.dedup();
                     let free = pool.free();
-                    prop_assert_eq!(free.is_some(), leased.len() < count);
-                    if let Some(mut free) = free {
+                    prop_assert_eq!(free.is_ok(), leased.len() < count);
+                    if let Ok(mut free) = free {
                         *free = number;
                         handles.push((number, free.lease()));
+                        most_leased = most_leased.max(leased.len() + 1);
                     }
+                    prop_assert_eq!(pool.made(), most_leased, "no more than had handles at once");
                 }
                 Step::Clone(index) if !handles.is_empty() => {
                     handles.push(handles[index % handles.len()].clone());
@@ -65,9 +68,8 @@ proptest! {
 /// An image goes through a slot to another instance and through a history, and is written and copied nowhere.
 #[test]
 fn images_pass_slots_and_histories_by_handle() {
-    let bytes = 640 * 480 * 2;
     // Three slots, the history's last second and the one before, and the cycle's own.
-    let mut pool = Pool::new(3 + 32 + 1, || vec![0_u8; bytes]);
+    let mut pool = Pool::new(3 + 32 + 1, || vec![0_u8; 640 * 480 * 2]);
     let (mut writer, [mut reader], []) = buffer::<Option<Leased<Vec<u8>>>, 1, 0>([]);
     let mut history = History::new(Duration::from_secs(1));
     let mut allocated = None;
@@ -98,10 +100,22 @@ fn images_pass_slots_and_histories_by_handle() {
 fn a_pool_without_a_free_value_says_so() {
     let mut pool = Pool::new(1, || 7);
     let leased = pool.free().map(|free| free.lease());
-    assert_eq!(leased.as_deref(), Some(&7));
-    assert!(pool.free().is_none());
+    assert_eq!(leased.as_deref(), Ok(&7));
+    let error = framework::Error::from(pool.free().map(|_| ()).unwrap_err());
+    assert!(error.is_no_event(), "a setup node starts over: {error}");
     drop(leased);
-    assert!(pool.free().is_some());
+    assert!(pool.free().is_ok());
+}
+
+#[test]
+fn a_value_that_was_not_leased_comes_again_as_it_was_left() {
+    let mut pool = Pool::new(3, || 0);
+    let first = pool.free().map(|free| free.lease());
+    *pool.free().expect("there are three") = 5;
+    assert_eq!(*pool.free().expect("there are three"), 5);
+    drop(first);
+    assert_eq!(*pool.free().expect("there are three"), 5);
+    assert_eq!(pool.made(), 2);
 }
 
 #[test]

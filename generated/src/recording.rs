@@ -2,6 +2,7 @@
 //!
 //! Written by `hulkgen generate` from hulk.toml and the nodes it names. Do not edit.
 
+use framework::Leased;
 use framework::Result;
 use framework::Timestamp;
 use framework::recorded::describe;
@@ -74,7 +75,7 @@ impl ActuatorInterface for Sink {
 }
 
 impl CameraInterface for Sink {
-    fn read_image(&self, _: CameraPosition, _: &mut YuyvImage) -> Result<Timestamp> {
+    fn read_image(&self, _: CameraPosition) -> Result<(Timestamp, Leased<YuyvImage>)> {
         no_hardware()
     }
 }

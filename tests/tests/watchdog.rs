@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use framework::parameters::Layers;
 use framework::testing::created;
-use framework::{Clock, HardwareContext, Result, Stop, Threads, Timestamp};
+use framework::{Clock, HardwareContext, Leased, Result, Stop, Threads, Timestamp};
 use hardware::{
     ActuatorInterface, CameraInterface, MessageInterface, MicrophoneInterface, NetworkInterface,
     SensorInterface, SpeakerInterface,
@@ -71,8 +71,8 @@ impl SensorInterface for Blocking {
 }
 
 impl CameraInterface for Blocking {
-    fn read_image(&self, position: CameraPosition, image: &mut YuyvImage) -> Result<Timestamp> {
-        self.inner.read_image(position, image)
+    fn read_image(&self, position: CameraPosition) -> Result<(Timestamp, Leased<YuyvImage>)> {
+        self.inner.read_image(position)
     }
 }
 

@@ -131,17 +131,19 @@ impl Nodes {
         self.cycle(frame)
     }
 
-    /// image, image_segments, field_border, lines, penalty_mark, camera_matrix (required),
-    /// field_color -> balls; when subscribed: ball_candidates, ball_proposals
+    /// image (required), image_segments, field_border, lines, penalty_mark, camera_matrix
+    /// (required), field_color -> balls; when subscribed: ball_candidates, ball_proposals
     #[inline(always)]
     fn ball_detection<Hardware>(
         &mut self,
         frame: &mut Frame<'_, Hardware>,
     ) -> Result<()> {
         Clear::clear(&mut frame.shared.balls);
-        if let Some(camera_matrix) = frame.own.camera_matrix.as_ref() {
+        if let Some(image) = frame.own.image.as_ref()
+            && let Some(camera_matrix) = frame.own.camera_matrix.as_ref()
+        {
             let context = ball_detection::CycleContext {
-                image: &frame.own.image,
+                image,
                 image_segments: &frame.own.image_segments,
                 field_border: &frame.own.field_border,
                 lines: &frame.shared.lines,
@@ -221,23 +223,29 @@ impl Nodes {
         Ok(())
     }
 
-    /// image, camera_matrix, limb_mask -> field_color
+    /// image (required), camera_matrix, limb_mask -> field_color
     #[inline(always)]
     fn field_color_detection<Hardware>(
         &mut self,
         frame: &mut Frame<'_, Hardware>,
     ) -> Result<()> {
-        let context = field_color_detection::CycleContext {
-            image: &frame.own.image,
-            camera_matrix: frame.own.camera_matrix.as_ref(),
-            limb_mask: &frame.own.limb_mask,
-            initial: &frame.parameters.field_color,
-            parameters: &frame.parameters.field_color_detection,
-        };
-        let outputs = self
-            .field_color_detection
-            .call(&frame.cycle, |node| node.cycle(context))?;
-        frame.own.field_color = outputs.field_color.value;
+        if let Some(image) = frame.own.image.as_ref() {
+            let context = field_color_detection::CycleContext {
+                image,
+                camera_matrix: frame.own.camera_matrix.as_ref(),
+                limb_mask: &frame.own.limb_mask,
+                initial: &frame.parameters.field_color,
+                parameters: &frame.parameters.field_color_detection,
+            };
+            let outputs = self
+                .field_color_detection
+                .call(&frame.cycle, |node| node.cycle(context))?;
+            frame.own.field_color = outputs.field_color.value;
+        } else {
+            // A required input is absent: the main outputs take their defaults.
+            self.field_color_detection.skip();
+            frame.own.field_color = Default::default();
+        }
         if let Some(injections) = frame.injections {
             injections.field_color.replace(&mut frame.own.field_color);
         }
@@ -250,78 +258,89 @@ impl Nodes {
         &mut self,
         frame: &mut Frame<'_, impl CameraInterface>,
     ) -> Result<()> {
-        Clear::clear(&mut frame.own.image);
         let context = image_receiver::CycleContext {
             camera_position: &frame.instance_parameters.camera_position,
             hardware_interface: frame.hardware_interface,
-            image: &mut frame.own.image,
         };
         let outputs = self
             .image_receiver
             .call(&frame.cycle, |node| node.cycle(context))?;
+        frame.own.image = outputs.image.value;
         *frame.capture_time = Some(outputs.captured_at.0);
         Ok(())
     }
 
-    /// image, camera_matrix, limb_mask, field_color -> image_segments
+    /// image (required), camera_matrix, limb_mask, field_color -> image_segments
     #[inline(always)]
     fn image_segmenter<Hardware>(
         &mut self,
         frame: &mut Frame<'_, Hardware>,
     ) -> Result<()> {
         Clear::clear(&mut frame.own.image_segments);
-        let context = image_segmenter::CycleContext {
-            image: &frame.own.image,
-            camera_matrix: frame.own.camera_matrix.as_ref(),
-            limb_mask: &frame.own.limb_mask,
-            field_color: &frame.own.field_color,
-            steps: &frame.instance_parameters.scan_steps,
-            image_segments: &mut frame.own.image_segments,
-        };
-        self.image_segmenter.call(&frame.cycle, |node| node.cycle(context))?;
+        if let Some(image) = frame.own.image.as_ref() {
+            let context = image_segmenter::CycleContext {
+                image,
+                camera_matrix: frame.own.camera_matrix.as_ref(),
+                limb_mask: &frame.own.limb_mask,
+                field_color: &frame.own.field_color,
+                steps: &frame.instance_parameters.scan_steps,
+                image_segments: &mut frame.own.image_segments,
+            };
+            self.image_segmenter.call(&frame.cycle, |node| node.cycle(context))?;
+        } else {
+            // A required input is absent: the main outputs take their defaults.
+            self.image_segmenter.skip();
+        }
         if let Some(injections) = frame.injections {
             injections.image_segments.replace(&mut frame.own.image_segments);
         }
         Ok(())
     }
 
-    /// image, latest Control.robot_kinematics -> limb_mask
+    /// image (required), latest Control.robot_kinematics -> limb_mask
     #[inline(always)]
     fn limb_projector<Hardware>(
         &mut self,
         frame: &mut Frame<'_, Hardware>,
     ) -> Result<()> {
         Clear::clear(&mut frame.own.limb_mask);
-        let context = limb_projector::CycleContext {
-            image: &frame.own.image,
-            robot_kinematics: frame
-                .latest
-                .control
-                .latest(frame.cycle.time.start, |outputs| &outputs.robot_kinematics),
-            camera_position: &frame.instance_parameters.camera_position,
-            top: &frame.parameters.cameras.top,
-            bottom: &frame.parameters.cameras.bottom,
-            parameters: &frame.parameters.limb_projector,
-            limb_mask: &mut frame.own.limb_mask,
-        };
-        self.limb_projector.call(&frame.cycle, |node| node.cycle(context))?;
+        if let Some(image) = frame.own.image.as_ref() {
+            let context = limb_projector::CycleContext {
+                image,
+                robot_kinematics: frame
+                    .latest
+                    .control
+                    .latest(frame.cycle.time.start, |outputs| &outputs.robot_kinematics),
+                camera_position: &frame.instance_parameters.camera_position,
+                top: &frame.parameters.cameras.top,
+                bottom: &frame.parameters.cameras.bottom,
+                parameters: &frame.parameters.limb_projector,
+                limb_mask: &mut frame.own.limb_mask,
+            };
+            self.limb_projector.call(&frame.cycle, |node| node.cycle(context))?;
+        } else {
+            // A required input is absent: the main outputs take their defaults.
+            self.limb_projector.skip();
+        }
         if let Some(injections) = frame.injections {
             injections.limb_mask.replace(&mut frame.own.limb_mask);
         }
         Ok(())
     }
 
-    /// image, image_segments, limb_mask, field_border, camera_matrix (required), field_color ->
-    /// lines; when subscribed: line_points, image_lines
+    /// image (required), image_segments, limb_mask, field_border, camera_matrix (required),
+    /// field_color -> lines; when subscribed: line_points, image_lines
     #[inline(always)]
     fn line_detection<Hardware>(
         &mut self,
         frame: &mut Frame<'_, Hardware>,
     ) -> Result<()> {
         Clear::clear(&mut frame.shared.lines);
-        if let Some(camera_matrix) = frame.own.camera_matrix.as_ref() {
+        if let Some(image) = frame.own.image.as_ref()
+            && let Some(camera_matrix) = frame.own.camera_matrix.as_ref()
+        {
             let context = line_detection::CycleContext {
-                image: &frame.own.image,
+                image,
                 image_segments: &frame.own.image_segments,
                 limb_mask: &frame.own.limb_mask,
                 field_border: &frame.own.field_border,
@@ -388,16 +407,18 @@ impl Nodes {
         Ok(())
     }
 
-    /// image, image_segments, field_border, lines, camera_matrix (required), field_color ->
-    /// penalty_mark; when subscribed: penalty_mark_candidates
+    /// image (required), image_segments, field_border, lines, camera_matrix (required),
+    /// field_color -> penalty_mark; when subscribed: penalty_mark_candidates
     #[inline(always)]
     fn penalty_mark_detection<Hardware>(
         &mut self,
         frame: &mut Frame<'_, Hardware>,
     ) -> Result<()> {
-        if let Some(camera_matrix) = frame.own.camera_matrix.as_ref() {
+        if let Some(image) = frame.own.image.as_ref()
+            && let Some(camera_matrix) = frame.own.camera_matrix.as_ref()
+        {
             let context = penalty_mark_detection::CycleContext {
-                image: &frame.own.image,
+                image,
                 image_segments: &frame.own.image_segments,
                 field_border: &frame.own.field_border,
                 lines: &frame.shared.lines,

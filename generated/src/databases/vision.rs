@@ -12,6 +12,7 @@ use framework::InjectionTable;
 use framework::Reflect;
 use framework::Timestamp;
 use framework::View;
+use framework::pool::Leased;
 use nalgebra::Point2;
 use serde::Deserialize;
 use serde::Serialize;
@@ -41,7 +42,7 @@ pub struct OwnOutputs {
     /// vision::field_color_detection
     pub field_color: FieldColor,
     /// vision::image_receiver
-    pub image: YuyvImage,
+    pub image: Option<Leased<YuyvImage>>,
     /// vision::image_segmenter
     pub image_segments: ImageSegments,
     /// vision::limb_projector
@@ -99,7 +100,7 @@ pub struct Injections {
     pub camera_matrix: Injection<Option<CameraMatrix>>,
     pub field_border: Injection<FieldBorder>,
     pub field_color: Injection<FieldColor>,
-    pub image: Injection<YuyvImage>,
+    pub image: Injection<Option<Leased<YuyvImage>>>,
     pub image_segments: Injection<ImageSegments>,
     pub limb_mask: Injection<LimbMask>,
     pub lines: Injection<Vec<LineSegment>>,

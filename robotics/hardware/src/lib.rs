@@ -3,7 +3,7 @@
 //! A hardware crate implements those that its platform has; the generated code asks for the ones
 //! that the nodes name. `read_…` belongs to setup nodes, since a recording keeps what they returned.
 
-use framework::{Result, Timestamp};
+use framework::{Leased, Result, Timestamp};
 use types::audio::{AudioBlock, Tone};
 use types::camera::CameraPosition;
 use types::image::YuyvImage;
@@ -11,6 +11,10 @@ use types::leds::Leds;
 use types::motor_commands::MotorCommands;
 use types::network::{Datagram, Endpoint};
 use types::sensor_data::SensorData;
+
+/// So many images of a camera may be held at once, 39 MB of 640 by 480 pixels: nodes have one, the framework keeps two dozen of them for
+/// clients that watch.
+pub const MOST_IMAGES: usize = 64;
 
 /// Reads the sensors of the body.
 pub trait SensorInterface {
@@ -36,13 +40,13 @@ pub trait ActuatorInterface {
 
 /// Reads the cameras of the head.
 pub trait CameraInterface {
-    /// Waits for the next image of one camera, writes it into `image`, and says when it was taken.
+    /// Waits for the next image of one camera and says when it was taken.
     ///
-    /// `image` keeps its heap, so that nothing is allocated once it has had its size.
+    /// Leased from a pool of the camera, which has [`MOST_IMAGES`] at most: in the steady state nothing is allocated.
     ///
     /// # Errors
-    /// `Stopped` within 100 ms of a stop; `NoEvent` where no image came or it was garbled: ask again.
-    fn read_image(&self, position: CameraPosition, image: &mut YuyvImage) -> Result<Timestamp>;
+    /// `Stopped` within 100 ms of a stop; `NoEvent` where no image came, it was garbled, or readers hold all of them: ask again.
+    fn read_image(&self, position: CameraPosition) -> Result<(Timestamp, Leased<YuyvImage>)>;
 }
 
 /// Reads the microphones of the head.

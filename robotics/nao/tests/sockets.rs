@@ -14,7 +14,6 @@ use simulated_nao::Simulator;
 use simulated_nao::settings::{PhysicsChoice, Settings};
 use types::audio::AudioBlock;
 use types::camera::CameraPosition;
-use types::image::YuyvImage;
 use types::joints::Joints;
 use types::leds::Leds;
 use types::motor_commands::MotorCommands;
@@ -112,14 +111,16 @@ fn sensors_images_and_sound_come_and_say_when() {
     let other = until(|| hardware.read_sensors()).0;
     assert!(one < other);
     for position in [CameraPosition::Top, CameraPosition::Bottom] {
-        let mut image = YuyvImage::default();
-        let first = until(|| hardware.read_image(position, &mut image));
+        let (first, image) = until(|| hardware.read_image(position));
         assert_eq!((image.width, image.height), (640, 480));
-        let heap = image.data.as_ptr();
-        let second = until(|| hardware.read_image(position, &mut image));
-        assert!(first < second);
-        assert_eq!(image.data.as_ptr(), heap, "nothing is allocated again");
         assert!(image.data.iter().any(|byte| *byte != image.data[0]));
+        let heap = image.data.as_ptr();
+        let (second, held) = until(|| hardware.read_image(position));
+        assert!(first < second);
+        assert_ne!(held.data.as_ptr(), heap, "a reader has it");
+        drop(image);
+        let (_, image) = until(|| hardware.read_image(position));
+        assert_eq!(image.data.as_ptr(), heap, "nothing is allocated again");
     }
     let mut block = AudioBlock::default();
     let heard_at = until(|| hardware.read_audio(&mut block));
@@ -136,8 +137,7 @@ fn a_body_that_was_started_again_is_found_again() {
     let simulator = serve(&path);
     let stop = Stop::new();
     let hardware = connect(&path, &["--no-sound"], &stop);
-    let mut image = YuyvImage::default();
-    until(|| hardware.read_image(CameraPosition::Top, &mut image));
+    until(|| hardware.read_image(CameraPosition::Top));
     drop(simulator);
     let begun = Instant::now();
     while hardware.read_sensors().is_ok() {
@@ -145,7 +145,7 @@ fn a_body_that_was_started_again_is_found_again() {
     }
     let simulator = serve(&path);
     until(|| hardware.read_sensors());
-    until(|| hardware.read_image(CameraPosition::Top, &mut image));
+    until(|| hardware.read_image(CameraPosition::Top));
     let motors = MotorCommands::holding(Joints::filled(0.1), 1.0);
     let begun = Instant::now();
     while simulator.exchange().commands == 0 {

@@ -13,8 +13,10 @@ use std::net::SocketAddr;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use framework::{Clock, Error, Event, HardwareContext, NoEvent, Result, Stop, Timestamp, blocking};
-use hardware::{ActuatorInterface, CameraInterface, SensorInterface};
+use framework::{
+    Clock, Error, Event, HardwareContext, Leased, NoEvent, Pool, Result, Stop, Timestamp, blocking,
+};
+use hardware::{ActuatorInterface, CameraInterface, MOST_IMAGES, SensorInterface};
 use links::sockets::RobotSockets;
 use lola::{Client, Safety};
 use types::camera::CameraPosition;
@@ -27,6 +29,7 @@ use crate::camera::{self, Exposure};
 use crate::field::Field;
 use crate::photograph::{self, Photograph};
 use crate::settings::Settings;
+use crate::simulation::PerCamera;
 use crate::simulator::{Shared, Simulator};
 use crate::stage::Stage;
 
@@ -44,6 +47,7 @@ pub struct Hardware {
     /// Parameters that follow from who it is in a scenario.
     player: Vec<(String, String)>,
     field: Arc<Field>,
+    images: PerCamera<Mutex<Pool<YuyvImage>>>,
     /// In place of what the cameras would see; nothing else happens then.
     photograph: Option<Photograph>,
     sockets: Arc<RobotSockets>,
@@ -236,6 +240,7 @@ impl Hardware {
             ],
             player: settings.player_parameters(),
             field,
+            images: PerCamera::each(|| Mutex::new(Pool::new(MOST_IMAGES, YuyvImage::default))),
             photograph: None,
             sockets,
             return_port,
@@ -273,21 +278,24 @@ impl ActuatorInterface for Hardware {
 }
 
 impl CameraInterface for Hardware {
-    fn read_image(&self, position: CameraPosition, image: &mut YuyvImage) -> Result<Timestamp> {
+    fn read_image(&self, position: CameraPosition) -> Result<(Timestamp, Leased<YuyvImage>)> {
         if let Some(photograph) = &self.photograph {
-            return photograph.read(position, image);
+            return photograph.read(position);
         }
         // Drawing stands for the camera's own work, so it counts as waiting for the hardware.
         blocking(|| {
             let exposure = self.next_exposure(position)?;
-            camera::render(&exposure, &self.field, image);
+            let mut images = lock(self.images.of(position));
+            let mut image = images.free()?;
+            camera::render(&exposure, &self.field, &mut image);
             self.clock.wait_until(exposure.ready_at, &self.stop)?;
             let garble = std::mem::take(self.shared.lock().garble_image.of_mut(position));
             if garble {
-                image.data.truncate(image.data.len() / 2);
+                let half = image.data.len() / 2;
+                image.data.truncate(half);
             }
             if image.is_complete() {
-                Ok(exposure.captured_at)
+                Ok((exposure.captured_at, image.lease()))
             } else {
                 Err(NoEvent(format!("the image of camera {position:?} is garbled")).into())
             }
@@ -350,7 +358,7 @@ fn let_down(safety: &mut Safety, client: &Client, now: Timestamp) {
     }
 }
 
-fn lock(safety: &Mutex<Safety>) -> MutexGuard<'_, Safety> {
-    // Nothing in it can be half done.
-    safety.lock().unwrap_or_else(PoisonError::into_inner)
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    // No safety can be half done, and an image that is half drawn is not leased.
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use framework::tool::{Bench, Trial};
-use framework::{Clock, Error, Event, HardwareContext, Result, Timestamp};
+use framework::{Clock, Error, Event, HardwareContext, Leased, Result, Timestamp};
 use nalgebra::Vector2;
 use types::camera::{CameraMatrix, CameraPosition, Intrinsics};
 use types::image::YuyvImage;
@@ -27,7 +27,7 @@ const TAKEN_AT: Timestamp = Timestamp::from_nanos(100_000_000);
 pub(crate) struct Photograph {
     instance: &'static str,
     camera: CameraPosition,
-    image: YuyvImage,
+    image: Leased<YuyvImage>,
     is_told: AtomicBool,
 }
 
@@ -42,15 +42,14 @@ impl Photograph {
     }
 
     /// Gives the image, if it is of that camera.
-    pub(crate) fn read(&self, camera: CameraPosition, image: &mut YuyvImage) -> Result<Timestamp> {
+    pub(crate) fn read(&self, camera: CameraPosition) -> Result<(Timestamp, Leased<YuyvImage>)> {
         if camera != self.camera {
             return Err(Error::new(format!(
                 "the photograph is of camera {:?}",
                 self.camera
             )));
         }
-        image.clone_from(&self.image);
-        Ok(TAKEN_AT)
+        Ok((TAKEN_AT, self.image.clone()))
     }
 }
 
@@ -77,7 +76,7 @@ pub(crate) fn look(
         let photograph = Photograph {
             instance: arguments.instance,
             camera: arguments.camera,
-            image,
+            image: Leased::of(image),
             is_told: AtomicBool::new(false),
         };
         let clock = Clock::stepped();

@@ -44,6 +44,13 @@ pub(crate) struct PerCamera<T> {
 }
 
 impl<T> PerCamera<T> {
+    pub(crate) fn each(make: impl Fn() -> T) -> Self {
+        Self {
+            top: make(),
+            bottom: make(),
+        }
+    }
+
     pub(crate) fn of(&self, camera: CameraPosition) -> &T {
         match camera {
             CameraPosition::Top => &self.top,

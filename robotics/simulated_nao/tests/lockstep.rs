@@ -13,7 +13,6 @@ use simulated_nao::{Hardware, Received};
 use spl_messages::{ReturnData, return_data, team_message};
 use types::audio::{AudioBlock, Tone};
 use types::camera::CameraPosition;
-use types::image::YuyvImage;
 use types::joints::Joints;
 use types::leds::{Color, Leds};
 use types::motor_commands::MotorCommands;
@@ -208,7 +207,7 @@ fn unknown_keys_and_options_are_named() {
 fn nothing_is_read_before_it_is_there() {
     let hardware = create(&[], "").unwrap();
     assert!(hardware.read_sensors().unwrap_err().is_no_event());
-    let image = hardware.read_image(CameraPosition::Top, &mut YuyvImage::default());
+    let image = hardware.read_image(CameraPosition::Top);
     assert!(image.unwrap_err().is_no_event());
     let datagram = hardware.read_datagram(&mut Datagram::default());
     assert!(datagram.unwrap_err().is_no_event());

@@ -1,15 +1,16 @@
 //! The simulated NAO with the wall clock.
 
+use std::collections::BTreeSet;
 use std::time::{Duration, Instant};
 
 use framework::{Clock, Hardware as _, HardwareContext, Stop};
 use hardware::{
-    ActuatorInterface, CameraInterface, MicrophoneInterface, NetworkInterface, SensorInterface,
+    ActuatorInterface, CameraInterface, MOST_IMAGES, MicrophoneInterface, NetworkInterface,
+    SensorInterface,
 };
 use simulated_nao::Hardware;
 use types::audio::AudioBlock;
 use types::camera::CameraPosition;
-use types::image::YuyvImage;
 use types::joints::Joints;
 use types::leds::Leds;
 use types::motor_commands::MotorCommands;
@@ -94,12 +95,9 @@ fn blocks_of_sound_come_one_after_the_other() {
 #[test]
 fn images_are_those_of_their_exposures() {
     let hardware = create(&Stop::new());
-    let mut image = YuyvImage::default();
     let mut last = None;
     for _ in 0..5 {
-        let captured_at = hardware
-            .read_image(CameraPosition::Bottom, &mut image)
-            .unwrap();
+        let (captured_at, image) = hardware.read_image(CameraPosition::Bottom).unwrap();
         assert!(last < Some(captured_at));
         last = Some(captured_at);
         assert_eq!((image.width, image.height), (640, 480));
@@ -110,6 +108,31 @@ fn images_are_those_of_their_exposures() {
                 .is_some()
         );
     }
+}
+
+#[test]
+fn images_that_nobody_holds_are_drawn_where_others_were() {
+    let hardware = create(&Stop::new());
+    let read = || hardware.read_image(CameraPosition::Top).unwrap().1;
+    let held = read();
+    let pixels = held.data.clone();
+    let places: BTreeSet<_> = (0..5).map(|_| read().data.as_ptr()).collect();
+    assert_eq!(places.len(), 1, "who holds none needs one");
+    assert!(!places.contains(&held.data.as_ptr()));
+    assert_eq!(held.data, pixels, "what is held stays as it was");
+}
+
+#[test]
+fn a_reader_that_holds_all_images_gets_the_newest_once_it_lets_one_go() {
+    let hardware = create(&Stop::new());
+    let read = || hardware.read_image(CameraPosition::Top);
+    let mut held: Vec<_> = (0..MOST_IMAGES).map(|_| read().unwrap()).collect();
+    let error = read().unwrap_err();
+    assert!(error.is_no_event(), "{error}");
+    assert!(hardware.read_image(CameraPosition::Bottom).is_ok());
+    let last = held.pop().map(|(captured_at, _)| captured_at);
+    assert!(Some(read().unwrap().0) > last);
+    assert!(read().is_ok(), "it was not held");
 }
 
 #[test]
@@ -134,9 +157,7 @@ fn a_stop_ends_blocked_reads() {
             }),
             scope.spawn(|| {
                 loop {
-                    if let Err(error) =
-                        hardware.read_image(CameraPosition::Top, &mut YuyvImage::default())
-                    {
+                    if let Err(error) = hardware.read_image(CameraPosition::Top) {
                         break error;
                     }
                 }
@@ -165,12 +186,9 @@ fn a_stop_ends_blocked_reads() {
 fn garbled_data_is_no_event() {
     let hardware = create(&Stop::new());
     hardware.garble_next_image(CameraPosition::Top);
-    let mut image = YuyvImage::default();
-    let error = hardware
-        .read_image(CameraPosition::Top, &mut image)
-        .unwrap_err();
+    let error = hardware.read_image(CameraPosition::Top).unwrap_err();
     assert!(error.is_no_event(), "{error}");
-    assert!(hardware.read_image(CameraPosition::Top, &mut image).is_ok());
+    assert!(hardware.read_image(CameraPosition::Top).is_ok());
     hardware.garble_next_state();
     let read = (0..20)
         .filter_map(|_| hardware.read_sensors().err())

@@ -14,7 +14,8 @@ mod network;
 mod view;
 
 use framework::{
-    AdditionalOutput, Clear, Input, MainOutput, Parameter, Reflect, RequiredInput, Result, context,
+    AdditionalOutput, Clear, Input, Leased, MainOutput, Parameter, Reflect, RequiredInput, Result,
+    context,
 };
 use nalgebra::Point2;
 use serde::{Deserialize, Serialize};
@@ -114,7 +115,7 @@ pub struct CreationContext {}
 
 #[context]
 pub struct CycleContext {
-    image: Input<YuyvImage, "image">,
+    image: RequiredInput<Option<Leased<YuyvImage>>, "image?">,
     image_segments: Input<ImageSegments, "image_segments">,
     field_border: Input<FieldBorder, "field_border">,
     lines: Input<Vec<LineSegment>, "lines">,
@@ -337,7 +338,7 @@ mod tests {
         BallDetection::new(CreationContext {})
             .unwrap()
             .cycle(CycleContext {
-                image,
+                image: &Leased::of(image.clone()),
                 image_segments: &image_segments,
                 field_border,
                 lines: &Vec::new(),

@@ -4,7 +4,7 @@
 //! counts as field then lies around it, as far as half of the way to what has no colour.
 
 use framework::context;
-use framework::{Input, MainOutput, Parameter, Reflect, Result};
+use framework::{Input, Leased, MainOutput, Parameter, Reflect, RequiredInput, Result};
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 use types::camera::CameraMatrix;
@@ -58,7 +58,7 @@ pub struct CreationContext {}
 
 #[context]
 pub struct CycleContext {
-    image: Input<YuyvImage, "image">,
+    image: RequiredInput<Option<Leased<YuyvImage>>, "image?">,
     camera_matrix: Input<Option<CameraMatrix>, "camera_matrix?">,
     limb_mask: Input<LimbMask, "limb_mask">,
     /// As long as no carpet was seen.
@@ -176,7 +176,7 @@ mod tests {
              green_limit = 0.5, margin = 0.13 }",
         );
         let outputs = node.cycle(CycleContext {
-            image,
+            image: &Leased::of(image.clone()),
             camera_matrix: Some(&camera_matrix(0.4)),
             limb_mask: &LimbMask::default(),
             initial: &field_color(),

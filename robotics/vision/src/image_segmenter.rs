@@ -3,7 +3,7 @@
 //! Only below the horizon and down to the robot's own limbs, and only at every few pixels: what is
 //! smaller is too far away to matter.
 
-use framework::{Input, MainOutput, Parameter, Reflect, Result, context};
+use framework::{Input, Leased, MainOutput, Parameter, Reflect, RequiredInput, Result, context};
 use serde::{Deserialize, Serialize};
 use types::camera::CameraMatrix;
 use types::image::YuyvImage;
@@ -31,7 +31,7 @@ pub struct CreationContext {}
 
 #[context]
 pub struct CycleContext {
-    image: Input<YuyvImage, "image">,
+    image: RequiredInput<Option<Leased<YuyvImage>>, "image?">,
     camera_matrix: Input<Option<CameraMatrix>, "camera_matrix?">,
     limb_mask: Input<LimbMask, "limb_mask">,
     field_color: Input<FieldColor, "field_color">,
@@ -180,7 +180,7 @@ mod tests {
         ImageSegmenter::new(CreationContext {})
             .unwrap()
             .cycle(CycleContext {
-                image,
+                image: &Leased::of(image.clone()),
                 camera_matrix,
                 limb_mask,
                 field_color: &field_color(),

@@ -6,7 +6,9 @@
 mod outline;
 mod parts;
 
-use framework::{Input, LatestInput, MainOutput, Parameter, Reflect, Result, context};
+use framework::{
+    LatestInput, Leased, MainOutput, Parameter, Reflect, RequiredInput, Result, context,
+};
 use kinematics::cameras::optical_to_head;
 use serde::{Deserialize, Serialize};
 use types::camera::{CameraCalibration, CameraPosition};
@@ -50,7 +52,7 @@ pub struct CreationContext {}
 
 #[context]
 pub struct CycleContext {
-    image: Input<YuyvImage, "image">,
+    image: RequiredInput<Option<Leased<YuyvImage>>, "image?">,
     robot_kinematics: LatestInput<RobotKinematics, "Control", "robot_kinematics">,
     camera_position: Parameter<CameraPosition, "$cycler_instance.camera_position">,
     top: Parameter<CameraCalibration, "cameras.top">,
@@ -136,7 +138,7 @@ mod tests {
         LimbProjector::new(CreationContext {})
             .unwrap()
             .cycle(CycleContext {
-                image: &YuyvImage::new(640, 480),
+                image: &Leased::of(YuyvImage::new(640, 480)),
                 robot_kinematics: kinematics
                     .and_then(|value| latest(at_millis(5), value, at_millis(9))),
                 camera_position: &camera,

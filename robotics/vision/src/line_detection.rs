@@ -9,7 +9,7 @@ mod points;
 mod rows;
 
 use framework::{
-    AdditionalOutput, Input, MainOutput, Parameter, Reflect, RequiredInput, Result, context,
+    AdditionalOutput, Input, Leased, MainOutput, Parameter, Reflect, RequiredInput, Result, context,
 };
 use nalgebra::Point2;
 use serde::{Deserialize, Serialize};
@@ -77,7 +77,7 @@ pub struct CreationContext {}
 
 #[context]
 pub struct CycleContext {
-    image: Input<YuyvImage, "image">,
+    image: RequiredInput<Option<Leased<YuyvImage>>, "image?">,
     image_segments: Input<ImageSegments, "image_segments">,
     limb_mask: Input<LimbMask, "limb_mask">,
     field_border: Input<FieldBorder, "field_border">,
@@ -182,7 +182,7 @@ mod tests {
         LineDetection::new(CreationContext {})
             .unwrap()
             .cycle(CycleContext {
-                image,
+                image: &Leased::of(image.clone()),
                 image_segments: &painting::segments(image, &matrix),
                 limb_mask,
                 field_border: &FieldBorder::default(),

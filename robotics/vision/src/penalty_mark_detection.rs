@@ -4,7 +4,9 @@
 //! field around it. Balls and feet rise from the ground: seen as if flat they are much longer.
 
 use framework::context;
-use framework::{AdditionalOutput, Input, MainOutput, Parameter, Reflect, RequiredInput, Result};
+use framework::{
+    AdditionalOutput, Input, Leased, MainOutput, Parameter, Reflect, RequiredInput, Result,
+};
 use nalgebra::{Matrix2, Point2, Vector2};
 use serde::{Deserialize, Serialize};
 use types::camera::CameraMatrix;
@@ -48,7 +50,7 @@ pub struct CreationContext {}
 
 #[context]
 pub struct CycleContext {
-    image: Input<YuyvImage, "image">,
+    image: RequiredInput<Option<Leased<YuyvImage>>, "image?">,
     image_segments: Input<ImageSegments, "image_segments">,
     field_border: Input<FieldBorder, "field_border">,
     lines: Input<Vec<LineSegment>, "lines">,
@@ -292,7 +294,7 @@ mod tests {
         let outputs = PenaltyMarkDetection::new(CreationContext {})
             .unwrap()
             .cycle(CycleContext {
-                image,
+                image: &Leased::of(image.clone()),
                 image_segments: &painting::segments(image, &matrix),
                 field_border: border,
                 lines,

@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use framework::testing::{AdditionalProbe, ParameterFile};
-use framework::{Timestamp, testing};
+use framework::{Leased, Timestamp, testing};
 use kinematics::cameras::{
     FOCAL_LENGTH, IMAGE_SIZE, OPTICAL_CENTER, camera_to_head, optical_to_camera,
 };
@@ -59,7 +59,7 @@ pub(crate) struct Sight {
 pub(crate) struct Vision {
     parameters: ParameterFile,
     field: Field,
-    image: YuyvImage,
+    image: Leased<YuyvImage>,
     limb_projector: LimbProjector,
     segmenter: ImageSegmenter,
     border: FieldBorderDetection,
@@ -79,7 +79,7 @@ impl Vision {
         Self {
             parameters: ParameterFile::new(parameters),
             field: Field::default(),
-            image: YuyvImage::default(),
+            image: Leased::of(YuyvImage::default()),
             limb_projector: LimbProjector::new(limb_projector::CreationContext {}).unwrap(),
             segmenter: ImageSegmenter::new(image_segmenter::CreationContext {}).unwrap(),
             border: FieldBorderDetection::new(field_border::CreationContext {}).unwrap(),
@@ -94,7 +94,9 @@ impl Vision {
 
     /// What the nodes find in the image of this exposure, one after the other as in the robot.
     pub(crate) fn see(&mut self, look: &Look, exposure: &Exposure) -> Sight {
-        render(exposure, &self.field, &mut self.image);
+        let mut image = YuyvImage::default();
+        render(exposure, &self.field, &mut image);
+        self.image = Leased::of(image);
         let matrix = ImageTruth::from(exposure).camera_matrix;
         let begun = processor_time();
         let limb_mask = self.limb_mask(look);
