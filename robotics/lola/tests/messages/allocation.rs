@@ -1,39 +1,18 @@
 //! Reading and writing messages takes no heap once the buffers have their size.
 
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::cell::Cell;
+use framework::CountingAllocator;
 
 use crate::wire::{sample_command, sample_state};
 use lola::{Command, command, state};
 
-thread_local! {
-    static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
-}
-
-struct Counting;
-
-#[expect(unsafe_code, reason = "counting allocations takes an allocator")]
-// SAFETY: every call goes to the system's allocator unchanged.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        ALLOCATIONS.set(ALLOCATIONS.get() + 1);
-        // SAFETY: the caller's promises are passed on.
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        // SAFETY: the caller's promises are passed on.
-        unsafe { System.dealloc(pointer, layout) }
-    }
-}
-
 #[global_allocator]
-static ALLOCATOR: Counting = Counting;
+static ALLOCATOR: CountingAllocator = CountingAllocator;
 
-fn allocations(work: impl FnOnce()) -> usize {
-    let before = ALLOCATIONS.get();
+fn allocations(work: impl FnOnce()) -> u64 {
+    let so_far = || CountingAllocator::of_this_thread().expect("it is installed");
+    let before = so_far();
     work();
-    ALLOCATIONS.get() - before
+    so_far() - before
 }
 
 #[test]
