@@ -276,9 +276,8 @@ fn packages_include_no_file_from_outside() {
         let folder = Path::new(manifest).parent().expect("it is in a folder");
         let relative = folder.strip_prefix(root()).expect("it is in the workspace");
         for file in support::sources(&[&format!("{}/src", relative.display())], ".rs") {
-            let levels = Path::new(&file.path).components().count()
-                - relative.components().count()
-                - 1;
+            let levels =
+                Path::new(&file.path).components().count() - relative.components().count() - 1;
             let outside = format!("\"{}", "../".repeat(levels + 1));
             let includes = file.text.lines().filter(|line| line.contains("include"));
             let wrong: Vec<_> = includes.filter(|line| line.contains(&outside)).collect();
