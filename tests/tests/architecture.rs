@@ -7,10 +7,26 @@ use syn::spanned::Spanned as _;
 use syn::visit::Visit;
 
 /// Folders with code written by hand.
-const HAND_WRITTEN: &[&str] = &["cli", "framework", "robotics", "schema", "templates", "web"];
+const HAND_WRITTEN: &[&str] = &[
+    "cli",
+    "docs/examples/rover/nodes",
+    "docs/examples/rover/simulation",
+    "docs/examples/sprinkler/garden",
+    "docs/examples/sprinkler/nodes",
+    "docs/examples/timing/hardware",
+    "docs/examples/timing/nodes",
+    "framework",
+    "robotics",
+    "schema",
+    "templates",
+    "web",
+];
 
 /// Crates that hulkgen wrote.
 const GENERATED: &[&str] = &[
+    "docs/examples/rover/generated",
+    "docs/examples/sprinkler/generated",
+    "docs/examples/timing/generated",
     "generated",
     "tests/robots/k1/generated",
     "tests/robots/zoo/generated",

@@ -42,6 +42,7 @@ fn copy_of_the_workspace() -> tempfile::TempDir {
         "Cargo.toml",
         "hulk.toml",
         "cli",
+        "docs",
         "framework",
         "generated",
         "robotics",
@@ -109,6 +110,15 @@ fn the_second_body_is_current() {
         &root().join("tests/robots/k1"),
         &["generate", "--check"],
     ));
+}
+
+#[test]
+fn the_examples_are_current() {
+    for example in ["rover", "sprinkler", "timing"] {
+        let folder = root().join("docs/examples").join(example);
+        assert_success(&hulkgen(&folder, &["generate", "--check"]));
+        assert_success(&hulkgen(&folder, &["check", "--deny-warnings"]));
+    }
 }
 
 #[test]

@@ -1,11 +1,13 @@
 //! What the pages say, as far as a machine can judge it: links lead somewhere, commands are commands, code is code.
 
+mod others;
 mod page;
 mod shell;
 mod written;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
+use std::process::Command;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use clap::{CommandFactory, Parser, error::ErrorKind};
@@ -14,7 +16,7 @@ use hulkgen::arguments::Arguments;
 use hulkgen::commands;
 use hulkgen::outcome::Outcome;
 use page::{Block, Page};
-use support::{root, sources};
+use support::{root, skip, sources};
 use syn::Item;
 
 const AT_ROOT: [&str; 5] = [
@@ -34,8 +36,10 @@ fn pages() -> BTreeMap<Utf8PathBuf, Page> {
         .iter()
         .map(|path| (Utf8PathBuf::from(path), read(path)))
         .collect();
-    let docs = sources(&["docs"], ".md");
-    texts.extend(docs.into_iter().map(|page| (page.path.into(), page.text)));
+    // What hulkgen writes beside an example is no page.
+    let docs = sources(&["docs"], ".md").into_iter();
+    let docs = docs.filter(|page| !page.path.contains("/generated/"));
+    texts.extend(docs.map(|page| (page.path.into(), page.text)));
     let parsed = texts.into_iter().map(|(path, text)| {
         let page = Page::parse(&text);
         (path, page)
@@ -132,6 +136,27 @@ fn every_page_of_the_docs_has_an_example() {
     assert_none("pages without an example", &without);
 }
 
+/// Lines of a page that a screen shows at once, pictures apart.
+const FIRST_SCREEN: usize = 50;
+
+#[test]
+fn the_first_screen_shows_the_page_a_generated_diff_and_two_commands() {
+    let pages = pages();
+    let readme = &pages[Utf8Path::new("README.md")];
+    let mut links = readme.links.iter();
+    let picture = links.find(|link| link.target == "docs/page/game.webp");
+    assert!(picture.is_some_and(|link| link.line < FIRST_SCREEN));
+    let block = |language: &str| {
+        let mut blocks = readme.blocks.iter();
+        let block = blocks.find(|block| block.language == language);
+        block.filter(|block| block.line < FIRST_SCREEN)
+    };
+    assert!(block("diff").is_some());
+    let commands = block("sh").map(|block| block.text.as_str());
+    let both = "cargo run --release -- run\ncargo test --workspace\n";
+    assert_eq!(commands, Some(both));
+}
+
 #[test]
 fn every_command_of_a_page_is_one_that_hulkgen_understands() {
     let (pages, mut wrong, mut understood) = (pages(), Vec::new(), 0);
@@ -147,6 +172,41 @@ fn every_command_of_a_page_is_one_that_hulkgen_understands() {
     }
     assert_none("commands that hulkgen does not understand", &wrong);
     assert!(understood > 80, "only {understood} commands");
+}
+
+#[test]
+fn every_other_command_names_what_there_is() {
+    let (pages, named, mut wrong, mut known) = (pages(), others::Named::load(), Vec::new(), 0);
+    for (place, block) in blocks(&pages, "sh") {
+        for command in shell::others(&block.text) {
+            let objection = named.objection(&command);
+            known += usize::from(objection.is_none());
+            let line = |objection| format!("{place}: {}: {objection}", command.join(" "));
+            wrong.extend(objection.map(line));
+        }
+    }
+    assert_none("commands that nothing answers", &wrong);
+    assert!(known > 30, "only {known} commands");
+}
+
+#[test]
+fn every_block_of_python_can_be_parsed() {
+    let name = "every_block_of_python_can_be_parsed";
+    let pages = pages();
+    let mut parsed = 0;
+    for (place, block) in blocks(&pages, "python") {
+        let program = "import ast, sys; ast.parse(sys.argv[1])";
+        let python = Command::new("python3")
+            .args(["-c", program, &block.text])
+            .output();
+        let Ok(output) = python else {
+            return skip(name, "install Python 3");
+        };
+        let error = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{place}: {error}");
+        parsed += 1;
+    }
+    assert!(parsed > 1, "only {parsed} blocks");
 }
 
 #[test]
@@ -262,9 +322,9 @@ fn pages_of_the_reference_are_current() {
     }
 }
 
-/// The block of the tutorial that has this line.
-fn block_of_tutorial<'a>(tutorial: &'a Page, line: &str) -> &'a str {
-    let mut blocks = tutorial.blocks.iter();
+/// The block of a page that has this line.
+fn block_of<'a>(page: &'a Page, line: &str) -> &'a str {
+    let mut blocks = page.blocks.iter();
     let block = blocks.find(|block| block.text.lines().any(|one| one == line));
     &block
         .unwrap_or_else(|| panic!("no block has {line:?}"))
@@ -309,10 +369,10 @@ fn the_tutorial_leads_to_a_robot_without_mistakes() {
         fs::write(&file, text.replace(from, to)).expect("the folder is ours");
     };
     let node = "//! Changes the speed so slowly that nothing on the robot falls over.";
-    let node = block_of_tutorial(tutorial, node);
+    let node = block_of(tutorial, node);
     fs::write(robot.join("nodes/src/control/speed_ramp.rs"), node).expect("the folder is ours");
     let reading = "    wheel_speed: RequiredInput<Option<f32>, \"ramped_speed?\">,";
-    let reading = block_of_tutorial(tutorial, reading);
+    let reading = block_of(tutorial, reading);
     let before = reading.replace("ramped_speed?", "wheel_speed?");
     edit("nodes/src/control/wheel_sender.rs", &before, reading);
     assert_eq!(
@@ -320,26 +380,31 @@ fn the_tutorial_leads_to_a_robot_without_mistakes() {
         Outcome::Bad,
         "it lacks a value"
     );
-    let value = block_of_tutorial(tutorial, "[speed_ramp]");
-    let table = "[hardware.simulation]\n";
+    let value = block_of(tutorial, "[speed_ramp]");
+    let comment = "# Belongs to the hardware";
     edit(
         "parameters/default.toml",
-        table,
-        &format!("{value}\n{table}"),
+        comment,
+        &format!("{value}\n{comment}"),
     );
     assert_eq!(hulkgen(&robot, &["check", "--deny-warnings"]), good);
     assert_eq!(hulkgen(&robot, &["generate"]), good);
     let generated = fs::read_to_string(robot.join("generated/src/cyclers/control.rs"));
     let generated = generated.expect("it was just generated");
-    let diff = block_of_tutorial(tutorial, "+        self.speed_ramp(frame)?;");
-    let after: String = diff
-        .lines()
-        .map(|line| format!("{}\n", &line[1..]))
-        .collect();
-    assert!(generated.contains(&after), "{generated}");
+    let readme = &pages[Utf8Path::new("README.md")];
+    for page in [tutorial, readme] {
+        let diff = block_of(page, "+        self.speed_ramp(frame)?;");
+        for hunk in diff.split("@@\n") {
+            let after: String = hunk
+                .lines()
+                .map(|line| format!("{}\n", &line[1..]))
+                .collect();
+            assert!(generated.contains(&after), "{after}\n{generated}");
+        }
+    }
 
     let broken = "    obstacles: PerceptionInput<Option<Obstacle>, \"Perception\", \"obstacle\">,";
-    let reading = block_of_tutorial(tutorial, broken);
+    let reading = block_of(tutorial, broken);
     let text = fs::read_to_string(robot.join("nodes/src/control/speed_choice.rs"));
     assert!(
         text.expect("the robot has it").contains(reading),

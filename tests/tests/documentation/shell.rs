@@ -6,6 +6,14 @@ pub(crate) fn calls(block: &str) -> Vec<Vec<String>> {
     commands.filter_map(|words| call(&words)).collect()
 }
 
+/// Every other command of such a block, without the variables before it.
+pub(crate) fn others(block: &str) -> Vec<Vec<String>> {
+    let commands = block.lines().flat_map(commands);
+    let others = commands.filter(|words| call(words).is_none());
+    let others = others.map(|words| words[variables(&words)..].to_vec());
+    others.filter(|words| !words.is_empty()).collect()
+}
+
 /// The commands of a line: what stands between `&&`, `|` and `;`, without comment and redirection.
 fn commands(line: &str) -> Vec<Vec<String>> {
     let mut commands = vec![Vec::new()];
@@ -47,10 +55,7 @@ fn words(line: &str) -> Vec<String> {
 
 /// The arguments of hulkgen, called by its name or by cargo in this workspace.
 fn call(words: &[String]) -> Option<Vec<String>> {
-    let is_assignment =
-        |word: &&String| word.split_once('=').is_some_and(|(name, _)| is_name(name));
-    let variables = words.iter().take_while(is_assignment).count();
-    let (program, arguments) = words[variables..].split_first()?;
+    let (program, arguments) = words[variables(words)..].split_first()?;
     let arguments = match program.as_str() {
         "hulkgen" => arguments,
         path if path.ends_with("/hulkgen") => arguments,
@@ -69,6 +74,13 @@ fn call(words: &[String]) -> Option<Vec<String>> {
     };
     let program = std::iter::once("hulkgen".to_owned());
     Some(program.chain(arguments.iter().cloned()).collect())
+}
+
+/// How many words before the program set variables.
+fn variables(words: &[String]) -> usize {
+    let is_assignment =
+        |word: &&String| word.split_once('=').is_some_and(|(name, _)| is_name(name));
+    words.iter().take_while(is_assignment).count()
 }
 
 fn is_name(text: &str) -> bool {

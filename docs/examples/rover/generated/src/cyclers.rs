@@ -1,0 +1,6 @@
+//! The nodes of every cycler in order.
+//!
+//! Written by `hulkgen generate` from hulk.toml and the nodes it names. Do not edit.
+
+pub mod drive;
+pub mod lidar;

@@ -1,0 +1,58 @@
+//! What cycler `Weather` writes, and what its nodes see.
+//!
+//! Written by `hulkgen generate` from hulk.toml and the nodes it names. Do not edit.
+
+use std::sync::Arc;
+
+use framework::Cycle;
+use framework::Injection;
+use framework::InjectionCell;
+use framework::InjectionTable;
+use framework::Reflect;
+use framework::Timestamp;
+use serde::Deserialize;
+use serde::Serialize;
+
+use crate::parameters::Parameters;
+
+/// Main outputs that only nodes of `Weather` read: they stay with the instance.
+#[derive(Clone, Debug, Default, Deserialize, Reflect, Serialize)]
+pub struct OwnOutputs {
+    /// sprinkler_nodes::rain_receiver
+    pub rain: f32,
+}
+
+/// Main outputs that other instances read, too: written in the slot that those will read.
+#[derive(Clone, Debug, Default, Deserialize, Reflect, Serialize)]
+pub struct SharedOutputs {
+    /// sprinkler_nodes::rain_mean
+    pub mean_rain: f32,
+}
+
+/// Values of clients in place of main outputs.
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+pub struct Injections {
+    pub mean_rain: Injection<f32>,
+    pub rain: Injection<f32>,
+}
+
+impl InjectionTable for Injections {
+    fn get_mut(&mut self, output: &str) -> Option<&mut dyn InjectionCell> {
+        match output {
+            "mean_rain" => Some(&mut self.mean_rain),
+            "rain" => Some(&mut self.rain),
+            _ => None,
+        }
+    }
+}
+
+/// Everything the nodes of one cycle may touch, borrowed.
+pub struct Frame<'a, Hardware> {
+    pub capture_time: &'a mut Option<Timestamp>,
+    pub cycle: Cycle,
+    pub hardware_interface: &'a Arc<Hardware>,
+    pub injections: Option<&'a Injections>,
+    pub own: &'a mut OwnOutputs,
+    pub parameters: &'a Parameters,
+    pub shared: &'a mut SharedOutputs,
+}

@@ -1,0 +1,8 @@
+//! What the cyclers write and what their nodes see.
+//!
+//! Written by `hulkgen generate` from hulk.toml and the nodes it names. Do not edit.
+
+pub mod localization;
+pub mod odometry;
+pub mod radio;
+pub mod vision;

@@ -1,0 +1,164 @@
+//! Cycler `Vision` in a recording: what its cycles take, saved and given back.
+//!
+//! Written by `hulkgen generate` from hulk.toml and the nodes it names. Do not edit.
+
+use std::sync::Arc;
+
+use framework::Clock;
+use framework::Cycler;
+use framework::Guarded;
+use framework::Injected;
+use framework::OnFailure;
+use framework::Result;
+use framework::Slots;
+use framework::Swap;
+use framework::Timestamp;
+use framework::Writer;
+use framework::buffer;
+use framework::buffer_of;
+use framework::digest::DigestError;
+use framework::recorded::Describing;
+use framework::recorded::Loaded;
+use framework::recorded::Loading;
+use framework::recorded::Recorded;
+use framework::recorded::SaveError;
+use framework::recorded::Saving;
+use framework::recorded::Stored;
+use framework::recorded::Values;
+use framework::recorded::Visit;
+use framework::recorded::digest;
+use framework::replay::Alone;
+use framework::replay::Replay;
+use timing_nodes::interfaces::Camera;
+use timing_nodes::interfaces::Effort;
+
+use crate::cyclers::vision::Nodes;
+use crate::databases::vision::Injections;
+use crate::databases::vision::SharedOutputs;
+use crate::parameters::Parameters;
+use crate::recording::Sink;
+use crate::runtime::vision::VISION;
+use crate::runtime::vision::Vision;
+
+/// In a replay: who writes what an instance reads.
+pub struct Outside {
+    pub injections: Writer<Injected<Injections>>,
+    pub parameters: Writer<Parameters>,
+}
+
+impl<Hardware: Camera + Effort + Send + Sync> Recorded for Vision<Hardware> {
+    type Outside = Outside;
+
+    fn values(&self, values: &mut Values<'_, '_>) -> Result<(), SaveError> {
+        values.parameters(&self.parameters)?;
+        Ok(())
+    }
+
+    fn save(
+        &self,
+        _slots: Slots<'_, SharedOutputs>,
+        _since: Option<Timestamp>,
+        out: &mut Saving<'_, '_>,
+    ) -> Result<(), SaveError> {
+        self.parameters.save_version(out)?;
+        self.nodes.image_receiver.record(out)?;
+        self.nodes.position_detection.record(out)?;
+        self.injections.save_injected(out)?;
+        out.put(&self.own.current().image)?;
+        Ok(())
+    }
+
+    fn describe(types: &mut Describing<Self>) {
+        types.parameters(|body| &body.parameters);
+        types.node("timing_nodes::image_receiver", |body| &body.nodes.image_receiver);
+        types
+            .node(
+                "timing_nodes::position_detection",
+                |body| &body.nodes.position_detection,
+            );
+        types.injections(|body| &body.injections);
+        types.output("image", |body| &body.own.current().image);
+    }
+
+    fn load(
+        &mut self,
+        _slots: Loaded<'_, SharedOutputs>,
+        outside: &mut Outside,
+        from: &mut Loading<'_>,
+        stored: &Stored<'_>,
+    ) -> Result<()> {
+        self.parameters.load_version(from, &mut outside.parameters, stored)?;
+        self.nodes = load_nodes(from)?;
+        self.injections.load_injected(from, &mut outside.injections)?;
+        self.own.both_to_load().0.image = from.take()?;
+        Ok(())
+    }
+
+    fn digests(
+        &self,
+        shared: &SharedOutputs,
+        visit: Visit<'_>,
+    ) -> Result<(), DigestError> {
+        visit(
+            "timing_nodes::position_detection",
+            "measurement",
+            digest(&shared.measurement)?,
+        );
+        Ok(())
+    }
+}
+
+/// The nodes as `save` wrote them, in manifest order.
+fn load_nodes(from: &mut Loading<'_>) -> Result<Nodes> {
+    Ok(Nodes {
+        image_receiver: Guarded::recorded(
+            "timing_nodes::image_receiver",
+            OnFailure::Stop,
+            from,
+        )?,
+        position_detection: Guarded::recorded(
+            "timing_nodes::position_detection",
+            OnFailure::Stop,
+            from,
+        )?,
+    })
+}
+
+/// `Vision` alone, with the nodes of the frame that is loaded first.
+pub fn replay_vision(
+    from: &mut Loading<'_>,
+    stored: &Stored<'_>,
+) -> Result<Box<dyn Replay>> {
+    let start: Parameters = stored.parameters(from)?;
+    let (parameters_writer, [parameters_for_vision], []) = buffer_of(
+        || start.clone(),
+        [],
+    );
+    let hardware = Arc::new(Sink);
+    let (injections_writer, [vision_injected], []) = buffer([]);
+    let (writer, [], []) = buffer([]);
+    let cycler = Cycler::new(
+        VISION,
+        Vision {
+            nodes: load_nodes(from)?,
+            capture_time: None,
+            hardware_interface: hardware.clone(),
+            injections: vision_injected,
+            own: Swap::default(),
+            parameters: parameters_for_vision,
+        },
+        writer,
+        Clock::stepped(),
+    );
+    Ok(
+        Box::new(
+            Alone::new(
+                cycler,
+                Outside {
+                    injections: injections_writer,
+                    parameters: parameters_writer,
+                },
+            ),
+        ),
+    )
+}
