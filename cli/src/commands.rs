@@ -25,6 +25,7 @@ mod schema;
 mod session;
 pub mod show;
 mod simulate;
+mod system;
 mod terminal;
 mod vision;
 mod watch;
@@ -45,6 +46,11 @@ enum Failure {
 /// Does what the command line asks for; everything worth knowing is printed when it returns.
 pub fn run(arguments: &Arguments) -> Outcome {
     let terminal = Terminal::new(arguments.global.color);
+    let elsewhere = system::refuse_elsewhere(&arguments.command, std::env::consts::OS);
+    if let Err(refusal) = elsewhere {
+        terminal.refuse(&refusal);
+        return refusal.outcome;
+    }
     let answer = match &arguments.command {
         Command::Schema => schema::run(&terminal).map_err(Failure::Refused),
         Command::New(new) => new::run(&terminal, new),
