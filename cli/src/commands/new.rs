@@ -6,6 +6,7 @@ use serde_json::json;
 use super::terminal::Terminal;
 use super::{Failure, generate, plural};
 use crate::arguments::{New, Template, TextOrJson};
+use crate::deploy::script::quoted;
 use crate::diagnostics::{self, Diagnostics};
 use crate::drift;
 use crate::outcome::{Outcome, Refusal};
@@ -47,10 +48,20 @@ pub(super) fn run(terminal: &Terminal, new: &New) -> Result<Outcome, Failure> {
             "`{}` has {}; next: cd {} && hulkgen run\n",
             new.path,
             plural(files.len(), "file"),
-            new.path
+            as_a_word(new.path.as_str())
         )),
     }
     Ok(Outcome::Good)
+}
+
+/// A path as a person types it into a shell: quoted only where it has to be.
+fn as_a_word(path: &str) -> String {
+    let is_plain = |one: char| one.is_alphanumeric() || "/._-".contains(one);
+    if path.chars().all(is_plain) {
+        path.to_owned()
+    } else {
+        quoted(path)
+    }
 }
 
 /// The files with those of the generated crate, whose robot is seen through all stages in memory.
@@ -124,4 +135,15 @@ fn to_json(name: &str, folder: &Utf8Path, files: &Changes) -> String {
     let files: Vec<&str> = files.keys().map(|path| path.as_str()).collect();
     let answer = json!({ "version": 1, "robot": name, "folder": folder.as_str(), "files": files });
     format!("{answer}\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_path_with_spaces_can_be_copied_into_a_shell() {
+        assert_eq!(as_a_word("../my_robot"), "../my_robot");
+        assert_eq!(as_a_word("my robot"), "'my robot'");
+    }
 }
