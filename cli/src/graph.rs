@@ -22,6 +22,7 @@ pub mod svg;
 
 use serde::Serialize;
 
+pub use crate::resolve::robot::BridgeKind;
 pub use describe::describe;
 
 /// A whole robot, or what [`Graph::of_cycler`] left of it.
@@ -34,6 +35,9 @@ pub struct Graph {
     pub targets: Vec<Target>,
     /// Sorted by path.
     pub parameters: Vec<Parameter>,
+    /// In manifest order; left out where there is none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub bridges: Vec<Bridge>,
     pub cyclers: Vec<Cycler>,
     /// By reader in manifest order; a perception read of a cycler is one edge for each instance.
     pub edges: Vec<Edge>,
@@ -55,6 +59,24 @@ pub struct Parameter {
     pub data: String,
     /// Paths of the nodes that read it or a field of it.
     pub readers: Vec<String>,
+}
+
+/// What a bridge to other machines maps to a key.
+#[derive(Clone, Debug, Serialize)]
+pub struct Bridge {
+    /// As clients of the running robot write it.
+    pub path: String,
+    /// `main_output`, `additional_output`, `parameter` or `procedure`.
+    pub kind: BridgeKind,
+    /// None where it is no value, or one of which only the running robot knows the type.
+    #[serde(rename = "type")]
+    pub data: Option<String>,
+    pub key: String,
+    /// None for procedures.
+    pub direction: Option<schema::Direction>,
+    pub encoding: schema::BridgeEncoding,
+    /// Values in a second; None: one for each cycle.
+    pub rate: Option<f64>,
 }
 
 /// A cycler with its nodes: setup nodes first, then nodes, both in manifest order.

@@ -27,6 +27,8 @@ pub struct Manifest {
     pub cyclers: Vec<Cycler>,
     /// In manifest order; the first is the default.
     pub targets: Vec<Target>,
+    /// In manifest order.
+    pub bridges: Vec<Bridge>,
     /// The whole manifest as it was written.
     pub text: std::sync::Arc<str>,
 }
@@ -79,6 +81,16 @@ pub struct Target {
     pub hardware_range: Range<usize>,
     /// Of its location, if it has one.
     pub location_range: Option<Range<usize>>,
+}
+
+/// What a bridge maps, and where it stands.
+#[derive(Clone, Debug)]
+pub struct Bridge {
+    pub declared: schema::Bridge,
+    /// Of its path.
+    pub path_range: Range<usize>,
+    /// Of its key.
+    pub key_range: Range<usize>,
 }
 
 impl Cycler {

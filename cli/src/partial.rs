@@ -68,6 +68,7 @@ pub fn restrict(
     });
     // Whoever uses it brings the hardware.
     robot.targets.clear();
+    robot.bridges.clear();
     robot.crates = resolve::dependencies(workspace, &robot);
     Ok(robot)
 }

@@ -4,6 +4,7 @@
 //! error is given only where both types could be followed to their definitions; else the edge is left to rustc and
 //! counted.
 
+mod bridges;
 mod crates;
 mod hardware;
 mod hints;
@@ -79,6 +80,7 @@ pub fn resolve(
         partial: None,
         parameter_tree: parameters.tree,
         parameter_hints: parameters.hints,
+        bridges: bridges::bridges(manifest, &scene, diagnostics),
         crates: Vec::new(),
         inherited: workspace.members().inherited.clone(),
     };

@@ -21,6 +21,7 @@
 
 #![warn(missing_docs)]
 
+mod bridge;
 mod cycler;
 mod deploy;
 mod either;
@@ -28,6 +29,7 @@ mod length;
 mod robot;
 mod spelling;
 
+pub use bridge::{Bridge, BridgeEncoding, Direction};
 pub use cycler::{
     Cycler, CyclerKind, Instance, InstanceTable, NodeEntry, NodeTable, OnFailure, Policy, Record,
     RecordSome, Scheduling, Switch,
@@ -36,8 +38,8 @@ pub use deploy::Deploy;
 pub use length::{Duration, Size};
 pub use robot::{Manifest, Robot, Target};
 pub use spelling::{
-    CyclerName, HardwarePath, IdentityName, InstanceName, InstanceSuffix, NodePath, RobotName,
-    SpellingError, TargetName, is_identifier, snake_case, upper_camel_case,
+    BridgeKey, CyclerName, HardwarePath, IdentityName, InstanceName, InstanceSuffix, NodePath,
+    RobotName, SpellingError, TargetName, is_identifier, snake_case, upper_camel_case,
 };
 
 /// The JSON schema of the manifest as text, as it stands in `hulk.schema.json`.

@@ -4,6 +4,7 @@ use camino::Utf8PathBuf;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::bridge::Bridge;
 use crate::cycler::Cycler;
 use crate::deploy::Deploy;
 use crate::length::Size;
@@ -21,6 +22,9 @@ pub struct Manifest {
     /// Binaries with their hardware; the first is the default.
     #[serde(default)]
     pub target: Vec<Target>,
+    /// What a bridge maps to keys of Zenoh; only a bridge that somebody starts reads it.
+    #[serde(default)]
+    pub bridge: Vec<Bridge>,
 }
 
 /// The robot: its name and its folders.

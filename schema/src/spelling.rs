@@ -112,6 +112,13 @@ spelled! {
     "write `crate::Type`", "^[A-Za-z_][A-Za-z0-9_]*(::[A-Za-z_][A-Za-z0-9_]*)+$", is_path
 }
 
+spelled! {
+    /// A key of Zenoh: `robot/pose`.
+    BridgeKey, "key of a bridge",
+    "write words joined by `/`, without `*`, `$`, `?`, `#` and white space, and none that begins with `@`",
+    r"^[^/*$?#@\s][^/*$?#\s]*(/[^/*$?#@\s][^/*$?#\s]*)*$", is_key
+}
+
 impl NodePath {
     /// Its identifiers; at least two.
     pub fn segments(&self) -> impl Iterator<Item = &str> {
@@ -210,6 +217,13 @@ fn is_target_name(text: &str) -> bool {
 
 fn is_path(text: &str) -> bool {
     text.contains("::") && text.split("::").all(is_identifier)
+}
+
+/// What Zenoh takes as a key: chunks between `/`, none of them empty, without its wildcards and marks.
+fn is_key(text: &str) -> bool {
+    let is_plain = |character: char| !"*$?#".contains(character) && !character.is_whitespace();
+    text.split('/')
+        .all(|chunk| !chunk.is_empty() && !chunk.starts_with('@') && chunk.chars().all(is_plain))
 }
 
 /// Keywords of edition 2024, also those without a meaning yet.

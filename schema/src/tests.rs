@@ -48,6 +48,11 @@ const WHOLE: &str = r#"
     cpu = "silvermont"
     profile = "nao"
     location = "nao"
+
+    [[bridge]]
+    path = "parameters.walking.speed"
+    key = "nao/walking_speed"
+    direction = "both"
 "#;
 
 #[test]
@@ -65,6 +70,10 @@ fn the_whole_manifest_is_read() {
     assert_eq!(manifest.cycler[1].instance_names()[0].as_str(), "Control");
     assert_eq!(manifest.robot.recording_budget.bytes(), 512 << 20);
     assert_eq!(manifest.target[1].location.as_deref(), Some("nao"));
+    let bridge = &manifest.bridge[0];
+    assert_eq!(bridge.key.as_str(), "nao/walking_speed");
+    assert_eq!(bridge.direction, Some(Direction::Both));
+    assert_eq!((bridge.encoding, bridge.rate), (BridgeEncoding::Json, None));
 }
 
 #[test]

@@ -90,6 +90,7 @@ fn of_name(
     let graph = graph::describe(&understood.robot, &understood.schedule);
     let mut subject = Subject::find(&graph, name);
     subject.parameters = parameter::find(&session.workspace, understood, &graph, name)?;
+    subject.find_bridges(&graph);
     if subject.is_empty() {
         return Err(unknown(&graph, name).into());
     }

@@ -87,6 +87,8 @@ catalogue! {
         "Two nodes of one cycler answer one procedure.";
     HardwareReadOutsideSetup, "hardware-read-outside-setup", Warning,
         "A node that is no setup node reads from the hardware.";
+    InvalidBridge, "invalid-bridge", Error,
+        "A bridge maps what the robot does not have, or not in this way.";
     InvalidContext, "invalid-context", Error,
         "One of the three structs of a node is not as it has to be.";
     InvalidField, "invalid-field", Error,

@@ -1,6 +1,6 @@
 //! From the resolved robot and the order of its nodes to the graph.
 
-use super::{Cycler, Graph, Kind, Node, Parameter, Target, edges, fields, json};
+use super::{Bridge, Cycler, Graph, Kind, Node, Parameter, Target, edges, fields, json};
 use crate::resolve::robot::{self, Content, CyclerKind, Robot, Tree};
 use crate::schedule::Schedule;
 
@@ -18,6 +18,7 @@ pub fn describe(robot: &Robot, schedule: &Schedule) -> Graph {
         hash: String::new(),
         targets: robot.targets.iter().map(describe_target).collect(),
         parameters,
+        bridges: robot.bridges.iter().map(describe_bridge).collect(),
         cyclers: Vec::new(),
         edges: edges::describe_edges(robot),
     };
@@ -34,6 +35,18 @@ fn describe_target(target: &robot::Target) -> Target {
         name: target.name.clone(),
         hardware: target.hardware.clone(),
         triple: target.triple.clone(),
+    }
+}
+
+fn describe_bridge(bridge: &robot::Bridge) -> Bridge {
+    Bridge {
+        path: bridge.path.clone(),
+        kind: bridge.kind,
+        data: bridge.data.clone(),
+        key: bridge.key.clone(),
+        direction: bridge.direction,
+        encoding: bridge.encoding,
+        rate: bridge.rate,
     }
 }
 

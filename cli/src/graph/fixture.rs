@@ -35,6 +35,7 @@ pub(crate) fn robot() -> Robot {
         targets: vec![target("simulated"), target("nao")],
         parameter_tree: parameter_tree(),
         parameter_hints: Default::default(),
+        bridges: Vec::new(),
         inherited: Vec::new(),
         crates: Vec::new(),
         left_to_rustc: 1,

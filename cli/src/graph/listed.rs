@@ -16,6 +16,7 @@ pub(crate) fn describe(manifest: &Manifest) -> Graph {
         hash: String::new(),
         targets: targets.collect(),
         parameters: Vec::new(),
+        bridges: Vec::new(),
         cyclers: manifest.cyclers.iter().map(describe_cycler).collect(),
         edges: Vec::new(),
     }

@@ -12,6 +12,7 @@ use crate::workspace::MANIFEST;
 pub(super) fn check(manifest: &Manifest, diagnostics: &mut Diagnostics) {
     check_cyclers(manifest, diagnostics);
     check_targets(manifest, diagnostics);
+    check_bridges(manifest, diagnostics);
     for cycler in &manifest.cyclers {
         let mut nodes = Seen::new("node");
         for node in &cycler.nodes {
@@ -86,6 +87,15 @@ fn check_targets(manifest: &Manifest, diagnostics: &mut Diagnostics) {
             &(start..start + quoted.len()),
             diagnostics,
         );
+    }
+}
+
+/// Of two things under one key nobody could tell which one came.
+fn check_bridges(manifest: &Manifest, diagnostics: &mut Diagnostics) {
+    let mut keys = Seen::new("key");
+    for bridge in &manifest.bridges {
+        let key = bridge.declared.key.as_str();
+        keys.see(key, key, &bridge.key_range, diagnostics);
     }
 }
 

@@ -6,12 +6,13 @@ use std::sync::Arc;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::{Cycler, Instance, Manifest, NodeEntry, Target};
+use super::{Bridge, Cycler, Instance, Manifest, NodeEntry, Target};
 
 /// Joins the manifest with its places. Both come from one text, so what the one has, the other has.
 pub(super) fn locate(declared: schema::Manifest, table: &DeTable<'_>, text: Arc<str>) -> Manifest {
     let cyclers = elements(table, "cycler");
     let targets = elements(table, "target");
+    let bridges = elements(table, "bridge");
     let robot = table.get("robot");
     let generated = robot.and_then(|robot| range_of(robot, "generated").or(Some(robot.span())));
     Manifest {
@@ -19,6 +20,7 @@ pub(super) fn locate(declared: schema::Manifest, table: &DeTable<'_>, text: Arc<
         generated_range: generated.unwrap_or(0..0),
         cyclers: zip(declared.cycler, cyclers, locate_cycler),
         targets: zip(declared.target, targets, locate_target),
+        bridges: zip(declared.bridge, bridges, locate_bridge),
         text,
     }
 }
@@ -87,6 +89,15 @@ fn locate_target(declared: schema::Target, place: &Spanned<DeValue<'_>>) -> Targ
         name_range: range("name"),
         hardware_range: range("hardware"),
         location_range: range_of(place, "location"),
+        declared,
+    }
+}
+
+fn locate_bridge(declared: schema::Bridge, place: &Spanned<DeValue<'_>>) -> Bridge {
+    let range = |key| range_of(place, key).unwrap_or_else(|| place.span());
+    Bridge {
+        path_range: range("path"),
+        key_range: range("key"),
         declared,
     }
 }

@@ -66,7 +66,7 @@ fn all_mistakes_of_keys_and_values_come_at_once() {
             "invalid-value",
             "missing-key",
             "unknown-key",
-            "unknown-key",
+            "missing-key",
         ],
         "{text}"
     );
@@ -77,7 +77,7 @@ fn all_mistakes_of_keys_and_values_come_at_once() {
         "did you mean `hardware`?",
         "write it in UpperCamelCase",
         "`name` is missing",
-        "`bridge` is reserved",
+        "`path` is missing",
         "hulk.toml:3:1",
     ] {
         assert!(text.contains(part), "{part}\n{text}");

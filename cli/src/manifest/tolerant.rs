@@ -115,10 +115,6 @@ fn leave_out(value: &mut Spanned<DeValue<'_>>, place: &Range<usize>) -> Option<L
 /// The diagnostic for one of serde's messages.
 fn describe(message: &str) -> Diagnostic {
     if let Some(key) = quoted(message, "unknown field ") {
-        if key == "bridge" {
-            let message = "`bridge` is reserved: this version gives it no meaning";
-            return Diagnostic::new(Code::UnknownKey, message).help("remove it");
-        }
         let valid = expected(message);
         let help = suggestion(key, &valid);
         return Diagnostic::new(Code::UnknownKey, format!("`{key}` is no key here")).help_if(help);

@@ -11,6 +11,7 @@ mod keys;
 mod layer;
 mod opaque;
 mod other_names;
+pub(super) mod shown;
 mod unset;
 mod values;
 mod variants;

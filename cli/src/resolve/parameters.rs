@@ -61,6 +61,11 @@ pub(super) fn parameters(scene: &Scene<'_>, diagnostics: &mut Diagnostics) -> Pa
     }
 }
 
+/// Parameters that a node reads.
+pub(super) fn of_node<'a>(node: &SceneNode<'a>) -> impl Iterator<Item = &'a Pathed> {
+    declared(node).map(|declared| declared.parameter)
+}
+
 fn declared<'a>(node: &SceneNode<'a>) -> impl Iterator<Item = Declared<'a>> {
     let creation = node.source.creation.fields.iter();
     let creation = creation.filter_map(|field| match &field.kind {

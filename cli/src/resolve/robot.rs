@@ -29,6 +29,8 @@ pub struct Robot {
     /// What makes it a partial robot; `None`: it is whole.
     pub partial: Option<Partial>,
     pub targets: Vec<Target>,
+    /// What bridges to other machines map, in manifest order.
+    pub bridges: Vec<Bridge>,
     /// Every declared parameter path, instances expanded, sorted by path.
     pub parameter_tree: Tree<Reader>,
     /// What is known about declared parameters besides their types, by path.
@@ -75,6 +77,31 @@ pub struct Target {
     pub location: Option<String>,
 }
 
+/// Something that a bridge gives a key.
+#[derive(Clone, Debug, Serialize)]
+pub struct Bridge {
+    /// As clients write it.
+    pub path: String,
+    pub kind: BridgeKind,
+    /// Its type, where it is a value and can be told.
+    pub data: Option<String>,
+    pub key: String,
+    /// Of values; procedures have none.
+    pub direction: Option<schema::Direction>,
+    pub encoding: schema::BridgeEncoding,
+    /// Values in a second, at most.
+    pub rate: Option<f64>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum BridgeKind {
+    MainOutput,
+    AdditionalOutput,
+    Parameter,
+    Procedure,
+}
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum CyclerKind {
     Perception,
@@ -109,6 +136,23 @@ impl Robot {
             .chain(options)
             .collect::<Vec<_>>()
             .join(" ")
+    }
+}
+
+impl BridgeKind {
+    /// Whether cycles write it.
+    pub fn is_output(self) -> bool {
+        matches!(self, Self::MainOutput | Self::AdditionalOutput)
+    }
+
+    /// For messages.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::MainOutput => "main output",
+            Self::AdditionalOutput => "additional output",
+            Self::Parameter => "parameter",
+            Self::Procedure => "procedure",
+        }
     }
 }
 

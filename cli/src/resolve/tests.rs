@@ -1,6 +1,7 @@
 //! What nodes and the manifest can disagree about, one robot per diagnostic, and the robot where they agree.
 
 mod agreement;
+mod bridges;
 mod inputs;
 mod nondeterminism;
 mod served;

@@ -7,8 +7,8 @@ use camino::Utf8Path;
 use grammar::CycleField;
 
 use super::robot::{
-    Content, CreationBinding, CycleBinding, Cycler, CyclerKind, Interface, Node, OnFailure,
-    OutputBinding, Record, Robot, StateUse, Tree,
+    Bridge, BridgeKind, Content, CreationBinding, CycleBinding, Cycler, CyclerKind, Interface,
+    Node, OnFailure, OutputBinding, Record, Robot, StateUse, Tree,
 };
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::manifest::Manifest;
@@ -71,7 +71,24 @@ fn read_nodes(robot: &Robot) -> BTreeSet<(usize, usize)> {
             }
         }
     }
+    let bridged = robot.bridges.iter();
+    read.extend(bridged.filter_map(|bridge| producer(robot, bridge)));
     read
+}
+
+/// Who writes the main output that a bridge carries: cycler and position.
+fn producer(robot: &Robot, bridge: &Bridge) -> Option<(usize, usize)> {
+    let mut names = bridge.path.split('.');
+    let instance = names.next()?;
+    if bridge.kind != BridgeKind::MainOutput {
+        return None;
+    }
+    let output = names.nth(1)?;
+    let mut cyclers = robot.cyclers.iter();
+    let index = cyclers.position(|one| one.instances.iter().any(|own| own.name == instance))?;
+    let mut outputs = robot.cyclers[index].outputs.iter();
+    let output = outputs.find(|one| one.name == output)?;
+    Some((index, output.producer))
 }
 
 fn unread_outputs(

@@ -105,6 +105,7 @@ hardware = \"simulation::Hardware\"
         ("`record` as a table", "RecordSome"),
         ("`[[target]]`", "Target"),
         ("`[target.deploy]`", "Deploy"),
+        ("`[[bridge]]`", "Bridge"),
     ];
     for (heading, name) in tables {
         let table = &schema["$defs"][name];

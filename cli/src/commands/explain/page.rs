@@ -2,7 +2,7 @@
 
 use super::parameter;
 use super::subject::{Endpoint, NodeSubject, OutputSubject, Subject};
-use crate::graph::Edge;
+use crate::graph::{Bridge, Edge};
 
 /// A section for each node, output, procedure and parameter of the name.
 pub(super) fn of_subject(subject: &Subject<'_>) -> String {
@@ -10,7 +10,9 @@ pub(super) fn of_subject(subject: &Subject<'_>) -> String {
     let outputs = subject.outputs.iter().map(of_output);
     let endpoints = subject.endpoints.iter().map(of_endpoint);
     let parameters = subject.parameters.iter().map(parameter::text);
+    let bridges = subject.bridges.iter().map(|bridge| of_bridge(bridge));
     let sections = nodes.chain(outputs).chain(endpoints).chain(parameters);
+    let sections = sections.chain(bridges);
     sections.collect::<Vec<_>>().join("\n")
 }
 
@@ -91,6 +93,27 @@ fn of_endpoint(endpoint: &Endpoint<'_>) -> String {
     format!(
         "{}.{name}: {what}, {data}\n  {deed} by {} ({}:{})\n",
         cycler.name, node.path, node.file, field.line
+    )
+}
+
+fn of_bridge(bridge: &Bridge) -> String {
+    let encoding = match bridge.encoding {
+        schema::BridgeEncoding::Json => "JSON",
+        schema::BridgeEncoding::Cdr => "CDR",
+    };
+    let way = match bridge.direction {
+        None => "queries of it are calls".to_owned(),
+        Some(schema::Direction::Out) => format!("its values go out as {encoding}"),
+        Some(schema::Direction::In) => format!("it is written from outside, as {encoding}"),
+        Some(schema::Direction::Both) => {
+            format!("it goes out and is written from outside, as {encoding}")
+        }
+    };
+    let rate =
+        (bridge.rate).map_or_else(String::new, |rate| format!(", at most {rate} in a second"));
+    format!(
+        "{}: bridged to the key {}\n  {way}{rate}\n",
+        bridge.path, bridge.key
     )
 }
 

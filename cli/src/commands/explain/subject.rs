@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use super::nodes;
 use super::parameter::ParameterSubject;
-use crate::graph::{Cycler, Edge, EdgeKind, Field, Graph, Node};
+use crate::graph::{Bridge, BridgeKind, Cycler, Edge, EdgeKind, Field, Graph, Node};
 
 /// Everything of one name.
 pub(super) struct Subject<'g> {
@@ -13,6 +13,8 @@ pub(super) struct Subject<'g> {
     /// Additional outputs and procedures.
     pub(super) endpoints: Vec<Endpoint<'g>>,
     pub(super) parameters: Vec<ParameterSubject>,
+    /// What of all this goes to other machines.
+    pub(super) bridges: Vec<&'g Bridge>,
 }
 
 /// What clients of a running robot name: an additional output or a procedure.
@@ -49,6 +51,7 @@ impl<'g> Subject<'g> {
             outputs: Vec::new(),
             endpoints: Vec::new(),
             parameters: Vec::new(),
+            bridges: Vec::new(),
         };
         for cycler in &graph.cyclers {
             for node in &cycler.nodes {
@@ -87,6 +90,39 @@ impl<'g> Subject<'g> {
             && self.parameters.is_empty()
     }
 
+    /// Finds the bridges of what was found.
+    pub(super) fn find_bridges(&mut self, graph: &'g Graph) {
+        let bridges = graph.bridges.iter();
+        self.bridges = bridges.filter(|bridge| self.touches(bridge)).collect();
+    }
+
+    fn touches(&self, bridge: &Bridge) -> bool {
+        let is_part = |whole: &str, part: &str| {
+            let rest = part.strip_prefix(whole);
+            rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+        };
+        if bridge.kind == BridgeKind::Parameter {
+            let path = bridge.path.split_once('.').map_or("", |(_, path)| path);
+            let mut parameters = self.parameters.iter();
+            return parameters.any(|one| is_part(&one.path, path) || is_part(path, &one.path));
+        }
+        let mut words = bridge.path.splitn(3, '.');
+        let (Some(instance), Some(group_of_bridge), Some(name)) =
+            (words.next(), words.next(), words.next())
+        else {
+            return false;
+        };
+        let outputs = self.outputs.iter().map(|one| (one.cycler, one.field));
+        let endpoints = self.endpoints.iter().map(|one| (one.cycler, one.field));
+        let mut all = outputs.chain(endpoints);
+        all.any(|(cycler, field)| {
+            let own = own_name(field).replace("$cycler_instance", &schema::snake_case(instance));
+            group(field) == Some(group_of_bridge)
+                && cycler.instances.iter().any(|one| one == instance)
+                && is_part(&own, name)
+        })
+    }
+
     /// With nodes, fields and edges as in `graph --format json`.
     pub(super) fn to_json(&self) -> Value {
         let nodes: Vec<Value> = (self.nodes.iter())
@@ -110,14 +146,18 @@ impl<'g> Subject<'g> {
                 })
             })
             .collect();
-        json!({
+        let mut value = json!({
             "version": 1,
             "nodes": nodes,
             "outputs": outputs,
             "additional_outputs": self.endpoints_to_json("AdditionalOutput"),
             "procedures": self.endpoints_to_json("Procedure"),
             "parameters": self.parameters,
-        })
+        });
+        if !self.bridges.is_empty() {
+            value["bridges"] = json!(self.bridges);
+        }
+        value
     }
 
     fn endpoints_to_json(&self, kind: &str) -> Vec<Value> {

@@ -45,6 +45,7 @@ pub(crate) fn robot(cyclers: Vec<CyclerBuilder>) -> Robot {
         recording_budget: 2 << 30,
         parameter_tree: parameter_tree(&resolved),
         parameter_hints: Default::default(),
+        bridges: Vec::new(),
         cyclers: resolved,
         partial: None,
         targets: vec![
