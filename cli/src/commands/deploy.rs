@@ -6,6 +6,7 @@ mod pull;
 mod reached;
 mod robots;
 
+use std::env;
 use std::sync::mpsc;
 use std::thread;
 
@@ -25,6 +26,9 @@ pub(super) use logs::logs;
 pub(super) use pull::pull;
 pub(super) use reached::remote;
 pub(super) use robots::robots;
+
+/// Where cargo builds, if not in the workspace.
+const TARGET_FOLDER: &str = "CARGO_TARGET_DIR";
 
 pub(super) fn deploy(
     session: &mut Session<'_>,
@@ -81,10 +85,7 @@ fn collect(
     let root = session.workspace.root();
     let program = match &deploy.program {
         Some(program) => program.clone(),
-        None => built(
-            root.join(session.workspace.below_cargo_root(Utf8Path::new("target"))),
-            reached,
-        ),
+        None => built(target_folder(session)?, reached),
     };
     let mut files = vec![reached.parameters.as_str()];
     files.extend(reached.deploy.files.iter().map(String::as_str));
@@ -95,6 +96,18 @@ fn collect(
         files,
         unit: reached.deploy.unit.as_deref(),
     })
+}
+
+/// Where cargo builds: the folder that the environment names, as it does for cargo, else that of the workspace.
+fn target_folder(session: &Session<'_>) -> Result<Utf8PathBuf, Refusal> {
+    match env::var(TARGET_FOLDER) {
+        Ok(folder) if !folder.is_empty() => camino::absolute_utf8(&folder)
+            .map_err(|error| Refusal::bad(format!("cannot use {TARGET_FOLDER}={folder}: {error}"))),
+        _ => {
+            let below = session.workspace.below_cargo_root(Utf8Path::new("target"));
+            Ok(session.workspace.root().join(below))
+        }
+    }
 }
 
 /// Where cargo puts the target's program; what stands behind the triple's second dot is a version of glibc.

@@ -187,7 +187,18 @@ impl Field {
 
     /// How it ended, what it answered, and what it said.
     pub(crate) fn hulkgen(&self, arguments: &str) -> (i32, String, String) {
+        self.hulkgen_built_in(arguments, None)
+    }
+
+    /// As [`Self::hulkgen`], with the folder in which cargo was told to build.
+    pub(crate) fn hulkgen_built_in(
+        &self,
+        arguments: &str,
+        folder: Option<&Path>,
+    ) -> (i32, String, String) {
         let output = Command::new(env!("CARGO_BIN_EXE_hulkgen"))
+            .env_remove("CARGO_TARGET_DIR")
+            .envs(folder.map(|folder| ("CARGO_TARGET_DIR", folder)))
             .args(arguments.split_whitespace())
             .arg("--ssh-config")
             .arg(self.path("ssh_config"))

@@ -117,6 +117,28 @@ fn a_connection_that_breaks_leaves_the_old_version_running() {
 }
 
 #[test]
+fn the_program_is_where_cargo_was_told_to_build() {
+    let Some(field) = Field::open("the_program_is_where_cargo_was_told_to_build") else {
+        return;
+    };
+    let folder = field.path("elsewhere");
+    let (status, _, said) = field.hulkgen_built_in("deploy a", Some(&folder));
+    // Without a profile of its own it is that of hulkgen, which is this test's.
+    let profile = if cfg!(debug_assertions) {
+        "debug"
+    } else {
+        "release"
+    };
+    let expected = folder.join(profile).join("lamp");
+    assert_eq!(status, 1, "{said}");
+    assert!(said.contains(&expected.display().to_string()), "{said}");
+    fs::create_dir_all(folder.join(profile)).expect("the folder is ours");
+    fs::copy(field.path("lamp"), expected).expect("the folder is ours");
+    let (status, answer, said) = field.hulkgen_built_in("deploy a", Some(&folder));
+    assert_eq!(status, 0, "{answer}{said}");
+}
+
+#[test]
 fn what_cannot_run_there_is_refused_before_the_switch() {
     let Some(field) = Field::open("what_cannot_run_there_is_refused_before_the_switch") else {
         return;
