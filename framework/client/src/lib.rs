@@ -1,0 +1,232 @@
+//! The connection of a bridge to a running robot, as docs/protocol.md describes it.
+//!
+//! Invariant: nothing waits for the robot without an end, and what is kept of what it says is bounded.
+
+#![warn(missing_docs)]
+
+use std::collections::VecDeque;
+use std::io::ErrorKind;
+use std::net::{SocketAddr, TcpStream, ToSocketAddrs as _};
+use std::time::{Duration, Instant};
+
+use protocol::{
+    Ask, BINARY_HEADER, BINARY_MAGIC, Good, Message, Outcome, Request, SOCKET, VERSION, Welcome,
+};
+use tungstenite::{Error, WebSocket};
+
+/// Failures are told to people.
+pub type Result<T> = std::result::Result<T, String>;
+
+/// A robot that does not answer within this time is not there.
+const PATIENCE: Duration = Duration::from_secs(10);
+
+/// How long the robot is listened to before something else is looked at.
+const MOMENT: Duration = Duration::from_millis(5);
+
+/// Messages that are kept while an answer is awaited; of more the oldest are lost.
+const KEPT: usize = 4096;
+
+/// A running robot.
+pub struct Robot {
+    socket: WebSocket<TcpStream>,
+    next_id: u32,
+    /// What came while an answer was awaited.
+    waiting: VecDeque<Heard>,
+    /// Its first words.
+    pub welcome: Welcome,
+}
+
+/// What a robot says without being waited for.
+pub enum Heard {
+    /// In JSON.
+    Message(Message),
+    /// In bytes.
+    Frame(Frame),
+}
+
+/// A value in bytes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Frame {
+    /// As the answer to `subscribe` said.
+    pub subscription: u32,
+    /// Number of the cycle that wrote it.
+    pub cycle: u64,
+    /// In nanoseconds of the robot's clock.
+    pub time: u64,
+    /// Empty: the part is not there in this cycle.
+    pub value: Vec<u8>,
+}
+
+impl Robot {
+    /// Finds the robot, hears its welcome, and shows the token if there is one.
+    ///
+    /// # Errors
+    /// If nobody answers there, no robot, one of another version, or the token is wrong.
+    pub fn connect(host: &str, token: Option<&str>) -> Result<Self> {
+        let absent = |error: String| {
+            format!(
+                "no robot answers at {host}: {error}; start one with `hulkgen run`, or say where it is with `--host ADDRESS:PORT`"
+            )
+        };
+        let stream = reach(host).map_err(absent)?;
+        let set = stream.set_read_timeout(Some(PATIENCE));
+        set.and_then(|()| stream.set_write_timeout(Some(PATIENCE)))
+            .and_then(|()| stream.set_nodelay(true))
+            .map_err(|error| absent(error.to_string()))?;
+        let (mut socket, _) = tungstenite::client(format!("ws://{host}{SOCKET}"), stream)
+            .map_err(|error| absent(error.to_string()))?;
+        let welcome = match read(&mut socket)? {
+            Some(Heard::Message(Message::Welcome(welcome))) => welcome,
+            _ => return Err(absent("what answers is no robot".to_owned())),
+        };
+        if welcome.version != VERSION {
+            return Err(format!(
+                "the robot at {host} speaks version {} of the protocol, this bridge {VERSION}; build both from one revision",
+                welcome.version
+            ));
+        }
+        let set = socket.get_ref().set_read_timeout(Some(MOMENT));
+        set.map_err(|error| absent(error.to_string()))?;
+        let mut robot = Self {
+            socket,
+            next_id: 1,
+            waiting: VecDeque::new(),
+            welcome,
+        };
+        if let Some(token) = token {
+            let token = token.to_owned();
+            robot.ask(Ask::Authenticate { token })?;
+        }
+        Ok(robot)
+    }
+
+    /// Asks without waiting; the answer comes with this number, see [`Robot::hear`].
+    ///
+    /// # Errors
+    /// If the robot went away.
+    pub fn send(&mut self, ask: Ask) -> Result<u32> {
+        let id = self.next_id;
+        self.next_id = self.next_id.wrapping_add(1);
+        let request = Request { id, ask };
+        let text = serde_json::to_string(&request).map_err(|error| error.to_string())?;
+        let sent = self.socket.send(tungstenite::Message::text(text));
+        sent.map_err(|error| gone(&error))?;
+        Ok(id)
+    }
+
+    /// The answer, or the robot's own words why there is none.
+    ///
+    /// # Errors
+    /// If the robot refuses, does not answer or went away.
+    pub fn ask(&mut self, ask: Ask) -> Result<Good> {
+        let id = self.send(ask)?;
+        let end = Instant::now() + PATIENCE;
+        while Instant::now() < end {
+            match read(&mut self.socket)? {
+                Some(Heard::Message(Message::Answer(answer))) if answer.id == Some(id) => {
+                    return match answer.outcome {
+                        Outcome::Ok(good) => Ok(*good),
+                        Outcome::Error(failure) => Err(failure.message),
+                    };
+                }
+                Some(heard) => {
+                    if self.waiting.len() == KEPT {
+                        self.waiting.pop_front();
+                    }
+                    self.waiting.push_back(heard);
+                }
+                None => {}
+            }
+        }
+        Err("the robot does not answer".to_owned())
+    }
+
+    /// What the robot says next, if it says something at the moment.
+    ///
+    /// # Errors
+    /// If the robot went away.
+    pub fn hear(&mut self) -> Result<Option<Heard>> {
+        match self.waiting.pop_front() {
+            Some(heard) => Ok(Some(heard)),
+            None => read(&mut self.socket),
+        }
+    }
+}
+
+/// To the first of the host's addresses that somebody listens at.
+fn reach(host: &str) -> Result<TcpStream> {
+    let addresses: Vec<SocketAddr> = host
+        .to_socket_addrs()
+        .map_err(|error| error.to_string())?
+        .collect();
+    let mut reason = "it has no address".to_owned();
+    for address in addresses {
+        match TcpStream::connect_timeout(&address, PATIENCE) {
+            Ok(stream) => return Ok(stream),
+            Err(error) => reason = error.to_string(),
+        }
+    }
+    Err(reason)
+}
+
+fn read(socket: &mut WebSocket<TcpStream>) -> Result<Option<Heard>> {
+    match socket.read() {
+        // A robot of a later version may say what we do not know.
+        Ok(tungstenite::Message::Text(text)) => {
+            Ok(serde_json::from_str(text.as_str()).ok().map(Heard::Message))
+        }
+        Ok(tungstenite::Message::Binary(bytes)) => Ok(Frame::read(&bytes).map(Heard::Frame)),
+        Ok(_) => Ok(None),
+        Err(Error::Io(error))
+            if matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut) =>
+        {
+            Ok(None)
+        }
+        Err(error) => Err(gone(&error)),
+    }
+}
+
+fn gone(error: &Error) -> String {
+    format!("the robot went away: {error}")
+}
+
+impl Frame {
+    /// A binary message of a robot; `None` for anything else.
+    pub fn read(bytes: &[u8]) -> Option<Self> {
+        let (head, value) = bytes.split_at_checked(BINARY_HEADER)?;
+        let (magic, rest) = head.split_first_chunk()?;
+        let (subscription, rest) = rest.split_first_chunk()?;
+        let (cycle, rest) = rest.split_first_chunk()?;
+        let (time, _) = rest.split_first_chunk()?;
+        (*magic == BINARY_MAGIC).then(|| Self {
+            subscription: u32::from_le_bytes(*subscription),
+            cycle: u64::from_le_bytes(*cycle),
+            time: u64::from_le_bytes(*time),
+            value: value.to_vec(),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Frame;
+
+    #[test]
+    fn a_frame_is_read_and_others_are_not() {
+        let mut bytes = b"HKG1".to_vec();
+        bytes.extend(7_u32.to_le_bytes());
+        bytes.extend(812_u64.to_le_bytes());
+        bytes.extend(9_744_000_000_u64.to_le_bytes());
+        bytes.push(1);
+        let frame = Frame {
+            subscription: 7,
+            cycle: 812,
+            time: 9_744_000_000,
+            value: vec![1],
+        };
+        assert_eq!(Frame::read(&bytes), Some(frame));
+        assert_eq!(Frame::read(&bytes[..23]), None);
+        bytes[0] = b'X';
+        assert_eq!(Frame::read(&bytes), None);
+    }
+}

@@ -1,0 +1,287 @@
+//! Both sides together: what the robot says is published, what others wish is asked of the robot.
+
+use std::collections::BTreeMap;
+use std::time::{SystemTime, UNIX_EPOCH};
+
+use client::{Heard, Result, Robot};
+use protocol::{Answer, Ask, Change, Good, Message, Outcome};
+use serde_json::{Value, json};
+use zenoh::query::Query;
+
+use crate::cdr::{self, Layout};
+use crate::edges::{self, Direction, Edge, Encoding, Kind};
+use crate::keys::{Keys, LONGEST, Wish, refuse};
+
+/// Answers that are awaited of the robot at a time; it has a limit of its own for those that take long.
+const AWAITED: usize = 64;
+
+/// The word before the paths of parameters, which changes do without.
+const PARAMETERS: &str = "parameters.";
+
+/// A robot whose outputs, parameters and procedures have keys.
+pub(crate) struct Bridge<'keys> {
+    robot: Robot,
+    keys: &'keys mut Keys,
+    /// By the robot's number.
+    subscriptions: BTreeMap<u32, Subscription>,
+    /// By number of the request.
+    awaited: BTreeMap<u32, Awaited>,
+    /// Nanoseconds from 1970 to the start of the robot's clock.
+    start: u64,
+}
+
+/// Values of an edge.
+struct Subscription {
+    /// Place in the list of edges.
+    edge: usize,
+    /// Of binary values.
+    layout: Option<Layout>,
+}
+
+/// A request whose answer somebody waits for.
+enum Awaited {
+    /// What the robot answers is the answer.
+    Query(usize, Query),
+    /// A value came without a question: who sent it can only be told here.
+    Put(String),
+    /// A parameter was written: its value then is the answer.
+    Written(usize, Query),
+}
+
+impl<'keys> Bridge<'keys> {
+    /// Declares what the robot's manifest maps, and subscribes to what goes out. What the robot or CDR refuses is told and
+    /// left out.
+    ///
+    /// # Errors
+    /// If Zenoh refuses a key.
+    pub(crate) fn start(mut robot: Robot, keys: &'keys mut Keys) -> Result<Self> {
+        let edges = edges::of_robot(&mut robot).unwrap_or_else(|message| {
+            eprintln!("warning: {message}");
+            Vec::new()
+        });
+        keys.declare(edges)?;
+        let now = SystemTime::now().duration_since(UNIX_EPOCH);
+        let now = now.map_or(0, |now| u64::try_from(now.as_nanos()).unwrap_or_default());
+        let mut bridge = Self {
+            start: now.saturating_sub(robot.welcome.time),
+            robot,
+            keys,
+            subscriptions: BTreeMap::new(),
+            awaited: BTreeMap::new(),
+        };
+        for index in 0..bridge.keys.edges().len() {
+            let edge = bridge.keys.edges()[index].clone();
+            if edge.goes_out()
+                && let Err(message) = bridge.subscribe(index, &edge)
+            {
+                eprintln!("warning: `{}`: {message}", edge.path);
+            }
+        }
+        Ok(bridge)
+    }
+
+    fn subscribe(&mut self, edge: usize, wanted: &Edge) -> Result<()> {
+        let asked = Ask::Subscribe {
+            path: wanted.path.clone(),
+            rate: wanted.rate,
+            encoding: match wanted.encoding {
+                Encoding::Json => protocol::Encoding::Json,
+                Encoding::Cdr => protocol::Encoding::Binary,
+            },
+        };
+        let Good::Subscribed(subscribed) = self.robot.ask(asked)? else {
+            return Err("the robot subscribes nobody".to_owned());
+        };
+        let layout = subscribed.layout.map(Layout::read).transpose();
+        match layout {
+            Ok(layout) => {
+                let subscription = Subscription { edge, layout };
+                self.subscriptions
+                    .insert(subscribed.subscription, subscription);
+                Ok(())
+            }
+            Err(message) => {
+                let subscription = subscribed.subscription;
+                self.robot.ask(Ask::Unsubscribe { subscription })?;
+                Err(message)
+            }
+        }
+    }
+
+    /// Who is bridged.
+    pub(crate) fn greeting(&self) -> String {
+        let edges = self.keys.edges().len();
+        let plural = if edges == 1 { "key" } else { "keys" };
+        format!("{} has {edges} {plural}", self.robot.welcome.robot)
+    }
+
+    /// Does what is wished, and hands on what the robot says.
+    ///
+    /// # Errors
+    /// If the robot went away.
+    pub(crate) fn turn(&mut self) -> Result<()> {
+        while self.awaited.len() < AWAITED
+            && let Ok(wish) = self.keys.wishes.try_recv()
+        {
+            self.grant(wish)?;
+        }
+        match self.robot.hear()? {
+            Some(Heard::Message(Message::Update(update))) => {
+                let attachment = json!({ "cycle": update.cycle, "time": update.time });
+                if let Some(one) = self.subscriptions.get(&update.subscription) {
+                    let (value, attachment) = (update.value.to_string(), attachment.to_string());
+                    self.publish(one.edge, value.into(), attachment.into());
+                }
+            }
+            Some(Heard::Frame(frame)) if !frame.value.is_empty() => {
+                let subscription = self.subscriptions.get(&frame.subscription);
+                if let Some(Subscription {
+                    edge,
+                    layout: Some(layout),
+                }) = subscription
+                {
+                    let time = self.start.saturating_add(frame.time);
+                    let attachment = cdr::attachment(frame.cycle, time, self.keys.id());
+                    match layout.to_cdr(&frame.value) {
+                        Ok(value) => self.publish(*edge, value, attachment),
+                        Err(message) => eprintln!("warning: {message}"),
+                    }
+                }
+            }
+            Some(Heard::Message(Message::Answer(answer))) => self.hand_on(answer)?,
+            Some(Heard::Message(Message::Lost(lost))) => {
+                eprintln!("warning: {} updates of the robot are lost", lost.updates);
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    /// The robot went away: who waits for it is told.
+    pub(crate) fn end(self, reason: &str) {
+        for awaited in self.awaited.into_values() {
+            match awaited {
+                Awaited::Query(_, query) | Awaited::Written(_, query) => refuse(&query, reason),
+                Awaited::Put(_) => {}
+            }
+        }
+    }
+
+    fn publish(&self, edge: usize, value: Vec<u8>, attachment: Vec<u8>) {
+        if let Err(message) = self.keys.publish(edge, value, attachment) {
+            eprintln!("warning: {message}");
+        }
+    }
+
+    /// Asks the robot. What cannot be read is refused here.
+    fn grant(&mut self, wish: Wish) -> Result<()> {
+        match wish {
+            Wish::Put(index, bytes) => {
+                let Some(path) = self.path_of(index) else {
+                    return Ok(());
+                };
+                match read_json(&bytes) {
+                    Ok(value) => {
+                        let id = self.robot.send(write(&path, value))?;
+                        self.awaited.insert(id, Awaited::Put(path));
+                    }
+                    Err(message) => eprintln!("warning: `{path}`: {message}"),
+                }
+            }
+            Wish::Query(index, query) => {
+                let Some(edge) = self.keys.edges().get(index).cloned() else {
+                    refuse(&query, "the robot has this key no longer");
+                    return Ok(());
+                };
+                match asked(&edge, &query) {
+                    Ok(ask) => {
+                        let is_write = matches!(ask, Ask::Write { .. });
+                        let id = self.robot.send(ask)?;
+                        let awaited = if is_write {
+                            Awaited::Written(index, query)
+                        } else {
+                            Awaited::Query(index, query)
+                        };
+                        self.awaited.insert(id, awaited);
+                    }
+                    Err(message) => refuse(&query, &message),
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn path_of(&self, index: usize) -> Option<String> {
+        self.keys.edges().get(index).map(|edge| edge.path.clone())
+    }
+
+    /// The robot's answer to who waits for it.
+    fn hand_on(&mut self, answer: Answer) -> Result<()> {
+        let Some(awaited) = answer.id.and_then(|id| self.awaited.remove(&id)) else {
+            return Ok(());
+        };
+        let good = match (answer.outcome, &awaited) {
+            (Outcome::Ok(good), _) => *good,
+            (Outcome::Error(failure), Awaited::Put(path)) => {
+                eprintln!("warning: `{path}`: {}", failure.message);
+                return Ok(());
+            }
+            (Outcome::Error(failure), Awaited::Query(_, query) | Awaited::Written(_, query)) => {
+                let refusals = failure.refusals.into_iter().map(|one| one.message);
+                let messages: Vec<String> = [failure.message].into_iter().chain(refusals).collect();
+                refuse(query, &messages.join("; "));
+                return Ok(());
+            }
+        };
+        match awaited {
+            Awaited::Put(_) => {}
+            Awaited::Query(index, query) => match good {
+                Good::Called(value) => self.keys.answer(index, &query, &value),
+                Good::Value(read) => self.keys.answer(index, &query, &read.value),
+                _ => refuse(&query, "the robot answers something else"),
+            },
+            Awaited::Written(index, query) => match self.path_of(index) {
+                Some(path) => {
+                    let id = self.robot.send(Ask::Read { path })?;
+                    self.awaited.insert(id, Awaited::Query(index, query));
+                }
+                None => refuse(&query, "the robot has this key no longer"),
+            },
+        }
+        Ok(())
+    }
+}
+
+/// What a query of a key means.
+fn asked(edge: &Edge, query: &Query) -> Result<Ask> {
+    let payload = query.payload();
+    if payload.is_some_and(|payload| payload.len() > LONGEST) {
+        return Err(format!("a payload has at most {LONGEST} bytes"));
+    }
+    let argument = payload.map(|payload| read_json(&payload.to_bytes()));
+    let argument = argument.transpose()?;
+    let path = edge.path.clone();
+    match (edge.kind, edge.direction, argument) {
+        (Kind::Procedure, _, argument) => Ok(Ask::Call {
+            path,
+            argument: argument.unwrap_or(Value::Null),
+            timeout: None,
+        }),
+        (_, Some(Direction::Out), Some(_)) => Err(format!(
+            "`{path}` goes out alone: write `direction = \"both\"` at its `[[bridge]]`"
+        )),
+        (_, _, Some(value)) => Ok(write(&path, value)),
+        (_, _, None) => Ok(Ask::Read { path }),
+    }
+}
+
+fn write(path: &str, value: Value) -> Ask {
+    let path = path.strip_prefix(PARAMETERS).unwrap_or(path).to_owned();
+    Ask::Write {
+        changes: vec![Change { path, value }],
+    }
+}
+
+fn read_json(bytes: &[u8]) -> Result<Value> {
+    serde_json::from_slice(bytes).map_err(|error| format!("the payload is no JSON: {error}"))
+}

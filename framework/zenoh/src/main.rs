@@ -1,0 +1,72 @@
+//! Maps outputs, parameters and procedures of a running robot to keys of Zenoh, as `[[bridge]]` of its manifest says: the
+//! robot's own graph tells them, so that no manifest is needed.
+//!
+//! ```text
+//! robot <--docs/protocol.md--> Robot --Bridge--> publishers  --Zenoh--> other machines, ROS 2 by rmw_zenoh
+//!                                    <--wishes-- subscribers, queryables
+//! ```
+//! Invariant: neither side waits for the other. Who is away is waited for, and what comes meanwhile is refused.
+
+mod bridge;
+mod cdr;
+mod edges;
+mod keys;
+mod options;
+
+use std::process::ExitCode;
+use std::thread::sleep;
+use std::time::Duration;
+
+use bridge::Bridge;
+use client::{Result, Robot};
+use keys::Keys;
+use options::Options;
+
+/// Between attempts to reach the robot.
+const PAUSE: Duration = Duration::from_millis(500);
+
+fn main() -> ExitCode {
+    let result = options::read().and_then(|options| match options {
+        Some(options) => run(&options),
+        None => {
+            println!("{}", options::HELP);
+            Ok(())
+        }
+    });
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("error: {message}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// For ever: robots come and go.
+fn run(options: &Options) -> Result<()> {
+    let mut keys = Keys::open(options)?;
+    let mut said = String::new();
+    loop {
+        let mut bridge = match Robot::connect(&options.host, options.token.as_deref()) {
+            Ok(robot) => Bridge::start(robot, &mut keys)?,
+            Err(message) => {
+                // Once, until something else is wrong.
+                if said != message {
+                    eprintln!("warning: {message}");
+                    said = message;
+                }
+                keys.refuse_wishes("the bridge has no robot");
+                sleep(PAUSE);
+                continue;
+            }
+        };
+        eprintln!("{}", bridge.greeting());
+        said = loop {
+            if let Err(message) = bridge.turn() {
+                break message;
+            }
+        };
+        eprintln!("warning: {said}");
+        bridge.end(&said);
+    }
+}

@@ -1,0 +1,280 @@
+//! The zoo, the bridge, and a machine that knows Zenoh and CDR alone: each a process of its own, on one machine and behind a
+//! network that loses and delays.
+
+use std::io::{BufRead as _, BufReader, Write as _};
+use std::net::{SocketAddr, TcpListener, TcpStream};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::thread;
+use std::time::{Duration, Instant};
+
+/// A busy machine may take so long for anything.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// Ends with the test.
+struct Running(Child);
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+fn skip(test: &str, what: &str) {
+    let required = std::env::var_os("HULKGEN_REQUIRE_ALL").is_some_and(|value| value == "1");
+    assert!(!required, "needs: {what}");
+    println!("SKIPPED {test}: {what}");
+}
+
+/// The zoo's program and python with what the client imports; else what is missing.
+fn parts() -> Result<PathBuf, &'static str> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let given = std::env::var_os("HULKGEN_ROBOT").map(PathBuf::from);
+    let program = given.unwrap_or_else(|| root.join("target/debug/loud"));
+    if !program.is_file() {
+        return Err("`cargo build -p zoo_runtime` in the repository, or HULKGEN_ROBOT");
+    }
+    let mut python = Command::new("python3");
+    let python = python.args(["-c", "import pycdr2, zenoh"]);
+    let python = python.stderr(Stdio::null()).status();
+    if !python.is_ok_and(|status| status.success()) {
+        return Err("python3 -m pip install eclipse-zenoh pycdr2");
+    }
+    Ok(program)
+}
+
+fn free_address() -> SocketAddr {
+    let listener = TcpListener::bind("127.0.0.1:0").expect("this machine has a free port");
+    listener.local_addr().expect("it is bound")
+}
+
+/// Where processes run: this machine, or a network namespace of it.
+struct Place(Option<String>);
+
+impl Place {
+    fn command(&self, program: &Path) -> Command {
+        let Some(namespace) = &self.0 else {
+            return Command::new(program);
+        };
+        let mut command = Command::new("ip");
+        command.args(["netns", "exec", namespace]).arg(program);
+        command
+    }
+
+    fn robot(&self, program: &Path, at: SocketAddr, folder: &Path) -> Running {
+        let zoo = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/robots/zoo");
+        let mut robot = self.command(program);
+        let at = at.to_string();
+        robot.args([
+            "--headless",
+            "--record",
+            "off",
+            "--listen",
+            &at,
+            "--run-folder",
+        ]);
+        robot.arg(folder).current_dir(zoo);
+        quiet(&mut robot)
+    }
+
+    fn bridge(&self, robot: SocketAddr, zenoh: SocketAddr) -> Running {
+        let mut bridge = self.command(Path::new(env!("CARGO_BIN_EXE_hulkgen-zenoh")));
+        let zenoh = format!("tcp/{zenoh}");
+        quiet(bridge.args(["--host", &robot.to_string(), "--listen", &zenoh]))
+    }
+
+    fn client(&self, zenoh: SocketAddr, what: &str) -> Command {
+        let mut client = self.command(Path::new("python3"));
+        client.arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/client.py"));
+        client.args([format!("tcp/{zenoh}"), what.to_owned()]);
+        client
+    }
+}
+
+fn quiet(command: &mut Command) -> Running {
+    let command = command.stdout(Stdio::null()).stderr(Stdio::null());
+    Running(command.spawn().expect("the program can be started"))
+}
+
+/// All that the client is there for.
+fn exchange(client: &mut Command) {
+    let output = client.output().expect("python3 was there a moment ago");
+    let said = String::from_utf8_lossy(&output.stdout);
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{said}{stderr}");
+    for part in [
+        "speeds in order",
+        "same in both forms",
+        "come in",
+        "answer and refuse",
+    ] {
+        assert!(said.contains(part), "{said}");
+    }
+    println!("{said}");
+}
+
+#[test]
+fn three_processes_exchange_everything() {
+    let program = match parts() {
+        Ok(program) => program,
+        Err(what) => return skip("three_processes_exchange_everything", what),
+    };
+    let folder = std::env::temp_dir().join(format!("hulkgen-zenoh-{}", std::process::id()));
+    let (robot_at, zenoh_at) = (free_address(), free_address());
+    let here = Place(None);
+    // In the wrong order: the bridge waits for the robot.
+    let _bridge = here.bridge(robot_at, zenoh_at);
+    let _robot = here.robot(&program, robot_at, &folder);
+    exchange(&mut here.client(zenoh_at, "exchanges"));
+    let _ = std::fs::remove_dir_all(&folder);
+}
+
+#[test]
+fn a_robot_and_a_bridge_that_went_away_are_found_again() {
+    let program = match parts() {
+        Ok(program) => program,
+        Err(what) => return skip("a_robot_and_a_bridge_that_went_away_are_found_again", what),
+    };
+    let folder = std::env::temp_dir().join(format!("hulkgen-zenoh-again-{}", std::process::id()));
+    let (robot_at, zenoh_at) = (free_address(), free_address());
+    let here = Place(None);
+    let mut bridge = here.bridge(robot_at, zenoh_at);
+    let mut robot = here.robot(&program, robot_at, &folder);
+    let mut client = here.client(zenoh_at, "misses");
+    client.stdin(Stdio::piped()).stdout(Stdio::piped());
+    let mut client = Running(client.spawn().expect("python3 was there a moment ago"));
+    let mut stdin = client.0.stdin.take().expect("it is piped");
+    let stdout = client.0.stdout.take().expect("it is piped");
+    let mut lines = BufReader::new(stdout).lines();
+    let mut next = || {
+        let line = lines.next().expect("the client goes on");
+        line.expect("the client writes text")
+    };
+    assert_eq!(next(), "hears");
+    drop(robot);
+    writeln!(stdin, "the robot is gone").expect("the client listens");
+    let line = next();
+    assert!(
+        line.starts_with("misses: ") && line.contains("robot"),
+        "{line}"
+    );
+    wait_until_free(robot_at);
+    robot = here.robot(&program, robot_at, &folder);
+    assert_eq!(next(), "hears");
+    drop(bridge);
+    writeln!(stdin, "the bridge is gone").expect("the client listens");
+    assert!(next().starts_with("misses: "));
+    bridge = here.bridge(robot_at, zenoh_at);
+    assert_eq!(next(), "hears again");
+    let status = client.0.wait().expect("it was started");
+    assert!(status.success());
+    drop((robot, bridge));
+    let _ = std::fs::remove_dir_all(&folder);
+}
+
+/// As soon as nobody listens there any more.
+fn wait_until_free(address: SocketAddr) {
+    let begin = Instant::now();
+    while TcpStream::connect(address).is_ok() {
+        assert!(begin.elapsed() < PATIENCE, "{address} is not free");
+        thread::sleep(Duration::from_millis(50));
+    }
+}
+
+/// Longer payloads of the client queue in it and get lost.
+const NARROW: &str = "tbf rate 2mbit burst 2kb latency 30ms";
+
+/// Two namespaces with a cable between them, gone with this.
+struct Network {
+    near: String,
+    far: String,
+}
+
+impl Network {
+    /// `None`: nobody permits it.
+    fn new() -> Option<Self> {
+        let id = std::process::id();
+        let network = Self {
+            near: format!("hulkgen-near-{id}"),
+            far: format!("hulkgen-far-{id}"),
+        };
+        let (near, far) = (network.near.as_str(), network.far.as_str());
+        let lines = [
+            format!("ip netns add {near}"),
+            format!("ip netns add {far}"),
+            format!("ip -n {near} link add cable type veth peer name cable netns {far}"),
+            format!("ip -n {near} address add 10.0.0.1/24 dev cable"),
+            format!("ip -n {far} address add 10.0.0.2/24 dev cable"),
+            format!("ip -n {near} link set lo up"),
+            format!("ip -n {near} link set cable up"),
+            format!("ip -n {far} link set cable up"),
+        ];
+        if !lines.iter().all(|line| run(line)) {
+            return None;
+        }
+        // A kernel without netem has a narrow cable: what waits too long for its turn is lost.
+        let disturbed = ["netem delay 20ms 5ms loss 5%", NARROW];
+        let disturbed = disturbed.iter().any(|how| {
+            let mut ends = [near, far].into_iter();
+            ends.all(|end| run(&format!("tc -n {end} qdisc replace dev cable root {how}")))
+        });
+        disturbed.then_some(network)
+    }
+
+    /// What the cable did at the client's end, in tc's words.
+    fn told(&self) -> String {
+        let mut tc = Command::new("tc");
+        tc.args(["-n", &self.far, "-s", "qdisc", "show", "dev", "cable"]);
+        let output = tc.output().expect("tc was there a moment ago");
+        String::from_utf8_lossy(&output.stdout).into_owned()
+    }
+}
+
+impl Drop for Network {
+    fn drop(&mut self) {
+        for namespace in [&self.near, &self.far] {
+            run(&format!("ip netns delete {namespace}"));
+        }
+    }
+}
+
+fn run(line: &str) -> bool {
+    let mut words = line.split(' ');
+    let mut command = Command::new(words.next().unwrap_or_default());
+    let command = command.args(words).stdout(Stdio::null());
+    let status = command.stderr(Stdio::null()).status();
+    status.is_ok_and(|status| status.success())
+}
+
+#[test]
+fn a_network_that_loses_and_delays_carries_everything() {
+    const TEST: &str = "a_network_that_loses_and_delays_carries_everything";
+    let program = match parts() {
+        Ok(program) => program,
+        Err(what) => return skip(TEST, what),
+    };
+    if !run("ip -V") || !run("tc -V") {
+        return skip(TEST, "`ip` and `tc` (iproute2)");
+    }
+    let Some(network) = Network::new() else {
+        // Nothing that could be installed: it is permitted or not.
+        return println!("SKIPPED {TEST}: permission for network namespaces, for example as root");
+    };
+    let folder = std::env::temp_dir().join(format!("hulkgen-zenoh-far-{}", std::process::id()));
+    let robot_at = SocketAddr::from(([127, 0, 0, 1], 4857));
+    let zenoh_at = SocketAddr::from(([10, 0, 0, 1], 7447));
+    let near = Place(Some(network.near.clone()));
+    let far = Place(Some(network.far.clone()));
+    let robot = near.robot(&program, robot_at, &folder);
+    let bridge = near.bridge(robot_at, zenoh_at);
+    exchange(&mut far.client(zenoh_at, "exchanges"));
+    let told = network.told();
+    assert!(
+        !told.contains("dropped 0,"),
+        "the cable lost nothing: {told}"
+    );
+    println!("{told}");
+    drop((robot, bridge));
+    let _ = std::fs::remove_dir_all(&folder);
+}
