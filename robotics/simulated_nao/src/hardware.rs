@@ -27,9 +27,9 @@ use types::sensor_data::SensorData;
 
 use crate::camera::{self, Exposure};
 use crate::field::Field;
+use crate::per_camera::PerCamera;
 use crate::photograph::{self, Photograph};
 use crate::settings::Settings;
-use crate::simulation::PerCamera;
 use crate::simulator::{Shared, Simulator};
 use crate::stage::Stage;
 

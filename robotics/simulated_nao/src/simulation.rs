@@ -14,8 +14,10 @@ use types::camera::CameraPosition;
 use crate::camera::Exposure;
 use crate::ground_truth::{BodyTruth, GroundTruth, ImageTruth};
 use crate::network::{Network, Received};
+use crate::per_camera::PerCamera;
 use crate::server::LolaServer;
 use crate::settings::{CAMERA_RATE, Settings};
+use crate::silence::Silence;
 use crate::sound::{BLOCK_LENGTH, SAMPLE_RATE};
 use crate::stage::{Broadcast, Scene, Stage};
 use crate::world::{IMAGE_LATENCY, NO_ECHO};
@@ -35,36 +37,6 @@ const PATIENCE: Duration = Duration::from_millis(500);
 const REMEMBERED: usize = 512;
 /// How many blocks of sound wait for a reader before the oldest is lost.
 const WAITING_BLOCKS: usize = 4;
-
-/// One value for each camera.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct PerCamera<T> {
-    top: T,
-    bottom: T,
-}
-
-impl<T> PerCamera<T> {
-    pub(crate) fn each(make: impl Fn() -> T) -> Self {
-        Self {
-            top: make(),
-            bottom: make(),
-        }
-    }
-
-    pub(crate) fn of(&self, camera: CameraPosition) -> &T {
-        match camera {
-            CameraPosition::Top => &self.top,
-            CameraPosition::Bottom => &self.bottom,
-        }
-    }
-
-    pub(crate) fn of_mut(&mut self, camera: CameraPosition) -> &mut T {
-        match camera {
-            CameraPosition::Top => &mut self.top,
-            CameraPosition::Bottom => &mut self.bottom,
-        }
-    }
-}
 
 /// What happens next.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
@@ -127,6 +99,7 @@ pub(crate) struct Simulation {
     pub(crate) is_behind: BTreeSet<&'static str>,
     pub(crate) garble_state: bool,
     pub(crate) garble_image: PerCamera<bool>,
+    pub(crate) silence: Silence,
 }
 
 impl Simulation {
@@ -162,6 +135,7 @@ impl Simulation {
             is_behind: BTreeSet::new(),
             garble_state: false,
             garble_image: PerCamera::default(),
+            silence: Silence::default(),
         }
     }
 
@@ -276,10 +250,12 @@ impl Simulation {
             }
             Step::ImageReady(camera) => {
                 *self.images.of_mut(camera) += 1;
-                Some(match camera {
+                let name = match camera {
                     CameraPosition::Top => "VisionTop",
                     CameraPosition::Bottom => "VisionBottom",
-                })
+                };
+                let is_silent = self.silence.covers_image(camera, at);
+                (!is_silent).then_some(name)
             }
             Step::RefereeSpeaks => {
                 let played = self.stage.lock().world.game_message();
@@ -302,7 +278,7 @@ impl Simulation {
             Step::Tick => {
                 self.stage.lock().world.advance_to(at);
                 self.tick()?;
-                Some("Control")
+                (!self.silence.covers_tick(at)).then_some("Control")
             }
         };
         Ok(instance.map(|instance| Event { at, instance }))
@@ -336,6 +312,9 @@ impl Simulation {
         self.network.collect(now);
         let mut sensors = scene.world.sample(self.robot);
         let commands = self.server.receive();
+        if self.silence.covers_tick(self.now) {
+            return Ok(());
+        }
         scene.world.command(self.robot, commands);
         drop(scene);
         // A sonar that does not send hears nothing.
@@ -370,6 +349,10 @@ impl Simulation {
 
     fn expose(&mut self, camera: CameraPosition) {
         let number = self.exposures.of_mut(camera);
+        if self.silence.covers_exposure(camera, self.now) {
+            *number += 1;
+            return;
+        }
         let exposure = self.stage.lock().world.expose(self.robot, camera, *number);
         *number += 1;
         remember(self.exposed.of_mut(camera), exposure.clone());

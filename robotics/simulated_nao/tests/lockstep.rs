@@ -267,3 +267,41 @@ fn the_same_options_and_commands_give_the_same_bits() {
     assert!(once != positions(&pose, 0.7001));
     assert!(once != positions(&["--pose", "1,0.5001,0.3"], 0.7));
 }
+
+#[test]
+fn a_camera_that_drops_out_has_no_images_for_as_long_and_a_lola_that_stalls_no_states() {
+    let hardware = create(&["--no-sound", "--no-referee", "--no-mate"], "").unwrap();
+    let disturb = |text: &str| {
+        let deed = toml::from_str(text).unwrap();
+        framework::Hardware::disturb(&hardware, &deed)
+    };
+    disturb("camera_drop_out = { camera = 'Top', lasts = 1.0 }").unwrap();
+    // Of top camera, bottom camera and LoLA in each second.
+    let mut counts = [[0; 3]; 3];
+    let mut stalls = false;
+    loop {
+        let event = hardware.next_event().unwrap().unwrap();
+        let second = (event.at.as_nanos() / 1_000_000_000) as usize;
+        if second == 1 && !stalls {
+            stalls = true;
+            disturb("lola_stall = 0.9").unwrap();
+        }
+        let Some(counts) = counts.get_mut(second) else {
+            break;
+        };
+        let instances = ["VisionTop", "VisionBottom", "Control"];
+        let of = instances.iter().position(|name| *name == event.instance);
+        counts[of.unwrap()] += 1;
+    }
+    let [without_top, without_lola, with_both] = counts;
+    assert_eq!(without_top, [0, 29, 83]);
+    assert_eq!(without_lola[..2], [30, 30]);
+    assert!((8..=10).contains(&without_lola[2]), "{without_lola:?}");
+    assert!(
+        with_both[..2] == [30, 30] && with_both[2] >= 83,
+        "{with_both:?}"
+    );
+    let message = disturb("lola_stall = -1.0").unwrap_err().to_string();
+    assert!(message.contains("-1 s"), "{message}");
+    assert!(disturb("camera_drop_out = { camera = 'Left', lasts = 1.0 }").is_err());
+}

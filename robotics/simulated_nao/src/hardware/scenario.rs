@@ -11,6 +11,7 @@ use crate::ground_truth::GroundTruth;
 use crate::physics::{Disturbance, heading};
 use crate::scene::Team;
 use crate::settings::{Button, Press};
+use crate::silence::DropOut;
 use crate::simulation::Simulation;
 
 /// One `[[event]]`: everything in it happens at once.
@@ -35,6 +36,10 @@ pub(super) struct Deed {
     garble_image: Option<CameraPosition>,
     /// The next state that LoLA sends arrives garbled.
     garble_state: bool,
+    /// The camera that takes no images for so many seconds.
+    camera_drop_out: Option<DropOut>,
+    /// For so many seconds LoLA sends no states, and motors keep what they were told last.
+    lola_stall: Option<f64>,
 }
 
 #[derive(Clone, Debug, Deserialize, PartialEq)]
@@ -97,6 +102,12 @@ impl Deed {
             *simulation.garble_image.of_mut(camera) = true;
         }
         simulation.garble_state |= self.garble_state;
+        if let Some(drop_out) = self.camera_drop_out {
+            simulation.silence.drop_out(truth.now, drop_out)?;
+        }
+        if let Some(lasts) = self.lola_stall {
+            simulation.silence.stall(truth.now, lasts)?;
+        }
         Ok(())
     }
 
