@@ -1,5 +1,6 @@
 //! Paints images for tests: a coloured floor and upright boards, as a camera on a robot sees them.
 
+use framework::Leased;
 use nalgebra::{Isometry3, Matrix3, Point2, Rotation3, Translation3, UnitQuaternion, Vector2};
 use types::camera::{CameraMatrix, Intrinsics};
 use types::field_features::FieldBorder;
@@ -95,7 +96,7 @@ pub(crate) fn segments(image: &YuyvImage, matrix: &CameraMatrix) -> ImageSegment
     ImageSegmenter::new(image_segmenter::CreationContext {})
         .unwrap()
         .cycle(image_segmenter::CycleContext {
-            image,
+            image: &Leased::of(image.clone()),
             camera_matrix: Some(matrix),
             limb_mask: &LimbMask::default(),
             field_color: &field_color(),
