@@ -25,6 +25,12 @@ const ROUNDS: usize = 3;
 /// How long a robot is looked at.
 const LOOK: Duration = Duration::from_secs(2);
 
+/// How long for the slowest hundredth of its cycles.
+const LONG_LOOK: Duration = Duration::from_secs(8);
+
+/// From one image to the next.
+const PERIOD: Duration = Duration::from_millis(33);
+
 /// Bytes.
 const IMAGE: usize = 300_000;
 
@@ -136,13 +142,18 @@ fn values() {
     row("the database as JSON | as bytes", json, binary, "µs");
 }
 
-/// A figure of an instance, in microseconds.
+/// A figure of an instance (`cycle.p99`), in microseconds, as soon as one of its cycles was timed.
 fn timing(client: &mut zoo::Client, instance: &str, figure: &str) -> f64 {
-    let answer = client.ok(json!({ "timings": {} }));
-    let instances = answer["timings"]["instances"].as_array().expect("a list");
-    let found = instances.iter().find(|one| one["name"] == json!(instance));
-    let cycle = &found.expect("it runs")["cycle"];
-    cycle[figure].as_f64().expect("cycles were timed")
+    let (part, figure) = figure.split_once('.').expect("part and figure");
+    loop {
+        let answer = client.ok(json!({ "timings": {} }));
+        let instances = answer["timings"]["instances"].as_array().expect("a list");
+        let found = instances.iter().find(|one| one["name"] == json!(instance));
+        if let Some(figure) = found.expect("it runs")[part][figure].as_f64() {
+            return figure;
+        }
+        thread::sleep(Duration::from_millis(20));
+    }
 }
 
 fn cycler() {
@@ -157,27 +168,28 @@ fn cycler() {
             client.ok(json!({ "subscribe": { "path": path, "rate": 0.1, "encoding": "binary" } }));
         }
         thread::sleep(Duration::from_millis(300));
-        timing(&mut client, "VisionTop", "p50");
+        timing(&mut client, "VisionTop", "framework.p50");
         thread::sleep(LOOK);
-        timing(&mut client, "VisionTop", "p50")
+        timing(&mut client, "VisionTop", "framework.p50")
     };
     let rounds: Vec<_> = (0..ROUNDS).map(|_| (look(false), look(true))).collect();
     let without = median(rounds.iter().map(|round| round.0).collect());
     let with = median(rounds.iter().map(|round| round.1).collect());
-    // Into slots that come round, as those of a tap do.
-    let source = vec![1_u8; IMAGE];
+    // Into slots that come round, as those of a tap do, and as seldom: all that lies between has left the caches.
+    let image = vec![1_u8; IMAGE];
+    let mut source = image.clone();
     let mut slots = vec![source.clone(); 22];
-    let mut next = 0;
-    let (clone, _) = pair(
-        44,
-        || {
-            next = (next + 1) % slots.len();
-            black_box(&mut slots[next]).clone_from(black_box(&source));
-        },
-        || (),
-    );
+    let clones = (0..slots.len() * ROUNDS).map(|round| {
+        thread::sleep(PERIOD);
+        source.clone_from(&image);
+        let slot = round % slots.len();
+        let begin = Instant::now();
+        black_box(&mut slots[slot]).clone_from(black_box(&source));
+        begin.elapsed().as_secs_f64() * 1e6
+    });
+    let clone = median(clones.collect());
     row(
-        "VisionTop's cycle (p50), image of 300 kB: unwatched | watched",
+        "framework in VisionTop's cycle (p50), 300 kB: unwatched | watched",
         without,
         with,
         "µs",
@@ -264,9 +276,9 @@ fn greed() {
                 scope.spawn(|| drain(client, &is_over, &received));
             }
             let mut watching = zoo.client();
-            timing(&mut watching, "Control", "p99");
-            thread::sleep(LOOK);
-            let p99 = timing(&mut watching, "Control", "p99");
+            timing(&mut watching, "Control", "cycle.p99");
+            thread::sleep(LONG_LOOK);
+            let p99 = timing(&mut watching, "Control", "cycle.p99");
             is_over.store(true, Ordering::Relaxed);
             p99
         })
