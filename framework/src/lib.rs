@@ -17,6 +17,7 @@
 //! | [`pool`] | large values that are handed on by handle |
 //! | [`temporal`], [`history`] | results of perception in order of time; own outputs by time |
 //! | [`recorded`], [`replay`], [`numerics`] | what a cycle took, saved and given back; recorded cycles run again |
+//! | [`math`] | elementary functions that give the same bits on every machine |
 //! | [`subscriptions`], [`injection`] | clients: listen to an output, replace one |
 //! | [`logs`] | what nodes say, with instance and cycle, for whoever collects it |
 //! | [`tap`], [`link`] | copies of outputs for a communication server, and all else that it may see and change |
@@ -46,6 +47,7 @@ pub mod injection;
 pub mod launch;
 pub mod link;
 pub mod logs;
+pub mod math;
 pub mod numerics;
 pub mod parameters;
 pub mod pool;

@@ -386,3 +386,45 @@ fn unsafe_code_stands_only_where_the_workspace_says_and_runs_under_the_sanitizer
         assert!(is_sanitized, "{path} is not sanitized");
     }
 }
+
+/// Clippy reads the nearest clippy.toml alone.
+#[test]
+fn robotics_has_the_rules_of_the_workspace_and_those_for_its_numbers() {
+    let rules = |path: &str, key: &str| -> BTreeMap<String, String> {
+        let text = std::fs::read_to_string(support::root().join(path)).expect("it is there");
+        let table: toml::Table = text.parse().expect("it is TOML");
+        let rules = table[key].as_array().expect("rules are a list");
+        let said = |rule: &toml::Value, what: &str| rule[what].as_str().expect("text").to_owned();
+        rules
+            .iter()
+            .map(|rule| (said(rule, "path"), said(rule, "reason")))
+            .collect()
+    };
+    let here = rules("robotics/clippy.toml", "disallowed-types");
+    for (path, reason) in rules("clippy.toml", "disallowed-types") {
+        assert_eq!(
+            here.get(&path),
+            Some(&reason),
+            "{path} in robotics/clippy.toml"
+        );
+    }
+
+    let methods = rules("robotics/clippy.toml", "disallowed-methods");
+    let math = std::fs::read_to_string(support::root().join("framework/src/math.rs")).unwrap();
+    // `    sin(angle) = sinf, sin;`
+    let mut names: Vec<_> = math
+        .lines()
+        .filter_map(|line| Some(line.strip_suffix(';')?.split_once(") = ")?.0))
+        .filter_map(|line| Some(line.split_once('(')?.0.trim()))
+        .collect();
+    assert!(names.len() > 20, "{names:?}");
+    names.extend(["powi", "sin_cos"]);
+    for name in names {
+        for float in ["f32", "f64"] {
+            let reason = methods.get(&format!("{float}::{name}"));
+            let deed = format!("use `framework::math::{name}`");
+            let says_so = reason.is_some_and(|reason| reason.contains(&deed));
+            assert!(says_so, "{float}::{name} in robotics/clippy.toml");
+        }
+    }
+}

@@ -256,6 +256,8 @@ fn describe(
     let values = written.iter().chain([&PARAMETERS]);
     let values = values.map(|name| channel(format!("values/{name}"), VALUES, true));
     run.push(("numerics".to_owned(), numerics::fingerprint()));
+    let of_std = numerics::fingerprint_of_std();
+    run.push(("numerics_of_std".to_owned(), of_std));
     let record = instances
         .iter()
         .map(|one| (one.name.to_owned(), text_of(one.record)));

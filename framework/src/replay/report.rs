@@ -169,7 +169,30 @@ impl Verification {
             "tolerance": self.tolerance,
             "graph": self.graph.as_ref().map(|(there, here)| json!({ "recorded": there, "here": here })),
             "numerics": self.numerics.as_ref().map(|(there, here)| json!({ "recorded": there, "here": here })),
+            "numerics_of_std": self.numerics_of_std.as_ref().map(|(there, here)| json!({ "recorded": there, "here": here })),
         })
+    }
+}
+
+impl Verification {
+    /// What has to be said of other numerics, or of a tolerance in vain.
+    fn of_numerics(&self) -> Option<String> {
+        match (&self.numerics, &self.numerics_of_std, self.tolerance) {
+            (Some((there, here)), _, None) => Some(format!(
+                "recorded with other numerics ({there}, here {here}): results may differ in their last bits, `--tolerance 1e-6` compares within a tolerance"
+            )),
+            // Nobody need know who calls no such function.
+            (None, Some(_), None) => self.divergence.is_some().then(|| {
+                "recorded where std's elementary functions give other bits: nodes that call them differ, those that call `framework::math` do not; `--tolerance 1e-6` compares within a tolerance".to_owned()
+            }),
+            (Some((there, here)), _, Some(tolerance)) | (None, Some((there, here)), Some(tolerance)) => Some(format!(
+                "recorded with other numerics ({there}, here {here}): compared within {tolerance:e} where the recording has values, else only bits can be compared"
+            )),
+            (None, None, Some(_)) => Some(
+                "recorded with the same numerics: compared bit for bit, without a tolerance".to_owned(),
+            ),
+            (None, None, None) => None,
+        }
     }
 }
 
@@ -205,20 +228,8 @@ impl fmt::Display for Verification {
                 "recorded with another graph: instances that it changed do not fit, the others were replayed; `hulkgen diff REV` says what changed"
             )?;
         }
-        match (&self.numerics, self.tolerance) {
-            (Some((there, here)), None) => writeln!(
-                out,
-                "recorded with other numerics ({there}, here {here}): results may differ in their last bits, `--tolerance 1e-6` compares within a tolerance"
-            )?,
-            (Some((there, here)), Some(tolerance)) => writeln!(
-                out,
-                "recorded with other numerics ({there}, here {here}): compared within {tolerance:e} where the recording has values, else only bits can be compared"
-            )?,
-            (None, Some(_)) => writeln!(
-                out,
-                "recorded with the same numerics: compared bit for bit, without a tolerance"
-            )?,
-            (None, None) => {}
+        if let Some(numerics) = self.of_numerics() {
+            writeln!(out, "{numerics}")?;
         }
         if let Some(divergence) = &self.divergence {
             writeln!(out, "{divergence}")?;

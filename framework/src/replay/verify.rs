@@ -7,6 +7,7 @@ use super::play::{self, Player, Players};
 use super::tolerance::is_within;
 use super::{Divergence, Needed, Ran, Replayable};
 use crate::error::{Error, Result};
+use crate::numerics;
 use crate::recorded::Stored;
 
 /// How a recording is verified.
@@ -31,6 +32,8 @@ pub struct Verification {
     pub unknown: Vec<String>,
     /// Where it was recorded and where it was replayed, if numbers may differ.
     pub numerics: Option<(String, String)>,
+    /// The same of nodes that call std's elementary functions in place of [`crate::math`].
+    pub numerics_of_std: Option<(String, String)>,
     /// Graphs where it was recorded and where it was replayed, if they are not the same.
     pub graph: Option<(String, String)>,
     /// That was asked for.
@@ -110,7 +113,12 @@ pub fn verify_how(
     let mut players = Players::new(recording, &values, replayables)?;
     let mut verification = Verification {
         unknown: players.unknown.clone(),
-        numerics: other_numerics(recording),
+        numerics: other_numerics(recording, "numerics", numerics::fingerprint()),
+        numerics_of_std: other_numerics(
+            recording,
+            "numerics_of_std",
+            numerics::fingerprint_of_std(),
+        ),
         graph: other_graph(recording, how),
         tolerance: how.tolerance,
         ..Verification::default()
@@ -122,7 +130,8 @@ pub fn verify_how(
             .map(|(instance, nodes)| (instance.to_owned(), nodes.to_vec()))
             .collect();
     }
-    let tolerance = how.tolerance.filter(|_| verification.numerics.is_some());
+    let may_differ = verification.numerics.is_some() || verification.numerics_of_std.is_some();
+    let tolerance = how.tolerance.filter(|_| may_differ);
     for (player, chunks) in players.each() {
         let mut comparing = Comparing {
             node: how.needed.as_ref().map(|needed| needed.node.as_str()),
@@ -295,10 +304,10 @@ fn described(recording: &Recording, instance: &str) -> InstanceVerified {
     }
 }
 
-fn other_numerics(recording: &Recording) -> Option<(String, String)> {
-    let here = crate::numerics::fingerprint();
+/// What the recording says under `key`, and what is the case here, if that is something else.
+fn other_numerics(recording: &Recording, key: &str, here: String) -> Option<(String, String)> {
     let run = &recording.metadata("run")?.entries;
-    let (_, there) = run.iter().find(|(key, _)| key == "numerics")?;
+    let (_, there) = run.iter().find(|(known, _)| known == key)?;
     (*there != here).then(|| (there.clone(), here))
 }
 

@@ -134,6 +134,7 @@ impl WhistleDetectionParameters {
 mod tests {
     use std::f32::consts::TAU;
 
+    use framework::math;
     use framework::testing::{AdditionalProbe, parameter};
 
     use super::*;
@@ -164,8 +165,9 @@ mod tests {
         let sample = |index: usize| {
             let time = index as f32 / SAMPLE_RATE as f32;
             let noise = (index * 7919 % 257) as f32 / 257.0 - 0.5;
-            let tone =
-                |&(frequency, amplitude): &(f32, f32)| amplitude * (TAU * frequency * time).sin();
+            let tone = |&(frequency, amplitude): &(f32, f32)| {
+                amplitude * math::sin(TAU * frequency * time)
+            };
             tones.iter().map(tone).sum::<f32>() + 0.01 * noise
         };
         (0..WINDOW_LENGTH).map(sample).collect()

@@ -92,6 +92,7 @@ fn torso_to_ground(
 
 #[cfg(test)]
 mod tests {
+    use framework::math;
     use kinematics::forward_kinematics;
     use nalgebra::{Point2, Point3};
     use types::joints::Joints;
@@ -166,7 +167,7 @@ mod tests {
         let bottom = matrices(&Joints::filled(0.0), 0.0).bottom;
         let center = Point2::from(bottom.intrinsics.center);
         let point = bottom.pixel_to_ground(center, 0.0).unwrap();
-        let expected = 0.05071 + (0.33309 + 0.14424) / 0.692_895_7_f32.tan();
+        let expected = 0.05071 + (0.33309 + 0.14424) / math::tan(0.692_895_7_f32);
         assert!((point.x - expected).abs() < 1e-4, "{point}");
         assert!(point.y.abs() < 1e-5);
     }
@@ -205,6 +206,9 @@ mod tests {
         positions.head_yaw = 0.5;
         let top = matrices(&positions, 0.0).top;
         let point = top.pixel_to_ground(Point2::new(320.0, 400.0), 0.0).unwrap();
-        assert!((point.y / point.x - 0.5_f32.tan()).abs() < 1e-3, "{point}");
+        assert!(
+            (point.y / point.x - math::tan(0.5_f32)).abs() < 1e-3,
+            "{point}"
+        );
     }
 }

@@ -3,7 +3,7 @@
 //! It falls when the torso tilts beyond what comes back, or when it tilts and the centre of mass
 //! has left the outline of the soles. Gravity, smoothed, tells how it lies in the end.
 
-use framework::{AdditionalOutput, CycleTime, Input, MainOutput, Parameter, Reflect};
+use framework::{AdditionalOutput, CycleTime, Input, MainOutput, Parameter, Reflect, math};
 use framework::{Result, Timestamp, context};
 use kinematics::inertial::GRAVITY;
 use nalgebra::{Point3, UnitQuaternion, Vector2, Vector3};
@@ -165,7 +165,7 @@ impl CycleContext<'_> {
         let up = self.orientation.inverse() * Vector3::z();
         // How far, up to upside down, and to where.
         let aside = up.xy().norm();
-        let share = aside.atan2(up.z) / aside.max(f32::EPSILON);
+        let share = math::atan2(aside, up.z) / aside.max(f32::EPSILON);
         let (forward, right) = (-up.x * share, up.y * share);
         let excesses = [
             (forward - limits.forward, FallDirection::Forward),
@@ -209,7 +209,7 @@ impl CycleContext<'_> {
     }
 
     fn sits(&self, acceleration: Vector3<f32>) -> bool {
-        let (sine, cosine) = self.sitting.pitch.sin_cos();
+        let (sine, cosine) = math::sin_cos(self.sitting.pitch);
         let expected = Vector3::new(-sine, 0.0, cosine) * GRAVITY as f32;
         let deviation = (acceleration - expected).norm();
         // A robot that squats upright has its legs folded, too, even before its soles feel anything.
@@ -226,7 +226,7 @@ impl CycleContext<'_> {
         let sitting = self.sitting;
         let squares = |angles: [f32; 2], expected: f32| {
             angles
-                .map(|angle| (angle - expected).powi(2))
+                .map(|angle| math::powi(angle - expected, 2))
                 .iter()
                 .sum::<f32>()
         };

@@ -128,7 +128,7 @@ fn step(from: HeadAngles, goal: HeadAngles, reach: f32) -> HeadAngles {
 #[cfg(test)]
 mod tests {
     use framework::procedure::procedure;
-    use framework::testing;
+    use framework::{math, testing};
     use nalgebra::Point2;
 
     use super::*;
@@ -195,7 +195,7 @@ mod tests {
                 let command = node.cycle(self.context()).unwrap().head_command.value;
                 let HeadAngles { yaw, pitch } = command.unwrap().angles;
                 let sent = &mut self.sent.positions;
-                let way = (yaw - sent.head_yaw).hypot(pitch - sent.head_pitch);
+                let way = math::hypot(yaw - sent.head_yaw, pitch - sent.head_pitch);
                 assert!(way <= 0.3 * 0.012 * 1.001, "{way}");
                 (sent.head_yaw, sent.head_pitch) = (yaw, pitch);
             }

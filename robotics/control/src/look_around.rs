@@ -1,6 +1,6 @@
 //! Says where the head looks next while nobody knows where the ball is: one way-point after the other.
 
-use framework::{Input, MainOutput, Parameter, PreviousInput, Result, context};
+use framework::{Input, MainOutput, Parameter, PreviousInput, Result, context, math};
 use kinematics::limits;
 use serde::{Deserialize, Serialize};
 use types::head::{HeadAngles, HeadCommand};
@@ -69,7 +69,7 @@ impl LookAround {
 }
 
 fn is_reached(goal: HeadAngles, angles: HeadAngles) -> bool {
-    (goal.yaw - angles.yaw).hypot(goal.pitch - angles.pitch) < REACHED
+    math::hypot(goal.yaw - angles.yaw, goal.pitch - angles.pitch) < REACHED
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 //! Where the camera is now tells where the point is seen from the neck; from there the angles follow
 //! in closed form. A camera that is mounted a little askew is right once the head is there.
 
-use framework::{Input, MainOutput, Parameter, Result, context};
+use framework::{Input, MainOutput, Parameter, Result, context, math};
 use kinematics::cameras::{self, Mount};
 use kinematics::limits;
 use nalgebra::{Isometry3, Point2, Point3, Vector3};
@@ -96,12 +96,12 @@ fn point_in_torso(
 fn angles(point: Vector3<f32>, mount: Mount) -> Option<HeadAngles> {
     let [forward, _, up] = mount.position.map(|coordinate| coordinate as f32);
     let tilt = mount.pitch as f32;
-    let offset = forward * tilt.sin() + up * tilt.cos();
+    let offset = forward * math::sin(tilt) + up * math::cos(tilt);
     let distance = point.norm();
-    let elevation = point.z.atan2(point.xy().norm());
+    let elevation = math::atan2(point.z, point.xy().norm());
     let angles = HeadAngles {
-        yaw: point.y.atan2(point.x),
-        pitch: (offset / distance).min(1.0).asin() - tilt - elevation,
+        yaw: math::atan2(point.y, point.x),
+        pitch: math::asin((offset / distance).min(1.0)) - tilt - elevation,
     };
     (angles.yaw.is_finite() && angles.pitch.is_finite()).then_some(angles)
 }

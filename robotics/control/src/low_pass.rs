@@ -4,6 +4,7 @@
 
 use std::ops::{Add, Mul, Sub};
 
+use framework::math;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -58,7 +59,7 @@ pub fn share(step: f32, time: f32) -> f32 {
 
 /// How much of a difference is left after `step` seconds: the rest of [`share`].
 pub fn left(step: f32, time: f32) -> f32 {
-    (-step / time.max(f32::EPSILON)).exp()
+    math::exp(-step / time.max(f32::EPSILON))
 }
 
 #[cfg(test)]
@@ -73,7 +74,7 @@ mod tests {
                 low_pass.update(0.0, step, 1.0);
             }
             let left = low_pass.update(0.0, 0.0, 1.0);
-            assert!((left - (-1.0_f32).exp()).abs() < 1e-4, "{left}");
+            assert!((left - math::exp(-1.0_f32)).abs() < 1e-4, "{left}");
         }
     }
 

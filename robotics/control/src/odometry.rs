@@ -9,7 +9,7 @@
 //! who turns a still robot more slowly than `odometry.still_rotation` is not noticed, nor how far
 //! anybody slides or carries it.
 
-use framework::{CycleTime, Input, MainOutput, Parameter, Result, context};
+use framework::{CycleTime, Input, MainOutput, Parameter, Result, context, math};
 use nalgebra::{Isometry2, Isometry3, Point2, Rotation2, UnitQuaternion, Vector2, Vector3};
 use serde::{Deserialize, Serialize};
 use types::fall_state::FallState;
@@ -157,7 +157,7 @@ impl Rest {
 /// How the robot stands; `None` where it has no heading, and where a sensor sent no numbers.
 fn stance(context: &CycleContext) -> Option<Stance> {
     let ahead = context.orientation * Vector3::x();
-    let heading = ahead.y.atan2(ahead.x);
+    let heading = math::atan2(ahead.y, ahead.x);
     let stands = context.support_side.is_some()
         && matches!(
             context.fall_state,

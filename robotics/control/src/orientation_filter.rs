@@ -148,7 +148,7 @@ fn trust(deviation: f32, trusted: f32, refused: f32) -> f32 {
 mod tests {
     use std::time::Duration;
 
-    use framework::{AdditionalSlot, Timestamp};
+    use framework::{AdditionalSlot, Timestamp, math};
 
     use super::*;
 
@@ -242,7 +242,7 @@ mod tests {
         }
         // 100 cycles are the filter's time constant.
         let left = node.torso_to_world.unwrap().angle();
-        assert!((left - 0.2 * (-1.0_f32).exp()).abs() < 2e-3, "{left}");
+        assert!((left - 0.2 * math::exp(-1.0_f32)).abs() < 2e-3, "{left}");
     }
 
     #[test]

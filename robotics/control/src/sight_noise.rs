@@ -1,6 +1,7 @@
 //! Owns how wrong a camera is about a place on the ground: its distance is known less well than its
 //! direction.
 
+use framework::math;
 use nalgebra::{Matrix2, Unit, Vector2};
 
 /// What grows with the distance, one standard deviation each.
@@ -22,8 +23,11 @@ impl SightNoise {
     pub(crate) fn covariance(&self, sight: Vector2<f32>) -> Matrix2<f32> {
         let direction = Unit::try_new(sight, f32::EPSILON).unwrap_or(Vector2::x_axis());
         let distance = sight.norm();
-        let along = (self.least + (self.along + self.tilt * distance) * distance).powi(2);
-        let across = (self.least + self.across * distance).powi(2);
+        let along = math::powi(
+            self.least + (self.along + self.tilt * distance) * distance,
+            2,
+        );
+        let across = math::powi(self.least + self.across * distance, 2);
         let along_sight = direction.into_inner() * direction.transpose();
         along_sight * (along - across) + Matrix2::identity() * across
     }

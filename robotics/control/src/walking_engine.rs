@@ -2,7 +2,9 @@
 //!
 //! What it computes stands in the crate `walking`; the node gives it the robot's senses and says when the walk can be left.
 
-use framework::{CycleTime, CyclerState, Input, MainOutput, Parameter, Reflect, Result, context};
+use framework::{
+    CycleTime, CyclerState, Input, MainOutput, Parameter, Reflect, Result, context, math,
+};
 use nalgebra::{UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
 use types::feet::Feet;
@@ -116,7 +118,7 @@ impl Heat {
 /// Where the torso's x axis points on the ground, in rad.
 fn heading(torso_to_world: &UnitQuaternion<f32>) -> f32 {
     let ahead = torso_to_world * Vector3::x();
-    ahead.y.atan2(ahead.x)
+    math::atan2(ahead.y, ahead.x)
 }
 
 /// How the weight is spread over the feet, 0 to 1: resistors measure shares better than weights.

@@ -4,8 +4,8 @@ use control::{
     behavior, camera_matrices, head_motion, look_around, look_at, motion_dispatcher,
     motion_selector, motor_commands_collector, penalized_pose, sit_down, stand,
 };
-use framework::CycleTime;
 use framework::testing::{self, AdditionalProbe, ParameterFile};
+use framework::{CycleTime, math};
 use kinematics::{forward_kinematics, limits};
 use nalgebra::{Point2, Point3};
 use types::ball::Ball;
@@ -394,8 +394,10 @@ fn from_any_pose_the_robot_stands_within_five_seconds_and_then_scans_slowly() {
             let before = robot.body;
             robot.live(PrimaryState::Initial, 1.5 * CYCLE);
             let after = robot.body;
-            let way =
-                (after.head_yaw - before.head_yaw).hypot(after.head_pitch - before.head_pitch);
+            let way = math::hypot(
+                after.head_yaw - before.head_yaw,
+                after.head_pitch - before.head_pitch,
+            );
             assert!(way <= 0.3 * CYCLE * 1.001, "{way}");
             yaws.push(after.head_yaw);
         }

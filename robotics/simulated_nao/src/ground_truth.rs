@@ -2,7 +2,7 @@
 
 use std::f32::consts::TAU;
 
-use framework::Timestamp;
+use framework::{Timestamp, math};
 use nalgebra::{Isometry3, Point2, Point3, Vector2};
 use types::camera::CameraMatrix;
 use types::feet::Feet;
@@ -228,7 +228,7 @@ impl From<&Exposure> for ImageTruth {
 fn is_hidden(exposure: &Exposure, center: &Point2<f32>, radius: f32, depth: f32) -> bool {
     let covers = Cover::new(exposure);
     let rim = (0..12_u8).map(|hour| f32::from(hour) * (TAU / 12.0));
-    let rim = rim.map(|angle| center + Vector2::new(angle.cos(), angle.sin()) * radius);
+    let rim = rim.map(|angle| center + Vector2::new(math::cos(angle), math::sin(angle)) * radius);
     let is_covered = |pixel| covers.depth_at(pixel).is_some_and(|cover| cover < depth);
     rim.chain([*center]).any(is_covered)
 }

@@ -124,6 +124,8 @@ impl Passage {
 
 #[cfg(test)]
 mod tests {
+    use framework::math;
+
     use super::*;
 
     fn record(settings: &SoundSettings, number: u64) -> AudioBlock {
@@ -194,12 +196,12 @@ mod tests {
             sound.record(number, &[], &mut block);
             let samples = &block.channels[0];
             if let Some(last) = last {
-                between += f64::from(samples[0] - last).powi(2);
+                between += math::powi(f64::from(samples[0] - last), 2);
             }
             last = samples.last().copied();
             let steps = samples
                 .windows(2)
-                .map(|pair| f64::from(pair[1] - pair[0]).powi(2));
+                .map(|pair| math::powi(f64::from(pair[1] - pair[0]), 2));
             within += steps.sum::<f64>() / (BLOCK_LENGTH - 1) as f64;
         }
         let ratio = between / within;
@@ -218,7 +220,7 @@ mod tests {
             for (power, channel) in power.iter_mut().zip(&block.channels) {
                 let sum: f64 = channel
                     .iter()
-                    .map(|&sample| f64::from(sample).powi(2))
+                    .map(|&sample| math::powi(f64::from(sample), 2))
                     .sum();
                 *power += sum / (BLOCK_LENGTH as u64 * count) as f64;
             }

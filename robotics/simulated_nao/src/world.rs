@@ -339,6 +339,8 @@ fn intrinsics() -> Intrinsics {
 
 #[cfg(test)]
 mod tests {
+    use framework::math;
+
     use super::*;
 
     fn sample(robot_pose: [f64; 3], millis: u64) -> SensorData {
@@ -426,7 +428,11 @@ mod tests {
         assert_eq!(noisy, readings(Some(1)));
         assert_ne!(noisy, readings(Some(2)));
         let mean = noisy.iter().sum::<f32>() / 400.0;
-        let deviation = noisy.iter().map(|turn| (turn - mean).powi(2)).sum::<f32>() / 400.0;
+        let deviation = noisy
+            .iter()
+            .map(|turn| math::powi(turn - mean, 2))
+            .sum::<f32>()
+            / 400.0;
         // One standard deviation of the gyroscope's y axis, and its bias.
         assert!((deviation.sqrt() - 0.0055).abs() < 0.001, "{deviation}");
         assert!(mean.abs() > 1e-3 && mean.abs() < 0.035, "{mean}");

@@ -3,6 +3,7 @@
 #[path = "support/scene.rs"]
 mod scene;
 
+use framework::math;
 use nalgebra::{Point2, Point3};
 use scene::{Look, Vision, looks};
 use simulated_nao::ground_truth::{ImageTruth, RobotTruth};
@@ -15,7 +16,10 @@ fn balls(look: &Look) -> Vec<Point3<f32>> {
         for bearing in [-0.9, -0.5, -0.2, 0.0, 0.1, 0.4, 0.7_f64] {
             let [x, y, heading] = look.robot;
             let angle = heading + bearing;
-            let at = [x + distance * angle.cos(), y + distance * angle.sin()];
+            let at = [
+                x + distance * math::cos(angle),
+                y + distance * math::sin(angle),
+            ];
             balls.push(Point3::new(at[0] as f32, at[1] as f32, 0.05));
         }
     }

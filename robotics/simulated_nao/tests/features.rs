@@ -4,6 +4,7 @@
 #[path = "support/scene.rs"]
 mod scene;
 
+use framework::math;
 use nalgebra::{Point2, Point3, Vector2};
 use scene::{Look, Vision, looks};
 use simulated_nao::camera::Exposure;
@@ -198,11 +199,11 @@ fn the_penalty_mark_is_found_where_it_is_and_nowhere_else() {
         let bearing = index as f64 * 0.7;
         let distance = 0.4 + 0.1 * index as f64;
         let robot = [
-            3.2 - distance * bearing.cos(),
-            -distance * bearing.sin(),
+            3.2 - distance * math::cos(bearing),
+            -distance * math::sin(bearing),
             bearing,
         ];
-        let yaw = 0.4 * (index as f64).sin();
+        let yaw = 0.4 * math::sin(index as f64);
         [CameraPosition::Top, CameraPosition::Bottom].map(|camera| Look {
             robot,
             yaw,

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use framework::driver::lockstep::Lockstep;
 use framework::parameters::Layers;
 use framework::testing::created;
-use framework::{Clock, Stop, Timestamp};
+use framework::{Clock, Stop, Timestamp, math};
 use nao_runtime::runtime;
 use simulated_nao::Hardware;
 
@@ -48,7 +48,10 @@ fn the_robot_stands_up_and_stands_for_a_minute() {
             }
             let torso = truth.torso_to_field;
             let up = torso.rotation * nalgebra::Vector3::z();
-            assert!(up.z > UPRIGHT.cos(), "leans too far at {seconds} s: {up}");
+            assert!(
+                up.z > math::cos(UPRIGHT),
+                "leans too far at {seconds} s: {up}"
+            );
             let height = torso.translation.z;
             assert!(height > 0.3, "{height} m high at {seconds} s");
             let begun = *place.get_or_insert(torso.translation.vector);

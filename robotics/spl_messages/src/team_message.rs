@@ -11,7 +11,7 @@
 //!
 //! Numbers are little endian `f32`. At most 35 bytes; the rules of 2025 allow 128.
 
-use nalgebra::{Complex, Isometry2, Point2, UnitComplex, Vector2};
+use nalgebra::{Complex, ComplexField, Isometry2, Point2, UnitComplex, Vector2};
 use types::team::{TeamBall, TeamMessage};
 
 use crate::bytes::{Reader, Writer};
@@ -142,7 +142,7 @@ fn decode_pose(reader: &mut Reader<'_>) -> Result<Isometry2<f32>, DecodeError> {
 
 /// The part that is to blame where these are no cosine and sine.
 fn not_a_turn(turn: Complex<f32>) -> Option<f32> {
-    let length = turn.re.hypot(turn.im);
+    let length = turn.modulus();
     let is_turn = (length - 1.0).abs() <= TURN_TOLERANCE;
     (!is_turn).then_some(if turn.re.abs() > 1.0 {
         turn.re

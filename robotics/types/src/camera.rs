@@ -175,6 +175,7 @@ fn is_finite(values: Vector2<f32>) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use framework::math;
     use nalgebra::{Rotation3, Translation3, UnitQuaternion};
 
     use super::*;
@@ -204,7 +205,7 @@ mod tests {
         let point = matrix
             .pixel_to_ground(Point2::new(320.0, 240.0), 0.0)
             .unwrap();
-        assert!((point.x - 0.5 / 0.5_f32.tan()).abs() < 1e-4, "{point}");
+        assert!((point.x - 0.5 / math::tan(0.5_f32)).abs() < 1e-4, "{point}");
         assert!(point.y.abs() < 1e-5);
     }
 
@@ -254,7 +255,7 @@ mod tests {
             .pixel_radius(Point3::new(1.0, 0.0, 0.5), 0.05)
             .unwrap();
         assert!(
-            (radius - 609.6 * 0.05_f32.asin().tan()).abs() < 1e-2,
+            (radius - 609.6 * math::tan(math::asin(0.05_f32))).abs() < 1e-2,
             "{radius}"
         );
     }

@@ -3,7 +3,7 @@
 //! Invariant: every covariance is symmetric and, in the precision of its numbers, positive definite: no axis of its ellipse
 //! is more than a hundred times as long as the other.
 
-use framework::Reflect;
+use framework::{Reflect, math};
 use nalgebra::{Matrix2, Matrix2x3, Matrix3x2, Point2, Vector3};
 use serde::{Deserialize, Serialize};
 
@@ -66,7 +66,7 @@ impl CameraMatrix {
             moved * moved.transpose()
         };
         let known = variance(by_pixel, noise.pixel) + variance(by_angle, noise.angle);
-        let least = noise.ground.powi(2) + LEAST_SHARE * known.trace();
+        let least = math::powi(noise.ground, 2) + LEAST_SHARE * known.trace();
         let covariance = (known + known.transpose()) * 0.5 + Matrix2::identity() * least;
         let is_usable = covariance.iter().all(|value| value.is_finite()) && least > 0.0;
         is_usable.then_some(covariance)
@@ -183,12 +183,10 @@ mod tests {
             let pixels = [Vector2::x(), Vector2::y()]
                 .map(|by| moved(&matrix, by * 0.25, 0.25) * NOISE.pixel);
             let angles = [Vector3::x(), Vector3::y()].map(turned);
-            let expected = pixels
-                .iter()
-                .chain(&angles)
-                .fold(Matrix2::identity() * NOISE.ground.powi(2), |sum, off| {
-                    sum + off * off.transpose()
-                });
+            let expected = pixels.iter().chain(&angles).fold(
+                Matrix2::identity() * math::powi(NOISE.ground, 2),
+                |sum, off| sum + off * off.transpose(),
+            );
             let covariance = matrix.ground_covariance(place, height, &NOISE).unwrap();
             let off = (covariance - expected).norm() / expected.norm();
             assert!(off < 0.03, "{covariance} instead of {expected}");

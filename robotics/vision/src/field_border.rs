@@ -3,7 +3,7 @@
 //! In every column the field begins at some row, at the border or below something that hides it. Most
 //! columns agree on a line; where a corner is in sight the others agree on a second one.
 
-use framework::{AdditionalOutput, Input, MainOutput, Parameter, Reflect, Result, context};
+use framework::{AdditionalOutput, Input, MainOutput, Parameter, Reflect, Result, context, math};
 use nalgebra::Point2;
 use serde::{Deserialize, Serialize};
 use types::camera::CameraMatrix;
@@ -160,7 +160,7 @@ fn fit<'a>(points: impl Iterator<Item = &'a Point2<f32>> + Clone) -> Option<Imag
 }
 
 fn distance(line: &ImageLine, point: &Point2<f32>) -> f32 {
-    (point.y - line.row_at(point.x)).abs() / line.slope.hypot(1.0)
+    (point.y - line.row_at(point.x)).abs() / math::hypot(line.slope, 1.0)
 }
 
 fn is_right_angle(
@@ -176,7 +176,7 @@ fn is_right_angle(
         Some((ground(corner + 10.0)? - ground(corner - 10.0)?).normalize())
     };
     let cosine = direction(first).zip(direction(second));
-    cosine.is_some_and(|(first, second)| first.dot(&second).abs() <= tolerance.sin())
+    cosine.is_some_and(|(first, second)| first.dot(&second).abs() <= math::sin(tolerance))
 }
 
 #[cfg(test)]

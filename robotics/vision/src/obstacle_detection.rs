@@ -6,7 +6,7 @@
 //! things too, but its own foot is not known.
 
 use framework::{
-    AdditionalOutput, Input, MainOutput, Parameter, Reflect, RequiredInput, Result, context,
+    AdditionalOutput, Input, MainOutput, Parameter, Reflect, RequiredInput, Result, context, math,
 };
 use nalgebra::{Point2, Point3};
 use serde::{Deserialize, Serialize};
@@ -248,7 +248,7 @@ impl View<'_> {
     /// Whether enough columns show a cluster.
     fn is_wide(&self, cluster: &Cluster, image_segments: &ImageSegments) -> bool {
         let pixels = cluster.columns as f32 * image_segments.column_step as f32;
-        let away = distance(&cluster.mean).hypot(self.matrix.position().z);
+        let away = math::hypot(distance(&cluster.mean), self.matrix.position().z);
         let width = pixels * away / self.matrix.intrinsics.focal.x;
         let sides = [
             image_segments.segments.first(),

@@ -5,7 +5,7 @@
 
 use framework::context;
 use framework::{
-    AdditionalOutput, Input, Leased, MainOutput, Parameter, Reflect, RequiredInput, Result,
+    AdditionalOutput, Input, Leased, MainOutput, Parameter, Reflect, RequiredInput, Result, math,
 };
 use nalgebra::{Matrix2, Point2, Vector2};
 use serde::{Deserialize, Serialize};
@@ -200,7 +200,8 @@ impl View<'_> {
         const SAMPLES: usize = 16;
         let field = (0..SAMPLES).filter(|sample| {
             let angle = *sample as f32 * std::f32::consts::TAU / SAMPLES as f32;
-            let offset = Vector2::new(angle.cos(), angle.sin()) * (self.mark_size * sizes);
+            let offset =
+                Vector2::new(math::cos(angle), math::sin(angle)) * (self.mark_size * sizes);
             self.look(place + offset)
                 .is_some_and(|(is_field, _)| is_field)
         });

@@ -1,6 +1,6 @@
 //! What one step does, and how large it may be.
 
-use framework::Reflect;
+use framework::{Reflect, math};
 use serde::{Deserialize, Serialize};
 use types::feet::Side;
 use types::motion::Step;
@@ -51,7 +51,10 @@ impl StepLimits {
         let free = (1.0 - turned * turned).max(0.0);
         let (x, y) = (wanted.forward / forward_limit, wanted.left / self.sideways);
         // Rounder than a diamond, flatter than a circle: legs get in each other's way on the diagonal.
-        let used = (x.abs().powf(1.5) + y.abs().powf(1.5)).powf(1.0 / 1.5);
+        let used = math::powf(
+            math::powf(x.abs(), 1.5) + math::powf(y.abs(), 1.5),
+            1.0 / 1.5,
+        );
         let most = free.sqrt();
         let share = if used > most { most / used } else { 1.0 };
         Step {

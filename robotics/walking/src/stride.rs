@@ -1,6 +1,6 @@
 //! One step in the air: where both soles are at each of its moments.
 
-use framework::Reflect;
+use framework::{Reflect, math};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 use serde::{Deserialize, Serialize};
 use types::feet::{Feet, Side};
@@ -113,7 +113,7 @@ impl Stride {
             (swing.forward - support.forward, swing.left - support.left)
         };
         let (before, behind) = (apart(&self.start), apart(&self.end));
-        (behind.0 - before.0).hypot(behind.1 - before.1)
+        math::hypot(behind.0 - before.0, behind.1 - before.1)
     }
 
     /// The soles so long after the start, in s; after its duration the stride stays where it ends.

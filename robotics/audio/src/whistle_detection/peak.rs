@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use framework::Reflect;
+use framework::{Reflect, math};
 use serde::{Deserialize, Serialize};
 
 use super::WhistleDetectionParameters;
@@ -97,5 +97,5 @@ fn mean(parts: [&[f32]; 2]) -> Option<f32> {
 
 /// At most 100 dB to both sides, so that silence has a number too.
 fn decibels(ratio: f32) -> f32 {
-    10.0 * ratio.clamp(1e-10, 1e10).log10()
+    10.0 * math::log10(ratio.clamp(1e-10, 1e10))
 }

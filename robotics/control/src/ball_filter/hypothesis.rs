@@ -1,6 +1,6 @@
 //! One place where the ball may lie: a Kalman filter for its position and velocity.
 
-use framework::Timestamp;
+use framework::{Timestamp, math};
 use nalgebra::{Matrix2, Matrix2x4, Matrix4, Matrix4x2, Point2, Vector2, Vector4};
 use serde::{Deserialize, Serialize};
 
@@ -74,8 +74,8 @@ impl Hypothesis {
         (transition[(0, 2)], transition[(1, 3)]) = (reach, reach);
         (transition[(2, 2)], transition[(3, 3)]) = (kept, kept);
         self.covariance = transition * self.covariance * transition.transpose();
-        let position_noise = parameters.position_noise.powi(2) * elapsed;
-        let velocity_noise = parameters.velocity_noise.powi(2) * elapsed;
+        let position_noise = math::powi(parameters.position_noise, 2) * elapsed;
+        let velocity_noise = math::powi(parameters.velocity_noise, 2) * elapsed;
         for (index, noise) in [
             position_noise,
             position_noise,
@@ -139,7 +139,7 @@ impl places::Hypothesis for Hypothesis {
 
 /// Of a ball with a velocity that nobody knows.
 fn covariance(position: Matrix2<f32>, parameters: &BallFilterParameters) -> Matrix4<f32> {
-    let speed_variance = parameters.initial_speed.powi(2);
+    let speed_variance = math::powi(parameters.initial_speed, 2);
     let mut covariance = Matrix4::from_diagonal_element(speed_variance);
     covariance.fixed_view_mut::<2, 2>(0, 0).copy_from(&position);
     covariance

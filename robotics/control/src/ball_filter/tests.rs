@@ -3,6 +3,7 @@
 use std::f32::consts::FRAC_PI_2;
 use std::sync::LazyLock;
 
+use framework::math;
 use framework::testing::{
     AdditionalProbe, ParameterFile, at_millis, cycle_time, history, perception,
 };
@@ -92,7 +93,7 @@ fn images(from: u64, count: u64, seen: &Vec<BallCandidate>) -> Seen<'_> {
 
 /// Share of its speed that a ball keeps.
 fn kept(millis: u64) -> f32 {
-    (-(millis as f32) / 1000.0 / parameters().rolling_time).exp()
+    math::exp(-(millis as f32) / 1000.0 / parameters().rolling_time)
 }
 
 /// How far a ball of 2 m/s rolls, in m.
@@ -168,7 +169,10 @@ fn a_ball_seen_before_a_turn_lies_beside_the_robot_after_it() {
 
 #[test]
 fn a_ball_comes_nearer_as_the_robot_walks() {
-    let (before, after) = (pose(0.0, 0.0, 1.0), pose(1.0_f32.cos(), 1.0_f32.sin(), 1.0));
+    let (before, after) = (
+        pose(0.0, 0.0, 1.0),
+        pose(math::cos(1.0_f32), math::sin(1.0_f32), 1.0),
+    );
     let seen = candidate(3.0, 0.5);
     let seen = (images(0, 3, &seen), vec![]);
     let ball = cycle_at(&mut node(), 100, (&before, &after), &parameters(), seen).ball;

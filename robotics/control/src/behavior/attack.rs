@@ -3,6 +3,7 @@
 //! All of it in the ground frame. The aim is the direction in which the ball shall go; seen along it the robot has to be
 //! behind the ball, on the line, and face the same way.
 
+use framework::math;
 use nalgebra::{Isometry2, Point2, Vector2};
 use types::behavior::Activity;
 use types::motion::{BodyMotion, Script, Step};
@@ -28,7 +29,7 @@ pub(super) fn attack(view: &View<'_>, ball: Point2<f32>) -> Decision {
     let attack = &view.parameters.attack;
     let Some(ground_to_field) = view.world.ground_to_field else {
         let away = ball.coords.cap_magnitude(attack.behind);
-        let heading = ball.y.atan2(ball.x);
+        let heading = math::atan2(ball.y, ball.x);
         let target = Isometry2::new(ball.coords - away, heading);
         return view.walk_to(&target, None, Activity::WalkToBall, Activity::WalkToBall);
     };
@@ -36,12 +37,12 @@ pub(super) fn attack(view: &View<'_>, ball: Point2<f32>) -> Decision {
     let on_field = ground_to_field * ball;
     // From afar the ball goes on as the robot comes, at its feet as the robot faces.
     let easy = match ball.coords.norm() > attack.reach {
-        true => heading + ball.y.atan2(ball.x),
+        true => heading + math::atan2(ball.y, ball.x),
         false => heading,
     };
     let places = &view.parameters.places;
     let aim = places.aim(on_field, easy, attack.post_margin) - heading;
-    let aim = aim.sin().atan2(aim.cos());
+    let aim = math::atan2(math::sin(aim), math::cos(aim));
     let stance = Stance::new(ball, aim);
     let may_kick = places.distance_to_goal(on_field) <= attack.kick_range;
     let mut decision = match choose(&stance, ball, may_kick, view.memory.activity, attack) {

@@ -1,5 +1,6 @@
 //! Owns where robots stand and where the ball shall go, in the field frame: the opponents' goal lies at positive x.
 
+use framework::math;
 use nalgebra::{Isometry2, Point2, Vector2};
 use types::behavior::Role;
 use types::game::{KickingTeam, SetPlay};
@@ -108,7 +109,7 @@ impl PlaceParameters {
     /// The direction in which a ball gets into the opponents' goal; the nearest such direction to one that would be easy, rad.
     pub(super) fn aim(&self, ball: Point2<f32>, easy: f32, post_margin: f32) -> f32 {
         let post = (self.post - post_margin).max(0.0);
-        let to = |y: f32| (y - ball.y).atan2(self.goal_line - ball.x);
+        let to = |y: f32| math::atan2(y - ball.y, self.goal_line - ball.x);
         let (right, left) = (to(-post), to(post));
         if ball.x < self.goal_line && left - right > NARROW {
             // Both lie within a quarter of a turn of the direction to the goal, so nothing wraps.
@@ -117,13 +118,13 @@ impl PlaceParameters {
             return (middle + off).clamp(right, left);
         }
         // Beside the goal: back to where it can be seen from.
-        (-ball.y).atan2(self.goal_line - self.penalty_mark - ball.x)
+        math::atan2(-ball.y, self.goal_line - self.penalty_mark - ball.x)
     }
 
     /// How far a ball is from the opponents' goal, m.
     pub(super) fn distance_to_goal(&self, ball: Point2<f32>) -> f32 {
         let beside = (ball.y.abs() - self.post).max(0.0);
-        beside.hypot(self.goal_line - ball.x)
+        math::hypot(beside, self.goal_line - ball.x)
     }
 
     fn on_the_field(&self, place: Point2<f32>) -> Point2<f32> {
@@ -133,7 +134,7 @@ impl PlaceParameters {
 
     fn facing(&self, place: Point2<f32>, ball: Point2<f32>) -> Isometry2<f32> {
         let to_ball = ball - place;
-        Isometry2::new(place.coords, to_ball.y.atan2(to_ball.x))
+        Isometry2::new(place.coords, math::atan2(to_ball.y, to_ball.x))
     }
 }
 
@@ -142,7 +143,7 @@ const NARROW: f32 = 0.15;
 
 /// The same direction, from -π to π.
 fn wrapped(angle: f32) -> f32 {
-    angle.sin().atan2(angle.cos())
+    math::atan2(math::sin(angle), math::cos(angle))
 }
 
 #[cfg(test)]
@@ -237,7 +238,7 @@ mod tests {
         // Straight ahead gets there.
         assert!((aim(3.0, 0.3, 0.0)).abs() < 1e-6);
         // Whoever heads elsewhere aims at what is in from the nearer post.
-        let left = 0.55_f32.atan2(1.5);
+        let left = math::atan2(0.55_f32, 1.5);
         for easy in [0.5, FRAC_PI_2, 3.0] {
             assert!((aim(3.0, 0.0, easy) - left).abs() < 1e-5);
         }
@@ -245,7 +246,7 @@ mod tests {
         // From beside the goal it goes back to where it can be seen from.
         for (x, y) in [(4.48, 2.0), (4.6, -1.0)] {
             let aim = aim(x, y, 0.0);
-            assert!(aim.cos() < 0.0 && aim.sin() * y < 0.0, "{aim}");
+            assert!(math::cos(aim) < 0.0 && math::sin(aim) * y < 0.0, "{aim}");
         }
         assert!(aim(-4.0, 0.0, PI).abs() < 0.1);
     }

@@ -1,5 +1,6 @@
 //! Owns what a robot does in the game: what the referee lets it do with the ball, else what its role asks of it.
 
+use framework::math;
 use nalgebra::{Isometry2, Point2};
 use types::ball::Ball;
 use types::behavior::{Activity, Role};
@@ -111,7 +112,7 @@ fn towards(view: &View<'_>, ball: Point2<f32>) -> Decision {
     match view.world.role {
         Role::Striker => {
             let away = ball.coords.cap_magnitude(view.parameters.attack.reach);
-            let heading = ball.y.atan2(ball.x);
+            let heading = math::atan2(ball.y, ball.x);
             let target = Isometry2::new(ball.coords - away, heading);
             let look = Activity::LookWhereTeamSees;
             view.walk_to(&target, None, look, Activity::SearchWithHead)

@@ -1,5 +1,6 @@
 //! Owns the next step on the way to a pose: turn and go ahead while it is far, go in all directions once it is near.
 
+use framework::math;
 use nalgebra::{Isometry2, Point2};
 use types::motion::Step;
 
@@ -29,7 +30,7 @@ pub(super) fn step_to(
             turn: within(heading, parameters.turn),
         });
     }
-    let bearing = way_point.y.atan2(way_point.x);
+    let bearing = math::atan2(way_point.y, way_point.x);
     let faces_it = bearing.abs() <= parameters.ahead;
     Some(Step {
         forward: match faces_it {

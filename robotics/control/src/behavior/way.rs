@@ -1,5 +1,6 @@
 //! Owns the way around what stands on the floor: straight to the goal, else along tangents of circles.
 
+use framework::math;
 use nalgebra::{Isometry2, Point2, Vector2};
 
 /// How many obstacles after each other a way goes around; behind that it is thought to be free.
@@ -77,7 +78,7 @@ fn beside(start: Point2<f32>, circle: &Circle, side: f32) -> Point2<f32> {
         true => to_middle / distance,
         false => Vector2::x(),
     };
-    let aside = (radius / distance.max(radius)).asin() * side;
+    let aside = math::asin(radius / distance.max(radius)) * side;
     let length = (distance * distance - radius * radius).max(0.0).sqrt();
     let turned: Vector2<f32> = Isometry2::rotation(aside) * direction;
     start + turned * length.max(radius / 2.0)

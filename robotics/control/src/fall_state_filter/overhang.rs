@@ -2,6 +2,7 @@
 
 use std::f32::consts::TAU;
 
+use framework::math;
 use kinematics::feet::sole_outline;
 use nalgebra::{Point3, UnitQuaternion, Vector2};
 use types::fall_state::FallDirection;
@@ -50,7 +51,7 @@ pub(super) fn overhang(
     let farthest = (0..DIRECTIONS)
         .map(|index| {
             let angle = TAU * f32::from(index) / f32::from(DIRECTIONS);
-            let outward = Vector2::new(angle.cos(), angle.sin());
+            let outward = Vector2::new(math::cos(angle), math::sin(angle));
             let corners = soles.as_flattened().iter();
             let edge = corners.map(|corner| corner.dot(&outward));
             (-edge.fold(f32::NEG_INFINITY, f32::max), outward)

@@ -2,6 +2,7 @@
 
 use std::f32::consts::FRAC_PI_2;
 
+use framework::math;
 use framework::testing::{AdditionalProbe, cycle_time};
 use kinematics::forward_kinematics;
 
@@ -104,7 +105,7 @@ impl Robot {
 fn a_robot_that_sways_stays_upright() {
     let mut robot = Robot::standing();
     for cycle in 0..500 {
-        let (sine, cosine) = (cycle as f32 * 0.1).sin_cos();
+        let (sine, cosine) = math::sin_cos(cycle as f32 * 0.1);
         let gyroscope = Vector3::new(cosine, -sine, 0.0);
         let state = robot.cycle(0.12 * sine, 0.12 * cosine, gyroscope);
         assert_eq!(state, FallState::Upright);

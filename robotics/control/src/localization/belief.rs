@@ -3,7 +3,7 @@
 //! Invariant: the hypothesis that counts stands first; another one takes its place only when clearly
 //! more speaks for it, so that the robot does not jump to and fro.
 
-use framework::Timestamp;
+use framework::{Timestamp, math};
 use nalgebra::{Isometry2, Point2, Vector3};
 use serde::{Deserialize, Serialize};
 use types::field_features::{LineSegment, PenaltyMark};
@@ -257,7 +257,7 @@ impl Hypothesis {
 
 /// From 1 where something is exactly where it was expected to half of it at the gate.
 pub(super) fn quality(found: &Match, view: &View<'_>) -> f32 {
-    1.0 - 0.5 * found.deviation / view.parameters.gate.powi(2)
+    1.0 - 0.5 * found.deviation / math::powi(view.parameters.gate, 2)
 }
 
 pub(super) fn moved(line: &LineSegment, by: &Isometry2<f32>) -> LineSegment {
@@ -286,9 +286,9 @@ fn movement_noise(
     };
     let way = movement.translation.vector.norm();
     let turn = movement.rotation.angle().abs();
-    let planar = parameters.way_noise.powi(2) * way + place.powi(2) * passed;
-    let turned = parameters.turn_noise.powi(2) * turn
-        + parameters.heading_noise.powi(2) * way
-        + heading.powi(2) * passed;
+    let planar = math::powi(parameters.way_noise, 2) * way + math::powi(place, 2) * passed;
+    let turned = math::powi(parameters.turn_noise, 2) * turn
+        + math::powi(parameters.heading_noise, 2) * way
+        + math::powi(heading, 2) * passed;
     Vector3::new(planar, planar, turned)
 }

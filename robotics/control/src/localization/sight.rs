@@ -5,6 +5,7 @@
 //! Nearest neighbour with a gate (Bar-Shalom and Li 1995); what two markings explain equally well
 //! says that the robot may be here, but not where exactly.
 
+use framework::math;
 use nalgebra::{Isometry2, Matrix2, Point2, RowVector3, Unit, Vector2};
 use types::field_features::LineSegment;
 use types::field_markings::{FieldLine, FieldMarkings};
@@ -85,10 +86,10 @@ impl View<'_> {
             }
         }
         let (innovations, deviation) = best?;
-        (deviation <= self.parameters.gate.powi(2)).then_some(Match {
+        (deviation <= math::powi(self.parameters.gate, 2)).then_some(Match {
             innovations,
             deviation,
-            is_clear: second - deviation >= self.parameters.clear_by.powi(2),
+            is_clear: second - deviation >= math::powi(self.parameters.clear_by, 2),
         })
     }
 
@@ -135,8 +136,8 @@ impl View<'_> {
             outward
         };
         // A line fitted to an arc of this half angle lies so much nearer to the middle than the arc.
-        let half_angle = (length / (2.0 * radius)).min(1.0).asin().max(1e-3);
-        let distance = radius * half_angle.sin() / half_angle;
+        let half_angle = math::asin((length / (2.0 * radius)).min(1.0)).max(1e-3);
+        let distance = radius * math::sin(half_angle) / half_angle;
         let noise = self.noise(pose, middle);
         let position = pose.translation.vector;
         let turned = |direction: Vector2<f32>| Vector2::new(-direction.y, direction.x);
@@ -146,7 +147,7 @@ impl View<'_> {
             variance: direction.dot(&(noise * direction)) + more,
         };
         // Nobody sees where on the circle the chord ends.
-        let unsure = (length / 4.0).powi(2);
+        let unsure = math::powi(length / 4.0, 2);
         Some([
             innovation(outward, distance, 0.0),
             innovation(along, 0.0, unsure),

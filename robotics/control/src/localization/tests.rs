@@ -3,6 +3,7 @@
 use std::f32::consts::{FRAC_PI_2, PI};
 use std::sync::LazyLock;
 
+use framework::math;
 use framework::testing::{
     AdditionalProbe, ParameterFile, at_millis, cycle_time, history, perception,
 };
@@ -117,7 +118,7 @@ fn view_from(ground_to_field: &Isometry2<f32>) -> Vec<LineSegment> {
     let arc = |from: u16| {
         let point = move |index: u16| {
             let angle = PI / 6.0 * (f32::from(from) + f32::from(index) / 10.0);
-            Point2::new(angle.cos(), angle.sin()) * MARKINGS.circle_radius
+            Point2::new(math::cos(angle), math::sin(angle)) * MARKINGS.circle_radius
         };
         (0..=10).map(point).collect::<Vec<_>>()
     };
@@ -126,7 +127,7 @@ fn view_from(ground_to_field: &Isometry2<f32>) -> Vec<LineSegment> {
         let mut run: Vec<Point2<f32>> = Vec::new();
         for point in points {
             let ground = ground_to_field.inverse() * point;
-            let bearing = ground.y.atan2(ground.x);
+            let bearing = math::atan2(ground.y, ground.x);
             if (0.3..REACH).contains(&ground.coords.norm()) && bearing.abs() < ASIDE {
                 run.push(ground);
             } else if run.len() > 6 {

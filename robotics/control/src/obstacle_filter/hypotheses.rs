@@ -1,6 +1,6 @@
 //! The places where something may stand, each a Kalman filter for a position that hardly changes.
 
-use framework::Timestamp;
+use framework::{Timestamp, math};
 use nalgebra::Point2;
 use serde::{Deserialize, Serialize};
 use types::obstacles::ObstacleKind;
@@ -43,7 +43,7 @@ impl Hypotheses {
     /// What becomes of them until `time`; nothing where that is in the past.
     pub(super) fn predict(&mut self, time: Timestamp, parameters: &ObstacleFilterParameters) {
         self.advance(time, |hypothesis, elapsed, now| {
-            hypothesis.variance += parameters.position_noise.powi(2) * elapsed;
+            hypothesis.variance += math::powi(parameters.position_noise, 2) * elapsed;
             let silence = (now - hypothesis.seen_at).as_secs_f32();
             hypothesis.is_finite() && silence <= parameters.forget_after
         });
@@ -67,7 +67,7 @@ impl Hypotheses {
             Some((_, hypothesis)) => hypothesis.learn(measurement, seen_at, parameters),
             None => self.insert(Hypothesis {
                 position: measurement.position,
-                variance: measurement.noise.powi(2),
+                variance: math::powi(measurement.noise, 2),
                 evidence: measurement.evidence,
                 kind: measurement.kind,
                 seen_at,
@@ -104,7 +104,7 @@ impl Hypothesis {
         seen_at: Timestamp,
         parameters: &ObstacleFilterParameters,
     ) {
-        let expected = (self.variance + measurement.noise.powi(2)).max(f32::MIN_POSITIVE);
+        let expected = (self.variance + math::powi(measurement.noise, 2)).max(f32::MIN_POSITIVE);
         let gain = self.variance / expected;
         self.position += (measurement.position - self.position) * gain;
         self.variance *= 1.0 - gain;

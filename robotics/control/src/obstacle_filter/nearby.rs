@@ -2,6 +2,7 @@
 //!
 //! Both come from the near side of something; its middle is farther away.
 
+use framework::math;
 use nalgebra::Point2;
 use types::feet::Feet;
 use types::obstacles::ObstacleKind;
@@ -78,6 +79,6 @@ pub(super) fn bumps(
 /// The middle of something whose near side is that far away.
 fn behind(distance: f32, angle: f32, parameters: &ObstacleFilterParameters) -> Point2<f32> {
     let distance = distance + parameters.unknown_radius;
-    let (sine, cosine) = angle.sin_cos();
+    let (sine, cosine) = math::sin_cos(angle);
     Point2::new(distance * cosine, distance * sine)
 }

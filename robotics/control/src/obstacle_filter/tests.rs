@@ -3,8 +3,8 @@
 use std::f32::consts::FRAC_PI_2;
 use std::sync::LazyLock;
 
-use framework::Timestamp;
 use framework::testing::{ParameterFile, at_millis, cycle_time, history, perception};
+use framework::{Timestamp, math};
 use nalgebra::{Point2, Vector2};
 
 use super::hypotheses::MOST_HYPOTHESES;
@@ -144,7 +144,7 @@ fn an_echo_on_one_side_is_something_on_that_side() {
         obstacles = cycle_at(&mut node, (12 * index, 0.0), LEFT_ECHO, (vec![], vec![]));
     }
     // The echo comes from its near side.
-    let (sine, cosine) = parameters().sonar_angle.sin_cos();
+    let (sine, cosine) = math::sin_cos(parameters().sonar_angle);
     assert_near(obstacles[0].position, 0.625 * cosine, 0.625 * sine);
     assert_eq!(obstacles[0].kind, ObstacleKind::Unknown);
     assert_eq!(obstacles[0].radius, 0.125);
@@ -185,7 +185,7 @@ fn what_a_foot_touches_is_there_at_once() {
     assert_eq!(obstacles.len(), 1);
     // The foot touches its near side.
     let distance = parameters().bumper_distance + parameters().unknown_radius;
-    let (sine, cosine) = parameters().bumper_angle.sin_cos();
+    let (sine, cosine) = math::sin_cos(parameters().bumper_angle);
     assert_near(obstacles[0].position, distance * cosine, -distance * sine);
 }
 
@@ -193,7 +193,7 @@ fn what_a_foot_touches_is_there_at_once() {
 fn an_echo_from_a_robot_does_not_make_it_something_else() {
     let mut node = node();
     let angle = parameters().sonar_angle;
-    let seen = candidate(0.3 * angle.cos(), 0.3 * angle.sin());
+    let seen = candidate(0.3 * math::cos(angle), 0.3 * math::sin(angle));
     cycle(&mut node, 400, images(0, 10, &seen));
     let obstacles = cycle_at(&mut node, (412, 0.0), LEFT_ECHO, (vec![], vec![]));
     assert_eq!(obstacles.len(), 1);
@@ -226,7 +226,7 @@ fn a_camera_moves_what_an_echo_repeats_in_every_cycle() {
 fn an_echo_counts_the_same_however_often_it_is_repeated() {
     let variance = |step| {
         let felt: Vec<_> = echoes(&LEFT_ECHO.sonar, step, &parameters()).collect();
-        felt[0].noise.powi(2) * step
+        math::powi(felt[0].noise, 2) * step
     };
     assert!((variance(0.012) - variance(0.1)).abs() < 1e-6);
     assert_eq!(echoes(&LEFT_ECHO.sonar, 0.0, &parameters()).count(), 0);

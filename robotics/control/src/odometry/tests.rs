@@ -2,6 +2,7 @@
 
 use std::f32::consts::{FRAC_PI_2, PI};
 
+use framework::math;
 use framework::testing::cycle_time;
 use kinematics::forward_kinematics;
 use nalgebra::Translation3;
@@ -74,11 +75,11 @@ fn cycle_scaled(
 /// Hip, knee and ankle pitch that bring the ankle so far ahead of and below the hip, sole level.
 fn leg(ahead: f32, below: f32) -> [f32; 3] {
     let (thigh, tibia) = (0.1_f32, 0.1029_f32);
-    let length = ahead.hypot(below);
+    let length = math::hypot(ahead, below);
     let angle = |near: f32, other: f32, far: f32| {
-        ((near * near + other * other - far * far) / (2.0 * near * other)).acos()
+        math::acos((near * near + other * other - far * far) / (2.0 * near * other))
     };
-    let hip = -ahead.atan2(below) - angle(thigh, length, tibia);
+    let hip = -math::atan2(ahead, below) - angle(thigh, length, tibia);
     let knee = PI - angle(thigh, tibia, length);
     [hip, knee, -hip - knee]
 }
@@ -128,7 +129,7 @@ fn walk(node: &mut OdometryProvider, steps: u16, length: f32) -> Isometry2<f32> 
         for phase in first..=last {
             let phase = f32::from(phase) / f32::from(STEP);
             let ahead = feet(side, phase - 0.5, 0.5 - phase).map(|share| share * length);
-            let height = feet(side, 0.02 * (phase * PI).sin(), 0.0);
+            let height = feet(side, 0.02 * math::sin(phase * PI), 0.0);
             reached = cycle(node, Felt::new(&joints(ahead, height), side));
         }
     }
@@ -258,7 +259,7 @@ fn walking_in_an_arc_ends_where_the_feet_are_even_while_the_torso_sways() {
     // Along a circle about (0, 0.5), the torso half a step between its footprints.
     let place = |angle: f32| {
         Isometry3::new(
-            Vector3::new(0.5 * angle.sin(), 0.5 - 0.5 * angle.cos(), 0.0),
+            Vector3::new(0.5 * math::sin(angle), 0.5 - 0.5 * math::cos(angle), 0.0),
             Vector3::z() * angle,
         )
     };
@@ -280,12 +281,12 @@ fn walking_in_an_arc_ends_where_the_feet_are_even_while_the_torso_sways() {
         for phase in 0..=STEP {
             let phase = f32::from(phase) / f32::from(STEP);
             let mut swinging = from.lerp_slerp(&to, phase);
-            swinging.translation.z = 0.02 * (phase * PI).sin();
+            swinging.translation.z = 0.02 * math::sin(phase * PI);
             match side {
                 Side::Left => prints.right = swinging,
                 Side::Right => prints.left = swinging,
             }
-            let sway = (phase * PI).sin();
+            let sway = math::sin(phase * PI);
             let heading = begin + phase * turn;
             let torso = Isometry3::from_parts(
                 (place(heading) * Translation3::new(0.0, 0.02 * sway, 0.26)).translation,

@@ -3,7 +3,7 @@
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 
-use framework::{Error, Result};
+use framework::{Error, Result, math};
 use types::audio::Tone;
 
 use super::library::Library;
@@ -141,7 +141,7 @@ fn samples(tone: &Tone) -> impl Iterator<Item = f32> {
     let count = (f64::from(duration.clamp(0.0, LONGEST)) * rate).round() as u32;
     (0..count).map(move |number| {
         let phase = f64::from(number) / rate * f64::from(frequency) * std::f64::consts::TAU;
-        phase.sin() as f32 * volume.clamp(0.0, 1.0)
+        math::sin(phase) as f32 * volume.clamp(0.0, 1.0)
     })
 }
 

@@ -17,6 +17,7 @@ use std::fs;
 use std::path::Path;
 
 use conditions::{Draw, Half};
+use framework::math;
 use framework::testing::AdditionalProbe;
 use simulated_nao::ground_truth::{BallTruth, ImageTruth};
 use vision::ball_detection::BallProposal;
@@ -122,15 +123,16 @@ fn train(samples: &[Sample], held_out: &[Sample]) -> Vec<f32> {
                 let sample = &samples[*index];
                 let image = varied(&sample.patch, &mut draw);
                 let wanted = if sample.is_ball { 1.0 } else { 0.0 };
-                let slope = |odds: f32| (1.0 / (1.0 + (-odds).exp()) - wanted) / batch.len() as f32;
+                let slope =
+                    |odds: f32| (1.0 / (1.0 + math::exp(-odds)) - wanted) / batch.len() as f32;
                 network::learn(&weights, &image, slope, &mut gradient);
             }
             steps += 1;
             for (index, by) in gradient.into_iter().enumerate() {
                 mean[index] = 0.9 * mean[index] + 0.1 * by;
                 square[index] = 0.999 * square[index] + 0.001 * by * by;
-                let corrected = mean[index] / (1.0 - 0.9_f32.powi(steps));
-                let spread = (square[index] / (1.0 - 0.999_f32.powi(steps))).sqrt();
+                let corrected = mean[index] / (1.0 - math::powi(0.9_f32, steps));
+                let spread = (square[index] / (1.0 - math::powi(0.999_f32, steps))).sqrt();
                 weights[index] -= rate * corrected / (spread + 1e-8);
             }
         }

@@ -1,5 +1,7 @@
 //! Smears light before it becomes an image, as optics and motion do; the noise of the sensor stays sharp.
 
+use framework::math;
+
 use super::row::Row;
 use super::{HEIGHT, WIDTH};
 
@@ -16,7 +18,7 @@ impl Blur {
             return None;
         }
         let reach = (2.5 * deviation).ceil() as usize;
-        let bell = |distance: usize| (-0.5 * (distance as f32 / deviation).powi(2)).exp();
+        let bell = |distance: usize| math::exp(-0.5 * math::powi(distance as f32 / deviation, 2));
         let mut weights: Vec<_> = (0..=reach).map(bell).collect();
         let sum = weights[0] + 2.0 * weights[1..].iter().sum::<f32>();
         weights.iter_mut().for_each(|weight| *weight /= sum);

@@ -4,6 +4,7 @@
 //! hash a pixel. Blocks near a marking, an edge of the carpet or the ball are painted pixel by
 //! pixel, filtered over the footprint of each pixel so that distant lines do not flicker.
 
+use framework::math;
 use nalgebra::{Point2, Vector2, Vector3};
 
 use super::color::{Color, to_bits};
@@ -195,7 +196,7 @@ fn light(ball: &Point2<f32>, point: &Point2<f32>) -> f32 {
     if distance > SHADOW * SHADOW {
         return 1.0;
     }
-    1.0 - 0.5 * (-distance / (BALL_RADIUS * BALL_RADIUS)).exp()
+    1.0 - 0.5 * math::exp(-distance / (BALL_RADIUS * BALL_RADIUS))
 }
 
 /// A number between -1 and 1 for every blotch.

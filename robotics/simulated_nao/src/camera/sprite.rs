@@ -1,5 +1,6 @@
 //! Paints capsules: robots, limbs, goal posts. In the image each is two circles and their tangents.
 
+use framework::math;
 use nalgebra::{Isometry3, Point2, Point3, Vector2, Vector3};
 
 use super::color::Color;
@@ -239,8 +240,8 @@ fn size(center: &Point3<f32>, radius: f32) -> Option<f32> {
     if share > 0.98 {
         return None;
     }
-    let away = center.xy().coords.norm().atan2(center.z);
-    let inner = away.tan() - (away - share.asin()).tan();
+    let away = math::atan2(center.xy().coords.norm(), center.z);
+    let inner = math::tan(away) - math::tan(away - math::asin(share));
     let depth = (center.z * center.z - radius * radius).max(1e-9).sqrt();
     Some(inner.min(radius / depth))
 }

@@ -1,6 +1,6 @@
 //! What scenarios do to the world, and what they may know of it.
 
-use framework::{Error, Result, Timestamp};
+use framework::{Error, Result, Timestamp, math};
 use nalgebra::{Isometry3, Point3, Vector3};
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -187,7 +187,7 @@ pub(super) fn truth(truth: &GroundTruth) -> Value {
     json!({
         "own": {
             "place": [ahead * ground.translation.x, ahead * ground.translation.y],
-            "direction": [ahead * heading.cos(), ahead * heading.sin()],
+            "direction": [ahead * math::cos(heading), ahead * math::sin(heading)],
         },
         "x": ground.translation.x,
         "y": ground.translation.y,
@@ -196,7 +196,7 @@ pub(super) fn truth(truth: &GroundTruth) -> Value {
         "stuck": truth.stuck,
         "ball_contacts": truth.ball_contacts,
         "harmful_commands": truth.harmful_commands,
-        "tilt": up.z.clamp(-1.0, 1.0).acos(),
+        "tilt": math::acos(up.z.clamp(-1.0, 1.0)),
         "height": torso.translation.z,
         "ball": ball,
         "robots": robots,

@@ -105,6 +105,7 @@ fn pose(text: &str) -> Result<Isometry3<f32>> {
 
 #[cfg(test)]
 mod tests {
+    use framework::math;
     use nalgebra::{Point3, Vector3};
 
     use super::*;
@@ -119,7 +120,7 @@ mod tests {
         let arguments = read("--camera-pose 0.5,0.3 a.png --instance VisionBottom").unwrap();
         let ahead = arguments.camera_to_ground * Vector3::z();
         assert!(
-            (ahead - Vector3::new(0.3_f32.cos(), 0.0, -0.3_f32.sin())).norm() < 1e-5,
+            (ahead - Vector3::new(math::cos(0.3_f32), 0.0, -math::sin(0.3_f32))).norm() < 1e-5,
             "{ahead}"
         );
         let place = arguments.camera_to_ground * Point3::origin();

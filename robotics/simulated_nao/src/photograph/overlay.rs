@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::f32::consts::TAU;
 
-use framework::Result;
+use framework::{Result, math};
 use nalgebra::{Point2, Vector2};
 use serde::de::DeserializeOwned;
 use serde_json::Value;
@@ -82,7 +82,7 @@ fn cross(image: &mut Rgb, center: Point2<f32>, reach: f32, color: [u8; 3]) {
 fn circle(image: &mut Rgb, center: Point2<f32>, radius: f32, color: [u8; 3]) {
     let count = (radius.clamp(1.0, 4096.0) * TAU).ceil() as u32;
     for step in 0..count {
-        let (sine, cosine) = (step as f32 / count as f32 * TAU).sin_cos();
+        let (sine, cosine) = math::sin_cos(step as f32 / count as f32 * TAU);
         image.set(center.x + radius * cosine, center.y + radius * sine, color);
     }
 }

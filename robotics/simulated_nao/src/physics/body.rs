@@ -1,5 +1,6 @@
 //! The state of one robot's body, and how it stands on the floor.
 
+use framework::math;
 use kinematics::feet::sole_outline;
 use kinematics::inertial::GRAVITY;
 use kinematics::links::{LINKS, TORSO};
@@ -105,7 +106,7 @@ impl Body {
     /// How far the torso leans, in rad.
     pub fn tilt(&self) -> f64 {
         let up = self.torso_to_field.rotation * Vector3::z();
-        up.z.clamp(-1.0, 1.0).acos()
+        math::acos(up.z.clamp(-1.0, 1.0))
     }
 
     /// Height of the lowest point of a sole, m.
@@ -136,5 +137,5 @@ pub(super) fn planar(x: f64, y: f64, heading: f64) -> Isometry3<f64> {
 /// The direction of a frame's x axis on the floor, in rad.
 pub(crate) fn heading(pose: &Isometry3<f64>) -> f64 {
     let forward = pose.rotation * Vector3::x();
-    forward.y.atan2(forward.x)
+    math::atan2(forward.y, forward.x)
 }

@@ -1,5 +1,6 @@
 //! Who is taken off the field, for how long, and where to.
 
+use framework::math;
 use types::game::{GameState, Penalty};
 
 use super::{Player, Referee, Ruling, direction, index};
@@ -61,7 +62,7 @@ impl Referee {
                     [x, y]
                 }
             };
-            let walked = (x - stood[0]).hypot(y - stood[1]);
+            let walked = math::hypot(x - stood[0], y - stood[1]);
             let penalty = if record.lies > fallen {
                 Penalty::InactivePlayer
             } else if runs && is_off_the_carpet(x, y) {
@@ -83,7 +84,7 @@ impl Referee {
         for (place, player) in players.iter().enumerate() {
             let [x, y, _] = player.pose;
             let radius = f64::from(CIRCLE_RADIUS);
-            let in_circle = x.hypot(y) < radius;
+            let in_circle = math::hypot(x, y) < radius;
             let in_own_half = x * direction(player.team) < 0.0;
             let is_legal = match player.team == self.kicking {
                 true => in_own_half || in_circle,

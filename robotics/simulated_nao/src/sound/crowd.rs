@@ -1,5 +1,7 @@
 //! The audience as a whole: rumble, babble that swells and ebbs, and claps.
 
+use framework::math;
+
 use super::voices::events;
 use super::{HEARD_LENGTH, Passage};
 use crate::noise::{CLAP_NOISE, CLAPS, Draw, for_each_line, hash, signed};
@@ -84,7 +86,7 @@ fn add_clap(passage: &mut Passage, begins_at: f64, draw: &mut Draw, strength: f3
     let seed = passage.seed;
     for (number, time, sample) in passage.during(begins_at, CLAP_DURATION) {
         let noise = signed(hash(seed, CLAP_NOISE, number));
-        let ring = (rotation * time).sin() as f32;
-        *sample += strength * (-time / CLAP_DECAY).exp() as f32 * (noise + ring);
+        let ring = math::sin(rotation * time) as f32;
+        *sample += strength * math::exp(-time / CLAP_DECAY) as f32 * (noise + ring);
     }
 }

@@ -3,6 +3,8 @@
 
 use std::f64::consts::TAU;
 
+use framework::math;
+
 use super::Passage;
 use crate::noise::{ANNOUNCEMENTS, CHANTS, Draw, SHOUTS, SQUEAKS};
 
@@ -55,7 +57,7 @@ pub(super) fn add(passage: &mut Passage, level: f32) {
             begins_at: shout.begins_at,
             duration: shout.draw.from(0.2..1.2),
             // Most are men's and women's voices, a few shriek: 1.4 kHz.
-            pitch: 200.0 * 7_f64.powf(shout.draw.from(0.0..1.0).powi(2)),
+            pitch: 200.0 * math::powf(7_f64, math::powi(shout.draw.from(0.0..1.0), 2)),
             glide: shout.draw.from(-0.4..0.4),
             level: level * shout.draw.from(0.3..2.0) as f32,
         };
@@ -85,7 +87,7 @@ fn add_chant(passage: &mut Passage, chant: &mut Event, level: f32) {
             let syllable = Syllable {
                 begins_at: chant.begins_at + beat * f64::from(note),
                 duration: beat * 0.9,
-                pitch: pitch * detuning * steps[note as usize % steps.len()].exp2(),
+                pitch: pitch * detuning * math::exp2(steps[note as usize % steps.len()]),
                 glide: 0.02,
                 level,
             };
@@ -112,8 +114,8 @@ fn sing(passage: &mut Passage, syllable: &Syllable) {
     let (tremble, depth) = (TAU * 5.5, 0.015 / (TAU * 5.5));
     for (_, time, sample) in passage.during(begins_at, duration) {
         let turns = pitch
-            * (time + glide * time * time / (2.0 * duration) + depth * (tremble * time).sin());
-        let (sine, cosine) = ((TAU * turns.fract()) as f32).sin_cos();
+            * (time + glide * time * time / (2.0 * duration) + depth * math::sin(tremble * time));
+        let (sine, cosine) = math::sin_cos((TAU * turns.fract()) as f32);
         // sin(n x) = 2 cos(x) sin((n - 1) x) - sin((n - 2) x)
         let (mut overtone, mut before, mut sum) = (sine, 0.0, 0.0);
         for loudness in loudnesses {
@@ -135,7 +137,7 @@ fn loudnesses(pitch: f64) -> [f32; OVERTONES] {
             (2950.0, 350.0, 1.2),
         ];
         let resonance = resonances.iter().map(|(center, width, gain)| {
-            gain / (1.0 + ((number * pitch - center) / width).powi(2))
+            gain / (1.0 + math::powi((number * pitch - center) / width, 2))
         });
         ((0.3 + resonance.sum::<f64>()) / number) as f32
     })
@@ -150,7 +152,7 @@ fn add_squeak(passage: &mut Passage, squeak: &mut Event, level: f32) {
     );
     for (_, time, sample) in passage.during(squeak.begins_at, duration) {
         let turns = from * time + (to - from) * time * time / (2.0 * duration);
-        *sample += level * envelope(time, duration, 0.01, 0.02) * (TAU * turns).sin() as f32;
+        *sample += level * envelope(time, duration, 0.01, 0.02) * math::sin(TAU * turns) as f32;
     }
 }
 
@@ -159,9 +161,9 @@ fn add_beep(passage: &mut Passage, beep: &mut Event, level: f32) {
     let duration = beep.draw.from(0.15..0.8);
     let rotation = TAU * beep.draw.from(600.0..1600.0);
     for (_, time, sample) in passage.during(beep.begins_at, duration) {
-        let tone = (rotation * time).sin()
-            + 0.05 * (2.0 * rotation * time).sin()
-            + 0.1 * (3.0 * rotation * time).sin();
+        let tone = math::sin(rotation * time)
+            + 0.05 * math::sin(2.0 * rotation * time)
+            + 0.1 * math::sin(3.0 * rotation * time);
         *sample += level * envelope(time, duration, 0.005, 0.005) * tone as f32;
     }
 }

@@ -5,6 +5,8 @@
 
 use std::f64::consts::TAU;
 
+use framework::math;
+
 use super::Passage;
 use super::settings::WhistleTruth;
 use super::voices::envelope;
@@ -25,14 +27,14 @@ pub(super) fn add(passage: &mut Passage, truth: &WhistleTruth) {
     let tremble = TAU * draw.from(20.0..45.0);
     let level = truth.level as f32;
     for (number, time, sample) in passage.during(truth.begins_at, truth.duration) {
-        let flat = ONSET_DEPTH * ONSET_TIME * ((-time / ONSET_TIME).exp() - 1.0);
+        let flat = ONSET_DEPTH * ONSET_TIME * (math::exp(-time / ONSET_TIME) - 1.0);
         let turns = pitch * (time + flat);
         let angle = (TAU * turns.fract()) as f32;
         let other = (TAU * (turns * detuning).fract()) as f32;
         let breath = signed(hash(seed, BREATH, number));
-        let tone = (1.0 - share) * angle.sin() + share * other.sin();
-        let overtones = 0.08 * (2.0 * angle).sin() + 0.03 * (3.0 * angle).sin();
-        let loudness = 0.85 + 0.15 * (tremble * time).sin() as f32;
+        let tone = (1.0 - share) * math::sin(angle) + share * math::sin(other);
+        let overtones = 0.08 * math::sin(2.0 * angle) + 0.03 * math::sin(3.0 * angle);
+        let loudness = 0.85 + 0.15 * math::sin(tremble * time) as f32;
         *sample += level
             * envelope(time, truth.duration, 0.02, 0.08)
             * (loudness * 0.9 * (tone + overtones) + 0.03 * breath);

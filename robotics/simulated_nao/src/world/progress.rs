@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use framework::Timestamp;
+use framework::{Timestamp, math};
 use nalgebra::Point2;
 
 use crate::physics::{Body, heading};
@@ -78,9 +78,10 @@ impl Progress {
 
 impl Stance {
     fn has_been_left(&self, now: &Self) -> bool {
-        let turned = (now.heading - self.heading)
-            .sin()
-            .atan2((now.heading - self.heading).cos());
+        let turned = math::atan2(
+            math::sin(now.heading - self.heading),
+            math::cos(now.heading - self.heading),
+        );
         // Who lies may be dragged along, but is not free before it stands.
         now.tilt < LYING && ((now.place - self.place).norm() > FAR || turned.abs() > TURNED)
     }
@@ -100,7 +101,11 @@ mod tests {
                 heading: turn * seconds,
                 tilt,
             };
-            let knee = if walks { (10.0 * seconds).sin() } else { 0.9 };
+            let knee = if walks {
+                math::sin(10.0 * seconds)
+            } else {
+                0.9
+            };
             let now = Timestamp::ZERO + Duration::from_secs_f64(seconds);
             progress.go_on(now, stance, [knee; 2]);
         }

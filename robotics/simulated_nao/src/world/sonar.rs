@@ -2,6 +2,7 @@
 
 use std::f64::consts::FRAC_PI_6;
 
+use framework::math;
 use nalgebra::{Isometry3, Point2, Point3, Vector3};
 use types::sensor_data::Sonar;
 
@@ -28,12 +29,12 @@ pub(super) fn echoes(
         let [x, y, z] = PLACE;
         let place = torso_to_field * Point3::new(x, mirror * y, z);
         let yaw = mirror * YAW;
-        let direction = torso_to_field.rotation * Vector3::new(yaw.cos(), yaw.sin(), 0.0);
+        let direction = torso_to_field.rotation * Vector3::new(math::cos(yaw), math::sin(yaw), 0.0);
         // Who leans too far hears the floor or nothing.
-        if direction.z.abs() > HALF_CONE.sin() {
+        if direction.z.abs() > math::sin(HALF_CONE) {
             return NO_ECHO;
         }
-        let heading = direction.y.atan2(direction.x);
+        let heading = math::atan2(direction.y, direction.x);
         let nearest = obstacles
             .clone()
             .filter_map(|obstacle| distance(place.xy(), heading, obstacle))
@@ -57,9 +58,9 @@ fn distance(from: Point2<f64>, heading: f64, (center, radius): (Point2<f64>, f64
     if distance <= radius {
         return Some(0.0);
     }
-    let half_width = (radius / distance).asin();
-    let bearing = offset.y.atan2(offset.x) - heading;
-    let off_axis = bearing.sin().atan2(bearing.cos()).abs();
+    let half_width = math::asin(radius / distance);
+    let bearing = math::atan2(offset.y, offset.x) - heading;
+    let off_axis = math::atan2(math::sin(bearing), math::cos(bearing)).abs();
     (off_axis - half_width <= HALF_CONE).then_some(distance - radius)
 }
 

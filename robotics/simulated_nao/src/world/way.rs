@@ -65,6 +65,8 @@ fn place(body: &Body) -> Point2<f64> {
 
 #[cfg(test)]
 mod tests {
+    use framework::math;
+
     use super::*;
 
     #[test]
@@ -74,7 +76,7 @@ mod tests {
             let now = Timestamp::ZERO + Duration::from_millis(10 * cycle);
             // 0.2 m/s, swaying by 5 cm twice a second.
             let seconds = 0.01 * cycle as f64;
-            let sway = 0.05 * (std::f64::consts::TAU * 2.0 * seconds).sin();
+            let sway = 0.05 * math::sin(std::f64::consts::TAU * 2.0 * seconds);
             way.go_to(now, Point2::new(0.2 * seconds, sway));
         }
         assert!((way.length() - 2.0).abs() < 1e-9, "{}", way.length());

@@ -2,6 +2,7 @@
 //!
 //! Detectors are chosen and trained in the one half and scored in the other; no condition is in both.
 
+use framework::math;
 use nalgebra::{Point2, Point3, UnitQuaternion, Vector3};
 use simulated_nao::camera::{Exposure, HEIGHT, WIDTH};
 use simulated_nao::ground_truth::ImageTruth;
@@ -89,7 +90,7 @@ impl Half {
         let carpets = CARPETS[self as usize];
         ImageSettings {
             noise: self.of(NOISE, draw),
-            exposure: (light / LIGHT[1]).powf(GAMMA),
+            exposure: math::powf(light / LIGHT[1], GAMMA),
             white_balance: balance(temperature),
             blur: self.of(BLUR, draw),
             carpet: carpets[draw.below(carpets.len())],
@@ -102,8 +103,8 @@ impl Half {
 /// Planck's law in Wien's approximation.
 fn balance(temperature: f32) -> [f32; 3] {
     let difference = temperature.recip() - TEMPERATURE[1].recip();
-    let gain = |wavelength: f32| (-SECOND_RADIATION / wavelength * difference).exp();
-    WAVELENGTHS.map(|wavelength| (gain(wavelength) / gain(WAVELENGTHS[1])).powf(GAMMA))
+    let gain = |wavelength: f32| math::exp(-SECOND_RADIATION / wavelength * difference);
+    WAVELENGTHS.map(|wavelength| math::powf(gain(wavelength) / gain(WAVELENGTHS[1]), GAMMA))
 }
 
 /// Nearly, rad: the weights were learnt from images that were drawn with it.
@@ -147,7 +148,11 @@ fn ball_before(look: &Look, draw: &mut Draw) -> Option<Point3<f32>> {
     let to_field = truth.ground_to_field;
     (0..30).find_map(|_| {
         let (distance, bearing) = (draw.between(0.15, 4.3), draw.between(-1.4, 1.4));
-        let place = Point3::new(distance * bearing.cos(), distance * bearing.sin(), 0.05);
+        let place = Point3::new(
+            distance * math::cos(bearing),
+            distance * math::sin(bearing),
+            0.05,
+        );
         let pixel = truth.camera_matrix.ground_to_pixel(place)?;
         let is_seen = (8.0..WIDTH as f32 - 8.0).contains(&pixel.x)
             && (8.0..HEIGHT as f32 - 8.0).contains(&pixel.y);
@@ -165,8 +170,8 @@ fn robots_before(look: &Look, ball: Option<Point3<f32>>, draw: &mut Draw) -> Vec
     let robots = (0..count).filter_map(|_| {
         let (distance, bearing) = (draw.between(0.5, 4.0), ahead + draw.between(-0.6, 0.6));
         let place = Point2::new(
-            x as f32 + distance * bearing.cos(),
-            y as f32 + distance * bearing.sin(),
+            x as f32 + distance * math::cos(bearing),
+            y as f32 + distance * math::sin(bearing),
         );
         let heading = draw.between(-3.1, 3.1);
         let team = if draw.next() < 0.5 {

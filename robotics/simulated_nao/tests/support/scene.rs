@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use framework::testing::{AdditionalProbe, ParameterFile};
-use framework::{Leased, Timestamp, testing};
+use framework::{Leased, Timestamp, math, testing};
 use kinematics::cameras::{
     FOCAL_LENGTH, IMAGE_SIZE, OPTICAL_CENTER, camera_to_head, optical_to_camera,
 };
@@ -347,8 +347,8 @@ impl Look {
         CROWDS.into_iter().map(move |crowd| {
             let settings = crowd.map(|(distance, bearing, turned)| RobotSettings {
                 position: [
-                    x + distance * (ahead + bearing).cos(),
-                    y + distance * (ahead + bearing).sin(),
+                    x + distance * math::cos(ahead + bearing),
+                    y + distance * math::sin(ahead + bearing),
                 ],
                 heading: ahead + turned,
                 team: if turned > 1.6 {

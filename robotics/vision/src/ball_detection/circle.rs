@@ -72,10 +72,15 @@ fn fit<'a>(points: impl Iterator<Item = &'a Point2<f32>> + Clone) -> Option<Circ
 
 #[cfg(test)]
 mod tests {
+    use framework::math;
+
     use super::*;
 
     fn on_circle(angle: f32) -> Point2<f32> {
-        Point2::new(100.0 + 20.0 * angle.cos(), 50.0 + 20.0 * angle.sin())
+        Point2::new(
+            100.0 + 20.0 * math::cos(angle),
+            50.0 + 20.0 * math::sin(angle),
+        )
     }
 
     #[test]

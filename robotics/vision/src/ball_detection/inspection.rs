@@ -2,6 +2,7 @@
 
 use std::f32::consts::TAU;
 
+use framework::math;
 use nalgebra::{Point2, Vector2};
 
 use super::circle::{self, Circle};
@@ -189,7 +190,7 @@ pub(super) fn is_printed(
 
 fn directions() -> impl Iterator<Item = Vector2<f32>> {
     (0..RAYS).map(|ray| {
-        let (sine, cosine) = (ray as f32 * TAU / RAYS as f32).sin_cos();
+        let (sine, cosine) = math::sin_cos(ray as f32 * TAU / RAYS as f32);
         Vector2::new(cosine, sine)
     })
 }

@@ -11,6 +11,8 @@
 //!
 //! Invariant: no heap, and sums in a fixed order: the same patch gives the same bits everywhere.
 
+use framework::math;
+
 use super::patch::{Patch, SIDE, normalized};
 
 /// Channels of the first convolution.
@@ -63,7 +65,7 @@ pub(super) fn confidence(patch: &Patch) -> f32 {
         .map(|(neuron, [weight])| neuron * weight);
     let bias = weights.take::<1>(1)[0][0];
     let odds = odds.fold(bias, |sum, part| sum + part);
-    1.0 / (1.0 + (-odds).exp())
+    1.0 / (1.0 + math::exp(-odds))
 }
 
 /// Convolution, ReLU and the maximum of each 2 x 2 of them.

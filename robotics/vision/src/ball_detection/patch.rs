@@ -1,5 +1,6 @@
 //! Cuts out of an image what the network looks at: a square around a circle, in shades of grey.
 
+use framework::math;
 use nalgebra::Vector2;
 use types::image::YuyvImage;
 
@@ -37,7 +38,7 @@ pub fn normalized(patch: &Patch) -> [f32; SIDE * SIDE] {
     let mean = values.iter().sum::<f32>() / count;
     let variance = values
         .iter()
-        .map(|value| (value - mean).powi(2))
+        .map(|value| math::powi(value - mean, 2))
         .sum::<f32>()
         / count;
     let scale = variance.sqrt().max(LEAST_DEVIATION).recip();

@@ -2,6 +2,7 @@
 
 use std::f32::consts::TAU;
 
+use framework::math;
 use nalgebra::{Isometry3, Point2, Vector3};
 use types::camera::Intrinsics;
 use types::limbs::LimbOutline;
@@ -34,7 +35,7 @@ pub(super) fn outline(projection: &Projection, part: &Part, margin: f32) -> Opti
             continue;
         }
         for corner in 0..CORNERS {
-            let (sine, cosine) = (corner as f32 * TAU / CORNERS as f32).sin_cos();
+            let (sine, cosine) = math::sin_cos(corner as f32 * TAU / CORNERS as f32);
             let rim = center + Vector3::new(cosine, sine, 0.0) * radius;
             if let Some(pixel) = projection.intrinsics.project(rim) {
                 points[count] = pixel;

@@ -1,5 +1,6 @@
 //! Finds the straight lines that most of some points agree on.
 
+use framework::math;
 use nalgebra::{Matrix2, Point2, SymmetricEigen, Vector2};
 use serde::{Deserialize, Serialize};
 use types::field_features::LineSegment;
@@ -161,7 +162,7 @@ fn segment(supporters: &[(f32, LinePoint)]) -> Option<LineSegment> {
     let weighted = || {
         supporters
             .iter()
-            .map(|(_, point)| (point.tolerance.powi(-2), point))
+            .map(|(_, point)| (math::powi(point.tolerance, -2), point))
     };
     let (sum, total) = weighted().fold((Vector2::zeros(), 0.0), |(sum, total), (weight, point)| {
         (sum + point.position.coords * weight, total + weight)

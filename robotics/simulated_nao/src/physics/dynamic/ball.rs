@@ -1,5 +1,6 @@
 //! The ball: a soft sphere that the carpet slows down.
 
+use framework::math;
 use nalgebra::{Point3, Vector3};
 use rapier3d_f64::prelude::{
     ColliderBuilder, PhysicsWorld, RigidBodyBuilder, RigidBodyHandle, Vector,
@@ -47,7 +48,7 @@ impl RollingBall {
             return;
         }
         let (velocity, spin) = (ball.linvel(), ball.angvel());
-        let speed = velocity.x.hypot(velocity.y);
+        let speed = math::hypot(velocity.x, velocity.y);
         let rim_speed = spin.length() * f64::from(BALL_RADIUS);
         let fastest = speed.max(rim_speed);
         if fastest == 0.0 {
