@@ -3,7 +3,8 @@
 //! What each number means follows the Aldebaran documentation of the NAO V6; signs are those of
 //! REP-103, whatever the wire says.
 
-use framework::{Clear, Reflect};
+use framework::foxglove::{JointState, JointStates};
+use framework::{Clear, Reflect, Timestamp};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -13,6 +14,7 @@ use crate::joints::Joints;
 
 /// One sample of all sensors of the body.
 #[derive(Clear, Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
+#[reflect(foxglove = Self::joint_states)]
 pub struct SensorData {
     /// Measured angles in rad; hands from 0 (closed) to 1 (open).
     pub positions: Joints<f32>,
@@ -36,6 +38,21 @@ pub struct SensorData {
     pub battery: Battery,
     /// Who this body and this head are.
     pub configuration: RobotConfiguration,
+}
+
+impl SensorData {
+    /// As tools draw it: the measured angles under the names of the joints.
+    fn joint_states(&self, timestamp: Timestamp) -> JointStates {
+        let joints = self.positions.iter().map(|(name, position)| JointState {
+            name: format!("{name:?}"),
+            position: Some(f64::from(*position)),
+            ..JointState::default()
+        });
+        JointStates {
+            timestamp: timestamp.into(),
+            joints: joints.collect(),
+        }
+    }
 }
 
 /// What the inertial measurement unit reports, in the torso frame.
@@ -117,4 +134,26 @@ pub struct RobotConfiguration {
     pub head_id: Identifier,
     /// Version of the head, for example `6.0.0`.
     pub head_version: Identifier,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::joints::{JOINT_COUNT, JointName};
+
+    #[test]
+    fn tools_draw_every_joint_under_its_name() {
+        let mut sensors = SensorData::default();
+        sensors.positions[JointName::RightKneePitch] = 0.5;
+        let form = SensorData::foxglove().expect("its type says so");
+        assert_eq!(form.schema.name, "foxglove.JointStates");
+        let drawn = sensors.joint_states(Timestamp::from_nanos(1_000_000_005));
+        assert_eq!((drawn.timestamp.sec, drawn.timestamp.nsec), (1, 5));
+        assert_eq!(drawn.joints.len(), JOINT_COUNT);
+        let mut knees = drawn
+            .joints
+            .iter()
+            .filter(|joint| joint.name == "RightKneePitch");
+        assert_eq!(knees.next().and_then(|knee| knee.position), Some(0.5));
+    }
 }
