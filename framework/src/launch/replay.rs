@@ -129,7 +129,7 @@ fn served<P: ParameterData>(
     if let Some(served) = &served {
         tell(format_args!("page: {}", super::page(served.as_ref())));
     }
-    timeline.run(&stop, options.duration)?;
+    timeline.run(&stop, options.duration);
     Ok(true)
 }
 

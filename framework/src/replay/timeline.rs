@@ -3,6 +3,7 @@
 //! All instances of the recording are there under their names, with their main outputs. One more, [`TIMELINE`], answers
 //! the procedure [`PROCEDURE`], which moves the time of the recording and says where it is.
 
+use std::collections::BTreeSet;
 use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
@@ -20,6 +21,7 @@ use crate::link::{InstanceLink, Link};
 use crate::parameters::LiveParameters;
 use crate::procedure::{Answerer, procedure};
 use crate::rearm::Rearm;
+use crate::report::tell;
 use crate::robot::Access;
 use crate::scheduling::Scheduling;
 use crate::stop::Stop;
@@ -111,6 +113,8 @@ pub struct Timeline<'r> {
     is_playing: bool,
     speed: f64,
     moves: Answerer<Move, Place>,
+    /// Instances and positions of the frames that do not fit: each is told once.
+    unreadable: BTreeSet<(usize, usize)>,
 }
 
 /// Nothing of a recording can be replaced.
@@ -120,7 +124,7 @@ impl<'r> Timeline<'r> {
     /// Of all instances that have a cycle; with what a server needs of them.
     ///
     /// # Errors
-    /// If there is none, or a frame does not fit this robot.
+    /// If there is none, or no frame of an instance fits this robot.
     pub fn new<P: ParameterData>(
         robot: &'static str,
         mut players: Players<'r>,
@@ -138,9 +142,14 @@ impl<'r> Timeline<'r> {
                 position,
             }));
             let name = player.instance;
-            player
-                .load_at(0, chunks)
-                .map_err(|error| error.context(format!("`{name}`")))?;
+            let mut loaded = player.load_at(0, chunks);
+            for position in 1..player.frames.len() {
+                if loaded.is_ok() {
+                    break;
+                }
+                loaded = player.load_at(position, chunks);
+            }
+            loaded.map_err(|error| error.context(format!("`{name}`")))?;
             let instance = player.replay_mut()?.instance_mut();
             let subscriptions = Subscriptions::new(&[]);
             let (taps, reports) = instance.tap(&subscriptions);
@@ -190,37 +199,34 @@ impl<'r> Timeline<'r> {
             is_playing: true,
             speed: 1.0,
             moves,
+            unreadable: BTreeSet::new(),
         };
         Ok((timeline, link))
     }
 
     /// Plays, and does what clients ask, until it is told to stop or the time is over.
-    ///
-    /// # Errors
-    /// If a frame does not fit this robot.
-    pub fn run(&mut self, stop: &Stop, duration: Option<Duration>) -> Result<()> {
+    pub fn run(&mut self, stop: &Stop, duration: Option<Duration>) {
         let started = Instant::now();
         let (mut looked, mut shown) = (started, started);
         while !stop.is_requested() && duration.is_none_or(|all| started.elapsed() < all) {
-            self.answer()?;
+            self.answer();
             let elapsed = looked.elapsed();
             looked += elapsed;
             if self.is_playing {
-                self.advance(elapsed)?;
+                self.advance(elapsed);
             } else if shown.elapsed() >= SHOWN_EVERY {
                 shown = Instant::now();
-                self.show()?;
+                self.show();
             }
             std::thread::sleep(PAUSE);
         }
-        Ok(())
     }
 
     /// Answers the next client, if there is one.
-    fn answer(&mut self) -> Result<()> {
+    fn answer(&mut self) {
         self.moves.take();
         let Some(asked) = self.moves.request().cloned() else {
-            return Ok(());
+            return;
         };
         let done = self.go(&asked);
         let mut place = self.place();
@@ -231,7 +237,7 @@ impl<'r> Timeline<'r> {
                 Err(error) => call.refuse(error.to_string()),
             }
         }
-        self.show()
+        self.show();
     }
 
     /// Does what a client asks, all of it or nothing.
@@ -316,11 +322,8 @@ impl<'r> Timeline<'r> {
         events(&self.players)
     }
 
-    /// Lets so much time of the wall clock pass.
-    ///
-    /// # Errors
-    /// If a frame does not fit this robot.
-    pub fn advance(&mut self, elapsed: Duration) -> Result<()> {
+    /// Lets so much time of the wall clock pass. A cycle whose frame does not fit this robot is told and passed over.
+    pub fn advance(&mut self, elapsed: Duration) {
         let (begins, ends) = self.ends();
         let wanted = self.now + elapsed.as_nanos() as f64 * self.speed;
         self.now = wanted.clamp(begins, ends);
@@ -329,7 +332,7 @@ impl<'r> Timeline<'r> {
                 break;
             }
             self.passed += 1;
-            self.play(moment.instance, moment.position)?;
+            self.play(moment.instance, moment.position);
         }
         while self.speed < 0.0
             && self.passed > 1
@@ -338,32 +341,39 @@ impl<'r> Timeline<'r> {
             self.passed -= 1;
             let left = self.moments[self.passed].instance;
             if let Some(position) = self.current(left) {
-                self.play(left, position)?;
+                self.play(left, position);
             }
         }
         if wanted != self.now {
             // It has come to one of its ends.
             self.is_playing = false;
         }
-        Ok(())
     }
 
     /// Runs the cycles again at which the time stands.
-    fn show(&mut self) -> Result<()> {
-        (0..self.players.players.len()).try_for_each(|index| match self.current(index) {
-            Some(position) => self.play(index, position),
-            None => Ok(()),
-        })
+    fn show(&mut self) {
+        for index in 0..self.players.players.len() {
+            if let Some(position) = self.current(index) {
+                self.play(index, position);
+            }
+        }
     }
 
-    fn play(&mut self, index: usize, position: usize) -> Result<()> {
+    fn play(&mut self, index: usize, position: usize) {
         let mut players = self.players.each();
         let Some((player, chunks)) = players.nth(index) else {
-            return Ok(());
+            return;
         };
         // What is abandoned or asks the hardware has no outputs to show.
-        let _: Ran = player.play(position, chunks)?;
-        Ok(())
+        let played: Result<Ran> = player.play(position, chunks);
+        if let Err(error) = played
+            && self.unreadable.insert((index, position))
+        {
+            let (name, number) = (player.instance, player.frames[position].head.number);
+            tell(format_args!(
+                "cycle {number} of `{name}` cannot be shown: {error}"
+            ));
+        }
     }
 
     /// Nanoseconds of the first and the last cycle.

@@ -9,14 +9,19 @@ use super::{Enum, Layout, Struct};
 /// Parts inside of each other; more are an error, as the stack is not endless.
 const DEPTH: usize = 200;
 
-/// Parts that have no bytes of their own, per value.
-const EMPTY_PARTS: u64 = 1 << 16;
+/// Parts that may be read without a byte, ...
+const FREE_PARTS: u64 = 1 << 16;
+
+/// ... and for each byte: one, and structs around it.
+const PARTS_PER_BYTE: u64 = 32;
 
 /// Bytes of recorded values, one after the other.
 #[derive(Clone, Debug)]
 pub struct Values<'bytes> {
     bytes: &'bytes [u8],
     position: usize,
+    /// That were read. Counts, and layouts, may be lies where parts have no bytes.
+    parts: u64,
 }
 
 /// Why bytes are no value of a layout.
@@ -32,7 +37,11 @@ type Read<T> = Result<T, Unreadable>;
 impl<'bytes> Values<'bytes> {
     /// From the first of these bytes.
     pub fn new(bytes: &'bytes [u8]) -> Self {
-        Self { bytes, position: 0 }
+        Self {
+            bytes,
+            position: 0,
+            parts: 0,
+        }
     }
 
     /// How many bytes were read.
@@ -68,7 +77,6 @@ impl<'bytes> Values<'bytes> {
             values: self,
             keep,
             depth: 0,
-            empty: 0,
         };
         walk.value(layout, &mut Vec::new())
     }
@@ -79,7 +87,6 @@ struct Walk<'walk, 'bytes> {
     /// Whether the value itself is wanted.
     keep: bool,
     depth: usize,
-    empty: u64,
 }
 
 /// Structs and enums around a part.
@@ -90,6 +97,11 @@ impl<'bytes> Walk<'_, 'bytes> {
         self.depth += 1;
         if self.depth > DEPTH {
             return self.error("too many parts inside of each other");
+        }
+        self.values.parts += 1;
+        let bytes = self.values.position as u64;
+        if self.values.parts > FREE_PARTS + PARTS_PER_BYTE * bytes {
+            return self.error("too many parts for so few bytes");
         }
         let value = match layout {
             Layout::Unknown => return self.error("how it is laid out is not known"),
@@ -180,9 +192,7 @@ impl<'bytes> Walk<'_, 'bytes> {
         let count = self.varint(64)?;
         let mut items = Vec::new();
         for _ in 0..count {
-            let before = self.values.position;
             let value = self.value(item, around)?;
-            self.note_progress(before)?;
             if self.keep {
                 items.push(value);
             }
@@ -193,10 +203,8 @@ impl<'bytes> Walk<'_, 'bytes> {
     fn map<'l>(&mut self, both: &'l (Layout, Layout), around: &mut Around<'l>) -> Read<Value> {
         let mut entries = Map::new();
         for _ in 0..self.varint(64)? {
-            let before = self.values.position;
             let key = self.value(&both.0, around)?;
             let value = self.value(&both.1, around)?;
-            self.note_progress(before)?;
             if self.keep {
                 let key = match key {
                     Value::String(text) => text,
@@ -206,17 +214,6 @@ impl<'bytes> Walk<'_, 'bytes> {
             }
         }
         Ok(entries.into())
-    }
-
-    /// A count may be a lie where what it counts has no bytes.
-    fn note_progress(&mut self, before: usize) -> Read<()> {
-        if self.values.position == before {
-            self.empty += 1;
-        }
-        if self.empty > EMPTY_PARTS {
-            return self.error("too many parts for so few bytes");
-        }
-        Ok(())
     }
 
     fn bytes(&mut self) -> Read<Value> {

@@ -135,6 +135,15 @@ fn a_count_that_lies_is_no_value() {
 }
 
 #[test]
+fn parts_without_bytes_are_counted_wherever_they_stand() {
+    let wide = Layout::Tuple(vec![Layout::Unit; 1000]);
+    let bytes = postcard::to_stdvec(&60_000_u64).expect("it can be written");
+    assert!(Values::new(&bytes).skip(&list(wide.clone())).is_err());
+    let mut values = Values::new(&[]);
+    assert!((0..1000).any(|_| values.skip(&wide).is_err()));
+}
+
+#[test]
 fn a_number_of_more_bits_than_there_are_is_no_value() {
     let endless = [0xff; 40];
     for layout in [Layout::Unsigned(255), Layout::Signed(255)] {

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::time::Duration;
 
+use hulkgen_mcap::Layout;
 use hulkgen_mcap::layout::Values;
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 use serde::de::DeserializeOwned;
@@ -131,4 +132,25 @@ fn what_no_type_tells_stays_unknown() {
     let layout = layout_of::<(u8, Value, u8)>();
     assert!(!layout.is_known());
     assert_eq!(layout.to_string(), "a tuple of 3");
+}
+
+#[test]
+fn a_type_that_panics_at_what_it_is_offered_is_offered_others() {
+    struct Odd;
+    impl<'de> Deserialize<'de> for Odd {
+        fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+            assert!(u8::deserialize(deserializer)? % 2 == 1, "it is even");
+            Ok(Self)
+        }
+    }
+    #[derive(Deserialize)]
+    struct Both {
+        _odd: Odd,
+        _share: f32,
+    }
+    let Layout::Struct(both) = layout_of::<Both>() else {
+        panic!("it is a struct");
+    };
+    let parts: Vec<_> = both.fields.into_iter().map(|(_, layout)| layout).collect();
+    assert_eq!(parts, [Layout::Unsigned(8), Layout::Float(32)]);
 }
