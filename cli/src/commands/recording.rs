@@ -32,7 +32,7 @@ pub(super) fn run(terminal: &Terminal, recording: &Recording) -> Result<Outcome,
             format,
         } => {
             let file = recording::open(file)?;
-            recording::cat(&file, &wanted(selection), &mut |found| {
+            let silent = recording::cat(&file, &wanted(selection), &mut |found| {
                 terminal.more_data(&match format {
                     TextOrJson::Json => line(&found.to_json()),
                     TextOrJson::Text => {
@@ -40,6 +40,7 @@ pub(super) fn run(terminal: &Terminal, recording: &Recording) -> Result<Outcome,
                     }
                 })
             })?;
+            note_silent(terminal, &silent);
         }
         RecordingCommand::Recover { file, into, format } => {
             let recovered = recording::recover(file, into.as_deref())?;
@@ -69,6 +70,7 @@ pub(super) fn run(terminal: &Terminal, recording: &Recording) -> Result<Outcome,
                 ExportKind::Png => Export::Png,
             };
             let exported = recording::export(file, &wanted(selection), kind, into)?;
+            note_silent(terminal, &exported.silent);
             let (files, values) = (exported.files, exported.values);
             terminal.data(&match format {
                 TextOrJson::Text => format!(
@@ -83,6 +85,14 @@ pub(super) fn run(terminal: &Terminal, recording: &Recording) -> Result<Outcome,
         }
     }
     Ok(Outcome::Good)
+}
+
+fn note_silent(terminal: &Terminal, silent: &[String]) {
+    for path in silent {
+        terminal.note(&format!(
+            "`{path}` has no value in the cycles that were asked for\n"
+        ));
+    }
 }
 
 fn wanted(selection: &Selection) -> recording::Selection {

@@ -6,7 +6,8 @@ mod table;
 use std::fs;
 use std::io::{BufWriter, Write};
 
-use camino::Utf8Path;
+use camino::{Utf8Path, Utf8PathBuf};
+use hulkgen_mcap::RecordingFile;
 use serde_json::{Value, json};
 
 use super::values::{Found, Selection, cat};
@@ -24,13 +25,15 @@ pub enum Export {
 }
 
 /// What was written.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Exported {
     pub files: u64,
     pub values: u64,
+    /// Paths that had no value.
+    pub silent: Vec<String>,
 }
 
-/// Writes values of a recording into a file, or into a folder of images; neither may exist.
+/// Writes values of a recording into a file, or into a folder of images; neither may exist. All of it or nothing.
 pub fn export(
     path: &Utf8Path,
     selection: &Selection,
@@ -45,32 +48,55 @@ pub fn export(
     if into.exists() {
         return Err(Refusal::wrong_usage(format!("`{into}` exists")).help("name another place"));
     }
+    // Whoever looks for it meanwhile finds nothing rather than a part.
+    let half = Utf8PathBuf::from(format!("{into}.{}.half", std::process::id()));
+    let written = write(&file, selection, kind, &half)
+        .and_then(|exported| fs::rename(&half, into).map(|()| exported).map_err(failed));
+    if written.is_err() {
+        let _ = match kind {
+            Export::Png => fs::remove_dir_all(&half),
+            Export::Csv | Export::Json => fs::remove_file(&half),
+        };
+    }
+    written
+}
+
+fn write(
+    file: &RecordingFile,
+    selection: &Selection,
+    kind: Export,
+    into: &Utf8Path,
+) -> Result<Exported, Refusal> {
+    let failed = |error: std::io::Error| Refusal::bad(format!("cannot write `{into}`: {error}"));
     let mut exported = Exported::default();
     if kind == Export::Png {
+        let mut count = 0;
         fs::create_dir_all(into).map_err(failed)?;
-        cat(&file, selection, &mut |found| {
+        exported.silent = cat(file, selection, &mut |found| {
             let image = png::image(&found.value).ok_or_else(|| no_image(&found))?;
             let name = format!("{:08}.{}", found.cycle, image.extension);
             fs::write(into.join(name), image.bytes).map_err(failed)?;
-            exported.files += 1;
-            exported.values += 1;
+            count += 1;
             Ok(true)
         })?;
+        (exported.files, exported.values) = (count, count);
         return Ok(exported);
     }
     let out = fs::File::create_new(into).map_err(failed)?;
     let mut out = BufWriter::new(out);
     exported.files = 1;
     let mut table = table::Table::default();
-    cat(&file, selection, &mut |found| {
+    let mut values = 0;
+    exported.silent = cat(file, selection, &mut |found| {
         let text = match kind {
             Export::Csv => table.row(&found),
             Export::Json | Export::Png => format!("{}\n", found.to_json()),
         };
         out.write_all(text.as_bytes()).map_err(failed)?;
-        exported.values += 1;
+        values += 1;
         Ok(true)
     })?;
+    exported.values = values;
     out.flush().map_err(failed)?;
     Ok(exported)
 }

@@ -232,6 +232,33 @@ fn what_is_not_recorded_is_refused_with_what_is() {
             .help
             .is_some_and(|help| help.contains("`Control.main_outputs.ball`"))
     );
+    let misspelt = of(&["Control.main_outputs.ball.positoin.x"]);
+    let refused = cat(&file, &misspelt, &mut |_| Ok(true));
+    let refusal = refused.expect_err("a ball has no such part");
+    let help = refusal.help.unwrap_or_default();
+    assert!(
+        help.contains("`Control.main_outputs.ball.position`"),
+        "{help}"
+    );
+}
+
+#[test]
+fn paths_without_a_value_are_named() {
+    let (_keep, folder) = folder();
+    let path = folder.join("a.mcap");
+    record(&path, true);
+    let file = super::open(&path).expect("it can be read");
+    let mut absent = of(&[
+        "Control.main_outputs.ball.name",
+        "Control.main_outputs.image",
+    ]);
+    // The third ball is absent.
+    absent.span.cycles = Some(3..4);
+    let silent = cat(&file, &absent, &mut |_| Ok(true)).expect("both are recorded");
+    assert_eq!(silent, ["Control.main_outputs.ball.name"]);
+    absent.span.cycles = Some(2..4);
+    let silent = cat(&file, &absent, &mut |_| Ok(true)).expect("both are recorded");
+    assert_eq!(silent, [""; 0]);
 }
 
 #[test]
@@ -335,6 +362,16 @@ fn values_become_tables_lines_and_images() {
     assert!(image.windows(4).any(|window| window == [0, 1, 2, 3]));
     let refused = export(&path, &ball, Export::Png, &folder.join("none"));
     assert!(refused.is_err(), "a ball is no image");
+    let left: Vec<_> = std::fs::read_dir(&folder)
+        .expect("it is there")
+        .map(|entry| entry.expect("it is there").file_name())
+        .filter(|name| {
+            !["a.mcap", "ball.csv", "ball.json", "images"]
+                .map(Into::into)
+                .contains(name)
+        })
+        .collect();
+    assert_eq!(left, [""; 0], "nothing is left of what was refused");
     assert!(
         export(&path, &ball, Export::Csv, &into).is_err(),
         "it exists"

@@ -47,7 +47,7 @@ pub(super) fn instance_of(topic: &str) -> &str {
         .map_or(topic, |(_, instance)| instance)
 }
 
-/// Shows every value that is wanted, in the order of the file, until nobody wants more.
+/// Shows every value that is wanted, in the order of the file, until nobody wants more. Gives the paths that had no value.
 ///
 /// # Errors
 /// If a path names nothing that is recorded, or the file cannot be read.
@@ -55,7 +55,7 @@ pub fn cat(
     file: &RecordingFile,
     selection: &Selection,
     show: &mut dyn FnMut(Found) -> Result<bool, Refusal>,
-) -> Result<(), Refusal> {
+) -> Result<Vec<String>, Refusal> {
     let contents = file.contents();
     let layouts = Layouts::of(&contents.attachments);
     let mut channels = BTreeMap::new();
@@ -72,11 +72,13 @@ pub fn cat(
     for read in channels.values_mut().filter(|read| read.encoding != JSON) {
         read.sources.retain(|source| !own.contains(&source.path));
     }
-    let known: BTreeSet<&str> = channels
-        .values()
-        .flat_map(|read| read.sources.iter().map(|source| source.path.as_str()))
-        .collect();
+    let known: Vec<&Source> = channels.values().flat_map(|read| &read.sources).collect();
     check(&selection.paths, &known)?;
+    let mut silent = selection.paths.clone();
+    let show = &mut |found: Found| {
+        silent.retain(|path| !below(&found.path, path));
+        show(found)
+    };
     for place in &contents.chunks {
         if !overlaps(&selection.span.times, place.times) {
             continue;
@@ -89,11 +91,11 @@ pub fn cat(
                 continue;
             };
             if !read.show(&message, selection, show)? {
-                return Ok(());
+                return Ok(Vec::new());
             }
         }
     }
-    Ok(())
+    Ok(silent)
 }
 
 fn overlaps(wanted: &Option<Range<u64>>, (first, last): (u64, u64)) -> bool {
@@ -104,23 +106,64 @@ fn overlaps(wanted: &Option<Range<u64>>, (first, last): (u64, u64)) -> bool {
 }
 
 /// Every path must lead to something.
-fn check(paths: &[String], known: &BTreeSet<&str>) -> Result<(), Refusal> {
+fn check(paths: &[String], known: &[&Source]) -> Result<(), Refusal> {
     for path in paths {
-        let is_known = known
-            .iter()
-            .any(|known| below(known, path) || below(path, known));
-        if is_known {
+        let mut around = known.iter().filter(|source| below(path, &source.path));
+        let is_above = known.iter().any(|source| below(&source.path, path));
+        if is_above || around.any(|source| names_beside(source, path).is_none()) {
             continue;
         }
         let refusal = Refusal::wrong_usage(format!("the recording has no values of `{path}`"));
-        let near = suggestion(
-            path,
-            known.iter().copied(),
-            "outputs that no other instance reads are recorded with `hulkgen run --record-output PATH`; the recording has",
-        );
+        let parts = known.iter().filter(|source| below(path, &source.path));
+        let parts: Vec<String> = parts
+            .filter_map(|source| names_beside(source, path))
+            .flatten()
+            .collect();
+        let near = match parts.is_empty() {
+            true => suggestion(
+                path,
+                known.iter().map(|source| &*source.path),
+                "outputs that no other instance reads are recorded with `hulkgen run --record-output PATH`; the recording has",
+            ),
+            false => suggestion(path, parts.iter().map(String::as_str), "there are"),
+        };
         return Err(refusal.help(near));
     }
     Ok(())
+}
+
+/// The paths that lead on where this one does not; `None`: it leads to something, or that cannot be known.
+fn names_beside(source: &Source, path: &str) -> Option<Vec<String>> {
+    let (mut layout, mut been) = (&source.layout, source.path.clone());
+    let rest = path[source.path.len()..].trim_start_matches('.');
+    for name in rest.split('.').filter(|name| !name.is_empty()) {
+        while let Layout::Option(inner) = layout {
+            layout = inner;
+        }
+        let named = match layout {
+            Layout::Struct(of) => &*of.fields,
+            Layout::Enum(of) => &*of.variants,
+            Layout::Unknown | Layout::Again(_) => return None,
+            _ => &[],
+        };
+        let next = match layout {
+            Layout::Bytes => position(name).map(|_| layout),
+            Layout::List(item) => position(name).map(|_| &**item),
+            Layout::Tuple(items) => position(name).and_then(|place| items.get(place)),
+            Layout::Map(both) => Some(&both.1),
+            _ => named
+                .iter()
+                .find(|(known, _)| known == name)
+                .map(|(_, next)| next),
+        };
+        let Some(next) = next else {
+            let names = named.iter().map(|(name, _)| format!("{been}.{name}"));
+            return Some(names.collect());
+        };
+        layout = next;
+        been = format!("{been}.{name}");
+    }
+    None
 }
 
 /// Whether a path is `above` or lies below it.
