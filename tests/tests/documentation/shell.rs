@@ -53,6 +53,9 @@ fn words(line: &str) -> Vec<String> {
     words
 }
 
+/// Options of `cargo run` that name another program than hulkgen, or another workspace.
+const OF_ANOTHER_PROGRAM: [&str; 3] = ["--bin", "--example", "--manifest-path"];
+
 /// The arguments of hulkgen, called by its name or by cargo in this workspace.
 fn call(words: &[String]) -> Option<Vec<String>> {
     let (program, arguments) = words[variables(words)..].split_first()?;
@@ -64,7 +67,7 @@ fn call(words: &[String]) -> Option<Vec<String>> {
                 arguments.split_at(arguments.iter().position(|word| word == "--")?);
             let is_other = own
                 .iter()
-                .any(|word| word == "--bin" || word == "--manifest-path");
+                .any(|word| OF_ANOTHER_PROGRAM.contains(&word.as_str()));
             if is_other {
                 return None;
             }
