@@ -7,11 +7,12 @@ mod story;
 
 use std::path::Path;
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 use framework::parameters::Layers;
 use framework::recorded::{About, Recording, Settings};
 use framework::testing::created;
-use framework::{Clock, Lockstep, Robot, Stop, Timestamp};
+use framework::{Clock, Lockstep, Robot, Stop, Threads, Timestamp};
 use timing_hardware::Hardware;
 use timing_nodes::types::Sets;
 use timing_runtime::parameters::Parameters;
@@ -24,18 +25,17 @@ fn example(path: &str) -> std::path::PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path)
 }
 
-fn robot() -> (Arc<Hardware>, Robot<Parameters>) {
+fn robot(clock: &Clock, stop: &Stop) -> (Arc<Hardware>, Robot<Parameters>) {
     let layers = Layers {
         directory: example("parameters"),
         ..Layers::default()
     };
-    let (clock, stop) = (Clock::stepped(), Stop::new());
-    created(&layers, "rail", &[], &clock, &stop, runtime::create)
+    created(&layers, "rail", &[], clock, stop, runtime::create)
 }
 
 /// A run with its recording.
 fn recorded() -> (Arc<Hardware>, hulkgen_recording::Recording) {
-    let (hardware, mut robot) = robot();
+    let (hardware, mut robot) = robot(&Clock::stepped(), &Stop::new());
     let folder = tempfile::tempdir().expect("there is room for a folder");
     let path = folder.path().join("timing.mcap");
     let manifest = std::fs::read_to_string(example("hulk.toml")).expect("it is there");
@@ -108,6 +108,34 @@ fn the_filter_knows_where_it_is_although_images_are_late() {
         let error = (f64::from(sets.position) - Hardware::position(t0)).abs();
         assert!(error < 0.09, "{error} m at {t0}");
     }
+}
+
+#[test]
+fn in_threads_nobody_waits_for_the_image_either() {
+    let (clock, stop) = (Clock::wall(), Stop::new());
+    let (hardware, mut robot) = robot(&clock, &stop);
+    let first = |hardware: &Hardware, begin: &str| {
+        let printed = hardware.printed();
+        printed.iter().position(|line| line.starts_with(begin))
+    };
+    let watcher = std::thread::spawn({
+        let (hardware, stop) = (hardware.clone(), stop.clone());
+        move || {
+            // However slow this machine is just now.
+            let end = Instant::now() + Duration::from_secs(60);
+            while first(&hardware, "  persistent  Vision").is_none() && Instant::now() < end {
+                std::thread::sleep(Duration::from_millis(20));
+            }
+            stop.request();
+        }
+    });
+    Threads::new(&clock, &*hardware, &stop)
+        .run(&mut robot.instances)
+        .expect("nothing ends it before");
+    watcher.join().expect("it only looks");
+    let transient = first(&hardware, "  transient   Odometry").expect("it was used before");
+    let persistent = first(&hardware, "  persistent  Vision").expect("it came");
+    assert!(transient < persistent, "{:#?}", hardware.printed());
 }
 
 #[test]
