@@ -16,6 +16,7 @@
 //! [[event]]
 //! robot = 2                                  # which robot it happens to, or whose hardware is told; 1 where it is left out
 //! at = 5.0                                   # s
+//! within = 0.5                               # s: a seed moves it by up to so much, both ways; 0 where it is left out
 //! push = [0.0, 0.5, 0.0]                     # what the hardware understands
 //!
 //! # A call and an assertion say `robot = 2` likewise.

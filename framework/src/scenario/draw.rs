@@ -11,6 +11,11 @@ impl Draw {
         Self(SplitMix::new(seed))
     }
 
+    /// A number from 0 to 1.
+    pub(super) fn share(&mut self) -> f64 {
+        f64::midpoint(self.0.signed(), 1.0)
+    }
+
     /// Moves every number that `spread` names by up to so much.
     pub(super) fn change(&mut self, table: &mut toml::Table, spread: &toml::Table) -> Result<()> {
         for (key, spread) in spread {

@@ -56,6 +56,8 @@ pub struct Event {
     pub robot: usize,
     /// When.
     pub at: Timestamp,
+    /// How much earlier or later a seed lets it happen.
+    pub within: Duration,
     /// In the words of the hardware.
     pub deed: toml::Table,
 }
@@ -182,6 +184,12 @@ impl Scenario {
         for event in &events {
             let at = (event.at - Timestamp::ZERO).as_secs_f64();
             has_robot(event.robot + 1, format!("the event at {at} s"))?;
+            let within = event.within.as_secs_f64();
+            if within > at || at + within > ends.as_secs_f64() {
+                return Err(Error::new(format!(
+                    "the event at {at} s may be moved by {within} s, beyond the start or the end"
+                )));
+            }
         }
         events.sort_by_key(|event| event.at);
         let mut settings = Vec::new();
@@ -229,11 +237,31 @@ impl Scenario {
         Ok(table)
     }
 
+    /// What happens with a seed, by time: events that have `within` are moved by up to as much.
+    pub fn events(&self, seed: u64) -> Vec<Event> {
+        let mut draw = Draw::new(seed.wrapping_add(EVENTS));
+        let moved = |event: &Event| {
+            let later = event.within.mul_f64(2.0 * draw.share());
+            let earliest = (event.at - Timestamp::ZERO).saturating_sub(event.within);
+            let at = Timestamp::ZERO + earliest + later;
+            Event {
+                at,
+                ..event.clone()
+            }
+        };
+        let mut events: Vec<_> = self.events.iter().map(moved).collect();
+        events.sort_by_key(|event| event.at);
+        events
+    }
+
     /// How many robots there are.
     pub fn robot_count(&self) -> usize {
         self.robots.len().max(1)
     }
 }
+
+/// Times of events do not follow from the numbers of the world.
+const EVENTS: u64 = 1 << 48;
 
 /// Where a robot's hardware finds its `[[robot]]`.
 const ENTRY: &str = "robot";
@@ -286,6 +314,15 @@ impl Event {
             Some(toml::Value::Integer(at)) => at as f64,
             _ => return Err(Error::new("an `[[event]]` needs `at = SECONDS`")),
         };
+        let within = match table.remove("within") {
+            None => Duration::ZERO,
+            Some(toml::Value::Float(within)) => seconds("within", within)?,
+            Some(other) => {
+                return Err(Error::new(format!(
+                    "`within = {other}` of an `[[event]]` is no number of seconds: expected e.g. 0.5"
+                )));
+            }
+        };
         let robot = match table.remove("robot") {
             None => first(),
             Some(written) => {
@@ -302,6 +339,7 @@ impl Event {
         Ok(Self {
             robot: robot - 1,
             at: Timestamp::ZERO + seconds("at", at)?,
+            within,
             deed: table,
         })
     }
@@ -383,6 +421,27 @@ mod tests {
     }
 
     #[test]
+    fn a_seed_moves_events_that_may_be_moved_and_no_others() {
+        let text = format!(
+            "ends = 9\n[[event]]\nat = 4\nwithin = 2.0\npush = [1]\n[[event]]\nat = 5\n{ASSERTION}"
+        );
+        let scenario = Scenario::parse(&text).expect("it is right");
+        let times = |seed: u64| {
+            let events = scenario.events(seed);
+            assert!(events.is_sorted_by_key(|event| event.at));
+            let (pushes, others): (Vec<_>, Vec<_>) = events
+                .iter()
+                .partition(|event| event.deed.contains_key("push"));
+            assert_eq!(others[0].at, scenario.events[1].at);
+            (pushes[0].at - Timestamp::ZERO).as_secs_f64()
+        };
+        let drawn: Vec<_> = (1..=20).map(times).collect();
+        assert!(drawn.iter().all(|at| (2.0..=6.0).contains(at)), "{drawn:?}");
+        assert!(drawn.iter().any(|at| *at < 3.0) && drawn.iter().any(|at| *at > 5.0));
+        assert_eq!(drawn[4], times(5), "the same seed");
+    }
+
+    #[test]
     fn mistakes_are_told_with_their_place() {
         for (text, expected) in [
             (
@@ -409,6 +468,14 @@ mod tests {
             (
                 format!("ends = 1\n[[event]]\npush = 1\n{ASSERTION}"),
                 "an `[[event]]` needs `at = SECONDS`",
+            ),
+            (
+                format!("ends = 1\n[[event]]\nat = 0.5\nwithin = 0.6\n{ASSERTION}"),
+                "the event at 0.5 s may be moved by 0.6 s, beyond the start or the end",
+            ),
+            (
+                format!("ends = 1\n[[event]]\nat = 0.5\nwithin = 'a'\n{ASSERTION}"),
+                "of an `[[event]]` is no number of seconds",
             ),
             (
                 format!("ends = 1\n[[event]]\nat = 1.5\n{ASSERTION}"),

@@ -68,7 +68,7 @@ pub(crate) fn play<H: Hardware, P: Send>(
         }));
     }
     let (lasted, verdicts) = together(&actors, manner.threads, |ensemble| {
-        live_through(scenario, &hardwares, ensemble, manner.stop)?;
+        live_through(scenario, seed, &hardwares, ensemble, manner.stop)?;
         let now = |actor: &Actor<'_, P>| actor.lockstep.robot().clock.now();
         let lasted = ensemble.all().map(|actor| now(&actor)).max();
         let verdicts = ensemble
@@ -149,12 +149,14 @@ impl<P: Send> Lives for Actor<'_, P> {
 
 fn live_through<P: Send>(
     scenario: &Scenario,
+    seed: u64,
     hardwares: &[&dyn Hardware],
     ensemble: &Ensemble<'_, Actor<'_, P>>,
     stop: &Stop,
 ) -> Result<()> {
+    let events = scenario.events(seed);
     let mut world = Timestamp::ZERO;
-    for (until, deed) in deeds(scenario)? {
+    for (until, deed) in deeds(scenario, &events)? {
         loop {
             stop.check()?;
             ensemble.live(world.min(until));
@@ -197,9 +199,9 @@ enum Deed<'a> {
 }
 
 /// By time; what happens to the world comes before what clients ask.
-fn deeds(scenario: &Scenario) -> Result<Vec<(Timestamp, Deed<'_>)>> {
+fn deeds<'a>(scenario: &'a Scenario, events: &'a [Event]) -> Result<Vec<(Timestamp, Deed<'a>)>> {
     let end = Timestamp::ZERO + scenario.ends;
-    let events = scenario.events.iter();
+    let events = events.iter();
     let mut deeds: Vec<_> = events.map(|event| (event.at, Deed::Event(event))).collect();
     for call in &scenario.calls {
         let times = call.times()?.take_while(|at| *at <= end);
