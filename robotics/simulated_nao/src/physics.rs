@@ -41,7 +41,7 @@ pub trait Physics: Send {
 }
 
 /// How a world begins.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Situation {
     /// Robots with motors.
     pub robots: Vec<Start>,
@@ -49,6 +49,19 @@ pub struct Situation {
     pub bystanders: Vec<Start>,
     /// Where the ball lies in the field frame, m.
     pub ball: Option<[f64; 2]>,
+    /// What friction on the carpet is, as a share of the usual.
+    pub carpet_friction: f64,
+}
+
+impl Default for Situation {
+    fn default() -> Self {
+        Self {
+            robots: Vec::new(),
+            bystanders: Vec::new(),
+            ball: None,
+            carpet_friction: 1.0,
+        }
+    }
 }
 
 /// A ball in motion.

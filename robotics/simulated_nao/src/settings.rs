@@ -64,6 +64,8 @@ pub struct Settings {
     pub robot_pose: [f64; 3],
     /// The ball.
     pub ball: BallSettings,
+    /// Friction of everything on the carpet, as a share of what each thing usually has there.
+    pub carpet_friction: f64,
     /// The other robots.
     pub robots: Vec<RobotSettings>,
     /// How the cameras take it all.
@@ -132,6 +134,7 @@ impl Default for Settings {
             robot: None,
             robot_pose: [2.0, 0.0, 0.0],
             ball: BallSettings::default(),
+            carpet_friction: 1.0,
             robots: Vec::new(),
             images: ImageSettings::default(),
             body_id: "SIMULATED-BODY-00001".to_owned(),
@@ -180,6 +183,12 @@ impl Settings {
             return Err(Error::new(format!(
                 "hardware.simulated.camera_rate: {CAMERA_RATE} images a second cannot be thinned to {}; take a divisor",
                 self.camera_rate
+            )));
+        }
+        let friction = self.carpet_friction;
+        if !(friction > 0.0 && friction.is_finite()) {
+            return Err(Error::new(format!(
+                "hardware.simulated.carpet_friction: {friction} is no share of the usual friction"
             )));
         }
         self.imperfections.check()?;
@@ -331,6 +340,10 @@ mod tests {
                 "camera_rate: 30 images a second cannot be thinned to 20; take a divisor",
             ),
             ("camera_rate = 0", "camera_rate: 30 images"),
+            (
+                "carpet_friction = 0",
+                "carpet_friction: 0 is no share of the usual friction",
+            ),
             (
                 "[game]\nplay = { halves = 3 }",
                 "game.play.halves: a game has 1 or 2, not 3",

@@ -302,6 +302,7 @@ fn situation(settings: &Settings) -> Situation {
         robots: vec![start(settings)],
         bystanders: others.map(RobotSettings::start).collect(),
         ball: settings.ball_position(),
+        carpet_friction: settings.carpet_friction,
     }
 }
 

@@ -44,8 +44,8 @@ impl Numbers {
 fn world(starts: &[Start], ball: Option<[f64; 2]>) -> Dynamic {
     Dynamic::new(&Situation {
         robots: starts.to_vec(),
-        bystanders: Vec::new(),
         ball,
+        ..Situation::default()
     })
 }
 
@@ -382,7 +382,7 @@ fn a_bystander_stands_until_somebody_runs_into_it() {
     let mut physics = Dynamic::new(&Situation {
         robots: vec![standing([0.0; 3])],
         bystanders: vec![standing([1.0, 0.0, 3.0])],
-        ball: None,
+        ..Situation::default()
     });
     let commands = [hold(posture::standing(), 1.0)];
     let upright = |physics: &Dynamic| (physics.bystanders()[0].rotation * Vector3::z()).z;

@@ -46,7 +46,7 @@ impl Dynamic {
     /// The robots of a situation on the floor, at rest.
     pub fn new(situation: &Situation) -> Self {
         let mut world = empty_world();
-        scenery::insert(&mut world);
+        scenery::insert(&mut world, situation.carpet_friction);
         let robots: Vec<_> = situation
             .robots
             .iter()

@@ -11,10 +11,10 @@ const POST_FRICTION: f64 = 0.5;
 /// Of threads: what comes to a net stays there (an estimate).
 const NET_FRICTION: f64 = 0.8;
 
-/// Puts carpet and goals into a world.
-pub(super) fn insert(world: &mut PhysicsWorld) {
+/// Puts carpet and goals into a world; friction is a product of what a thing has and what it touches.
+pub(super) fn insert(world: &mut PhysicsWorld, carpet_friction: f64) {
     let carpet = ColliderBuilder::new(SharedShape::halfspace(Vector::Z));
-    world.insert_collider(finish(carpet, 1.0, 1.0), None);
+    world.insert_collider(finish(carpet, carpet_friction, 1.0), None);
     for goal in goal_posts().map(|post| post.cast::<f64>()).chunks_exact(2) {
         for part in frame(goal) {
             world.insert_collider(finish(part, POST_FRICTION, 1.0), None);
