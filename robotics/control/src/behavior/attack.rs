@@ -10,7 +10,7 @@ use types::motion::{BodyMotion, Script, Step};
 
 use super::decision::{Decision, View};
 use super::parameters::AttackParameters;
-use super::walk_to::within;
+use super::walk_to::{straight, within};
 use super::way::Circle;
 
 /// Where the robot is, seen from the ball along the aim.
@@ -145,7 +145,13 @@ fn walk_behind(view: &View<'_>, ball: Point2<f32>, aim: f32, activity: Activity)
         middle: ball,
         radius: attack.clearance.min(0.95 * attack.behind),
     };
-    view.walk_to(&target, Some(around), activity, activity)
+    let mut decision = view.walk_to(&target, Some(around), activity, activity);
+    // Near enough for a place, but the ball cannot be played from there yet: who stood here would stand for ever.
+    if decision.command.body == BodyMotion::Stand {
+        let step = straight(&target, &view.parameters.walk);
+        decision.command = Decision::walk(activity, step, view.head()).command;
+    }
+    decision
 }
 
 impl Stance {
@@ -215,6 +221,15 @@ mod tests {
         assert!(target.x > 1.1, "{target}");
         let way_point = decision.plan.way_point.unwrap();
         assert!(way_point.x < 1.1 && way_point.y.abs() > 0.1, "{way_point}");
+    }
+
+    #[test]
+    fn a_robot_that_stands_nearly_behind_the_ball_goes_on_until_it_can_play_it() {
+        let scene = Scene::at(-0.35, 0.0, 0.0).with_ball(0.33, 0.07);
+        let decision = scene.view(|view| attack(view, Point2::new(0.33, 0.07)));
+        assert_eq!(decision.activity, Activity::WalkBehindBall);
+        assert_eq!(decision.command.body, BodyMotion::Walk);
+        assert!(decision.command.step.left > 0.0, "{decision:?}");
     }
 
     #[test]

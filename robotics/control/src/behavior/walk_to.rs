@@ -24,11 +24,7 @@ pub(super) fn step_to(
     }
     let is_straight = way_point.coords == place;
     if is_straight && distance <= parameters.near {
-        return Some(Step {
-            forward: within(place.x, parameters.forward),
-            left: within(place.y, parameters.left),
-            turn: within(heading, parameters.turn),
-        });
+        return Some(straight(target, parameters));
     }
     let bearing = math::atan2(way_point.y, way_point.x);
     let faces_it = bearing.abs() <= parameters.ahead;
@@ -40,6 +36,15 @@ pub(super) fn step_to(
         left: 0.0,
         turn: within(bearing, parameters.turn),
     })
+}
+
+/// The next step to a pose of the ground frame that is near: in all directions.
+pub(super) fn straight(target: &Isometry2<f32>, parameters: &WalkParameters) -> Step {
+    Step {
+        forward: within(target.translation.x, parameters.forward),
+        left: within(target.translation.y, parameters.left),
+        turn: within(target.rotation.angle(), parameters.turn),
+    }
 }
 
 /// Cut to a range on both sides of 0.
