@@ -5,11 +5,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::{Scope, ScopedJoinHandle, sleep};
 use std::time::Duration;
 
-use protocol::{Ask, BINARY_HEADER, Change, Encoding, Good, Message};
+use client::{Frame, Heard, Robot};
+use protocol::{Ask, Change, Encoding, Good, Message};
 use serde_json::json;
 
 use crate::Result;
-use crate::socket::{Heard, Socket};
 
 /// What a client has seen.
 pub(crate) struct Told {
@@ -18,6 +18,11 @@ pub(crate) struct Told {
     pub(crate) what: String,
     /// What did not add up.
     pub(crate) wrong: Vec<String>,
+}
+
+/// Connects and is welcomed.
+pub(crate) fn connect(address: SocketAddr) -> Result<Robot> {
+    Robot::connect(&address.to_string(), None)
 }
 
 type Client = fn(SocketAddr, &AtomicBool) -> Result<Told>;
@@ -41,17 +46,17 @@ pub(crate) fn join(client: ScopedJoinHandle<'_, Result<Told>>) -> Result<Told> {
 
 /// Wants every cycle: each either comes or is told as lost, in order.
 fn watch(address: SocketAddr, over: &AtomicBool) -> Result<Told> {
-    let mut socket = Socket::open(address)?;
+    let mut robot = connect(address)?;
     let subscribe = |path: &str| Ask::Subscribe {
         path: path.to_owned(),
         rate: None,
         encoding: Encoding::Json,
     };
-    socket.ask(subscribe("Control.main_outputs.sensor_data.positions"))?;
+    robot.ask(subscribe("Control.main_outputs.sensor_data.positions"))?;
     let (mut first, mut last, mut updates, mut lost) = (None, None, 0_u64, 0_u64);
     let mut wrong = Vec::new();
     while !over.load(Ordering::Relaxed) {
-        for heard in socket.hear()? {
+        if let Some(heard) = robot.hear()? {
             match heard {
                 Heard::Message(Message::Update(update)) => {
                     if last.is_some_and(|last| update.cycle <= last) {
@@ -81,9 +86,9 @@ fn watch(address: SocketAddr, over: &AtomicBool) -> Result<Told> {
 
 /// Wants both cameras' images as JPEG.
 fn look(address: SocketAddr, over: &AtomicBool) -> Result<Told> {
-    let mut socket = Socket::open(address)?;
+    let mut robot = connect(address)?;
     for camera in ["Top", "Bottom"] {
-        socket.ask(Ask::Subscribe {
+        robot.ask(Ask::Subscribe {
             path: format!("Vision{camera}.main_outputs.image"),
             rate: Some(10.0),
             encoding: Encoding::Jpeg { quality: 60 },
@@ -91,9 +96,8 @@ fn look(address: SocketAddr, over: &AtomicBool) -> Result<Told> {
     }
     let (mut images, mut broken) = (0_u64, 0_u64);
     while !over.load(Ordering::Relaxed) {
-        for heard in socket.hear()? {
-            if let Heard::Bytes(bytes) = heard
-                && let Some(file) = bytes.get(BINARY_HEADER..)
+        if let Some(heard) = robot.hear()? {
+            if let Heard::Frame(Frame { value: file, .. }) = heard
                 && !file.is_empty()
             {
                 images += 1;
@@ -117,9 +121,9 @@ fn look(address: SocketAddr, over: &AtomicBool) -> Result<Told> {
 fn stall(address: SocketAddr, over: &AtomicBool) -> Result<Told> {
     let (mut connections, mut given_up) = (0_u64, 0_u64);
     while !over.load(Ordering::Relaxed) {
-        let mut socket = Socket::open(address)?;
+        let mut robot = connect(address)?;
         connections += 1;
-        let Good::Paths(entries) = socket.ask(Ask::Paths {
+        let Good::Paths(entries) = robot.ask(Ask::Paths {
             below: "Control.main_outputs".to_owned(),
             depth: Some(1),
         })?
@@ -127,7 +131,7 @@ fn stall(address: SocketAddr, over: &AtomicBool) -> Result<Told> {
             return Err("no paths".to_owned());
         };
         for entry in entries {
-            socket.ask(Ask::Subscribe {
+            robot.ask(Ask::Subscribe {
                 path: entry.path,
                 rate: None,
                 encoding: Encoding::Json,
@@ -141,7 +145,7 @@ fn stall(address: SocketAddr, over: &AtomicBool) -> Result<Told> {
             sleep(Duration::from_millis(100));
         }
         // What was on its way, and then the end.
-        let ended = (0..100_000).any(|_| socket.hear().is_err());
+        let ended = (0..100_000).any(|_| robot.hear().is_err());
         given_up += u64::from(ended);
     }
     Ok(Told {
@@ -156,11 +160,11 @@ fn be_restless(address: SocketAddr, over: &AtomicBool) -> Result<Told> {
     const PATH: &str = "ball_filter.gate";
     let (mut connections, mut version, mut wrong) = (0_u64, 0, Vec::new());
     while !over.load(Ordering::Relaxed) {
-        let mut socket = Socket::open(address)?;
+        let mut robot = connect(address)?;
         connections += 1;
         #[expect(clippy::cast_precision_loss, reason = "a few thousand")]
         let value = json!(1.0 + (connections % 16) as f64 / 8.0);
-        let written = socket.ask(Ask::Write {
+        let written = robot.ask(Ask::Write {
             changes: vec![Change {
                 path: PATH.to_owned(),
                 value: value.clone(),
@@ -174,7 +178,7 @@ fn be_restless(address: SocketAddr, over: &AtomicBool) -> Result<Told> {
         }
         version = newer;
         let path = format!("parameters.{PATH}");
-        match socket.ask(Ask::Read { path })? {
+        match robot.ask(Ask::Read { path })? {
             Good::Value(read) if read.value == value => {}
             other => wrong.push(format!("wrote {value}, read {other:?}")),
         }

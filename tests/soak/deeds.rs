@@ -8,8 +8,8 @@ use protocol::Ask;
 use serde_json::json;
 
 use crate::Result;
+use crate::clients::connect;
 use crate::programs::{Robot, Simulator};
-use crate::socket::Socket;
 
 /// The output whose reader fails: no loudspeaker plays an infinite pitch.
 const TONE: &str = "Control.main_outputs.tone";
@@ -83,10 +83,10 @@ impl Deeds {
         match deed {
             Deed::FailingNode => {
                 // The robot takes it back as soon as this client is gone.
-                let mut socket = Socket::open(self.address)?;
+                let mut client = connect(self.address)?;
                 let value = json!({ "frequency": 1e39, "duration": 1.0, "volume": 0.1 });
                 let path = TONE.to_owned();
-                socket.ask(Ask::Inject { path, value })?;
+                client.ask(Ask::Inject { path, value })?;
                 self.done.failing_nodes += 1;
                 sleep(until(trouble));
             }

@@ -10,7 +10,6 @@ mod clients;
 mod deeds;
 mod judge;
 mod programs;
-mod socket;
 mod vitals;
 
 use std::net::{SocketAddr, TcpListener};

@@ -13,7 +13,7 @@ use serde_json::Value;
 use support::root;
 
 use crate::Result;
-use crate::socket::Socket;
+use crate::clients::connect;
 
 /// A busy machine may take so long to start something.
 const PATIENCE: Duration = Duration::from_secs(60);
@@ -170,7 +170,7 @@ impl Robot {
             reader: Some(reader),
         };
         let begun = Instant::now();
-        while Socket::open(address).is_err() {
+        while connect(address).is_err() {
             let ended = robot.child.try_wait().map_err(|error| error.to_string())?;
             if ended.is_some() || begun.elapsed() > PATIENCE {
                 return Err(format!(
