@@ -15,8 +15,8 @@ use foxglove::{WebSocketServer, WebSocketServerHandle};
 use protocol::{Ask, Message};
 
 use crate::channels::{Output, channels, describe};
-use crate::robot::{Heard, Robot};
 use crate::{Options, Result, parameters};
+use client::{Heard, Robot};
 
 /// A robot that is shown.
 pub(crate) struct Bridge<'options> {

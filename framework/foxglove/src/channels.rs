@@ -7,8 +7,8 @@ use foxglove::{Channel, ChannelBuilder, PartialMetadata, RawChannel, Schema};
 use protocol::{Ask, Encoding, Entry, EntryKind, Good};
 use serde_json::{Value, json};
 
-use crate::robot::Robot;
 use crate::{Options, Result};
+use client::Robot;
 
 /// Deeper than names of outputs go.
 const DEPTH: u8 = 8;

@@ -10,7 +10,6 @@
 mod bridge;
 mod channels;
 mod parameters;
-mod robot;
 
 use std::net::SocketAddr;
 use std::process::ExitCode;
@@ -20,7 +19,7 @@ use std::time::Duration;
 use lexopt::prelude::{Long, Short, ValueExt as _};
 
 use bridge::Bridge;
-use robot::Robot;
+use client::Robot;
 
 /// Between two looks whether a robot is back.
 const PAUSE: Duration = Duration::from_millis(500);

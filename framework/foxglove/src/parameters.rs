@@ -5,7 +5,7 @@ use protocol::{Ask, Change, Good};
 use serde_json::{Map, Number, Value};
 
 use crate::Result;
-use crate::robot::Robot;
+use client::Robot;
 
 /// These, or all where none is named. What has no name of its own there is left out.
 pub(crate) fn read(robot: &mut Robot, names: &[String]) -> Result<Vec<Parameter>> {
