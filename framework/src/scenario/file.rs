@@ -462,7 +462,9 @@ mod tests {
                 "`passes = 2` is no share",
             ),
             (
-                format!("ends = 1\n[[call]]\npath = 'a.procedures.b'\nevery = 1e-9\n{ASSERTION}"),
+                format!(
+                    "ends = 1\n[[call]]\npath = 'a.procedures.b'\nfrom = 0.0\nevery = 1e-9\n{ASSERTION}"
+                ),
                 "a call comes at most once in a millisecond",
             ),
             (
