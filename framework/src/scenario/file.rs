@@ -428,7 +428,6 @@ mod tests {
         let scenario = Scenario::parse(&text).expect("it is right");
         let times = |seed: u64| {
             let events = scenario.events(seed);
-            assert!(events.is_sorted_by_key(|event| event.at));
             let (pushes, others): (Vec<_>, Vec<_>) = events
                 .iter()
                 .partition(|event| event.deed.contains_key("push"));
