@@ -258,10 +258,15 @@ fn what_is_published_can_be_packaged_in_one_call() {
         arguments.extend(["--package", name]);
     }
     cargo(&arguments);
+    let guide = std::fs::read_to_string(root().join("CONTRIBUTING.md")).expect("it is there");
     let packed = folder.path().join("package");
     for name in &names {
         let found = packed.join(format!("{name}-{}.crate", env!("CARGO_PKG_VERSION")));
         assert!(found.is_file(), "{name} was not packaged");
+        let is_told = guide
+            .lines()
+            .any(|line| line.contains("cargo package") && line.split(' ').any(|word| word == name));
+        assert!(is_told, "CONTRIBUTING.md packages no {name}");
     }
 }
 

@@ -8,8 +8,8 @@ use support::root;
 
 /// Programs that a page may call, with nothing in their arguments that this repository decides on.
 const KNOWN: [&str; 3] = ["cd", "jq", "cat"];
-const CARGO: [&str; 8] = [
-    "bench", "build", "clippy", "fmt", "fuzz", "install", "run", "test",
+const CARGO: [&str; 9] = [
+    "bench", "build", "clippy", "fmt", "fuzz", "install", "package", "run", "test",
 ];
 const GIT: [&str; 7] = [
     "add", "apply", "checkout", "commit", "config", "diff", "init",
