@@ -6,7 +6,7 @@ mod table;
 use std::fs;
 use std::io::{BufWriter, Write};
 
-use camino::{Utf8Path, Utf8PathBuf};
+use camino::Utf8Path;
 use hulkgen_mcap::RecordingFile;
 use serde_json::{Value, json};
 
@@ -49,7 +49,8 @@ pub fn export(
         return Err(Refusal::wrong_usage(format!("`{into}` exists")).help("name another place"));
     }
     // Whoever looks for it meanwhile finds nothing rather than a part.
-    let half = Utf8PathBuf::from(format!("{into}.{}.half", std::process::id()));
+    let name = into.file_name().unwrap_or("export");
+    let half = into.with_file_name(format!("{name}.{}.half", std::process::id()));
     let written = write(&file, selection, kind, &half)
         .and_then(|exported| fs::rename(&half, into).map(|()| exported).map_err(failed));
     if written.is_err() {

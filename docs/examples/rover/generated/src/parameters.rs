@@ -19,6 +19,7 @@ pub struct Parameters {
 #[serde(deny_unknown_fields)]
 pub struct FreewayDetection {
     /// rover_nodes::lidar::freeway_detection
+    #[reflect(range = 1..= 720)]
     pub directions: u32,
     /// rover_nodes::lidar::freeway_detection
     #[reflect(unit = "m", range = 0..)]

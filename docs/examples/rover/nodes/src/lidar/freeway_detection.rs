@@ -23,6 +23,7 @@ pub struct CycleContext {
     #[reflect(unit = "m", range = 0.0..)]
     half_width: Parameter<f32, "freeway_detection.half_width">,
     /// How many directions are looked into, all around.
+    #[reflect(range = 1..=720)]
     directions: Parameter<u32, "freeway_detection.directions">,
 }
 

@@ -1,0 +1,124 @@
+//! What scenarios may say, and what they are told where they say something else.
+
+use super::*;
+
+const ASSERTION: &str = "[[assertion]]\nwhat = 'a'\nvalue = 'truth.a'\nbelow = 1\n";
+
+fn message(text: &str) -> String {
+    Scenario::parse(text)
+        .expect_err("it has a mistake")
+        .to_string()
+}
+
+#[test]
+fn everything_that_can_be_said_is_read() {
+    let text = format!(
+        "about = 'x'\nends = 2\npasses = 0.9\nparameters = {{ a.b = [1, 2], 'c.d' = 'e' }}\n\
+         world = {{ pose = [1.0, 2], lamp = {{ there = false }} }}\nrandom = {{ pose = [0.5, 0] }}\n\
+         [[event]]\nat = 1.5\npush = [1]\n[[event]]\nat = 1\nwithin = 0\nkick = true\n{ASSERTION}"
+    );
+    let scenario = Scenario::parse(&text).expect("it is right");
+    assert_eq!(scenario.ends, Duration::from_secs(2));
+    let settings: Vec<_> = scenario
+        .settings
+        .iter()
+        .map(|(path, value)| format!("{path}={value}"))
+        .collect();
+    assert_eq!(settings, ["a.b=[1, 2]", "c.d=\"e\""]);
+    let times: Vec<_> = scenario
+        .events
+        .iter()
+        .map(|event| event.at.as_nanos() / 1_000_000)
+        .collect();
+    assert_eq!(times, [1000, 1500]);
+    let given =
+        toml::from_str("pose = [0, 0]\nlamp = { there = true, size = 3 }").expect("it is TOML");
+    let one = scenario.world(given, 1).expect("everything is there");
+    assert_eq!(one["lamp"].to_string(), "{ there = false, size = 3 }");
+    let x = one["pose"][0].as_float().expect("it is a number");
+    assert!((0.5..=1.5).contains(&x) && x != 1.0, "{x}");
+    assert_eq!(one["pose"][1].as_float(), Some(2.0));
+    let given = || toml::from_str("lamp = {}").expect("it is TOML");
+    let again = scenario.world(given(), 1).expect("everything is there");
+    assert_eq!(again["pose"], one["pose"], "the same seed");
+    let other = scenario.world(given(), 2).expect("everything is there");
+    assert_ne!(other["pose"], one["pose"], "another seed");
+}
+
+#[test]
+fn a_seed_moves_events_that_may_be_moved_and_no_others() {
+    let text = format!(
+        "ends = 9\n[[event]]\nat = 4\nwithin = 2.0\npush = [1]\n[[event]]\nat = 5\n{ASSERTION}"
+    );
+    let scenario = Scenario::parse(&text).expect("it is right");
+    let times = |seed: u64| {
+        let events = scenario.events(seed);
+        let (pushes, others): (Vec<_>, Vec<_>) = events
+            .iter()
+            .partition(|event| event.deed.contains_key("push"));
+        assert_eq!(others[0].at, scenario.events[1].at);
+        (pushes[0].at - Timestamp::ZERO).as_secs_f64()
+    };
+    let drawn: Vec<_> = (1..=20).map(times).collect();
+    assert!(drawn.iter().all(|at| (2.0..=6.0).contains(at)), "{drawn:?}");
+    assert!(drawn.iter().any(|at| *at < 3.0) && drawn.iter().any(|at| *at > 5.0));
+    assert_eq!(drawn[4], times(5), "the same seed");
+}
+
+#[test]
+fn mistakes_are_told_with_their_place() {
+    for (text, expected) in [
+        (
+            format!("ends = 1\nbeginns = 2\n{ASSERTION}"),
+            "line 2, column 1",
+        ),
+        (
+            format!("ends = 1\nbeginns = 2\n{ASSERTION}"),
+            "unknown field `beginns`, expected one of",
+        ),
+        ("ends = 1".to_owned(), "there is no `[[assertion]]`"),
+        (
+            format!("ends = -1\n{ASSERTION}"),
+            "`ends = -1` is no number of seconds",
+        ),
+        (
+            format!("ends = 1\npasses = 2\n{ASSERTION}"),
+            "`passes = 2` is no share",
+        ),
+        (
+            format!(
+                "ends = 1\n[[call]]\npath = 'a.procedures.b'\nfrom = 0.0\nevery = 1e-9\n{ASSERTION}"
+            ),
+            "a call comes at most once in a millisecond",
+        ),
+        (
+            format!("ends = 1\n[[event]]\npush = 1\n{ASSERTION}"),
+            "an `[[event]]` needs `at = SECONDS`",
+        ),
+        (
+            format!("ends = 1\n[[event]]\nat = 0.5\nwithin = 0.6\n{ASSERTION}"),
+            "the event at 0.5 s may be moved by 0.6 s, beyond the start or the end",
+        ),
+        (
+            format!("ends = 1\n[[event]]\nat = 0.5\nwithin = 'a'\n{ASSERTION}"),
+            "of an `[[event]]` is no number of seconds",
+        ),
+        (
+            format!("ends = 1\n[[event]]\nat = 1.5\n{ASSERTION}"),
+            "the event at 1.5 s comes after the end",
+        ),
+    ] {
+        let message = message(&text);
+        assert!(message.contains(expected), "{message}");
+    }
+}
+
+#[test]
+fn what_is_drawn_must_be_there() {
+    let text = format!("ends = 1\nrandom = {{ pos = 1.0 }}\n{ASSERTION}");
+    let scenario = Scenario::parse(&text).expect("it can be read");
+    let error = scenario
+        .world(toml::Table::new(), 1)
+        .expect_err("there is no `pos`");
+    assert!(error.to_string().contains("`pos`"), "{error}");
+}
