@@ -57,7 +57,10 @@ fn collect(root: &Path, folder: &Path, ending: &str, found: &mut Vec<Source>) {
             .into_owned();
         if path.is_dir() {
             // What programs write and nobody checks in.
-            let is_output = matches!(name.as_str(), "node_modules" | "target" | "written");
+            let is_output = matches!(
+                name.as_str(),
+                "artifacts" | "coverage" | "node_modules" | "target" | "written"
+            ) || path.ends_with("tests/fuzz/corpus");
             if !is_output && !name.starts_with('.') {
                 collect(root, &path, ending, found);
             }

@@ -26,13 +26,29 @@ macro_rules! functions {
     ($($name:ident, $trait:ident $(, $second:ident)? => $digest:literal;)+) => {
         [$(Function {
             name: stringify!($name),
-            #[allow(unused_variables, clippy::allow_attributes)]
+            #[allow(
+                unused_variables,
+                clippy::allow_attributes,
+                reason = "half of the functions have no second argument"
+            )]
             narrow: |one, other| math::$name(one $(, { let $second = other; $second })?),
-            #[allow(unused_variables, clippy::allow_attributes)]
+            #[allow(
+                unused_variables,
+                clippy::allow_attributes,
+                reason = "half of the functions have no second argument"
+            )]
             wide: |one, other| math::$name(one $(, { let $second = other; $second })?),
-            #[allow(unused_variables, clippy::allow_attributes)]
+            #[allow(
+                unused_variables,
+                clippy::allow_attributes,
+                reason = "half of the functions have no second argument"
+            )]
             of_std: |one, other| f64::$name(one $(, { let $second = other; $second })?),
-            #[allow(unused_variables, clippy::allow_attributes)]
+            #[allow(
+                unused_variables,
+                clippy::allow_attributes,
+                reason = "half of the functions have no second argument"
+            )]
             of_nalgebra: |one, other| <f64 as $trait>::$name(one $(, { let $second = other; $second })?),
             digest: $digest,
         }),+]

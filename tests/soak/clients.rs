@@ -96,14 +96,11 @@ fn look(address: SocketAddr, over: &AtomicBool) -> Result<Told> {
     }
     let (mut images, mut broken) = (0_u64, 0_u64);
     while !over.load(Ordering::Relaxed) {
-        if let Some(heard) = robot.hear()? {
-            if let Heard::Frame(Frame { value: file, .. }) = heard
-                && !file.is_empty()
-            {
-                images += 1;
-                broken +=
-                    u64::from(!(file.starts_with(b"\xff\xd8") && file.ends_with(b"\xff\xd9")));
-            }
+        if let Some(Heard::Frame(Frame { value: file, .. })) = robot.hear()?
+            && !file.is_empty()
+        {
+            images += 1;
+            broken += u64::from(!(file.starts_with(b"\xff\xd8") && file.ends_with(b"\xff\xd9")));
         }
     }
     let mut wrong = Vec::new();
@@ -119,7 +116,7 @@ fn look(address: SocketAddr, over: &AtomicBool) -> Result<Told> {
 
 /// Wants everything and reads nothing: a network that stalls. The robot has to give it up, and nobody else has to notice.
 fn stall(address: SocketAddr, over: &AtomicBool) -> Result<Told> {
-    let (mut connections, mut given_up) = (0_u64, 0_u64);
+    let (mut connections, mut given_up, mut wrong) = (0_u64, 0_u64, Vec::new());
     while !over.load(Ordering::Relaxed) {
         let mut robot = connect(address)?;
         connections += 1;
@@ -144,14 +141,20 @@ fn stall(address: SocketAddr, over: &AtomicBool) -> Result<Told> {
             }
             sleep(Duration::from_millis(100));
         }
+        if over.load(Ordering::Relaxed) {
+            break;
+        }
         // What was on its way, and then the end.
-        let ended = (0..100_000).any(|_| robot.hear().is_err());
-        given_up += u64::from(ended);
+        if (0..100_000).any(|_| robot.hear().is_err()) {
+            given_up += 1;
+        } else {
+            wrong.push("30 s without a byte taken, and the robot goes on".to_owned());
+        }
     }
     Ok(Told {
         name: "stalled",
         what: format!("{connections} connections, {given_up} given up by the robot"),
-        wrong: Vec::new(),
+        wrong,
     })
 }
 

@@ -13,6 +13,9 @@ use crate::vitals::Vitals;
 /// What may be on its way between two cyclers when the robot ends.
 const ON_ITS_WAY: u64 = 4;
 
+/// It is made to fail.
+const FAILING: &str = "control::tone_player";
+
 /// No referee and no team talks to this robot.
 const UNFED: &str = "SplNetwork";
 
@@ -90,7 +93,7 @@ impl Judge {
         }
     }
 
-    /// Each deed was done, and the robot has noticed the node that failed: in as many cycles as it was called.
+    /// Each deed was done; the node that was made to fail has failed, and no other.
     pub(crate) fn deeds(&mut self, done: &Done, report: &Value) {
         let mut wrong = Vec::new();
         for (what, count) in [
@@ -105,10 +108,16 @@ impl Judge {
         let nodes = list(report, "instances")
             .iter()
             .flat_map(|it| list(it, "nodes"));
-        let mut failed: Vec<_> = nodes.filter(|node| count(node, "failures") > 0).collect();
-        failed
-            .retain(|node| name(node, "node") != "control::tone_player" || done.failing_nodes == 0);
-        for node in failed {
+        let (made, others): (Vec<_>, Vec<_>) = nodes
+            .filter(|node| count(node, "failures") > 0)
+            .partition(|node| name(node, "node") == FAILING);
+        if made.is_empty() == (done.failing_nodes > 0) {
+            wrong.push(format!(
+                "{FAILING} was made to fail {} times",
+                done.failing_nodes
+            ));
+        }
+        for node in others {
             wrong.push(format!(
                 "{} has failed, and nobody made it",
                 name(node, "node")
@@ -207,6 +216,9 @@ impl Judge {
         let (memory, files) = vitals.most(25, 50);
         let (later, later_files) = vitals.most(50, 100);
         let mut wrong = Vec::new();
+        if vitals.looks.len() < 4 {
+            wrong.push("nobody looked".to_owned());
+        }
         if later > memory + memory / 10 + SLACK {
             wrong.push("memory grows".to_owned());
         }

@@ -29,6 +29,7 @@ fn files() -> Vec<(String, String)> {
         .chain(sources(
             &[
                 "cli",
+                "docs/examples",
                 "framework",
                 "generated",
                 "robotics",
@@ -43,6 +44,10 @@ fn files() -> Vec<(String, String)> {
         .collect();
     let cargo = fs::read_to_string(root().join("Cargo.toml")).expect("the root has a Cargo.toml");
     files.push(("Cargo.toml".to_owned(), cargo));
+    // The manifest names it.
+    let unit = "robotics/nao/robot.service";
+    let text = fs::read_to_string(root().join(unit)).expect("the NAO has a unit");
+    files.push((unit.to_owned(), text));
     files
 }
 

@@ -45,6 +45,7 @@ enum Verdict {
 fn texts() -> BTreeMap<String, String> {
     let folders = [
         "cli",
+        "docs/examples",
         "framework",
         "generated",
         "robotics",
@@ -58,7 +59,7 @@ fn texts() -> BTreeMap<String, String> {
         .chain(sources(&folders, ".toml"))
         .map(|source| (source.path, source.text))
         .collect();
-    for file in ["Cargo.toml", "hulk.toml"] {
+    for file in ["Cargo.toml", "hulk.toml", "robotics/nao/robot.service"] {
         let text = fs::read_to_string(root().join(file));
         texts.insert(file.to_owned(), text.expect("the root has it"));
     }

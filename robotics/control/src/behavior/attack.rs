@@ -10,6 +10,7 @@ use types::motion::{BodyMotion, Script, Step};
 
 use super::decision::{Decision, View};
 use super::parameters::AttackParameters;
+use super::places::wrapped;
 use super::walk_to::{straight, within};
 use super::way::Circle;
 
@@ -41,8 +42,7 @@ pub(super) fn attack(view: &View<'_>, ball: Point2<f32>) -> Decision {
         false => heading,
     };
     let places = &view.parameters.places;
-    let aim = places.aim(on_field, easy, attack.post_margin) - heading;
-    let aim = math::atan2(math::sin(aim), math::cos(aim));
+    let aim = wrapped(places.aim(on_field, easy, attack.post_margin) - heading);
     let stance = Stance::new(ball, aim);
     let may_kick = places.distance_to_goal(on_field) <= attack.kick_range;
     let mut decision = match choose(&stance, ball, may_kick, view.memory.activity, attack) {

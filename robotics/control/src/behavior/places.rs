@@ -142,7 +142,7 @@ impl PlaceParameters {
 const NARROW: f32 = 0.15;
 
 /// The same direction, from -π to π.
-fn wrapped(angle: f32) -> f32 {
+pub(super) fn wrapped(angle: f32) -> f32 {
     math::atan2(math::sin(angle), math::cos(angle))
 }
 
