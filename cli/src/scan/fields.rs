@@ -71,6 +71,7 @@ const HARMLESS: &[&str] = &[
     "expect",
     "must_use",
     "non_exhaustive",
+    "reflect",
     "repr",
     "serde",
     "warn",

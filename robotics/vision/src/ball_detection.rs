@@ -13,9 +13,9 @@ mod known;
 mod network;
 mod view;
 
+use framework::pool::Leased;
 use framework::{
-    AdditionalOutput, Clear, Input, Leased, MainOutput, Parameter, Reflect, RequiredInput, Result,
-    context,
+    AdditionalOutput, Clear, Input, MainOutput, Parameter, Reflect, RequiredInput, Result, context,
 };
 use nalgebra::Point2;
 use serde::{Deserialize, Serialize};

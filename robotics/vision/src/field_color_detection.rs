@@ -4,7 +4,8 @@
 //! counts as field then lies around it, as far as half of the way to what has no colour.
 
 use framework::context;
-use framework::{Input, Leased, MainOutput, Parameter, Reflect, RequiredInput, Result};
+use framework::pool::Leased;
+use framework::{Input, MainOutput, Parameter, Reflect, RequiredInput, Result};
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 use types::camera::CameraMatrix;

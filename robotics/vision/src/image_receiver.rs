@@ -1,6 +1,7 @@
 //! Waits for the next image of the camera that this instance looks through.
 
-use framework::{CaptureTime, HardwareInterface, Leased, MainOutput, Parameter, Result, context};
+use framework::pool::Leased;
+use framework::{CaptureTime, HardwareInterface, MainOutput, Parameter, Result, context};
 use hardware::CameraInterface;
 use serde::{Deserialize, Serialize};
 use types::camera::CameraPosition;

@@ -3,7 +3,8 @@
 //! Only below the horizon and down to the robot's own limbs, and only at every few pixels: what is
 //! smaller is too far away to matter.
 
-use framework::{Input, Leased, MainOutput, Parameter, Reflect, RequiredInput, Result, context};
+use framework::pool::Leased;
+use framework::{Input, MainOutput, Parameter, Reflect, RequiredInput, Result, context};
 use serde::{Deserialize, Serialize};
 use types::camera::CameraMatrix;
 use types::image::YuyvImage;

@@ -6,9 +6,8 @@
 mod outline;
 mod parts;
 
-use framework::{
-    LatestInput, Leased, MainOutput, Parameter, Reflect, RequiredInput, Result, context,
-};
+use framework::pool::Leased;
+use framework::{LatestInput, MainOutput, Parameter, Reflect, RequiredInput, Result, context};
 use kinematics::cameras::optical_to_head;
 use serde::{Deserialize, Serialize};
 use types::camera::{CameraCalibration, CameraPosition};

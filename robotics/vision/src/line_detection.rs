@@ -8,8 +8,9 @@ mod fit;
 mod points;
 mod rows;
 
+use framework::pool::Leased;
 use framework::{
-    AdditionalOutput, Input, Leased, MainOutput, Parameter, Reflect, RequiredInput, Result, context,
+    AdditionalOutput, Input, MainOutput, Parameter, Reflect, RequiredInput, Result, context,
 };
 use nalgebra::Point2;
 use serde::{Deserialize, Serialize};

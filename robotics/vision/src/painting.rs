@@ -1,6 +1,6 @@
 //! Paints images for tests: a coloured floor and upright boards, as a camera on a robot sees them.
 
-use framework::Leased;
+use framework::pool::Leased;
 use nalgebra::{Isometry3, Matrix3, Point2, Rotation3, Translation3, UnitQuaternion, Vector2};
 use types::camera::{CameraMatrix, Intrinsics};
 use types::field_features::FieldBorder;

@@ -4,8 +4,9 @@
 //! field around it. Balls and feet rise from the ground: seen as if flat they are much longer.
 
 use framework::context;
+use framework::pool::Leased;
 use framework::{
-    AdditionalOutput, Input, Leased, MainOutput, Parameter, Reflect, RequiredInput, Result, math,
+    AdditionalOutput, Input, MainOutput, Parameter, Reflect, RequiredInput, Result, math,
 };
 use nalgebra::{Matrix2, Point2, Vector2};
 use serde::{Deserialize, Serialize};
