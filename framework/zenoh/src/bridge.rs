@@ -1,7 +1,7 @@
 //! Both sides together: what the robot says is published, what others wish is asked of the robot.
 
 use std::collections::BTreeMap;
-use std::time::{SystemTime, UNIX_EPOCH};
+use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use client::{Heard, Result, Robot};
 use protocol::{Answer, Ask, Change, Good, Message, Outcome};
@@ -14,6 +14,12 @@ use crate::keys::{Keys, LONGEST, Wish, refuse};
 
 /// Answers that are awaited of the robot at a time; it has a limit of its own for those that take long.
 const AWAITED: usize = 64;
+
+/// An answer that takes longer comes no more; a robot lets calls wait for 5 s.
+const PATIENCE: Duration = Duration::from_secs(10);
+
+/// Lists and objects within each other: a robot refuses deeper requests without saying which it refuses.
+const DEEPEST: usize = 48;
 
 /// The word before the paths of parameters, which changes do without.
 const PARAMETERS: &str = "parameters.";
@@ -39,7 +45,14 @@ struct Subscription {
 }
 
 /// A request whose answer somebody waits for.
-enum Awaited {
+struct Awaited {
+    /// Nobody waits longer.
+    until: Instant,
+    asker: Asker,
+}
+
+/// Who gets an answer.
+enum Asker {
     /// What the robot answers is the answer.
     Query(usize, Query),
     /// A value came without a question: who sent it can only be told here.
@@ -120,6 +133,7 @@ impl<'keys> Bridge<'keys> {
     /// # Errors
     /// If the robot went away.
     pub(crate) fn turn(&mut self) -> Result<()> {
+        self.give_up();
         while self.awaited.len() < AWAITED
             && let Ok(wish) = self.keys.wishes.try_recv()
         {
@@ -160,10 +174,23 @@ impl<'keys> Bridge<'keys> {
     /// The robot went away: who waits for it is told.
     pub(crate) fn end(self, reason: &str) {
         for awaited in self.awaited.into_values() {
-            match awaited {
-                Awaited::Query(_, query) | Awaited::Written(_, query) => refuse(&query, reason),
-                Awaited::Put(_) => {}
-            }
+            awaited.asker.refuse(reason);
+        }
+    }
+
+    /// Remembers whom the answer to this request is for.
+    fn await_answer(&mut self, id: u32, asker: Asker) {
+        let until = Instant::now() + PATIENCE;
+        self.awaited.insert(id, Awaited { until, asker });
+    }
+
+    /// An answer that never comes must not take the place of others.
+    fn give_up(&mut self) {
+        let now = Instant::now();
+        let late = self.awaited.iter().filter(|(_, one)| one.until <= now);
+        let late: Vec<u32> = late.map(|(id, _)| *id).collect();
+        for awaited in late.iter().filter_map(|id| self.awaited.remove(id)) {
+            awaited.asker.refuse("the robot does not answer");
         }
     }
 
@@ -183,7 +210,7 @@ impl<'keys> Bridge<'keys> {
                 match read_json(&bytes) {
                     Ok(value) => {
                         let id = self.robot.send(write(&path, value))?;
-                        self.awaited.insert(id, Awaited::Put(path));
+                        self.await_answer(id, Asker::Put(path));
                     }
                     Err(message) => eprintln!("warning: `{path}`: {message}"),
                 }
@@ -197,12 +224,12 @@ impl<'keys> Bridge<'keys> {
                     Ok(ask) => {
                         let is_write = matches!(ask, Ask::Write { .. });
                         let id = self.robot.send(ask)?;
-                        let awaited = if is_write {
-                            Awaited::Written(index, query)
+                        let asker = if is_write {
+                            Asker::Written(index, query)
                         } else {
-                            Awaited::Query(index, query)
+                            Asker::Query(index, query)
                         };
-                        self.awaited.insert(id, awaited);
+                        self.await_answer(id, asker);
                     }
                     Err(message) => refuse(&query, &message),
                 }
@@ -220,35 +247,45 @@ impl<'keys> Bridge<'keys> {
         let Some(awaited) = answer.id.and_then(|id| self.awaited.remove(&id)) else {
             return Ok(());
         };
-        let good = match (answer.outcome, &awaited) {
+        let good = match (answer.outcome, &awaited.asker) {
             (Outcome::Ok(good), _) => *good,
-            (Outcome::Error(failure), Awaited::Put(path)) => {
+            (Outcome::Error(failure), Asker::Put(path)) => {
                 eprintln!("warning: `{path}`: {}", failure.message);
                 return Ok(());
             }
-            (Outcome::Error(failure), Awaited::Query(_, query) | Awaited::Written(_, query)) => {
+            (Outcome::Error(failure), Asker::Query(_, query) | Asker::Written(_, query)) => {
                 let refusals = failure.refusals.into_iter().map(|one| one.message);
                 let messages: Vec<String> = [failure.message].into_iter().chain(refusals).collect();
                 refuse(query, &messages.join("; "));
                 return Ok(());
             }
         };
-        match awaited {
-            Awaited::Put(_) => {}
-            Awaited::Query(index, query) => match good {
+        match awaited.asker {
+            Asker::Put(_) => {}
+            Asker::Query(index, query) => match good {
                 Good::Called(value) => self.keys.answer(index, &query, &value),
                 Good::Value(read) => self.keys.answer(index, &query, &read.value),
                 _ => refuse(&query, "the robot answers something else"),
             },
-            Awaited::Written(index, query) => match self.path_of(index) {
+            Asker::Written(index, query) => match self.path_of(index) {
                 Some(path) => {
                     let id = self.robot.send(Ask::Read { path })?;
-                    self.awaited.insert(id, Awaited::Query(index, query));
+                    self.await_answer(id, Asker::Query(index, query));
                 }
                 None => refuse(&query, "the robot has this key no longer"),
             },
         }
         Ok(())
+    }
+}
+
+impl Asker {
+    /// Who put a value cannot be told.
+    fn refuse(self, reason: &str) {
+        match self {
+            Self::Query(_, query) | Self::Written(_, query) => refuse(&query, reason),
+            Self::Put(path) => eprintln!("warning: `{path}`: {reason}"),
+        }
     }
 }
 
@@ -283,5 +320,40 @@ fn write(path: &str, value: Value) -> Ask {
 }
 
 fn read_json(bytes: &[u8]) -> Result<Value> {
-    serde_json::from_slice(bytes).map_err(|error| format!("the payload is no JSON: {error}"))
+    let value = serde_json::from_slice(bytes);
+    let value = value.map_err(|error| format!("the payload is no JSON: {error}"))?;
+    match depth(&value) {
+        depth if depth > DEEPEST => Err(format!(
+            "lists and objects of the payload nest {depth} deep: send at most {DEEPEST}"
+        )),
+        _ => Ok(value),
+    }
+}
+
+/// Lists and objects within each other at the deepest place; the reader's own limit bounds it.
+fn depth(value: &Value) -> usize {
+    match value {
+        Value::Array(items) => 1 + items.iter().map(depth).max().unwrap_or(0),
+        Value::Object(entries) => 1 + entries.values().map(depth).max().unwrap_or(0),
+        _ => 0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{DEEPEST, read_json};
+
+    #[test]
+    fn what_nests_deeper_than_a_robot_reads_is_refused() {
+        for (open, close) in [("[", "]"), (r#"{"a":"#, "}")] {
+            let nested = |depth| format!("{}1{}", open.repeat(depth), close.repeat(depth));
+            assert!(read_json(nested(DEEPEST).as_bytes()).is_ok());
+            for depth in [DEEPEST + 1, 61, 127] {
+                let refused = read_json(nested(depth).as_bytes()).expect_err("it is too deep");
+                assert!(refused.contains(&format!("nest {depth} deep")), "{refused}");
+            }
+            let refused = read_json(nested(5000).as_bytes()).expect_err("nobody reads that");
+            assert!(refused.contains("no JSON"), "{refused}");
+        }
+    }
 }
