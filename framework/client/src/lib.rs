@@ -20,6 +20,9 @@ pub type Result<T> = std::result::Result<T, String>;
 /// A robot that does not answer within this time is not there.
 const PATIENCE: Duration = Duration::from_secs(10);
 
+/// A robot says something every 20 s, if only a ping: one that says nothing for so long disappeared.
+const SILENCE: Duration = Duration::from_secs(60);
+
 /// How long the robot is listened to before something else is looked at.
 const MOMENT: Duration = Duration::from_millis(5);
 
@@ -29,6 +32,8 @@ const KEPT: usize = 4096;
 /// A running robot.
 pub struct Robot {
     socket: WebSocket<TcpStream>,
+    /// When it last said anything.
+    heard: Instant,
     next_id: u32,
     /// What came while an answer was awaited.
     waiting: VecDeque<Heard>,
@@ -75,7 +80,8 @@ impl Robot {
             .map_err(|error| absent(error.to_string()))?;
         let (mut socket, _) = tungstenite::client(format!("ws://{host}{SOCKET}"), stream)
             .map_err(|error| absent(error.to_string()))?;
-        let welcome = match read(&mut socket)? {
+        let mut heard = Instant::now();
+        let welcome = match read(&mut socket, &mut heard)? {
             Some(Heard::Message(Message::Welcome(welcome))) => welcome,
             _ => return Err(absent("what answers is no robot".to_owned())),
         };
@@ -89,6 +95,7 @@ impl Robot {
         set.map_err(|error| absent(error.to_string()))?;
         let mut robot = Self {
             socket,
+            heard,
             next_id: 1,
             waiting: VecDeque::new(),
             welcome,
@@ -122,7 +129,7 @@ impl Robot {
         let id = self.send(ask)?;
         let end = Instant::now() + PATIENCE;
         while Instant::now() < end {
-            match read(&mut self.socket)? {
+            match read(&mut self.socket, &mut self.heard)? {
                 Some(Heard::Message(Message::Answer(answer))) if answer.id == Some(id) => {
                     return match answer.outcome {
                         Outcome::Ok(good) => Ok(*good),
@@ -148,7 +155,7 @@ impl Robot {
     pub fn hear(&mut self) -> Result<Option<Heard>> {
         match self.waiting.pop_front() {
             Some(heard) => Ok(Some(heard)),
-            None => read(&mut self.socket),
+            None => read(&mut self.socket, &mut self.heard),
         }
     }
 }
@@ -169,21 +176,33 @@ fn reach(host: &str) -> Result<TcpStream> {
     Err(reason)
 }
 
-fn read(socket: &mut WebSocket<TcpStream>) -> Result<Option<Heard>> {
-    match socket.read() {
-        // A robot of a later version may say what we do not know.
-        Ok(tungstenite::Message::Text(text)) => {
-            Ok(serde_json::from_str(text.as_str()).ok().map(Heard::Message))
-        }
-        Ok(tungstenite::Message::Binary(bytes)) => Ok(Frame::read(&bytes).map(Heard::Frame)),
-        Ok(_) => Ok(None),
+/// What comes next, if it comes at the moment and is known; `heard` is when anything came.
+fn read(socket: &mut WebSocket<TcpStream>, heard: &mut Instant) -> Result<Option<Heard>> {
+    let message = match socket.read() {
+        Ok(message) => message,
         Err(Error::Io(error))
             if matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut) =>
         {
-            Ok(None)
+            if heard.elapsed() > SILENCE {
+                let seconds = SILENCE.as_secs();
+                return Err(format!(
+                    "the robot went away: it said nothing for {seconds} s"
+                ));
+            }
+            return Ok(None);
         }
-        Err(error) => Err(gone(&error)),
-    }
+        Err(error) => return Err(gone(&error)),
+    };
+    *heard = Instant::now();
+    Ok(match message {
+        // A robot of a later version may say what we do not know.
+        tungstenite::Message::Text(text) => {
+            let message = serde_json::from_str(text.as_str());
+            message.ok().map(Heard::Message)
+        }
+        tungstenite::Message::Binary(bytes) => Frame::read(&bytes).map(Heard::Frame),
+        _ => None,
+    })
 }
 
 fn gone(error: &Error) -> String {
@@ -209,7 +228,40 @@ impl Frame {
 
 #[cfg(test)]
 mod tests {
-    use super::Frame;
+    use std::net::{TcpListener, TcpStream};
+    use std::time::{Duration, Instant};
+
+    use tungstenite::protocol::Role;
+    use tungstenite::{Message, WebSocket};
+
+    use super::{Frame, SILENCE, read};
+
+    #[test]
+    fn a_silent_robot_is_gone_and_a_ping_is_a_word() {
+        let listener = TcpListener::bind("127.0.0.1:0").expect("there is a free port");
+        let address = listener.local_addr().expect("it is bound");
+        let stream = TcpStream::connect(address).expect("it is listened to");
+        let moment = Some(Duration::from_millis(5));
+        stream.set_read_timeout(moment).expect("it is open");
+        let mut socket = WebSocket::from_raw_socket(stream, Role::Client, None);
+        let (robot, _) = listener.accept().expect("somebody connected");
+        let mut robot = WebSocket::from_raw_socket(robot, Role::Server, None);
+        let long_ago = Instant::now().checked_sub(SILENCE + Duration::from_secs(1));
+        let long_ago = long_ago.expect("this machine runs for a minute");
+
+        let mut heard = Instant::now();
+        assert!(read(&mut socket, &mut heard).is_ok());
+        heard = long_ago;
+        let silent = read(&mut socket, &mut heard).err();
+        assert!(silent.is_some_and(|message| message.contains("nothing for 60 s")));
+        let ping = Message::Ping(Vec::new().into());
+        robot.send(ping).expect("the other end is open");
+        let begin = Instant::now();
+        while read(&mut socket, &mut heard).is_err() {
+            assert!(begin.elapsed() < SILENCE, "the ping does not come");
+        }
+        assert!(heard > long_ago);
+    }
 
     #[test]
     fn a_frame_is_read_and_others_are_not() {
