@@ -30,6 +30,8 @@ pub(crate) struct Bridge<'keys> {
     keys: &'keys mut Keys,
     /// By the robot's number.
     subscriptions: BTreeMap<u32, Subscription>,
+    /// Of parameters, by place in the list of edges.
+    told: BTreeMap<usize, Told>,
     /// By number of the request.
     awaited: BTreeMap<u32, Awaited>,
     /// Nanoseconds from 1970 to the start of the robot's clock.
@@ -44,6 +46,13 @@ struct Subscription {
     layout: Option<Layout>,
 }
 
+/// What was published of a parameter: the robot tells each with every change of any.
+struct Told {
+    value: Vec<u8>,
+    /// Nothing was written since.
+    is_current: bool,
+}
+
 /// A request whose answer somebody waits for.
 struct Awaited {
     /// Nobody waits longer.
@@ -56,7 +65,7 @@ enum Asker {
     /// What the robot answers is the answer.
     Query(usize, Query),
     /// A value came without a question: who sent it can only be told here.
-    Put(String),
+    Put(usize, String),
     /// A parameter was written: its value then is the answer.
     Written(usize, Query),
 }
@@ -80,6 +89,7 @@ impl<'keys> Bridge<'keys> {
             robot,
             keys,
             subscriptions: BTreeMap::new(),
+            told: BTreeMap::new(),
             awaited: BTreeMap::new(),
         };
         for index in 0..bridge.keys.edges().len() {
@@ -143,8 +153,9 @@ impl<'keys> Bridge<'keys> {
             Some(Heard::Message(Message::Update(update))) => {
                 let attachment = json!({ "cycle": update.cycle, "time": update.time });
                 if let Some(one) = self.subscriptions.get(&update.subscription) {
+                    let edge = one.edge;
                     let (value, attachment) = (update.value.to_string(), attachment.to_string());
-                    self.publish(one.edge, value.into(), attachment.into());
+                    self.publish(edge, value.into(), attachment.into());
                 }
             }
             Some(Heard::Frame(frame)) if !frame.value.is_empty() => {
@@ -154,10 +165,11 @@ impl<'keys> Bridge<'keys> {
                     layout: Some(layout),
                 }) = subscription
                 {
+                    let edge = *edge;
                     let time = self.start.saturating_add(frame.time);
                     let attachment = cdr::attachment(frame.cycle, time, self.keys.id());
                     match layout.to_cdr(&frame.value) {
-                        Ok(value) => self.publish(*edge, value, attachment),
+                        Ok(value) => self.publish(edge, value, attachment),
                         Err(message) => eprintln!("warning: {message}"),
                     }
                 }
@@ -194,9 +206,38 @@ impl<'keys> Bridge<'keys> {
         }
     }
 
-    fn publish(&self, edge: usize, value: Vec<u8>, attachment: Vec<u8>) {
-        if let Err(message) = self.keys.publish(edge, value, attachment) {
+    fn publish(&mut self, edge: usize, value: Vec<u8>, attachment: Vec<u8>) {
+        if self.is_news(edge, &value)
+            && let Err(message) = self.keys.publish(edge, value, attachment)
+        {
             eprintln!("warning: {message}");
+        }
+    }
+
+    /// Outputs always are; of parameters only what differs, or two bridges of one key would answer each other for ever.
+    fn is_news(&mut self, edge: usize, value: &[u8]) -> bool {
+        let kind = self.keys.edges().get(edge).map(|edge| edge.kind);
+        if kind != Some(Kind::Parameter) {
+            return true;
+        }
+        let is_current = !self.awaited.values().any(|one| one.asker.writes(edge));
+        let value = value.to_vec();
+        let before = self.told.get(&edge);
+        let is_news = before.is_none_or(|before| before.value != value);
+        self.told.insert(edge, Told { value, is_current });
+        is_news
+    }
+
+    /// Whether the robot has this value already, as far as it told.
+    fn has(&self, edge: usize, value: &Value) -> bool {
+        let told = self.told.get(&edge).filter(|told| told.is_current);
+        told.is_some_and(|told| told.value == value.to_string().as_bytes())
+    }
+
+    /// What was told is not to be relied on until the robot tells anew.
+    fn will_write(&mut self, edge: usize) {
+        if let Some(told) = self.told.get_mut(&edge) {
+            told.is_current = false;
         }
     }
 
@@ -208,9 +249,11 @@ impl<'keys> Bridge<'keys> {
                     return Ok(());
                 };
                 match read_json(&bytes) {
+                    Ok(value) if self.has(index, &value) => {}
                     Ok(value) => {
+                        self.will_write(index);
                         let id = self.robot.send(write(&path, value))?;
-                        self.await_answer(id, Asker::Put(path));
+                        self.await_answer(id, Asker::Put(index, path));
                     }
                     Err(message) => eprintln!("warning: `{path}`: {message}"),
                 }
@@ -225,6 +268,7 @@ impl<'keys> Bridge<'keys> {
                         let is_write = matches!(ask, Ask::Write { .. });
                         let id = self.robot.send(ask)?;
                         let asker = if is_write {
+                            self.will_write(index);
                             Asker::Written(index, query)
                         } else {
                             Asker::Query(index, query)
@@ -249,7 +293,7 @@ impl<'keys> Bridge<'keys> {
         };
         let good = match (answer.outcome, &awaited.asker) {
             (Outcome::Ok(good), _) => *good,
-            (Outcome::Error(failure), Asker::Put(path)) => {
+            (Outcome::Error(failure), Asker::Put(_, path)) => {
                 eprintln!("warning: `{path}`: {}", failure.message);
                 return Ok(());
             }
@@ -261,7 +305,7 @@ impl<'keys> Bridge<'keys> {
             }
         };
         match awaited.asker {
-            Asker::Put(_) => {}
+            Asker::Put(..) => {}
             Asker::Query(index, query) => match good {
                 Good::Called(value) => self.keys.answer(index, &query, &value),
                 Good::Value(read) => self.keys.answer(index, &query, &read.value),
@@ -280,11 +324,16 @@ impl<'keys> Bridge<'keys> {
 }
 
 impl Asker {
+    /// Whether the value of this edge may change.
+    fn writes(&self, edge: usize) -> bool {
+        matches!(self, Self::Put(of, _) | Self::Written(of, _) if *of == edge)
+    }
+
     /// Who put a value cannot be told.
     fn refuse(self, reason: &str) {
         match self {
             Self::Query(_, query) | Self::Written(_, query) => refuse(&query, reason),
-            Self::Put(path) => eprintln!("warning: `{path}`: {reason}"),
+            Self::Put(_, path) => eprintln!("warning: `{path}`: {reason}"),
         }
     }
 }
