@@ -10,7 +10,8 @@ use std::net::{SocketAddr, TcpStream, ToSocketAddrs as _};
 use std::time::{Duration, Instant};
 
 use protocol::{
-    Ask, BINARY_HEADER, BINARY_MAGIC, Good, Message, Outcome, Request, SOCKET, VERSION, Welcome,
+    Answer, Ask, BINARY_HEADER, BINARY_MAGIC, Good, Message, Outcome, Request, SOCKET, VERSION,
+    Welcome,
 };
 use tungstenite::{Error, WebSocket};
 
@@ -136,6 +137,11 @@ impl Robot {
                         Outcome::Error(failure) => Err(failure.message),
                     };
                 }
+                // What is so wrong that its number cannot be read is refused without one.
+                Some(Heard::Message(Message::Answer(Answer {
+                    id: None,
+                    outcome: Outcome::Error(failure),
+                }))) => return Err(failure.message),
                 Some(heard) => {
                     if self.waiting.len() == KEPT {
                         self.waiting.pop_front();
