@@ -87,15 +87,19 @@ impl Keys {
         &self.edges
     }
 
-    /// Declares these edges; those that are there already stay.
+    /// Declares these edges; those that are there already stay. What was wished before is refused.
     ///
     /// # Errors
     /// If Zenoh refuses a key.
     pub(crate) fn declare(&mut self, edges: Vec<Edge>) -> Result<()> {
+        // They are of before: a call from then would move the robot now, and its number may be another edge's.
+        self.refuse_wishes("the robot was away");
         if edges == self.edges {
             return Ok(());
         }
         self.declared.clear();
+        // What an edge of before says even now comes nowhere.
+        (self.sender, self.wishes) = sync_channel(WISHES);
         self.edges.clear();
         for (index, edge) in edges.iter().enumerate() {
             let key = format!("{}{}", self.prefix, edge.key);
@@ -135,15 +139,18 @@ impl Keys {
         if edge.answers() {
             let sender = self.sender.clone();
             let queryable = self.session.declare_queryable(key.to_owned());
-            let queryable = queryable.callback(move |query| {
-                if let Err(
-                    TrySendError::Full(Wish::Query(_, query))
-                    | TrySendError::Disconnected(Wish::Query(_, query)),
-                ) = sender.try_send(Wish::Query(index, query))
-                {
-                    refuse(&query, "the bridge has too many queries to answer");
-                }
-            });
+            let queryable =
+                queryable.callback(
+                    move |query| match sender.try_send(Wish::Query(index, query)) {
+                        Err(TrySendError::Full(Wish::Query(_, query))) => {
+                            refuse(&query, "the bridge has too many queries to answer");
+                        }
+                        Err(TrySendError::Disconnected(Wish::Query(_, query))) => {
+                            refuse(&query, "the robot has this key no longer");
+                        }
+                        _ => {}
+                    },
+                );
             declared._queryable = Some(queryable.wait()?);
         }
         Ok(declared)
