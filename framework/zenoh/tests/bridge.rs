@@ -258,8 +258,10 @@ fn a_network_that_loses_and_delays_carries_everything() {
         return skip(TEST, "`ip` and `tc` (iproute2)");
     }
     let Some(network) = Network::new() else {
-        // Nothing that could be installed: it is permitted or not.
-        return println!("SKIPPED {TEST}: permission for network namespaces, for example as root");
+        return skip(
+            TEST,
+            "permission for network namespaces, for example as root",
+        );
     };
     let folder = std::env::temp_dir().join(format!("hulkgen-zenoh-far-{}", std::process::id()));
     let robot_at = SocketAddr::from(([127, 0, 0, 1], 4857));
