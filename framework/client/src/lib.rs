@@ -10,8 +10,8 @@ use std::net::{SocketAddr, TcpStream, ToSocketAddrs as _};
 use std::time::{Duration, Instant};
 
 use protocol::{
-    Answer, Ask, BINARY_HEADER, BINARY_MAGIC, Good, Message, Outcome, Request, SOCKET, VERSION,
-    Welcome,
+    Answer, Ask, BINARY_HEADER, BINARY_MAGIC, Good, Message, Outcome, PORT, Request, SOCKET,
+    VERSION, Welcome,
 };
 use tungstenite::{Error, WebSocket};
 
@@ -64,17 +64,18 @@ pub struct Frame {
 }
 
 impl Robot {
-    /// Finds the robot, hears its welcome, and shows the token if there is one.
+    /// Finds the robot, hears its welcome, and shows the token if there is one. A host without a port has the robot's own.
     ///
     /// # Errors
     /// If nobody answers there, no robot, one of another version, or the token is wrong.
     pub fn connect(host: &str, token: Option<&str>) -> Result<Self> {
+        let host = complete(host);
         let absent = |error: String| {
             format!(
                 "no robot answers at {host}: {error}; start one with `hulkgen run`, or say where it is with `--host ADDRESS:PORT`"
             )
         };
-        let stream = reach(host).map_err(absent)?;
+        let stream = reach(&host).map_err(absent)?;
         let set = stream.set_read_timeout(Some(PATIENCE));
         set.and_then(|()| stream.set_write_timeout(Some(PATIENCE)))
             .and_then(|()| stream.set_nodelay(true))
@@ -166,6 +167,21 @@ impl Robot {
     }
 }
 
+/// The address with a port.
+fn complete(host: &str) -> String {
+    let host = host.strip_prefix("ws://").unwrap_or(host);
+    let host = host.trim_end_matches('/');
+    let is_bare_v6 = host.matches(':').count() > 1 && !host.starts_with('[');
+    let has_port = host
+        .rsplit_once(':')
+        .is_some_and(|(before, port)| port.parse::<u16>().is_ok() && !before.is_empty());
+    match (is_bare_v6, has_port) {
+        (true, _) => format!("[{host}]:{PORT}"),
+        (false, true) => host.to_owned(),
+        (false, false) => format!("{host}:{PORT}"),
+    }
+}
+
 /// To the first of the host's addresses that somebody listens at.
 fn reach(host: &str) -> Result<TcpStream> {
     let addresses: Vec<SocketAddr> = host
@@ -240,7 +256,22 @@ mod tests {
     use tungstenite::protocol::Role;
     use tungstenite::{Message, WebSocket};
 
-    use super::{Frame, SILENCE, read};
+    use super::{Frame, SILENCE, complete, read};
+
+    #[test]
+    fn an_address_needs_no_port() {
+        for (host, expected) in [
+            ("127.0.0.1", "127.0.0.1:4857"),
+            ("nao:5000", "nao:5000"),
+            ("nao.local", "nao.local:4857"),
+            ("::1", "[::1]:4857"),
+            ("[::1]", "[::1]:4857"),
+            ("[::1]:80", "[::1]:80"),
+            ("ws://nao/", "nao:4857"),
+        ] {
+            assert_eq!(complete(host), expected);
+        }
+    }
 
     #[test]
     fn a_silent_robot_is_gone_and_a_ping_is_a_word() {
