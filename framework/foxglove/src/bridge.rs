@@ -84,7 +84,7 @@ impl Ear {
 impl<'options> Bridge<'options> {
     /// From now on Foxglove can connect.
     pub(crate) fn start(mut robot: Robot, options: &'options Options) -> Result<Self> {
-        let outputs = channels(describe(&mut robot)?, Vec::new())?;
+        let outputs = channels(describe(&mut robot)?, Vec::new());
         let (sender, wishes) = channel();
         let listen = options.listen;
         let server = WebSocketServer::new()
@@ -108,14 +108,16 @@ impl<'options> Bridge<'options> {
     /// Goes on with a robot that has come back: what is looked at is asked of it again.
     ///
     /// # Errors
-    /// If it goes away meanwhile.
+    /// If it does not tell its outputs. What it refuses to show is told and left out.
     pub(crate) fn go_on_with(&mut self, mut robot: Robot) -> Result<()> {
         let described = describe(&mut robot)?;
         self.start = start_of(&robot);
         self.robot = robot;
-        self.outputs = channels(described, mem::take(&mut self.outputs))?;
+        self.outputs = channels(described, mem::take(&mut self.outputs));
         for output in self.outputs.iter_mut().filter(|it| it.watching > 0) {
-            output.subscribe(&mut self.robot, self.options)?;
+            if let Err(message) = output.subscribe(&mut self.robot, self.options) {
+                eprintln!("warning: `{}`: {message}", output.path);
+            }
         }
         Ok(())
     }

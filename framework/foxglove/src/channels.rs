@@ -72,8 +72,8 @@ pub(crate) fn describe(robot: &mut Robot) -> Result<Vec<Described>> {
 }
 
 /// A channel for each of them. What was shown before goes on in its channel where it looks the same, with those who look at
-/// it; other channels are closed.
-pub(crate) fn channels(described: Vec<Described>, mut before: Vec<Output>) -> Result<Vec<Output>> {
+/// it; other channels are closed. What has no channel is told and left out.
+pub(crate) fn channels(described: Vec<Described>, mut before: Vec<Output>) -> Vec<Output> {
     let mut kept = Vec::new();
     for output in described {
         let is_same = |earlier: &Output| earlier.path == output.path && earlier.has(&output.form);
@@ -82,12 +82,17 @@ pub(crate) fn channels(described: Vec<Described>, mut before: Vec<Output>) -> Re
     }
     // Before others get their topics.
     before.into_iter().for_each(Output::close);
-    let outputs = kept.into_iter().map(|(output, earlier)| match earlier {
-        Some(earlier) => Ok(Output {
-            subscription: None,
-            ..earlier
-        }),
-        None => Output::new(output),
+    let outputs = kept.into_iter().filter_map(|(output, earlier)| {
+        if let Some(earlier) = earlier {
+            return Some(Output {
+                subscription: None,
+                ..earlier
+            });
+        }
+        let path = output.path.clone();
+        let output = Output::new(output);
+        let output = output.inspect_err(|message| eprintln!("warning: `{path}`: {message}"));
+        output.ok()
     });
     outputs.collect()
 }

@@ -79,7 +79,13 @@ fn run(options: &Options) -> Result<()> {
     loop {
         if let Err(message) = bridge.turn() {
             eprintln!("{message}; waiting for it to come back");
-            while reconnect(&mut bridge, options).is_err() {
+            let mut said = String::new();
+            while let Err(message) = reconnect(&mut bridge, options) {
+                // Once, until something else is wrong.
+                if said != message {
+                    eprintln!("warning: {message}");
+                    said = message;
+                }
                 thread::sleep(PAUSE);
             }
             eprintln!("{} is back", bridge.name());
