@@ -4,7 +4,7 @@
 
 use std::mem;
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::mpsc::{Receiver, SyncSender, TrySendError, sync_channel};
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use foxglove::websocket::{
@@ -17,6 +17,9 @@ use protocol::{Ask, Message};
 use crate::channels::{Output, channels, describe};
 use crate::{Options, Result, parameters};
 use client::{Heard, Robot};
+
+/// Wishes that wait for the robot, more than it has outputs; of more, questions get no values and looks are lost.
+const WISHES: usize = 4096;
 
 /// A robot that is shown.
 pub(crate) struct Bridge<'options> {
@@ -38,7 +41,7 @@ enum Wish {
 }
 
 /// Where wishes come in.
-struct Ear(Sender<Wish>);
+struct Ear(SyncSender<Wish>);
 
 impl ServerListener for Ear {
     fn on_subscribe(&self, _: Client, channel: ChannelView) {
@@ -74,10 +77,25 @@ impl ParameterHandler for Ear {
     }
 }
 
+impl Wish {
+    /// Whoever asks gets an answer, one without values.
+    fn refuse(self) {
+        match self {
+            Self::Watch { .. } | Self::Leave { .. } => {}
+            Self::Get(_, responder) => responder.respond(Vec::new()),
+            Self::Set(_, responder) => responder.respond(Vec::new()),
+        }
+    }
+}
+
 impl Ear {
-    /// A bridge that has ended hears nothing any more, and its clients are told by their connection.
+    /// Nobody waits here for the robot: Foxglove's server goes on.
     fn hear(&self, wish: Wish) {
-        let _ = self.0.send(wish);
+        if let Err(TrySendError::Full(wish)) = self.0.try_send(wish) {
+            eprintln!("warning: {WISHES} wishes wait for the robot already: one is refused");
+            wish.refuse();
+        }
+        // A bridge that has ended hears nothing any more, and its clients are told by their connection.
     }
 }
 
@@ -85,7 +103,7 @@ impl<'options> Bridge<'options> {
     /// From now on Foxglove can connect.
     pub(crate) fn start(mut robot: Robot, options: &'options Options) -> Result<Self> {
         let outputs = channels(describe(&mut robot)?, Vec::new());
-        let (sender, wishes) = channel();
+        let (sender, wishes) = sync_channel(WISHES);
         let listen = options.listen;
         let server = WebSocketServer::new()
             .name(robot.welcome.robot.clone())
@@ -161,6 +179,27 @@ impl<'options> Bridge<'options> {
             _ => {}
         }
         Ok(())
+    }
+
+    /// While the robot is away: who looks is remembered for when it is back, and who asks gets no values.
+    pub(crate) fn refuse_wishes(&mut self) {
+        while let Ok(wish) = self.wishes.try_recv() {
+            let (topic, is_watched) = match &wish {
+                Wish::Watch { topic } => (topic, true),
+                Wish::Leave { topic } => (topic, false),
+                Wish::Get(..) | Wish::Set(..) => {
+                    wish.refuse();
+                    continue;
+                }
+            };
+            let mut outputs = self.outputs.iter_mut();
+            if let Some(output) = outputs.find(|output| output.topic == *topic) {
+                output.watching = match is_watched {
+                    true => output.watching.saturating_add(1),
+                    false => output.watching.saturating_sub(1),
+                };
+            }
+        }
     }
 
     fn subscribed(&self, subscription: u32) -> Option<&Output> {

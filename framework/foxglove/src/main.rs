@@ -80,12 +80,14 @@ fn run(options: &Options) -> Result<()> {
         if let Err(message) = bridge.turn() {
             eprintln!("{message}; waiting for it to come back");
             let mut said = String::new();
+            bridge.refuse_wishes();
             while let Err(message) = reconnect(&mut bridge, options) {
                 // Once, until something else is wrong.
                 if said != message {
                     eprintln!("warning: {message}");
                     said = message;
                 }
+                bridge.refuse_wishes();
                 thread::sleep(PAUSE);
             }
             eprintln!("{} is back", bridge.name());
