@@ -7,7 +7,7 @@
 use std::collections::VecDeque;
 use std::io::ErrorKind;
 use std::net::{SocketAddr, TcpStream, ToSocketAddrs as _};
-use std::time::{Duration, Instant};
+use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use protocol::{
     Answer, Ask, BINARY_HEADER, BINARY_MAGIC, Good, Message, Outcome, PORT, Request, SOCKET,
@@ -35,6 +35,8 @@ pub struct Robot {
     socket: WebSocket<TcpStream>,
     /// When it last said anything.
     heard: Instant,
+    /// Nanoseconds from 1970 to the start of its clock.
+    start: u64,
     next_id: u32,
     /// What came while an answer was awaited.
     waiting: VecDeque<Heard>,
@@ -87,6 +89,9 @@ impl Robot {
             Some(Heard::Message(Message::Welcome(welcome))) => welcome,
             _ => return Err(absent("what answers is no robot".to_owned())),
         };
+        let now = SystemTime::now().duration_since(UNIX_EPOCH);
+        let now = now.map_or(0, |now| u64::try_from(now.as_nanos()).unwrap_or_default());
+        let start = now.saturating_sub(welcome.time);
         if welcome.version != VERSION {
             return Err(format!(
                 "the robot at {host} speaks version {} of the protocol, this bridge {VERSION}; build both from one revision",
@@ -98,6 +103,7 @@ impl Robot {
         let mut robot = Self {
             socket,
             heard,
+            start,
             next_id: 1,
             waiting: VecDeque::new(),
             welcome,
@@ -107,6 +113,11 @@ impl Robot {
             robot.ask(Ask::Authenticate { token })?;
         }
         Ok(robot)
+    }
+
+    /// A time of the robot's clock as nanoseconds since 1970: its welcome is taken to have come without delay.
+    pub fn since_1970(&self, time: u64) -> u64 {
+        self.start.saturating_add(time)
     }
 
     /// Asks without waiting; the answer comes with this number, see [`Robot::hear`].

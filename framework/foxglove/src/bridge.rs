@@ -5,7 +5,6 @@
 use std::mem;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, SyncSender, TrySendError, sync_channel};
-use std::time::{SystemTime, UNIX_EPOCH};
 
 use foxglove::websocket::{
     AnyClient, Capability, ChannelView, Client, GetParametersResponder, Parameter,
@@ -28,8 +27,6 @@ pub(crate) struct Bridge<'options> {
     outputs: Vec<Output>,
     server: WebSocketServerHandle,
     wishes: Receiver<Wish>,
-    /// Nanoseconds from 1970 to the start of the robot's clock.
-    start: u64,
 }
 
 /// What Foxglove wants.
@@ -115,7 +112,6 @@ impl<'options> Bridge<'options> {
             .map_err(|error| format!("--listen {listen}: {error}"))?;
         Ok(Self {
             options,
-            start: start_of(&robot),
             robot,
             outputs,
             server,
@@ -129,7 +125,6 @@ impl<'options> Bridge<'options> {
     /// If it does not tell its outputs. What it refuses to show is told and left out.
     pub(crate) fn go_on_with(&mut self, mut robot: Robot) -> Result<()> {
         let described = describe(&mut robot)?;
-        self.start = start_of(&robot);
         self.robot = robot;
         self.outputs = channels(described, mem::take(&mut self.outputs));
         for output in self.outputs.iter_mut().filter(|it| it.watching > 0) {
@@ -160,13 +155,13 @@ impl<'options> Bridge<'options> {
         }
         match self.robot.hear()? {
             Some(Heard::Message(Message::Update(update))) => {
-                let time = self.start.saturating_add(update.time);
+                let time = self.robot.since_1970(update.time);
                 if let Some(output) = self.subscribed(update.subscription) {
                     output.log(update.value, time);
                 }
             }
             Some(Heard::Frame(frame)) => {
-                let time = self.start.saturating_add(frame.time);
+                let time = self.robot.since_1970(frame.time);
                 if let Some(output) = self.subscribed(frame.subscription) {
                     output.log_image(frame.value, time);
                 }
@@ -259,13 +254,6 @@ impl<'options> Bridge<'options> {
         }
         Ok(())
     }
-}
-
-/// Nanoseconds from 1970 to the start of the robot's clock.
-fn start_of(robot: &Robot) -> u64 {
-    let now = SystemTime::now().duration_since(UNIX_EPOCH);
-    let now = now.map_or(0, |now| u64::try_from(now.as_nanos()).unwrap_or_default());
-    now.saturating_sub(robot.welcome.time)
 }
 
 fn or_none(result: Result<Vec<Parameter>>) -> (Vec<Parameter>, Result<()>) {

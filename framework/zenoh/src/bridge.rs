@@ -1,7 +1,7 @@
 //! Both sides together: what the robot says is published, what others wish is asked of the robot.
 
 use std::collections::BTreeMap;
-use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
+use std::time::{Duration, Instant};
 
 use client::{Heard, Result, Robot};
 use protocol::{Answer, Ask, Change, Good, Message, Outcome};
@@ -34,8 +34,6 @@ pub(crate) struct Bridge<'keys> {
     told: BTreeMap<usize, Told>,
     /// By number of the request.
     awaited: BTreeMap<u32, Awaited>,
-    /// Nanoseconds from 1970 to the start of the robot's clock.
-    start: u64,
 }
 
 /// Values of an edge.
@@ -82,10 +80,7 @@ impl<'keys> Bridge<'keys> {
             Vec::new()
         });
         keys.declare(edges)?;
-        let now = SystemTime::now().duration_since(UNIX_EPOCH);
-        let now = now.map_or(0, |now| u64::try_from(now.as_nanos()).unwrap_or_default());
         let mut bridge = Self {
-            start: now.saturating_sub(robot.welcome.time),
             robot,
             keys,
             subscriptions: BTreeMap::new(),
@@ -166,7 +161,7 @@ impl<'keys> Bridge<'keys> {
                 }) = subscription
                 {
                     let edge = *edge;
-                    let time = self.start.saturating_add(frame.time);
+                    let time = self.robot.since_1970(frame.time);
                     let attachment = cdr::attachment(frame.cycle, time, self.keys.id());
                     match layout.to_cdr(&frame.value) {
                         Ok(value) => self.publish(edge, value, attachment),
