@@ -128,6 +128,9 @@ def parameters(session):
     # Values that are none change nothing, and the bridge goes on.
     for nonsense in ["", "{", '"fast"', "[" * 5000, b"\xff\xfe", TOO_LONG]:
         session.put("zoo/walking_speed", nonsense)
+    # More than the bridge awaits answers, and deeper than the robot reads.
+    for _ in range(70):
+        session.put("zoo/walking_speed", 100 * "[" + 100 * "]")
     assert ask(session, "zoo/walking_speed", "0.45") == (True, 0.45), "written by a query"
     until("walking speed of 0.45", heard(0.45))
     for nonsense, word in [("{", "no JSON"), ('"fast"', "walking_speed"), (TOO_LONG, "at most")]:
@@ -137,6 +140,10 @@ def parameters(session):
     assert ask(session, "zoo/spot_finder")[1]["brightest"] == 3
     is_good, words = ask(session, "zoo/spot_finder", "{}")
     assert not is_good and "goes out alone" in words, words
+    for _ in range(5):
+        assert ask(session, "zoo/walking_speed", "0.45") == (True, 0.45)
+    values = [value for value, _, _ in list(speeds.heard)]
+    assert all(one != next_one for one, next_one in zip(values, values[1:])), f"said twice: {values}"
     ask(session, "zoo/walking_speed", "0.2")
     print("parameters go out and come in")
 
