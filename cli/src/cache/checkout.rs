@@ -201,22 +201,17 @@ mod tests {
     #[test]
     fn dependencies_outside_of_the_repository_stay_where_they_are() {
         let (_keep, files) = folder();
+        let (_kept, repository) = folder();
         let text = "[dependencies]\nnear = { path = \"../near\" }\nfar = { path = \"../../far\" } # far\n\n[dependencies.farther]\npath = \"../../../farther\"\n";
         fs::create_dir(files.join("robot")).expect("there is room");
         fs::write(files.join("robot/Cargo.toml"), text).expect("there is room");
-        lead_out(
-            &files,
-            Utf8Path::new("/home/robot"),
-            Utf8Path::new("robot/Cargo.toml"),
-        )
-        .expect("it can be written");
+        lead_out(&files, &repository, Utf8Path::new("robot/Cargo.toml"))
+            .expect("it can be written");
+        let outside = |path: &str| format!("\"{repository}/robot/{path}\"");
         assert_eq!(
             fs::read_to_string(files.join("robot/Cargo.toml")).expect("it is there"),
-            text.replace("\"../../far\"", "\"/home/robot/robot/../../far\"")
-                .replace(
-                    "\"../../../farther\"",
-                    "\"/home/robot/robot/../../../farther\""
-                )
+            text.replace("\"../../far\"", &outside("../../far"))
+                .replace("\"../../../farther\"", &outside("../../../farther"))
         );
     }
 
