@@ -22,7 +22,7 @@ pub(crate) struct Told {
 
 /// Connects and is welcomed.
 pub(crate) fn connect(address: SocketAddr) -> Result<Robot> {
-    Robot::connect(&address.to_string(), None)
+    Ok(Robot::connect(&address.to_string(), None)?)
 }
 
 type Client = fn(SocketAddr, &AtomicBool) -> Result<Told>;

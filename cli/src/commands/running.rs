@@ -52,7 +52,7 @@ pub(super) fn threads(address: Option<&str>) -> Result<Threads, Refusal> {
             is_real_time,
         ))
     });
-    let welcome = &connection.welcome;
+    let welcome = connection.welcome();
     Ok(Threads {
         robot: format!("{} ({})", welcome.robot, welcome.target),
         granted: granted.collect(),

@@ -1,31 +1,32 @@
-//! The connection of a bridge to a running robot, as docs/protocol.md describes it.
+//! The connection of a program to a running robot, as docs/protocol.md describes it.
 //!
 //! Invariant: nothing waits for the robot without an end, and what is kept of what it says is bounded.
 
 #![warn(missing_docs)]
 
+mod address;
+mod error;
+mod frame;
+
 use std::collections::VecDeque;
 use std::io::ErrorKind;
-use std::net::{SocketAddr, TcpStream, ToSocketAddrs as _};
+use std::net::TcpStream;
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
-use protocol::{
-    Answer, Ask, BINARY_HEADER, BINARY_MAGIC, Good, Message, Outcome, PORT, Request, SOCKET,
-    VERSION, Welcome,
-};
-use tungstenite::{Error, WebSocket};
+use protocol::{Answer, Ask, Good, Message, Outcome, Request, SOCKET, VERSION, Welcome};
+use tungstenite::WebSocket;
 
-/// Failures are told to people.
-pub type Result<T> = std::result::Result<T, String>;
+pub use self::error::{Error, Why};
+pub use self::frame::Frame;
 
 /// A robot that does not answer within this time is not there.
 const PATIENCE: Duration = Duration::from_secs(10);
 
-/// A robot says something every 20 s, if only a ping: one that says nothing for so long disappeared.
-const SILENCE: Duration = Duration::from_secs(60);
-
 /// How long the robot is listened to before something else is looked at.
 const MOMENT: Duration = Duration::from_millis(5);
+
+/// A robot pings every 20 s; one that says nothing for so long has gone without a word.
+const SILENCE: Duration = Duration::from_secs(60);
 
 /// Messages that are kept while an answer is awaited; of more the oldest are lost.
 const KEPT: usize = 4096;
@@ -33,9 +34,10 @@ const KEPT: usize = 4096;
 /// A running robot.
 pub struct Robot {
     socket: WebSocket<TcpStream>,
-    /// When it last said anything.
+    address: String,
+    /// When it said something last.
     heard: Instant,
-    /// Nanoseconds from 1970 to the start of its clock.
+    /// When its clock began, in nanoseconds since 1970.
     start: u64,
     next_id: u32,
     /// What came while an answer was awaited.
@@ -45,6 +47,7 @@ pub struct Robot {
 }
 
 /// What a robot says without being waited for.
+#[derive(Debug)]
 pub enum Heard {
     /// In JSON.
     Message(Message),
@@ -52,58 +55,45 @@ pub enum Heard {
     Frame(Frame),
 }
 
-/// A value in bytes.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Frame {
-    /// As the answer to `subscribe` said.
-    pub subscription: u32,
-    /// Number of the cycle that wrote it.
-    pub cycle: u64,
-    /// In nanoseconds of the robot's clock.
-    pub time: u64,
-    /// Empty: the part is not there in this cycle.
-    pub value: Vec<u8>,
-}
-
 impl Robot {
     /// Finds the robot, hears its welcome, and shows the token if there is one. A host without a port has the robot's own.
     ///
     /// # Errors
     /// If nobody answers there, no robot, one of another version, or the token is wrong.
-    pub fn connect(host: &str, token: Option<&str>) -> Result<Self> {
-        let host = complete(host);
-        let absent = |error: String| {
-            format!(
-                "no robot answers at {host}: {error}; start one with `hulkgen run`, or say where it is with `--host ADDRESS:PORT`"
-            )
+    pub fn connect(host: &str, token: Option<&str>) -> Result<Self, Error> {
+        let address = address::complete(host);
+        let wrong = |why| Error {
+            address: address.clone(),
+            why,
         };
-        let stream = reach(&host).map_err(absent)?;
-        let set = stream.set_read_timeout(Some(PATIENCE));
-        set.and_then(|()| stream.set_write_timeout(Some(PATIENCE)))
+        let absent = |reason: String| wrong(Why::Absent(reason));
+        let stream = address::reach(&address).map_err(absent)?;
+        stream
+            .set_read_timeout(Some(PATIENCE))
+            .and_then(|()| stream.set_write_timeout(Some(PATIENCE)))
             .and_then(|()| stream.set_nodelay(true))
             .map_err(|error| absent(error.to_string()))?;
-        let (mut socket, _) = tungstenite::client(format!("ws://{host}{SOCKET}"), stream)
+        let (mut socket, _) = tungstenite::client(format!("ws://{address}{SOCKET}"), stream)
             .map_err(|error| absent(error.to_string()))?;
         let mut heard = Instant::now();
-        let welcome = match read(&mut socket, &mut heard)? {
-            Some(Heard::Message(Message::Welcome(welcome))) => welcome,
-            _ => return Err(absent("what answers is no robot".to_owned())),
+        let first = hear(&mut socket, &mut heard, Instant::now() + PATIENCE).map_err(wrong)?;
+        let welcome = match first {
+            Some(Heard::Message(Message::Welcome(welcome))) if welcome.version == VERSION => {
+                welcome
+            }
+            Some(Heard::Message(Message::Welcome(welcome))) => {
+                return Err(wrong(Why::Foreign(welcome.version)));
+            }
+            Some(_) => return Err(wrong(Why::Confused)),
+            None => return Err(wrong(Why::Silent)),
         };
         let now = SystemTime::now().duration_since(UNIX_EPOCH);
         let now = now.map_or(0, |now| u64::try_from(now.as_nanos()).unwrap_or_default());
-        let start = now.saturating_sub(welcome.time);
-        if welcome.version != VERSION {
-            return Err(format!(
-                "the robot at {host} speaks version {} of the protocol, this bridge {VERSION}; build both from one revision",
-                welcome.version
-            ));
-        }
-        let set = socket.get_ref().set_read_timeout(Some(MOMENT));
-        set.map_err(|error| absent(error.to_string()))?;
         let mut robot = Self {
             socket,
+            address,
             heard,
-            start,
+            start: now.saturating_sub(welcome.time),
             next_id: 1,
             waiting: VecDeque::new(),
             welcome,
@@ -120,17 +110,21 @@ impl Robot {
         self.start.saturating_add(time)
     }
 
+    /// What the robot says makes no sense to the caller.
+    pub fn confused(&self) -> Error {
+        self.error(Why::Confused)
+    }
+
     /// Asks without waiting; the answer comes with this number, see [`Robot::hear`].
     ///
     /// # Errors
     /// If the robot went away.
-    pub fn send(&mut self, ask: Ask) -> Result<u32> {
+    pub fn send(&mut self, ask: Ask) -> Result<u32, Error> {
         let id = self.next_id;
         self.next_id = self.next_id.wrapping_add(1);
-        let request = Request { id, ask };
-        let text = serde_json::to_string(&request).map_err(|error| error.to_string())?;
+        let text = serde_json::to_string(&Request { id, ask }).expect("requests are JSON");
         let sent = self.socket.send(tungstenite::Message::text(text));
-        sent.map_err(|error| gone(&error))?;
+        sent.map_err(|error| self.error(gone(&error)))?;
         Ok(id)
     }
 
@@ -138,125 +132,126 @@ impl Robot {
     ///
     /// # Errors
     /// If the robot refuses, does not answer or went away.
-    pub fn ask(&mut self, ask: Ask) -> Result<Good> {
+    pub fn ask(&mut self, ask: Ask) -> Result<Good, Error> {
+        self.ask_for(ask, Duration::ZERO)
+    }
+
+    /// As [`Robot::ask`], for what may take the robot so long.
+    ///
+    /// # Errors
+    /// As [`Robot::ask`].
+    pub fn ask_for(&mut self, ask: Ask, duration: Duration) -> Result<Good, Error> {
         let id = self.send(ask)?;
-        let end = Instant::now() + PATIENCE;
-        while Instant::now() < end {
-            match read(&mut self.socket, &mut self.heard)? {
-                Some(Heard::Message(Message::Answer(answer))) if answer.id == Some(id) => {
-                    return match answer.outcome {
-                        Outcome::Ok(good) => Ok(*good),
-                        Outcome::Error(failure) => Err(failure.message),
-                    };
-                }
+        let end = Instant::now() + PATIENCE + duration;
+        loop {
+            match self.hear_new(end)? {
                 // What is so wrong that its number cannot be read is refused without one.
                 Some(Heard::Message(Message::Answer(Answer {
-                    id: None,
+                    id: own,
                     outcome: Outcome::Error(failure),
-                }))) => return Err(failure.message),
+                }))) if own.is_none_or(|own| own == id) => {
+                    return Err(self.error(Why::Refused(failure)));
+                }
+                Some(Heard::Message(Message::Answer(Answer {
+                    id: Some(own),
+                    outcome: Outcome::Ok(good),
+                }))) if own == id => return Ok(*good),
                 Some(heard) => {
                     if self.waiting.len() == KEPT {
                         self.waiting.pop_front();
                     }
                     self.waiting.push_back(heard);
                 }
-                None => {}
+                None => return Err(self.error(Why::Silent)),
             }
         }
-        Err("the robot does not answer".to_owned())
     }
 
     /// What the robot says next, if it says something at the moment.
     ///
     /// # Errors
-    /// If the robot went away.
-    pub fn hear(&mut self) -> Result<Option<Heard>> {
+    /// If the robot went away, or says what makes no sense.
+    pub fn hear(&mut self) -> Result<Option<Heard>, Error> {
+        self.hear_before(Instant::now() + MOMENT)
+    }
+
+    /// What the robot says next, if it says something before that time.
+    ///
+    /// # Errors
+    /// As [`Robot::hear`].
+    pub fn hear_before(&mut self, end: Instant) -> Result<Option<Heard>, Error> {
         match self.waiting.pop_front() {
             Some(heard) => Ok(Some(heard)),
-            None => read(&mut self.socket, &mut self.heard),
+            None => self.hear_new(end),
+        }
+    }
+
+    fn hear_new(&mut self, end: Instant) -> Result<Option<Heard>, Error> {
+        hear(&mut self.socket, &mut self.heard, end).map_err(|why| self.error(why))
+    }
+
+    fn error(&self, why: Why) -> Error {
+        Error {
+            address: self.address.clone(),
+            why,
         }
     }
 }
 
-/// The address with a port.
-fn complete(host: &str) -> String {
-    let host = host.strip_prefix("ws://").unwrap_or(host);
-    let host = host.trim_end_matches('/');
-    let is_bare_v6 = host.matches(':').count() > 1 && !host.starts_with('[');
-    let has_port = host
-        .rsplit_once(':')
-        .is_some_and(|(before, port)| port.parse::<u16>().is_ok() && !before.is_empty());
-    match (is_bare_v6, has_port) {
-        (true, _) => format!("[{host}]:{PORT}"),
-        (false, true) => host.to_owned(),
-        (false, false) => format!("{host}:{PORT}"),
+impl Drop for Robot {
+    /// Says goodbye, so that the robot need not find out; one that went away needs none.
+    fn drop(&mut self) {
+        let _ = self.socket.close(None);
+        let _ = self.socket.flush();
     }
 }
 
-/// To the first of the host's addresses that somebody listens at.
-fn reach(host: &str) -> Result<TcpStream> {
-    let addresses: Vec<SocketAddr> = host
-        .to_socket_addrs()
-        .map_err(|error| error.to_string())?
-        .collect();
-    let mut reason = "it has no address".to_owned();
-    for address in addresses {
-        match TcpStream::connect_timeout(&address, PATIENCE) {
-            Ok(stream) => return Ok(stream),
-            Err(error) => reason = error.to_string(),
-        }
-    }
-    Err(reason)
-}
-
-/// What comes next, if it comes at the moment and is known; `heard` is when anything came.
-fn read(socket: &mut WebSocket<TcpStream>, heard: &mut Instant) -> Result<Option<Heard>> {
-    let message = match socket.read() {
-        Ok(message) => message,
-        Err(Error::Io(error))
-            if matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut) =>
-        {
-            if heard.elapsed() > SILENCE {
-                let seconds = SILENCE.as_secs();
-                return Err(format!(
-                    "the robot went away: it said nothing for {seconds} s"
-                ));
-            }
+/// What comes before that time and is known; `heard` is when anything came.
+fn hear(
+    socket: &mut WebSocket<TcpStream>,
+    heard: &mut Instant,
+    end: Instant,
+) -> Result<Option<Heard>, Why> {
+    loop {
+        let left = end.saturating_duration_since(Instant::now()).min(SILENCE);
+        if left.is_zero() {
             return Ok(None);
         }
-        Err(error) => return Err(gone(&error)),
-    };
-    *heard = Instant::now();
-    Ok(match message {
-        // A robot of a later version may say what we do not know.
-        tungstenite::Message::Text(text) => {
-            let message = serde_json::from_str(text.as_str());
-            message.ok().map(Heard::Message)
+        let set = socket.get_ref().set_read_timeout(Some(left));
+        set.map_err(|error| Why::Gone(error.to_string()))?;
+        let message = match socket.read() {
+            Ok(message) => message,
+            Err(tungstenite::Error::Io(error))
+                if matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut) =>
+            {
+                if heard.elapsed() > SILENCE {
+                    let seconds = SILENCE.as_secs();
+                    return Err(Why::Gone(format!("it said nothing for {seconds} s")));
+                }
+                continue;
+            }
+            Err(error) => return Err(gone(&error)),
+        };
+        *heard = Instant::now();
+        match message {
+            tungstenite::Message::Text(text) => match serde_json::from_str(text.as_str()) {
+                Ok(message) => return Ok(Some(Heard::Message(message))),
+                // A robot of a later version may say what we do not know; an answer is none of that.
+                Err(_) if !text.as_str().contains("\"answer\"") => {}
+                Err(_) => return Err(Why::Confused),
+            },
+            tungstenite::Message::Binary(bytes) => {
+                let frame = Frame::read(&bytes).ok_or(Why::Confused)?;
+                return Ok(Some(Heard::Frame(frame)));
+            }
+            // Pings are answered by the library.
+            _ => {}
         }
-        tungstenite::Message::Binary(bytes) => Frame::read(&bytes).map(Heard::Frame),
-        _ => None,
-    })
-}
-
-fn gone(error: &Error) -> String {
-    format!("the robot went away: {error}")
-}
-
-impl Frame {
-    /// A binary message of a robot; `None` for anything else.
-    pub fn read(bytes: &[u8]) -> Option<Self> {
-        let (head, value) = bytes.split_at_checked(BINARY_HEADER)?;
-        let (magic, rest) = head.split_first_chunk()?;
-        let (subscription, rest) = rest.split_first_chunk()?;
-        let (cycle, rest) = rest.split_first_chunk()?;
-        let (time, _) = rest.split_first_chunk()?;
-        (*magic == BINARY_MAGIC).then(|| Self {
-            subscription: u32::from_le_bytes(*subscription),
-            cycle: u64::from_le_bytes(*cycle),
-            time: u64::from_le_bytes(*time),
-            value: value.to_vec(),
-        })
     }
+}
+
+fn gone(error: &tungstenite::Error) -> Why {
+    Why::Gone(error.to_string())
 }
 
 #[cfg(test)]
@@ -267,66 +262,31 @@ mod tests {
     use tungstenite::protocol::Role;
     use tungstenite::{Message, WebSocket};
 
-    use super::{Frame, SILENCE, complete, read};
-
-    #[test]
-    fn an_address_needs_no_port() {
-        for (host, expected) in [
-            ("127.0.0.1", "127.0.0.1:4857"),
-            ("nao:5000", "nao:5000"),
-            ("nao.local", "nao.local:4857"),
-            ("::1", "[::1]:4857"),
-            ("[::1]", "[::1]:4857"),
-            ("[::1]:80", "[::1]:80"),
-            ("ws://nao/", "nao:4857"),
-        ] {
-            assert_eq!(complete(host), expected);
-        }
-    }
+    use super::{MOMENT, SILENCE, Why, hear};
 
     #[test]
     fn a_silent_robot_is_gone_and_a_ping_is_a_word() {
         let listener = TcpListener::bind("127.0.0.1:0").expect("there is a free port");
         let address = listener.local_addr().expect("it is bound");
         let stream = TcpStream::connect(address).expect("it is listened to");
-        let moment = Some(Duration::from_millis(5));
-        stream.set_read_timeout(moment).expect("it is open");
         let mut socket = WebSocket::from_raw_socket(stream, Role::Client, None);
         let (robot, _) = listener.accept().expect("somebody connected");
         let mut robot = WebSocket::from_raw_socket(robot, Role::Server, None);
         let long_ago = Instant::now().checked_sub(SILENCE + Duration::from_secs(1));
         let long_ago = long_ago.expect("this machine runs for a minute");
+        let mut listen = |heard: &mut Instant| hear(&mut socket, heard, Instant::now() + MOMENT);
 
         let mut heard = Instant::now();
-        assert!(read(&mut socket, &mut heard).is_ok());
+        assert!(listen(&mut heard).is_ok());
         heard = long_ago;
-        let silent = read(&mut socket, &mut heard).err();
-        assert!(silent.is_some_and(|message| message.contains("nothing for 60 s")));
+        let silent = listen(&mut heard).err();
+        assert!(matches!(silent, Some(Why::Gone(reason)) if reason.contains("nothing for 60 s")));
         let ping = Message::Ping(Vec::new().into());
         robot.send(ping).expect("the other end is open");
         let begin = Instant::now();
-        while read(&mut socket, &mut heard).is_err() {
+        while listen(&mut heard).is_err() {
             assert!(begin.elapsed() < SILENCE, "the ping does not come");
         }
         assert!(heard > long_ago);
-    }
-
-    #[test]
-    fn a_frame_is_read_and_others_are_not() {
-        let mut bytes = b"HKG1".to_vec();
-        bytes.extend(7_u32.to_le_bytes());
-        bytes.extend(812_u64.to_le_bytes());
-        bytes.extend(9_744_000_000_u64.to_le_bytes());
-        bytes.push(1);
-        let frame = Frame {
-            subscription: 7,
-            cycle: 812,
-            time: 9_744_000_000,
-            value: vec![1],
-        };
-        assert_eq!(Frame::read(&bytes), Some(frame));
-        assert_eq!(Frame::read(&bytes[..23]), None);
-        bytes[0] = b'X';
-        assert_eq!(Frame::read(&bytes), None);
     }
 }

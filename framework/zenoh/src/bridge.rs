@@ -3,11 +3,12 @@
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
-use client::{Heard, Result, Robot};
+use client::{Heard, Robot};
 use protocol::{Answer, Ask, Change, Good, Message, Outcome};
 use serde_json::{Value, json};
 use zenoh::query::Query;
 
+use crate::Result;
 use crate::cdr::{self, Layout};
 use crate::edges::{self, Direction, Edge, Encoding, Kind};
 use crate::keys::{Keys, LONGEST, Wish, refuse};

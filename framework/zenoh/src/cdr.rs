@@ -6,9 +6,10 @@
 
 use std::collections::BTreeMap;
 
-use client::Result;
 use serde::Deserialize;
 use serde_json::Value;
+
+use crate::Result;
 
 /// Says: CDR of version 1, little-endian.
 const HEAD: [u8; 4] = [0, 1, 0, 0];

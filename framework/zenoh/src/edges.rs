@@ -1,8 +1,10 @@
 //! What the robot's manifest maps, as the robot's graph tells it.
 
-use client::{Result, Robot};
+use client::Robot;
 use protocol::{Ask, Good};
 use serde::Deserialize;
+
+use crate::Result;
 
 /// A `[[bridge]]` of the manifest. Keys that a later hulkgen adds are left alone.
 #[derive(Clone, Debug, Deserialize, PartialEq)]

@@ -4,7 +4,7 @@
 
 use std::sync::mpsc::{Receiver, SyncSender, TrySendError, sync_channel};
 
-use client::Result;
+use crate::Result;
 use zenoh::bytes::Encoding;
 use zenoh::pubsub::{Publisher, Subscriber};
 use zenoh::query::{Query, Queryable};

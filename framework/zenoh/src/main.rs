@@ -18,9 +18,12 @@ use std::thread::sleep;
 use std::time::Duration;
 
 use bridge::Bridge;
-use client::{Result, Robot};
+use client::Robot;
 use keys::Keys;
 use options::Options;
+
+/// What goes wrong is told to people.
+pub(crate) type Result<T> = std::result::Result<T, String>;
 
 /// Between attempts to reach the robot.
 const PAUSE: Duration = Duration::from_millis(500);
@@ -47,7 +50,8 @@ fn run(options: &Options) -> Result<()> {
     let mut keys = Keys::open(options)?;
     let mut said = String::new();
     loop {
-        let mut bridge = match Robot::connect(&options.host, options.token.as_deref()) {
+        let robot = Robot::connect(&options.host, options.token.as_deref());
+        let mut bridge = match robot.map_err(String::from) {
             Ok(robot) => Bridge::start(robot, &mut keys)?,
             Err(message) => {
                 // Once, until something else is wrong.

@@ -1,7 +1,8 @@
 //! The command line.
 
-use client::Result;
 use lexopt::prelude::{Long, Short, ValueExt as _};
+
+use crate::Result;
 
 pub(crate) const HELP: &str = "\
 Maps what `[[bridge]]` of a robot's manifest names to keys of Zenoh.

@@ -1,9 +1,10 @@
 //! `log`: what a running robot says.
 
+use client::Heard;
 use protocol::{Ask, Level, Message};
 use serde_json::json;
 
-use super::connection::{Connection, Heard};
+use super::connection::Connection;
 use super::{again, text};
 use crate::arguments::{Log, LogLevel, TextOrJson};
 use crate::commands::terminal::Terminal;

@@ -31,7 +31,7 @@ pub(in crate::commands) fn top(terminal: &Terminal, top: &Top) -> Result<Outcome
         let said = match top.running.format {
             TextOrJson::Json => format!("{}\n", json!(timings)),
             TextOrJson::Text => {
-                let welcome = &connection.welcome;
+                let welcome = connection.welcome();
                 let time = text::seconds(timings.time);
                 let head = format!(
                     "{} ({}), {time}, times in µs",

@@ -2,10 +2,11 @@
 
 use std::time::{Duration, Instant};
 
+use client::Heard;
 use protocol::{Ask, Encoding, Entry, EntryKind, Good, Lost, Message};
 use serde_json::{Value, json};
 
-use super::connection::{Connection, Heard};
+use super::connection::Connection;
 use super::{NAMED, again, text};
 use crate::arguments::{TextOrJson, Topic, TopicCommand};
 use crate::commands::plural;
