@@ -8,6 +8,7 @@ mod zoo;
 
 use std::fs;
 use std::hint::black_box;
+use std::process::Command;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -262,11 +263,32 @@ fn outputs(zoo: &Zoo, instance: &str) -> Vec<Value> {
     entries.iter().map(|entry| entry["path"].clone()).collect()
 }
 
+/// Gives a cycler's thread the policy that a robot's manifest asks for: else what is measured is who gets a processor.
+fn favour(instance: &str) {
+    let tasks = fs::read_dir("/proc/self/task").expect("this is Linux");
+    let is_named = |task: &fs::DirEntry| {
+        let name = fs::read_to_string(task.path().join("comm"));
+        name.is_ok_and(|name| name.trim() == instance)
+    };
+    for task in tasks.flatten().filter(is_named) {
+        let mut command = Command::new("chrt");
+        command
+            .args(["--fifo", "--pid", "80"])
+            .arg(task.file_name());
+        if !command.status().is_ok_and(|status| status.success()) {
+            println!(
+                "{instance} has no real-time priority: that needs a right that this user lacks"
+            );
+        }
+    }
+}
+
 fn greed() {
     let look = |greedy: usize| {
         let zoo = Zoo::new();
         let paths = outputs(&zoo, "Control");
         let (is_over, received) = (AtomicBool::new(false), AtomicU64::new(0));
+        favour("Control");
         thread::scope(|scope| {
             for _ in 0..greedy {
                 let mut client = zoo.client();
@@ -287,7 +309,7 @@ fn greed() {
     let without = median(rounds.iter().map(|round| round.0).collect());
     let with = median(rounds.iter().map(|round| round.1).collect());
     row(
-        "Control's cycle (p99): nobody | 8 greedy clients",
+        "Control's cycle under FIFO (p99): nobody | 8 greedy clients",
         without,
         with,
         "µs",
