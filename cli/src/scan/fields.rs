@@ -149,6 +149,42 @@ impl Library<'_> {
         })
     }
 
+    /// The attributes of a struct or an enum of the workspace; `None` for everything else, and where a macro may have
+    /// changed it.
+    pub fn attributes<'a>(&self, data: &'a Resolved) -> Option<&'a [Attribute]> {
+        let Shape::Named {
+            definition: Definition::Workspace(item),
+            ..
+        } = &data.shape
+        else {
+            return None;
+        };
+        let attributes = match item.item() {
+            Item::Struct(item) => &item.attrs,
+            Item::Enum(item) => &item.attrs,
+            _ => return None,
+        };
+        attributes.iter().all(is_harmless).then_some(attributes)
+    }
+
+    /// What a type means that stands where a struct or an enum of the workspace is defined.
+    pub fn resolve_beside(&self, data: &Resolved, written: &syn::Type) -> Option<Resolved> {
+        let Shape::Named {
+            definition: Definition::Workspace(item),
+            arguments,
+        } = &data.shape
+        else {
+            return None;
+        };
+        let generics = match item.item() {
+            Item::Struct(item) => &item.generics,
+            Item::Enum(item) => &item.generics,
+            _ => return None,
+        };
+        let generics = substitutions(generics, arguments.clone())?;
+        Some(self.resolve_with(&item.module, written, &generics, 0))
+    }
+
     /// Whether a type of the workspace certainly has no field with a name.
     pub fn is_without_fields(&self, data: &Resolved) -> bool {
         let Shape::Named {

@@ -12,11 +12,15 @@
 //! right_leg = [0.0, -0.3, 0.93, -0.6, 0.0]
 //! ```
 //!
+//! A limb may be a table of its joints as well. What no joint can do is an error of `hulkgen check`.
+//!
 //! Invariant: a [`Motion`] that was read moves no joint out of its limits or, from frame to frame, faster than it can: anything
 //! else is an error where the robot starts, in `check --cargo`, and in a live change.
 
+mod limbs;
 mod motion;
 mod motions;
 
+pub use limbs::{Head, LeftArm, LeftLeg, RightArm, RightLeg};
 pub use motion::{Keyframe, Motion};
 pub use motions::Motions;

@@ -7,6 +7,8 @@ use types::head::HeadAngles;
 use types::joints::Joints;
 use types::motor_commands::MotorCommands;
 
+use crate::limbs::{Head, LeftArm, LeftLeg, RightArm, RightLeg};
+
 /// No frame takes longer, in s: a motion is over within a time that somebody can wait for.
 const LONGEST_FRAME: f32 = 5.0;
 
@@ -24,22 +26,25 @@ pub struct Motion {
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Keyframe {
-    /// In s: how long the way from the last frame takes.
+    /// How long the way from the last frame takes.
+    #[reflect(unit = "s", range = 0.001..=5.0)]
     pub duration: f32,
     /// Of all joints on the way, 0 (limp) to 1.
+    #[reflect(range = 0.0..=1.0)]
     pub stiffness: f32,
-    /// Yaw and pitch, in rad.
-    pub head: [f32; 2],
-    /// Pitch and roll of the shoulder, yaw and roll of the elbow, yaw of the wrist, in rad.
-    pub left_arm: [f32; 5],
+    /// Angles of its joints, like those of the other limbs.
+    pub head: Head,
     /// Likewise.
-    pub right_arm: [f32; 5],
-    /// The one motor of both hips, in rad.
+    pub left_arm: LeftArm,
+    /// Likewise.
+    pub right_arm: RightArm,
+    /// The one motor of both hips, negative turns the toes out.
+    #[reflect(unit = "rad", range = -1.146..=0.741)]
     pub hip_yaw_pitch: f32,
-    /// Roll and pitch of the hip, pitch of the knee, pitch and roll of the ankle, in rad.
-    pub left_leg: [f32; 5],
     /// Likewise.
-    pub right_leg: [f32; 5],
+    pub left_leg: LeftLeg,
+    /// Likewise.
+    pub right_leg: RightLeg,
 }
 
 /// What stands in the file.
@@ -84,42 +89,40 @@ impl Motion {
 impl Keyframe {
     /// All joints, in rad; hands are closed.
     pub fn pose(&self) -> Joints<f32> {
-        let [head_yaw, head_pitch] = self.head;
-        let mut pose = Joints {
-            head_yaw,
-            head_pitch,
+        let Self {
+            head,
+            left_arm,
+            right_arm,
+            left_leg,
+            right_leg,
+            ..
+        } = self;
+        Joints {
+            head_yaw: head.yaw,
+            head_pitch: head.pitch,
+            left_shoulder_pitch: left_arm.shoulder_pitch,
+            left_shoulder_roll: left_arm.shoulder_roll,
+            left_elbow_yaw: left_arm.elbow_yaw,
+            left_elbow_roll: left_arm.elbow_roll,
+            left_wrist_yaw: left_arm.wrist_yaw,
             hip_yaw_pitch: self.hip_yaw_pitch,
+            left_hip_roll: left_leg.hip_roll,
+            left_hip_pitch: left_leg.hip_pitch,
+            left_knee_pitch: left_leg.knee_pitch,
+            left_ankle_pitch: left_leg.ankle_pitch,
+            left_ankle_roll: left_leg.ankle_roll,
+            right_hip_roll: right_leg.hip_roll,
+            right_hip_pitch: right_leg.hip_pitch,
+            right_knee_pitch: right_leg.knee_pitch,
+            right_ankle_pitch: right_leg.ankle_pitch,
+            right_ankle_roll: right_leg.ankle_roll,
+            right_shoulder_pitch: right_arm.shoulder_pitch,
+            right_shoulder_roll: right_arm.shoulder_roll,
+            right_elbow_yaw: right_arm.elbow_yaw,
+            right_elbow_roll: right_arm.elbow_roll,
+            right_wrist_yaw: right_arm.wrist_yaw,
             ..Joints::default()
-        };
-        [
-            pose.left_shoulder_pitch,
-            pose.left_shoulder_roll,
-            pose.left_elbow_yaw,
-            pose.left_elbow_roll,
-            pose.left_wrist_yaw,
-        ] = self.left_arm;
-        [
-            pose.right_shoulder_pitch,
-            pose.right_shoulder_roll,
-            pose.right_elbow_yaw,
-            pose.right_elbow_roll,
-            pose.right_wrist_yaw,
-        ] = self.right_arm;
-        [
-            pose.left_hip_roll,
-            pose.left_hip_pitch,
-            pose.left_knee_pitch,
-            pose.left_ankle_pitch,
-            pose.left_ankle_roll,
-        ] = self.left_leg;
-        [
-            pose.right_hip_roll,
-            pose.right_hip_pitch,
-            pose.right_knee_pitch,
-            pose.right_ankle_pitch,
-            pose.right_ankle_roll,
-        ] = self.right_leg;
-        pose
+        }
     }
 
     /// What is wrong with it, after a frame with this pose.
@@ -189,6 +192,7 @@ impl TryFrom<Unchecked> for Motion {
 
 #[cfg(test)]
 mod tests {
+    use framework::reflect::Content;
     use types::joints::JointName;
 
     use super::*;
@@ -264,6 +268,41 @@ right_leg = [0.0, -0.3, 0.9, -0.6, 0.0]
             );
         }
         assert!(read(&[]).unwrap_err().contains("frames"));
+    }
+
+    #[test]
+    fn ranges_are_the_limits_rounded_outwards() {
+        let mut ranges = Vec::new();
+        let shapes = [
+            Head::shape(),
+            LeftArm::shape(),
+            Keyframe::shape(),
+            LeftLeg::shape(),
+            RightLeg::shape(),
+            RightArm::shape(),
+        ];
+        for shape in &shapes {
+            let Content::Struct(fields) = &shape.content else {
+                panic!("{} is a struct", shape.type_name);
+            };
+            let angles = fields.iter().filter(|field| field.unit == Some("rad"));
+            ranges.extend(angles.map(|field| field.range.unwrap()));
+        }
+        let joints = Joints::<f32>::default();
+        let joints = joints.iter().map(|(joint, _)| joint);
+        let turning =
+            joints.filter(|joint| !matches!(joint, JointName::LeftHand | JointName::RightHand));
+        let limits: Vec<_> = turning.map(|joint| (joint, limits::of(joint))).collect();
+        assert_eq!(limits.len(), ranges.len());
+        for ((joint, limits), range) in limits.iter().zip(ranges) {
+            let beyond = [
+                limits.lower - range.minimum.unwrap(),
+                range.maximum.unwrap() - limits.upper,
+            ];
+            for beyond in beyond {
+                assert!((0.0..=f64::from(ROUNDING)).contains(&beyond), "{joint:?}");
+            }
+        }
     }
 
     #[test]

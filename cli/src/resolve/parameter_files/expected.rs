@@ -159,21 +159,25 @@ fn child<'a>(content: &'a Content<Reader>, sources: &Sources<'_>) -> Child<'a> {
     }
 }
 
+/// What stands under a key that derived serde reads, without its other names.
+pub(super) fn of_key(key: &Key) -> Child<'static> {
+    if key.by_function {
+        return Child::opaque(key.required);
+    }
+    // What cannot be read is told by the macro.
+    let hints = Hints::read(&key.field.attributes);
+    Child {
+        required: key.required,
+        limits: hints.ok().and_then(|hints| hints.range),
+        ..Child::of(key.field.data.clone())
+    }
+}
+
 /// Fields by the keys that derived serde reads.
 pub(super) fn children(keys: Vec<Key>) -> Children<'static> {
     let mut children = BTreeMap::new();
     for key in keys {
-        let child = if key.by_function {
-            Child::opaque(key.required)
-        } else {
-            // What cannot be read is told by the macro.
-            let hints = Hints::read(&key.field.attributes);
-            Child {
-                required: key.required,
-                limits: hints.ok().and_then(|hints| hints.range),
-                ..Child::of(key.field.data)
-            }
-        };
+        let child = of_key(&key);
         for alias in &key.aliases {
             let child = Child {
                 required: false,

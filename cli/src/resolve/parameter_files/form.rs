@@ -38,7 +38,7 @@ pub(super) enum Form {
     Fields {
         children: Children<'static>,
         /// An array of these does as well.
-        order: Vec<Resolved>,
+        order: Vec<Child<'static>>,
     },
     Variants(Vec<Variant>),
     /// Only serde knows.
@@ -50,7 +50,18 @@ const DEEPEST: usize = 32;
 
 impl Form {
     pub(super) fn of(data: &Resolved, sources: &Sources<'_>) -> Self {
-        let data = bare(data);
+        let mut data = bare(data).clone();
+        for _ in 0..DEEPEST {
+            match stand_in(&data, sources) {
+                Some(found) => data = bare(&found.data).clone(),
+                None => return Self::of_itself(&data, sources),
+            }
+        }
+        Self::Unknown
+    }
+
+    /// Whatever else serde may read in its place.
+    pub(super) fn of_itself(data: &Resolved, sources: &Sources<'_>) -> Self {
         match &data.shape {
             Shape::Named {
                 definition: Definition::Prelude(name),
@@ -82,6 +93,44 @@ impl Form {
             _ => Self::Unknown,
         }
     }
+}
+
+/// What serde reads in place of a type.
+struct StandIn {
+    data: Resolved,
+    /// Not every value of it will do.
+    may_refuse: bool,
+}
+
+/// As `#[serde(from = "…")]` or `#[serde(try_from = "…")]` says.
+fn stand_in(data: &Resolved, sources: &Sources<'_>) -> Option<StandIn> {
+    let attributes = sources.library.attributes(data)?;
+    let items = keys::serde_items(attributes)?;
+    let found = items
+        .iter()
+        .find_map(|item| match keys::name(item).as_str() {
+            "from" => Some((keys::text(item)?, false)),
+            "try_from" => Some((keys::text(item)?, true)),
+            _ => None,
+        });
+    let (written, may_refuse) = found?;
+    let data = sources
+        .library
+        .resolve_beside(data, &syn::parse_str(&written).ok()?)?;
+    Some(StandIn { data, may_refuse })
+}
+
+/// Whether a function of the author's may refuse what has the right form.
+pub(super) fn may_refuse(data: &Resolved, sources: &Sources<'_>) -> bool {
+    let mut data = bare(data).clone();
+    for _ in 0..DEEPEST {
+        match stand_in(&data, sources) {
+            Some(found) if found.may_refuse => return true,
+            Some(found) => data = bare(&found.data).clone(),
+            None => return false,
+        }
+    }
+    true
 }
 
 /// Whether serde takes it for absent where a table does not have it.
@@ -195,19 +244,19 @@ fn of_geometry(geometry: Geometry, sources: &Sources<'_>) -> Form {
 
 fn of_workspace(data: &Resolved, sources: &Sources<'_>) -> Form {
     if let Some(structure) = sources.library.fields(data) {
-        let children = keys::keys(structure).map(expected::children);
-        return children.map_or(Form::Unknown, |children| Form::Fields {
-            children,
-            order: Vec::new(),
+        return keys::keys(structure).map_or(Form::Unknown, |keys| Form::Fields {
+            order: keys.iter().map(expected::of_key).collect(),
+            children: expected::children(keys),
         });
     }
     let found = sources.library.variants(data).and_then(variants);
     found.map_or(Form::Unknown, Form::Variants)
 }
 
-/// A struct that is not the workspace's: serde reads it from an array, too.
+/// A struct that is not the workspace's.
 fn record<const FIELDS: usize>(fields: [(&str, Resolved); FIELDS]) -> Form {
-    let order = fields.iter().map(|(_, data)| data.clone()).collect();
+    let order = fields.iter().map(|(_, data)| Child::of(data.clone()));
+    let order = order.collect();
     let children = fields.map(|(name, data)| (name.to_owned(), Child::of(data)));
     Form::Fields {
         children: Children::Named(children.into_iter().collect()),

@@ -1,7 +1,7 @@
 //! Parameters whose values cannot be checked without rustc: serde alone knows what their types take.
 
 use super::expected::{Child, Children, Expected};
-use super::form::{Form, bare};
+use super::form::{Form, bare, may_refuse};
 use super::variants::Content;
 use crate::scan::Sources;
 use crate::scan::types::Resolved;
@@ -43,7 +43,7 @@ impl Search<'_> {
                 // What is opaque in it was named where it stands for the first time.
                 _ if text.as_ref().is_some_and(|text| around.contains(text)) => {}
                 // What is opaque in it has a name of its own.
-                _ if path.len() < DEEPEST && self.has_names(&expected) => {
+                _ if path.len() < DEEPEST && self.has_names(&expected) && !self.refuses(data) => {
                     let depth = around.len();
                     around.extend(text);
                     self.below(&expected, path, around);
@@ -53,6 +53,10 @@ impl Search<'_> {
             }
             path.pop();
         }
+    }
+
+    fn refuses(&self, data: Option<&Resolved>) -> bool {
+        data.is_some_and(|data| may_refuse(data, self.sources))
     }
 
     fn has_names(&self, expected: &Expected<'_>) -> bool {
@@ -67,7 +71,7 @@ impl Search<'_> {
         if around.contains(&text) {
             return true;
         }
-        if around.len() > DEEPEST {
+        if around.len() > DEEPEST || may_refuse(data, self.sources) {
             return false;
         }
         let inside: Vec<&str> = around.iter().copied().chain([text]).collect();

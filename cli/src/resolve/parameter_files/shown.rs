@@ -22,7 +22,7 @@ pub(in crate::resolve) fn part(data: &Resolved, name: &str, sources: &Sources<'_
     let data = bare(data);
     let Some(structure) = sources.library.fields(data) else {
         return if matches!(
-            Form::of(data, sources),
+            Form::of_itself(data, sources),
             Form::Boolean | Form::Number | Form::Text
         ) {
             Part::None(Vec::new())
@@ -57,7 +57,7 @@ fn search(data: &Resolved, sources: &Sources<'_>, seen: &mut BTreeSet<String>) -
             .map(|key| search(&key.field.data, sources, seen))
             .find_map(|found| found);
     }
-    let has_none = match Form::of(data, sources) {
+    let has_none = match Form::of_itself(data, sources) {
         Form::List(element) | Form::Repeated { element, .. } => {
             return search(&element, sources, seen);
         }

@@ -53,21 +53,14 @@ impl Judge<'_> {
             Form::Repeated { element, length } => {
                 let items = value.get_ref().as_array().map(|items| items.len());
                 match items {
-                    Some(items) if length != items => Some(Mistake {
-                        message: match items {
-                            1 => format!("has 1 element, not {length}"),
-                            _ => format!("has {items} elements, not {length}"),
-                        },
-                        place: value.span(),
-                        help: None,
-                    }),
+                    Some(items) if length != items => Some(wrong_count(value, items, length)),
                     _ => self.check_elements(value, &element),
                 }
             }
             Form::Several(parts) => self.check_parts(value, &parts),
             Form::Map(data) => self.check_fields(value, &Children::Any(data)),
             Form::Fields { order, .. } if !order.is_empty() && value.get_ref().is_array() => {
-                self.check_parts(value, &order)
+                self.check_in_order(value, &order)
             }
             Form::Fields { children, .. } => self.check_fields(value, &children),
             Form::Variants(variants) => self.check_variant(value, &variants),
@@ -88,10 +81,23 @@ impl Judge<'_> {
             return Some(wrong(value, "an array"));
         };
         if items.len() != parts.len() {
-            return Some(wrong(value, &format!("an array of {}", parts.len())));
+            return Some(wrong_count(value, items.len(), parts.len()));
         }
         let mut items = items.iter().zip(parts);
         items.find_map(|(item, part)| self.check(item, part))
+    }
+
+    /// An array with the values of these fields; the last may be left out if they have defaults.
+    fn check_in_order(self, value: &Spanned<DeValue<'_>>, fields: &[Child<'_>]) -> Option<Mistake> {
+        let items = value.get_ref().as_array()?;
+        let mut rest = fields.iter().skip(items.len());
+        if items.len() > fields.len() || rest.any(|field| field.required) {
+            return Some(wrong_count(value, items.len(), fields.len()));
+        }
+        let mut items = items.iter().zip(fields);
+        items.find_map(|(item, field)| {
+            mistake(item, &field.clone().within(self.limits), self.sources)
+        })
     }
 
     fn check_fields(
@@ -243,6 +249,17 @@ fn check_range(value: &Spanned<DeValue<'_>>, limits: Range) -> Option<Mistake> {
         place: value.span(),
         help: None,
     })
+}
+
+fn wrong_count(value: &Spanned<DeValue<'_>>, items: usize, expected: usize) -> Mistake {
+    Mistake {
+        message: match items {
+            1 => format!("has 1 element, not {expected}"),
+            _ => format!("has {items} elements, not {expected}"),
+        },
+        place: value.span(),
+        help: None,
+    }
 }
 
 fn wrong(value: &Spanned<DeValue<'_>>, expected: &str) -> Mistake {
