@@ -123,7 +123,7 @@ where
     let result = signals.and_then(|signals| {
         let supervisor = Supervisor::start(signals.clone(), stop.clone())?;
         let result = match &options.scenario {
-            Some(file) => scenario::run(&target, &options, file, &stop, output, &mut create),
+            Some(file) => scenario::run(&target, &options, file, &stop, output, &mut create, serve),
             None if options.tool.is_some() => {
                 tool::run(&target, &options, &stop, output, &mut create)
             }
@@ -238,7 +238,11 @@ where
     Ok(DONE)
 }
 
-fn start_server(link: Link, listening: Listening, serve: Serve) -> Result<Option<Box<dyn Served>>> {
+pub(crate) fn start_server(
+    link: Link,
+    listening: Listening,
+    serve: Serve,
+) -> Result<Option<Box<dyn Served>>> {
     let served = serve(link, listening).map_err(|error| error.context("cannot serve clients"))?;
     if let Some(served) = &served {
         tell(format_args!("page: {}", page(served.as_ref())));

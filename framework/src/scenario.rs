@@ -36,6 +36,7 @@
 //! [`Hardware::disturb`](crate::Hardware::disturb) and [`Hardware::truth`](crate::Hardware::truth).
 
 mod assertion;
+mod audience;
 mod draw;
 mod ensemble;
 mod file;
@@ -44,6 +45,7 @@ mod play;
 mod report;
 
 pub use assertion::{Assertion, Condition, Window};
+pub(crate) use audience::Audience;
 pub use file::{Call, Event, Participant, Scenario};
 pub use judge::{Judge, Verdict};
 pub(crate) use play::{Cast, Manner, play};

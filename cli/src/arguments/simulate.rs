@@ -18,6 +18,7 @@ Exit status: 0 every scenario passed, 1 one did not or the robot cannot be built
 Examples:
   hulkgen simulate robotics/scenarios/stand.toml
   hulkgen simulate robotics/scenarios/*.toml --repeat 10 --format json
+  hulkgen simulate robotics/scenarios/two_against_two.toml --listen 127.0.0.1:4857    # to watch it
   hulkgen simulate robotics/scenarios/walk.toml -- --imperfect 3    # options of the hardware")]
 pub struct Simulate {
     /// Files of scenarios
@@ -41,6 +42,9 @@ pub struct Simulate {
     /// Set a parameter, for example `walk.speed=0.2`; may be repeated
     #[arg(long, value_name = "PATH=VALUE")]
     pub set: Vec<String>,
+    /// Serve each robot while it plays, in real time: the first at this address, the next at the ports behind it
+    #[arg(long, value_name = "ADDRESS")]
+    pub listen: Option<String>,
     #[command(flatten)]
     pub build: Build,
     /// Options of the hardware

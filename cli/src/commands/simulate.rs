@@ -50,6 +50,9 @@ fn arguments(simulate: &Simulate, scenario: &Utf8Path) -> Result<Vec<OsString>, 
     for assignment in &simulate.set {
         add("--set", assignment);
     }
+    if let Some(address) = &simulate.listen {
+        add("--listen", address);
+    }
     if simulate.format == TextOrJson::Json {
         add("--format", "json");
     }
@@ -70,7 +73,7 @@ mod tests {
 
     #[test]
     fn the_program_plays_the_file_wherever_it_runs() {
-        let line = "hulkgen simulate a.toml b.toml --seed 3 --repeat 4 --headless --set c=1 --format json -- --imperfect 2";
+        let line = "hulkgen simulate a.toml b.toml --seed 3 --repeat 4 --headless --set c=1 --listen [::1]:5 --format json -- --imperfect 2";
         let parsed = Arguments::try_parse_from(line.split(' ')).expect("it is right usage");
         let Command::Simulate(simulate) = parsed.command else {
             panic!("it is `simulate`")
@@ -83,7 +86,7 @@ mod tests {
         assert_eq!(
             words.join(" "),
             format!(
-                "--scenario {} --seed 3 --repeat 4 --set c=1 --format json -- --imperfect 2",
+                "--scenario {} --seed 3 --repeat 4 --set c=1 --listen [::1]:5 --format json -- --imperfect 2",
                 folder.join("a.toml").display()
             )
         );

@@ -48,6 +48,7 @@ pub(crate) struct Rules {
     pub(crate) token: Option<String>,
     pub(crate) is_read_only: bool,
     pub(crate) graph: &'static str,
+    pub(crate) peers: Vec<String>,
 }
 
 /// The robot and its clients.
@@ -172,6 +173,7 @@ impl Hub {
             can_write: !self.rules.is_read_only,
             needs_token,
             time: self.link.clock.now().as_nanos(),
+            peers: self.rules.peers.clone(),
         }));
         self.clients.insert(id, client);
         (id, news)

@@ -1,4 +1,4 @@
-//! Whether a browser may come here: only with a page of this server.
+//! Whether a browser may come here: only with a page of this server, or of a robot that this one was told of.
 //!
 //! A page of another site can open a WebSocket to this machine without asking anybody. Browsers say where a page is from
 //! (`Origin`), and to whom they believe they talk (`Host`); what is no browser says nothing.
@@ -8,8 +8,12 @@ use std::net::{IpAddr, SocketAddr};
 use axum::http::HeaderMap;
 use axum::http::header::{HOST, ORIGIN};
 
-/// `Err` says why not. `address` is where this server listens.
-pub(crate) fn check(headers: &HeaderMap, address: SocketAddr) -> Result<(), &'static str> {
+/// `Err` says why not. `address` is where this server listens; `peers` are hosts with ports, in lower case.
+pub(crate) fn check(
+    headers: &HeaderMap,
+    address: SocketAddr,
+    peers: &[String],
+) -> Result<(), &'static str> {
     let host = headers.get(HOST).and_then(|host| host.to_str().ok());
     let host = host.ok_or("the header `Host` is missing")?;
     // A name of another site may lead to this machine.
@@ -20,12 +24,23 @@ pub(crate) fn check(headers: &HeaderMap, address: SocketAddr) -> Result<(), &'st
         return Ok(());
     };
     let origin = origin.to_str().unwrap_or_default();
-    let site = origin.split_once("://").map(|(_, site)| site);
-    if site.is_some_and(|site| site.eq_ignore_ascii_case(host)) {
+    let is_welcome = origin.split_once("://").is_some_and(|(scheme, site)| {
+        site.eq_ignore_ascii_case(host) || is_peer(scheme, site, peers)
+    });
+    if is_welcome {
         Ok(())
     } else {
-        Err("pages of other sites may not come here")
+        Err("pages of other sites may not come here; a robot names other robots with --peer")
     }
+}
+
+/// Whether a page of one of these robots comes. Browsers leave out port 80 of `http`.
+fn is_peer(scheme: &str, site: &str, peers: &[String]) -> bool {
+    let is = |peer: &String| {
+        site.eq_ignore_ascii_case(peer)
+            || (peer.strip_suffix(":80")).is_some_and(|host| site.eq_ignore_ascii_case(host))
+    };
+    scheme == "http" && peers.iter().any(is)
 }
 
 fn is_this_machine(host: &str) -> bool {
@@ -50,7 +65,12 @@ mod tests {
                 headers.insert(name, value.parse().expect("a header"));
             }
         }
-        check(&headers, address.parse().expect("an address")).is_ok()
+        let peers = [
+            "nao23.local:4857".to_owned(),
+            "127.0.0.1:4858".to_owned(),
+            "10.1.24.5:80".to_owned(),
+        ];
+        check(&headers, address.parse().expect("an address"), &peers).is_ok()
     }
 
     #[test]
@@ -78,6 +98,24 @@ mod tests {
                 checked(host, origin, local),
                 expected,
                 "{host:?} {origin:?}"
+            );
+        }
+        for (origin, expected) in [
+            ("http://127.0.0.1:4858", true),
+            ("http://NAO23.local:4857", true),
+            ("http://10.1.24.5", true),
+            // Another server of a machine with a robot is no robot.
+            ("http://127.0.0.1:4859", false),
+            ("http://nao23.local", false),
+            ("http://nao23.local:4857.evil.example", false),
+            ("http://evil.example/127.0.0.1:4858", false),
+            ("https://127.0.0.1:4858", false),
+            ("127.0.0.1:4858", false),
+        ] {
+            assert_eq!(
+                checked(Some(local), Some(origin), local),
+                expected,
+                "{origin}"
             );
         }
         let everywhere = "0.0.0.0:4857";

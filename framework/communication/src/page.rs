@@ -12,11 +12,16 @@ use axum::response::{IntoResponse, Response};
 /// What `/` shows.
 const FIRST: &str = "index.html";
 
-/// The page asks this server alone for anything.
-const POLICY: &str = "default-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' blob: data:; connect-src 'self' ws: wss:; frame-ancestors 'none'";
+/// What a page may ask for, and whom: this server, and the robots that it was told of.
+fn policy(peers: &[String]) -> String {
+    let peers: String = peers.iter().map(|peer| format!(" ws://{peer}")).collect();
+    format!(
+        "default-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' blob: data:; connect-src 'self'{peers}; frame-ancestors 'none'"
+    )
+}
 
-/// The answer to `GET path`.
-pub(crate) fn file(path: &str, root: Option<&Path>) -> Response {
+/// The answer to `GET path`. `peers` are hosts with ports and nothing else.
+pub(crate) fn file(path: &str, root: Option<&Path>, peers: &[String]) -> Response {
     let path = match path.trim_start_matches('/') {
         "" => FIRST,
         path => path,
@@ -29,11 +34,11 @@ pub(crate) fn file(path: &str, root: Option<&Path>) -> Response {
         return (StatusCode::NOT_FOUND, "no such file").into_response();
     };
     let headers = [
-        (CONTENT_TYPE, media_type),
-        (CONTENT_SECURITY_POLICY, POLICY),
-        (X_CONTENT_TYPE_OPTIONS, "nosniff"),
+        (CONTENT_TYPE, media_type.to_owned()),
+        (CONTENT_SECURITY_POLICY, policy(peers)),
+        (X_CONTENT_TYPE_OPTIONS, "nosniff".to_owned()),
         // The next robot at this address may have another page.
-        (CACHE_CONTROL, "no-cache"),
+        (CACHE_CONTROL, "no-cache".to_owned()),
     ];
     (headers, bytes).into_response()
 }
@@ -72,7 +77,7 @@ mod tests {
         fs::create_dir(&root).expect("a folder");
         fs::write(root.join("index.html"), "page").expect("a file");
         fs::write(folder.path().join("secret"), "secret").expect("a file");
-        let status = |path: &str| file(path, Some(&root)).status();
+        let status = |path: &str| file(path, Some(&root), &[]).status();
         assert_eq!(status("/"), StatusCode::OK);
         assert_eq!(status("/index.html"), StatusCode::OK);
         for path in ["/../secret", "/./../secret", "/none", "//secret"] {
@@ -84,8 +89,27 @@ mod tests {
 
     #[test]
     fn files_of_the_program_have_their_media_types() {
-        let response = file("/favicon.svg", None);
+        let response = file("/favicon.svg", None, &[]);
         assert_eq!(response.status(), StatusCode::OK);
         assert_eq!(response.headers()[CONTENT_TYPE], "image/svg+xml");
+    }
+
+    #[test]
+    fn a_page_may_talk_to_its_own_robot_and_to_those_that_were_named() {
+        let allowed = |peers: &[String]| {
+            let response = file("/", None, peers);
+            let policy = response.headers()[CONTENT_SECURITY_POLICY].to_str();
+            let policy = policy.expect("it is text").to_owned();
+            let connect = policy
+                .split("; ")
+                .find(|part| part.starts_with("connect-src"));
+            connect.expect("it says so").to_owned()
+        };
+        assert_eq!(allowed(&[]), "connect-src 'self'");
+        let peers = ["10.1.24.22:4857".to_owned(), "[::1]:4858".to_owned()];
+        assert_eq!(
+            allowed(&peers),
+            "connect-src 'self' ws://10.1.24.22:4857 ws://[::1]:4858"
+        );
     }
 }

@@ -49,6 +49,8 @@ pub(crate) struct Shared {
     /// Something is to be looked at.
     pub(crate) work: Notify,
     address: SocketAddr,
+    /// Robots whose pages may come, and to which this robot's page may go.
+    peers: Vec<String>,
     web_root: Option<PathBuf>,
     /// Becomes true when the server ends.
     pub(crate) ending: watch::Sender<bool>,
@@ -70,12 +72,14 @@ impl Server {
                 || (!address.ip().is_loopback() && listening.token.is_none()),
             token: listening.token,
             graph: listening.graph,
+            peers: listening.peers.clone(),
         };
         let shared = Arc::new(Shared {
             hub: Mutex::new(Hub::new(link, rules, limits.clone())),
             limits,
             work: Notify::new(),
             address,
+            peers: listening.peers,
             web_root: listening.web_root,
             ending: watch::Sender::new(false),
         });
@@ -179,7 +183,7 @@ async fn socket(
     headers: HeaderMap,
     upgrade: WebSocketUpgrade,
 ) -> Response {
-    if let Err(message) = origin::check(&headers, shared.address) {
+    if let Err(message) = origin::check(&headers, shared.address, &shared.peers) {
         return (StatusCode::FORBIDDEN, message).into_response();
     }
     let bytes = shared.limits.message_bytes;
@@ -193,8 +197,9 @@ async fn socket(
 }
 
 async fn file(State(shared): State<Arc<Shared>>, headers: HeaderMap, uri: Uri) -> Response {
-    if let Err(message) = origin::check(&headers, shared.address) {
+    // Pages of other robots have their own files.
+    if let Err(message) = origin::check(&headers, shared.address, &[]) {
         return (StatusCode::FORBIDDEN, message).into_response();
     }
-    page::file(uri.path(), shared.web_root.as_deref())
+    page::file(uri.path(), shared.web_root.as_deref(), &shared.peers)
 }

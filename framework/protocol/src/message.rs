@@ -40,6 +40,9 @@ pub struct Welcome {
     pub needs_token: bool,
     /// The robot's clock now, in nanoseconds.
     pub time: u64,
+    /// Other robots as browsers name them, `HOST:PORT`, which the robot's page may show beside it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub peers: Vec<String>,
 }
 
 /// A value of a subscription.

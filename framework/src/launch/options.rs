@@ -1,6 +1,7 @@
 //! The command line of a generated binary.
 
 use std::ffi::OsString;
+use std::net::Ipv6Addr;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -57,6 +58,8 @@ pub(super) struct Options {
     pub(super) listen: Option<String>,
     pub(super) token: Option<String>,
     pub(super) is_read_only: bool,
+    /// Robots that this one's page may show, and whose pages may show this one.
+    pub(super) peers: Vec<String>,
     pub(super) web_root: Option<PathBuf>,
     /// Everything after `--`.
     pub(super) hardware: Vec<String>,
@@ -71,6 +74,7 @@ impl Options {
             address: self.listen.clone(),
             token: self.token.clone(),
             is_read_only: self.is_read_only,
+            peers: self.peers.clone(),
             web_root: self.web_root.clone(),
         };
         (self.listen.as_deref() != Some("off")).then_some(listening)
@@ -119,9 +123,11 @@ Usage: {name} [OPTIONS] [-- HARDWARE OPTIONS]
   --threads COUNT     let a scenario's robots live on so many threads; changes nothing but the time it takes
   --tool NAME         use a tool of the hardware in place of running; its command line stands after `--`
   --digests           tell a digest of all that each robot of a scenario wrote
-  --listen ADDRESS    where clients connect, e.g. 0.0.0.0:4857; off: nowhere; default: this machine alone, port 4857 or a free one
+  --listen ADDRESS    where clients connect, e.g. 0.0.0.0:4857; off: nowhere; default: this machine alone, port 4857 or a free one;
+                      with --scenario: nowhere unless it is said, robots have this port and those behind it, and time passes as on the wall
   --token TOKEN       clients have to know it before they may change anything; without it none from other machines may
   --read-only         no client may change anything
+  --peer HOST:PORT    another robot, as browsers name it: its page may show this one, and this one's page may show it; may be repeated
   --web-root DIR      files of the page from there instead of those in the program
   --record FILE       record into this file, which must not be there; on: into the run folder; off (default: on if simulated)
   --record-output PATH
@@ -183,6 +189,7 @@ pub(super) fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Com
             Arg::Long("listen") => options.listen = Some(parser.value()?.string()?),
             Arg::Long("token") => options.token = Some(parser.value()?.string()?),
             Arg::Long("read-only") => options.is_read_only = true,
+            Arg::Long("peer") => options.peers.push(peer(&parser.value()?.string()?)?),
             Arg::Long("web-root") => options.web_root = Some(parser.value()?.into()),
             Arg::Long("run-folder") => options.run_folder = parser.value()?.into(),
             Arg::Long("record") => options.record = record(parser.value()?),
@@ -245,6 +252,32 @@ fn setting(text: &str) -> Result<(String, String)> {
         }
         _ => Err(Error::new(format!("--set {text}: expected a.b=value"))),
     }
+}
+
+/// Where another robot serves its page, also as its program prints it (`http://10.1.24.22:4857/`).
+///
+/// It becomes part of the page's content security policy: nothing that means something there may stand in it.
+fn peer(text: &str) -> Result<String> {
+    let address = text.strip_prefix("http://").unwrap_or(text);
+    let address = address.strip_suffix('/').unwrap_or(address);
+    let parts = address.rsplit_once(':').filter(|(host, port)| {
+        let name = host
+            .strip_prefix('[')
+            .and_then(|host| host.strip_suffix(']'));
+        let is_host = match name {
+            Some(inner) => inner.parse::<Ipv6Addr>().is_ok(),
+            None => {
+                let is_letter = |byte: u8| byte.is_ascii_alphanumeric() || b"-.".contains(&byte);
+                !host.is_empty() && host.bytes().all(is_letter)
+            }
+        };
+        is_host && port.parse::<u16>().is_ok_and(|port| port > 0)
+    });
+    parts.map(|_| address.to_ascii_lowercase()).ok_or_else(|| {
+        Error::new(format!(
+            "--peer {text}: expected the address of another robot's page, e.g. 10.1.24.22:4857 or [::1]:4858"
+        ))
+    })
 }
 
 /// A number with its unit: `10s`, `1.5s`, `500ms`, `2m`, `1h`.
@@ -326,6 +359,9 @@ mod tests {
             "0.0.0.0:1",
             "--token=secret",
             "--read-only",
+            "--peer=http://NAO22.local:4857/",
+            "--peer",
+            "[::1]:2",
             "--web-root=dist",
             "--",
             "--for",
@@ -361,6 +397,7 @@ mod tests {
             listen: Some("0.0.0.0:1".to_owned()),
             token: Some("secret".to_owned()),
             is_read_only: true,
+            peers: vec!["nao22.local:4857".to_owned(), "[::1]:2".to_owned()],
             web_root: Some("dist".into()),
             hardware: vec!["--for".to_owned(), "lamp".to_owned()],
         };
@@ -376,6 +413,45 @@ mod tests {
         );
         for wrong in ["", "10", "s", "-1s", "10 parsecs", "1e400s"] {
             assert!(duration(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn a_peer_is_one_host_with_a_port_and_nothing_else() {
+        for wrong in [
+            "",
+            "*",
+            ":1",
+            "a",
+            "a:",
+            "a:0",
+            "a:65536",
+            "*:1",
+            "a:*",
+            "*.a:1",
+            "a b:1",
+            "a;b:1",
+            "a'b:1",
+            "a/b:1",
+            "a:1/b",
+            "https://a:1",
+            "ws://a:1",
+            "a:1:2",
+            "::1:2",
+            "[::1]",
+            "[a]:1",
+            "a,b:1",
+            "u@a:1",
+        ] {
+            assert!(peer(wrong).is_err(), "{wrong}");
+        }
+        for (written, expected) in [
+            ("10.1.24.22:4857", "10.1.24.22:4857"),
+            ("http://127.0.0.1:4858/", "127.0.0.1:4858"),
+            ("[fe80::1]:4857", "[fe80::1]:4857"),
+            ("Nao22.Local:80", "nao22.local:80"),
+        ] {
+            assert_eq!(peer(written).expect(written), expected);
         }
     }
 

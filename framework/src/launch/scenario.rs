@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::options::{Format, Options, Record};
-use super::{DONE, FAILED, Target, known_identities, layers, record};
+use super::{DONE, FAILED, Serve, Target, known_identities, layers, record};
 use crate::clock::Clock;
 use crate::data::ParameterData;
 use crate::error::{Error, Result};
@@ -14,19 +14,25 @@ use crate::hardware::{Hardware, HardwareContext};
 use crate::recorded::Recording;
 use crate::report::tell;
 use crate::robot::{Robot, Start};
-use crate::scenario::{Cast, Manner, Outcome, Played, Scenario, play};
+use crate::scenario::{Audience, Cast, Manner, Outcome, Played, Scenario, play};
 use crate::stop::Stop;
 
 /// Plays it with every seed; gives the exit status.
-pub(super) fn run<H: Hardware, P: ParameterData>(
+pub(super) fn run<H: Hardware + 'static, P: ParameterData>(
     target: &Target,
     options: &Options,
     file: &Path,
     stop: &Stop,
     output: &mut dyn Write,
     create: &mut impl FnMut(&Arc<H>, Start<P>) -> Result<Robot<P>>,
+    serve: Serve,
 ) -> Result<u8> {
+    // Nobody watches unless somebody says where: most scenarios are played to be judged.
+    let listening = options
+        .listening(target)
+        .filter(|listening| listening.address.is_some());
     let stage = Stage {
+        audience: listening.map(|listening| Audience { serve, listening }),
         target,
         options,
         scenario: Scenario::load(file)?,
@@ -87,11 +93,12 @@ struct Stage<'run> {
     scenario: Scenario,
     file: &'run Path,
     stop: &'run Stop,
+    audience: Option<Audience>,
 }
 
 impl Stage<'_> {
     /// Plays it once; and where it does not pass, once more for a recording: the same seed gives the same.
-    fn play<H: Hardware, P: ParameterData>(
+    fn play<H: Hardware + 'static, P: ParameterData>(
         &self,
         seed: u64,
         create: &mut impl FnMut(&Arc<H>, Start<P>) -> Result<Robot<P>>,
@@ -99,7 +106,9 @@ impl Stage<'_> {
         let record_always = matches!(self.options.record, Record::On);
         let record_never = matches!(self.options.record, Record::Off);
         let played = self.play_once(seed, record_always, create)?;
-        if played.passed || record_always || record_never {
+        // What clients did would not come again.
+        let was_watched = self.audience.is_some();
+        if played.passed || record_always || record_never || was_watched {
             return Ok(played);
         }
         let recorded = self.play_once(seed, true, create)?;
@@ -109,7 +118,7 @@ impl Stage<'_> {
         })
     }
 
-    fn play_once<H: Hardware, P: ParameterData>(
+    fn play_once<H: Hardware + 'static, P: ParameterData>(
         &self,
         seed: u64,
         is_recorded: bool,
@@ -128,6 +137,7 @@ impl Stage<'_> {
             threads: self.options.threads.unwrap_or_else(threads),
             digests: self.options.digests,
             stop: self.stop,
+            audience: self.audience.as_ref(),
         };
         let mut played = play(&self.scenario, seed, &mut casts, &manner)?;
         let recordings = casts.into_iter().filter_map(|cast| cast.recording);

@@ -24,6 +24,8 @@ pub struct Listening {
     pub token: Option<String>,
     /// Nobody may change anything.
     pub is_read_only: bool,
+    /// Other robots as browsers name them, `HOST:PORT`: their pages may show this robot, and its page may show them.
+    pub peers: Vec<String>,
     /// Files of the page from here instead of those in the program.
     pub web_root: Option<PathBuf>,
 }

@@ -3,6 +3,7 @@
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
+use super::audience::{Audience, Pace};
 use super::ensemble::{Ensemble, Lives, together};
 use super::file::{Call, Event, Scenario};
 use super::judge::{Judge, Verdict};
@@ -12,10 +13,14 @@ use crate::driver::Lockstep;
 use crate::error::{Error, Result};
 use crate::guarded::contain;
 use crate::hardware::Hardware;
+use crate::launch::start_server;
+use crate::procedure::{CallAny, PendingAny};
 use crate::recorded::Recording;
+use crate::reflect::Shape;
 use crate::robot::Robot;
 use crate::stop::Stop;
 use crate::time::Timestamp;
+use crate::world;
 
 /// One robot that was created for this scenario and this seed.
 pub(crate) struct Cast<H, P> {
@@ -35,16 +40,21 @@ pub(crate) struct Manner<'run> {
     pub(crate) digests: bool,
     /// Ends all of it; robots that end by themselves have their own.
     pub(crate) stop: &'run Stop,
+    /// Who serves the robots to clients, if any may come. What clients do is no part of the scenario.
+    pub(crate) audience: Option<&'run Audience>,
 }
 
 /// How far one robot goes before anybody looks whether the run is to end. Several go as far as their world.
 const STRETCH: Duration = Duration::from_secs(1);
 
+/// The same where clients watch, in whose time it goes.
+const WATCHED_STRETCH: Duration = Duration::from_millis(12);
+
 /// Lets the robots live through it. One that stops is told of; the others go on.
 ///
 /// # Errors
 /// Where the hardware does not understand an event, or somebody ends the run.
-pub(crate) fn play<H: Hardware, P: Send>(
+pub(crate) fn play<H: Hardware + 'static, P: Send>(
     scenario: &Scenario,
     seed: u64,
     casts: &mut [Cast<H, P>],
@@ -53,22 +63,34 @@ pub(crate) fn play<H: Hardware, P: Send>(
     let begun = Instant::now();
     let mut hardwares: Vec<&dyn Hardware> = Vec::new();
     let mut actors = Vec::new();
+    let seats = manner.audience.map(|audience| audience.seats(casts.len()));
+    let mut seats = seats.transpose()?.unwrap_or_default().into_iter();
+    // Servers end when the robots have lived.
+    let mut served = Vec::new();
     for (number, cast) in (1..).zip(casts.iter_mut()) {
         let hardware: &dyn Hardware = cast.hardware.as_ref();
         let recording = &mut cast.recording;
-        let lockstep = Lockstep::new(&mut cast.robot, hardware)
+        let procedures = share_procedures(&mut cast.robot);
+        let mut lockstep = Lockstep::new(&mut cast.robot, hardware)
             .observed(|instance| recording.as_mut()?.observer(instance));
+        if let Some((audience, listening)) = manner.audience.zip(seats.next()) {
+            let rearm = lockstep.rearming();
+            let mut link = lockstep.robot_mut().link(manner.stop, rearm);
+            link.procedures = world::procedures(&cast.hardware);
+            served.extend(start_server(link, listening, audience.serve)?);
+        }
         hardwares.push(hardware);
         actors.push(Mutex::new(Actor {
             lockstep,
             hardware,
+            procedures,
             judge: Some(Judge::new(&scenario.assertions, number)),
             digest: manner.digests.then(Digest::new),
             stopped: None,
         }));
     }
     let (lasted, verdicts) = together(&actors, manner.threads, |ensemble| {
-        live_through(scenario, seed, &hardwares, ensemble, manner.stop)?;
+        live_through(scenario, seed, &hardwares, ensemble, manner)?;
         let now = |actor: &Actor<'_, P>| actor.lockstep.robot().clock.now();
         let lasted = ensemble.all().map(|actor| now(&actor)).max();
         let verdicts = ensemble
@@ -76,6 +98,7 @@ pub(crate) fn play<H: Hardware, P: Send>(
             .map(|mut actor| actor.judge.take().map(Judge::verdicts).unwrap_or_default());
         Ok::<_, Error>((lasted, in_order(scenario, verdicts.collect())))
     })?;
+    drop(served);
     let mut digests = Vec::new();
     let mut stopped = Vec::new();
     for (number, actor) in (1..).zip(actors) {
@@ -108,6 +131,8 @@ pub(crate) fn play<H: Hardware, P: Send>(
 struct Actor<'run, P> {
     lockstep: Lockstep<'run, P>,
     hardware: &'run dyn Hardware,
+    /// What its nodes answer, by path.
+    procedures: Vec<(String, Arc<dyn CallAny>)>,
     /// There until the end.
     judge: Option<Judge<'run>>,
     digest: Option<Digest>,
@@ -126,6 +151,7 @@ impl<P: Send> Lives for Actor<'_, P> {
             judge,
             digest,
             stopped,
+            procedures: _,
         } = self;
         let clock = lockstep.robot().clock.clone();
         lockstep.world_goes_on();
@@ -152,28 +178,33 @@ fn live_through<P: Send>(
     seed: u64,
     hardwares: &[&dyn Hardware],
     ensemble: &Ensemble<'_, Actor<'_, P>>,
-    stop: &Stop,
+    manner: &Manner<'_>,
 ) -> Result<()> {
+    let (mut pace, stretch) = match manner.audience {
+        Some(_) => (Pace::Wall(Instant::now()), WATCHED_STRETCH),
+        None => (Pace::Free, STRETCH),
+    };
     let events = scenario.events(seed);
     let mut world = Timestamp::ZERO;
     for (until, deed) in deeds(scenario, &events)? {
         loop {
-            stop.check()?;
+            manner.stop.check()?;
             ensemble.live(world.min(until));
             if world >= until {
                 break;
             }
             world = match hardwares {
                 [first, _, ..] => first.advance()?,
-                _ => until.min(world + STRETCH),
+                _ => until.min(world + stretch),
             };
+            pace.wait_for(world, manner.stop)?;
         }
         if ensemble.all().all(|actor| actor.stopped.is_some()) {
             return Ok(());
         }
         let done = match deed {
             Deed::Event(event) => hardwares[event.robot].disturb(&event.deed),
-            Deed::Call(asked) => call(ensemble.actor(asked.robot - 1).lockstep.robot_mut(), asked),
+            Deed::Call(asked) => call(&ensemble.actor(asked.robot - 1).procedures, asked),
             Deed::End => Ok(()),
         };
         let at = (until - Timestamp::ZERO).as_secs_f64();
@@ -212,15 +243,47 @@ fn deeds<'a>(scenario: &'a Scenario, events: &'a [Event]) -> Result<Vec<(Timesta
     Ok(deeds)
 }
 
+/// One procedure for the scenario and for clients.
+struct Shared(Arc<dyn CallAny>);
+
+impl CallAny for Shared {
+    fn types(&self) -> (&'static str, &'static str) {
+        self.0.types()
+    }
+
+    fn shapes(&self) -> Option<(Shape, Shape)> {
+        self.0.shapes()
+    }
+
+    fn call_any(
+        &self,
+        request: &mut dyn erased_serde::Deserializer<'_>,
+    ) -> Result<Box<dyn PendingAny>> {
+        self.0.call_any(request)
+    }
+}
+
+/// Procedures by path; a server may have those of the robot nevertheless.
+fn share_procedures<P>(robot: &mut Robot<P>) -> Vec<(String, Arc<dyn CallAny>)> {
+    let mut shared = Vec::new();
+    for access in &mut robot.access {
+        let instance = access.instance;
+        let taken = std::mem::take(&mut access.procedures).into_iter();
+        let share = |(name, procedure): (&'static str, Box<dyn CallAny>)| {
+            let procedure: Arc<dyn CallAny> = procedure.into();
+            shared.push((format!("{instance}.procedures.{name}"), procedure.clone()));
+            (name, Box::new(Shared(procedure)) as Box<dyn CallAny>)
+        };
+        access.procedures = taken.map(share).collect();
+    }
+    shared
+}
+
 /// As a client would that does not wait for the answer.
-fn call<P>(robot: &mut Robot<P>, asked: &Call) -> Result<()> {
-    let unknown = || Error::new(format!("there is no procedure `{}`", asked.path));
-    let (instance, name) = asked.path.split_once(".procedures.").ok_or_else(unknown)?;
-    let procedures = &robot.access(instance)?.procedures;
-    let (_, procedure) = procedures
-        .iter()
-        .find(|(known, _)| *known == name)
-        .ok_or_else(unknown)?;
+fn call(procedures: &[(String, Arc<dyn CallAny>)], asked: &Call) -> Result<()> {
+    let found = procedures.iter().find(|(path, _)| *path == asked.path);
+    let (_, procedure) =
+        found.ok_or_else(|| Error::new(format!("there is no procedure `{}`", asked.path)))?;
     let mut argument = <dyn erased_serde::Deserializer<'_>>::erase(&asked.argument);
     procedure
         .call_any(&mut argument)

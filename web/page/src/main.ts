@@ -1,6 +1,6 @@
 // Begins: connection → store → panels, in this one direction.
 import { Arrangement } from "./store/layout";
-import { Robot } from "./store/robot";
+import { Robots } from "./store/robots";
 import "./style/base.css";
 import "./style/frame.css";
 import "./style/panels.css";
@@ -15,8 +15,8 @@ address.protocol = address.protocol === "https:" ? "wss:" : "ws:";
 address.search = "";
 address.hash = "";
 
-const robot = new Robot(address.href);
+const robots = new Robots(location.host, address.href);
 const arrangement = new Arrangement();
-const sidebar = new Sidebar(robot, arrangement);
-const workspace = new Workspace(robot, arrangement);
-document.body.replaceChildren(header(robot, arrangement), sidebar.element, workspace.element);
+const sidebar = new Sidebar(robots.own, arrangement);
+const workspace = new Workspace(robots, arrangement);
+document.body.replaceChildren(header(robots, arrangement), sidebar.element, workspace.element);

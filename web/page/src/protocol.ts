@@ -494,4 +494,6 @@ export type Welcome = {
   needs_token: boolean;
   /** The robot's clock now, in nanoseconds. */
   time: number;
+  /** Other robots as browsers name them, `HOST:PORT`, which the robot's page may show beside it. */
+  peers?: Array<string>;
 };

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { PATIENCE } from "./robot.mjs";
 
 export const panel = (page, kind) => page.locator(`.panel[data-kind="${kind}"]`);
-export const isConnected = (page) => page.locator('.state[data-state="open"]').waitFor({ timeout: PATIENCE });
+export const isConnected = (page) => page.locator('header > .state[data-state="open"]').waitFor({ timeout: PATIENCE });
 
 /** Opens a panel for a path as a person does: search, choose, press. */
 export async function open(page, path, name) {
@@ -70,4 +70,23 @@ export async function reads(locator, pattern, what) {
       const failures = await locator.page().locator(".failure:not([hidden])").allTextContents();
       assert.fail(`${what} is "${await locator.first().textContent()}", not ${pattern}; the page says ${JSON.stringify(failures)}`);
     });
+}
+
+/** Asks the robot itself, beside the page. */
+export function ask(page, request) {
+  return page.evaluate(
+    (request) =>
+      new Promise((resolve, reject) => {
+        const socket = new WebSocket(`ws://${location.host}/socket`);
+        socket.onopen = () => socket.send(JSON.stringify({ id: 1, ask: request }));
+        socket.onmessage = ({ data }) => {
+          const { answer } = JSON.parse(data);
+          if (answer === undefined) return;
+          socket.close();
+          if (answer.ok === undefined) reject(new Error(answer.error.message));
+          else resolve(answer.ok);
+        };
+      }),
+    request,
+  );
 }

@@ -20,6 +20,21 @@ export function freePort() {
   });
 }
 
+/** The first of so many free ports in a row, with equally many digits. */
+export async function freePorts(count) {
+  const isFree = (port) =>
+    new Promise((resolve) => {
+      const server = createServer().once("error", () => resolve(false));
+      server.listen(port, "127.0.0.1", () => server.close(() => resolve(true)));
+    });
+  for (;;) {
+    const first = await freePort();
+    const ports = Array.from({ length: count }, (_, at) => first + at);
+    const areLong = ports.every((port) => port < 65536 && String(port).length === String(first).length);
+    if (areLong && (await Promise.all(ports.map(isFree))).every(Boolean)) return first;
+  }
+}
+
 /** One address, and whatever program serves it at the moment; each run has a folder of its own. */
 export class Stage {
   runs = 0;

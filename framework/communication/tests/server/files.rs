@@ -1,11 +1,14 @@
 //! The page, by plain HTTP.
 
-use std::io::{Read, Write};
+use std::io::{BufRead as _, BufReader, Read, Write};
 
 use framework::launch::Listening;
 use hulkgen_communication::Limits;
+use serde_json::json;
 
-use crate::zoo::{Zoo, stream};
+use crate::zoo::{Client, Zoo, stream};
+
+const UPGRADE: &str = "Upgrade: websocket\r\nConnection: upgrade\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n";
 
 /// Status line and body.
 fn get(zoo: &Zoo, path: &str, headers: &str) -> (String, String) {
@@ -59,8 +62,7 @@ fn the_page_may_come_from_a_folder() {
 fn pages_of_other_sites_stay_outside() {
     let zoo = Zoo::new();
     let forbidden = "HTTP/1.1 403 Forbidden";
-    let upgrade = "Upgrade: websocket\r\nConnection: upgrade\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n";
-    let from = |origin: &str| format!("{upgrade}Origin: {origin}\r\n");
+    let from = |origin: &str| format!("{UPGRADE}Origin: {origin}\r\n");
     assert_eq!(
         get(&zoo, "/socket", &from("http://evil.example")).0,
         forbidden
@@ -69,4 +71,40 @@ fn pages_of_other_sites_stay_outside() {
     // The name of another site that leads here.
     let host = "Host: evil.example\r\nOrigin: http://evil.example\r\n";
     assert_eq!(get(&zoo, "/favicon.svg", host).0, forbidden);
+}
+
+#[test]
+fn pages_of_robots_that_were_named_come_in_and_no_others() {
+    let listening = Listening {
+        peers: vec!["127.0.0.1:9".to_owned()],
+        ..Listening::default()
+    };
+    let zoo = Zoo::with(listening, Limits::default());
+    let status = |origin: &str, path: &str| {
+        let address = zoo.address();
+        let mut stream = stream(address);
+        let head = format!("{UPGRADE}Host: {address}\r\nOrigin: {origin}\r\n");
+        let asked = stream.write_all(format!("GET {path} HTTP/1.1\r\n{head}\r\n").as_bytes());
+        asked.expect("it listens");
+        let mut line = String::new();
+        let read = BufReader::new(stream).read_line(&mut line);
+        read.expect("it answers");
+        line.trim_end().to_owned()
+    };
+    let forbidden = "HTTP/1.1 403 Forbidden";
+    let welcome = "HTTP/1.1 101 Switching Protocols";
+    assert_eq!(status("http://127.0.0.1:9", "/socket"), welcome);
+    // Whoever else is on that machine, or on this one, is no robot.
+    for origin in [
+        "http://127.0.0.1:10",
+        "http://127.0.0.1",
+        "https://127.0.0.1:9",
+        "null",
+    ] {
+        assert_eq!(status(origin, "/socket"), forbidden, "{origin}");
+    }
+    let client = Client::connect(zoo.address()).expect("programs say nothing of pages");
+    assert_eq!(client.welcome["peers"], json!(["127.0.0.1:9"]));
+    // Its page has files of its own.
+    assert_eq!(status("http://127.0.0.1:9", "/page.js"), forbidden);
 }

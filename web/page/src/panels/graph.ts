@@ -1,7 +1,7 @@
 // A panel with the robot's data-flow graph: nodes in the order in which they run, and what one of them reads and writes.
 import { expect } from "../connection/socket";
 import type { InstanceTimings } from "../protocol";
-import { button, complain, make } from "../view/dom";
+import { button, complain, make, wrapping } from "../view/dom";
 import { microseconds } from "../view/format";
 import { DRAGGED_PATH, type Context, type Panel, type PanelKind } from "./panel";
 
@@ -156,11 +156,6 @@ function timing(instance: InstanceTimings, path: string): HTMLElement {
 
 function keyOf(cycler: string, node: string): string {
   return `${cycler} ${node}`;
-}
-
-/** May be broken behind underscores. */
-function wrapping(name: string): (string | HTMLElement)[] {
-  return name.split(/(?<=_)/).flatMap((part, at) => (at === 0 ? [part] : [make("wbr"), part]));
 }
 
 function split(path: string): [string, string] {

@@ -2,9 +2,13 @@
 import type { Entry } from "../protocol";
 import type { Arrangement, Settings } from "../store/layout";
 import type { Robot } from "../store/robot";
+import type { Known } from "../store/robots";
 
 export interface Context {
+  /** The one that the panel shows. */
   readonly robot: Robot;
+  /** All that the page may show, that one among them; a panel is opened anew where they change. */
+  readonly robots: readonly Known[];
   readonly arrangement: Arrangement;
   readonly settings: Settings;
   /** Keeps settings for the next time. */

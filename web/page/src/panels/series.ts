@@ -82,3 +82,16 @@ export function height(value: unknown): number | null {
 
 /** Okabe and Ito's colours: told apart by colour-blind people, on light and on dark paper. */
 export const COLORS = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#d55e00", "#56b4e9", "#8a7b00", "#7a6fd0"];
+
+/** Of robots side by side: not the ball's colour first, and none of them green on a field before all others. */
+const ROBOT_COLORS = [0, 3, 5, 7, 4, 6, 2].map((at) => COLORS[at] as string);
+
+/** The colour of the robot at this place of the list of robots. */
+export function robotColor(at: number): string {
+  return ROBOT_COLORS[at % ROBOT_COLORS.length] as string;
+}
+
+/** The letter of the robot at this place, for whom colours are not enough: A to Z, then numbers. */
+export function robotMark(at: number): string {
+  return at < 26 ? String.fromCharCode(65 + at) : String(at + 1);
+}

@@ -1,7 +1,7 @@
 // A panel with how long cycles and nodes take, as a table that follows the robot.
 import { expect } from "../connection/socket";
 import type { Durations, InstanceTimings, NodeTimings, Timings } from "../protocol";
-import { button, complain, download, make } from "../view/dom";
+import { button, complain, download, make, wrapping } from "../view/dom";
 import { microseconds } from "../view/format";
 import { Flame } from "./flame";
 import type { Context, Panel, PanelKind } from "./panel";
@@ -74,7 +74,7 @@ function rows(instance: InstanceTimings, now: Timings, before: Timings | null, c
 }
 
 function nodeLine(node: NodeTimings, whole: number): HTMLElement {
-  const name = make("td", { title: node.node }, node.node);
+  const name = make("td", { title: node.node }, ...wrapping(node.node));
   const numbers = ["", ...durations(node.durations), shareOf(node.durations, whole), node.calls, node.skipped, node.failures, ""];
   return line(name, numbers, node.failures > 0 ? "node bad" : "node");
 }

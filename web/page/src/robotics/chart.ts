@@ -161,6 +161,8 @@ export class Chart {
   /** A robot from above: where it is, where it looks, and a name that needs no colour. */
   robot(context: CanvasRenderingContext2D, pose: Pose, color: string, name: string, isOutline: boolean): void {
     context.lineWidth = 2;
+    // Dark colours are lost on dark grass.
+    if (isOutline) this.disc(context, [pose.x, pose.y], 0.16, "#ffffff40", null);
     this.disc(context, [pose.x, pose.y], 0.16, isOutline ? null : color, isOutline ? color : "#ffffff");
     context.strokeStyle = isOutline ? color : "#ffffff";
     context.lineWidth = 3;

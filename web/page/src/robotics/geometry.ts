@@ -88,3 +88,8 @@ export function ellipse(covariance: Decoded | undefined): { long: number; short:
   const [long, short] = [Math.sqrt(Math.max(middle + spread, 0)), Math.sqrt(Math.max(middle - spread, 0))];
   return { long, short, turn: Math.atan2(xy + yx, xx - yy) / 2 };
 }
+
+/** The other team's field is the own one from behind. */
+export function turned({ x, y, heading }: Pose): Pose {
+  return { x: -x, y: -y, heading: heading + Math.PI };
+}

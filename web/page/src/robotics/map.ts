@@ -1,17 +1,18 @@
 // A panel with the field from above: what the robot believes, what its team says, and in simulation what is really there.
 import { button, eachFrame, make } from "../view/dom";
 import type { Context, Panel, PanelKind } from "../panels/panel";
-import { COLORS } from "../panels/series";
+import { COLORS, robotColor, robotMark } from "../panels/series";
 import type { Entry } from "../protocol";
 import { Chart } from "./chart";
 import { fieldOf, RULES, type FieldSize } from "./field";
 import { ellipse, fields, list, number, outOf, point, pose, type Point, type Pose } from "./geometry";
-import { TRUTH, watchTruth, type Truth } from "./truth";
+import { believed, Others, playerOf, watchBelief, type Other, type Player } from "./others";
+import { asTeamSees, TRUTH, watchTruth, type Truth } from "./truth";
 import { named, ofType, Values } from "./values";
 
 /** Told apart without colour, too: by shape, by fill, and by the letters beside them. */
 const [OWN, BALL, , , OTHER, MATE] = COLORS as [string, string, string, string, string, string];
-const LAYERS = ["truth", "lines", "obstacles", "team", "trail"] as const;
+const LAYERS = ["truth", "lines", "obstacles", "team", "robots", "trail"] as const;
 type Layer = (typeof LAYERS)[number];
 const RATE = 15;
 const TRAIL = 400;
@@ -32,11 +33,21 @@ class FieldMap implements Panel {
   private size: FieldSize = RULES;
   private truth: Truth | null = null;
   private trail: Point[] = [];
+  private player: Player = { number: null, team: null };
+  private readonly others: Others;
+  /** Of the panel's robot. */
+  private color = OWN;
+  private mark = "";
 
   constructor(private readonly context: Context) {
     this.hidden = new Set(LAYERS.filter((layer) => context.settings[layer] === false));
     this.values = new Values(context.robot, this.draw);
-    const layers = LAYERS.map((layer) => {
+    const { robots, robot } = context;
+    this.others = new Others(robots.filter((known) => known.robot !== robot), this.draw);
+    const own = robots.find((known) => known.robot === robot);
+    if (own !== undefined && robots.length > 1) [this.color, this.mark] = [robotColor(own.at), robotMark(own.at)];
+    this.others.show(!this.hidden.has("robots"));
+    const layers = LAYERS.filter((layer) => layer !== "robots" || robots.length > 1).map((layer) => {
       const box = make("input", { type: "checkbox", checked: !this.hidden.has(layer) });
       box.addEventListener("change", () => this.show(layer, box.checked));
       return make("label", { class: "layer" }, box, layer);
@@ -52,6 +63,7 @@ class FieldMap implements Panel {
   close(): void {
     this.stop();
     this.stopTruth();
+    this.others.close();
     this.values.close();
   }
 
@@ -62,6 +74,7 @@ class FieldMap implements Panel {
   private show(layer: Layer, isShown: boolean): void {
     if (isShown) this.hidden.delete(layer);
     else this.hidden.add(layer);
+    if (layer === "robots") this.others.show(isShown);
     this.context.save(Object.fromEntries([...this.hidden].map((one) => [one, false])));
     this.draw();
   }
@@ -75,8 +88,7 @@ class FieldMap implements Panel {
     watch("obstacles", named(entries, "obstacles.0") ?? ofType(entries, "Vec<Obstacle>"));
     watch("team", ofType(entries, "Vec<Teammate>"), 5);
     watch("odometry", ofType(entries, "Odometry"));
-    watch("believed", ofType(entries, "Isometry<f32, Unit<Complex<f32>>, 2>") ?? named(entries, "ground_to_field"));
-    watch("report", named(entries, "self_report"), 5);
+    watchBelief(this.values, entries, RATE);
     watch("command", ofType(entries, "MotionCommand"));
     watch("path", named(entries, "path") ?? named(entries, "planned_path"), 5);
     const cameras = entries.filter((entry) => /^[^.]+\.main_outputs\.lines$/.test(entry.path));
@@ -85,10 +97,11 @@ class FieldMap implements Panel {
     this.truth = null;
     if (entries.some((entry) => entry.path === TRUTH)) {
       this.stopTruth = watchTruth(this.context.robot, (truth) => {
-        this.truth = truth;
+        this.truth = truth === null ? null : asTeamSees(truth);
         this.draw();
       });
     }
+    this.player = await playerOf(this.context.robot);
     const reading = await this.context.robot.ask({ parameters: { path: "field_dimensions" } }).catch(() => null);
     if (reading !== null && "parameters" in reading) this.size = fieldOf(fields(reading.parameters.value));
     this.draw();
@@ -96,8 +109,8 @@ class FieldMap implements Panel {
 
   /** Where the robot is on the field, and who says so. */
   private pose(): { pose: Pose; from: string; isOnField: boolean } {
-    const believed = pose(this.values.get("believed")) ?? pose(fields(this.values.get("report"))?.["ground_to_field"]);
-    if (believed !== null) return { pose: believed, from: "placed by its own estimate", isOnField: true };
+    const own = believed(this.values);
+    if (own !== null) return { pose: own, from: "placed by its own estimate", isOnField: true };
     if (this.truth !== null) return { pose: this.truth.robot, from: "placed by the simulation", isOnField: true };
     const odometry = pose(fields(this.values.get("odometry"))?.["ground_to_start"]);
     return { pose: odometry ?? { x: 0, y: 0, heading: 0 }, from: "placed by odometry: it does not know where the field is", isOnField: false };
@@ -113,10 +126,12 @@ class FieldMap implements Panel {
     if (!this.hidden.has("truth")) this.paintTruth(context);
     if (!this.hidden.has("obstacles")) this.paintObstacles(context, robot);
     // What others say of the field is of no use to a robot that does not know where it is.
-    if (isOnField && !this.hidden.has("team")) this.paintTeam(context);
+    const others = isOnField ? this.others.seenBy(this.player.team) : [];
+    if (isOnField && !this.hidden.has("team")) this.paintTeam(context, others);
+    for (const other of others) this.paintOther(context, other);
     this.paintPlan(context, robot);
     this.paintBall(context, robot);
-    this.chart.robot(context, robot, OWN, "", false);
+    this.chart.robot(context, robot, this.color, this.mark, false);
     const about = this.truth === null || this.hidden.has("truth") ? "" : ` · ${this.truth.about}`;
     this.state.textContent = `x ${robot.x.toFixed(2)} m, y ${robot.y.toFixed(2)} m, ${((robot.heading * 180) / Math.PI).toFixed(0)}° · ${from}${about}`;
   }
@@ -130,7 +145,7 @@ class FieldMap implements Panel {
   }
 
   private paintTrail(context: CanvasRenderingContext2D): void {
-    context.strokeStyle = OWN;
+    context.strokeStyle = this.color;
     context.lineWidth = 2;
     context.setLineDash([2, 4]);
     this.chart.line(context, this.trail);
@@ -150,7 +165,7 @@ class FieldMap implements Panel {
   private paintTruth(context: CanvasRenderingContext2D): void {
     if (this.truth === null) return;
     context.setLineDash([5, 3]);
-    this.chart.robot(context, this.truth.robot, OWN, "", true);
+    this.chart.robot(context, this.truth.robot, this.color, "", true);
     for (const other of this.truth.robots) this.chart.robot(context, other, other.isOwn ? MATE : OTHER, other.name, true);
     context.lineWidth = 2;
     if (this.truth.ball !== null) this.chart.disc(context, this.truth.ball, 0.05, null, BALL);
@@ -169,11 +184,19 @@ class FieldMap implements Panel {
     }
   }
 
-  private paintTeam(context: CanvasRenderingContext2D): void {
+  private paintOther(context: CanvasRenderingContext2D, { pose, ball, color, mark }: Other): void {
+    context.lineWidth = 2;
+    if (ball !== null) this.chart.disc(context, ball, 0.05, BALL, color);
+    this.chart.robot(context, pose, color, mark, false);
+  }
+
+  /** What mates say over the network, but of those who say it to this page themselves. */
+  private paintTeam(context: CanvasRenderingContext2D, others: readonly Other[]): void {
+    const isHere = (player: number | null): boolean => others.some((other) => player !== null && other.player.number === player && other.player.team === this.player.team);
     for (const value of list(this.values.get("team"))) {
       const message = fields(fields(value)?.["message"]);
       const mate = pose(message?.["ground_to_field"]);
-      if (mate === null) continue;
+      if (mate === null || isHere(number(message?.["player_number"]))) continue;
       const name = String(message?.["player_number"] ?? "?");
       const color = COLORS[(2 + Number(name)) % COLORS.length] ?? MATE;
       this.chart.robot(context, mate, color, name, false);

@@ -2,12 +2,14 @@
 import { expect } from "../connection/socket";
 import type { Json } from "../protocol";
 import type { Robot } from "../store/robot";
-import { fields, list, number, point, type Fields, type Point, type Pose } from "./geometry";
+import { fields, list, number, point, turned, type Fields, type Point, type Pose } from "./geometry";
 
 export const TRUTH = "framework.procedures.truth";
 export const DISTURB = "framework.procedures.disturb";
 
 export interface Truth {
+  /** As the referee sees the field; `isTurned`: the robot's team sees it from behind. */
+  isTurned: boolean;
   robot: Pose;
   ball: Point | null;
   robots: (Pose & { isOwn: boolean; name: string })[];
@@ -47,7 +49,16 @@ function read(value: Fields | null): Truth | null {
     const [found, other] = [fields(one), poseOf(fields(one))];
     return found === null || other === null ? [] : [{ ...other, isOwn: found["team"] === "own", name: String(number(found["number"]) ?? "") }];
   });
-  return { robot, ball: point([ball?.["x"] ?? null, ball?.["y"] ?? null]), robots, about: aboutOf(value) };
+  const direction = point(fields(value["own"])?.["direction"]);
+  const isTurned = direction !== null && direction[0] * Math.cos(robot.heading) + direction[1] * Math.sin(robot.heading) < 0;
+  return { isTurned, robot, ball: point([ball?.["x"] ?? null, ball?.["y"] ?? null]), robots, about: aboutOf(value) };
+}
+
+/** The same in the frame in which the robot's team thinks. */
+export function asTeamSees(truth: Truth): Truth {
+  if (!truth.isTurned) return truth;
+  const { robot, ball, robots } = truth;
+  return { ...truth, robot: turned(robot), ball: ball === null ? null : [-ball[0], -ball[1]], robots: robots.map((one) => ({ ...one, ...turned(one), isOwn: !one.isOwn })) };
 }
 
 function poseOf(value: Fields | null): Pose | null {

@@ -11,6 +11,8 @@ export interface PanelPlace {
   settings: Settings;
   /** Share of the column's height. */
   size: number;
+  /** The address of the robot that it shows; absent: the one that served the page. */
+  robot?: string;
 }
 
 export interface Column {
@@ -34,8 +36,8 @@ const KEY = "layout";
 
 let nextId = 1;
 
-export function place(kind: string, settings: Settings = {}, size = 1): PanelPlace {
-  return { id: `panel-${nextId++}`, kind, settings, size };
+export function place(kind: string, settings: Settings = {}, size = 1, robot?: string): PanelPlace {
+  return { id: `panel-${nextId++}`, kind, settings, size, ...(robot === undefined ? {} : { robot }) };
 }
 
 /** Columns from left to right, each with its share of the width before its panels. */
@@ -118,6 +120,15 @@ export class Arrangement {
     });
   }
 
+  /** The panel shows another robot from now on: it begins anew. */
+  assign(id: string, robot: string | undefined): void {
+    this.change((layout) => {
+      for (const column of layout.columns) {
+        column.panels = column.panels.map((panel) => (panel.id === id ? place(panel.kind, panel.settings, panel.size, robot) : panel));
+      }
+    });
+  }
+
   /** Another share for two neighbours; `row` null: of columns, else of panels. */
   resize(spot: Spot, sizes: [number, number]): void {
     this.change((layout) => {
@@ -178,7 +189,8 @@ export function read(text: string | null): Layout | null {
     const panels: PanelPlace[] = [];
     for (const panel of column["panels"] as unknown[]) {
       if (!isRecord(panel) || typeof panel["kind"] !== "string" || !isRecord(panel["settings"])) return null;
-      panels.push(place(panel["kind"], panel["settings"] as Settings, share(panel["size"])));
+      const robot = typeof panel["robot"] === "string" ? panel["robot"] : undefined;
+      panels.push(place(panel["kind"], panel["settings"] as Settings, share(panel["size"]), robot));
     }
     if (panels.length > 0) columns.push({ size: share(column["size"]), panels });
   }

@@ -30,7 +30,11 @@ export class Robot {
   private isWelcome = false;
   private areLogsWanted = false;
 
-  constructor(address: string) {
+  /** `tokenKey`: where the browser keeps the token of this robot until its tab is closed. */
+  constructor(
+    address: string,
+    private readonly tokenKey: string,
+  ) {
     this.socket = new Socket(address, {
       state: (state) => this.enter(state),
       welcome: (welcome) => this.begin(welcome),
@@ -69,7 +73,7 @@ export class Robot {
   /** Proves that this page may write. */
   async authenticate(token: string): Promise<void> {
     expect(await this.ask({ authenticate: { token } }), "done");
-    sessionStorage.setItem("token", token);
+    sessionStorage.setItem(this.tokenKey, token);
     this.writes.set(true);
   }
 
@@ -88,15 +92,16 @@ export class Robot {
   private begin(welcome: Welcome): void {
     this.isWelcome = true;
     this.paths.forget();
+    // Before anybody hears of it and subscribes to more.
+    this.subscriptions.renew();
     this.writes.set(welcome.can_write && !welcome.needs_token);
     this.welcomes.set(welcome);
-    this.subscriptions.renew();
     this.versions.set(this.versions.value + 1);
     if (this.areLogsWanted) this.askForLogs();
-    const token = sessionStorage.getItem("token");
+    const token = sessionStorage.getItem(this.tokenKey);
     if (welcome.needs_token && token !== null) {
       this.authenticate(token).catch((error: unknown) => {
-        if (error instanceof Refused) sessionStorage.removeItem("token");
+        if (error instanceof Refused) sessionStorage.removeItem(this.tokenKey);
       });
     }
   }

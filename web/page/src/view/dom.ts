@@ -30,6 +30,11 @@ export function select(choices: readonly string[], chosen: string, title: string
   return element;
 }
 
+/** A name that may be broken behind underscores and colons. */
+export function wrapping(name: string): (string | HTMLElement)[] {
+  return name.split(/(?<=_|::)/).flatMap((part, at) => (at === 0 ? [part] : [make("wbr"), part]));
+}
+
 /** A line where something failed; empty: nothing did. */
 export function complain(element: HTMLElement, reason: unknown): void {
   const text = reason === null ? "" : reason instanceof Error ? reason.message : String(reason);

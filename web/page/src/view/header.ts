@@ -1,10 +1,13 @@
 // The line above everything: which robot, whether it is there, panels to add, layouts, and the token where one is asked for.
 import { offeredBy, type Offered } from "../panels/kinds";
 import { read, type Arrangement } from "../store/layout";
+import { robotColor, robotMark } from "../panels/series";
 import type { Robot } from "../store/robot";
+import type { Robots } from "../store/robots";
 import { button, complain, download, make, select } from "./dom";
 
-export function header(robot: Robot, arrangement: Arrangement): HTMLElement {
+export function header(robots: Robots, arrangement: Arrangement): HTMLElement {
+  const robot = robots.own;
   const name = make("h1", {}, "hulkgen");
   const state = make("output", { class: "state", "aria-live": "polite", "data-state": "connecting" });
   const paths = button("Paths", "show or hide the paths of the robot", () => {
@@ -16,7 +19,6 @@ export function header(robot: Robot, arrangement: Arrangement): HTMLElement {
     state.dataset["state"] = isOpen ? "open" : "lost";
     const target = welcome === null ? "" : ` · ${welcome.target}`;
     state.textContent = isOpen ? `connected${target}` : welcome === null ? "looking for the robot …" : "connection lost, trying again …";
-    document.body.classList.toggle("is-lost", !isOpen);
     if (welcome !== null) {
       name.textContent = welcome.robot;
       document.title = isOpen ? welcome.robot : `${welcome.robot} (lost)`;
@@ -24,7 +26,41 @@ export function header(robot: Robot, arrangement: Arrangement): HTMLElement {
   };
   robot.state.watch(showState);
   robot.welcome.watch(showState);
-  return make("header", {}, paths, name, state, token(robot), make("span", { class: "space" }), look("theme", ["system colours", "light", "dark"], "light or dark"), look("size", ["normal text", "large text"], "size of the text: large is read from two metres"), panels(robot, arrangement), layouts(robot, arrangement));
+  return make("header", {}, paths, name, state, token(robot), beside(robots), make("span", { class: "space" }), look("theme", ["system colours", "light", "dark"], "light or dark"), look("size", ["normal text", "large text"], "size of the text: large is read from two metres"), panels(robot, arrangement), layouts(robot, arrangement));
+}
+
+/** Robots that the page shows beside its own: whether they are there, and their tokens. They are called when somebody looks. */
+function beside(robots: Robots): HTMLElement {
+  const rows = make("div", { class: "robots" });
+  const element = menu("Robots", [rows]);
+  let list = "";
+  const show = (): void => {
+    const all = robots.known.value;
+    element.hidden = all.length < 2;
+    const addresses = all.map(({ address }) => address).join();
+    if (!element.open || list === addresses) return;
+    list = addresses;
+    rows.replaceChildren(
+      ...all.map(({ address, at, isOwn, robot }) => {
+        const mark = make("span", { class: "robot-mark" }, robotMark(at));
+        mark.style.setProperty("--robot", robotColor(at));
+        const state = make("output", { class: "state of-one" });
+        robot.state.watch((now) => {
+          state.dataset["state"] = now === "open" ? "open" : "lost";
+          state.textContent = now === "open" ? "connected" : "not there, trying again …";
+        });
+        const row = make("div", { class: "robot-row" }, mark, make("span", {}, isOwn ? `${address} (this page's)` : address), state);
+        // That of the page's own robot stands in the line above everything.
+        if (!isOwn) row.append(token(robot));
+        return row;
+      }),
+    );
+  };
+  robots.known.watch(show);
+  element.addEventListener("toggle", show);
+  // It is read and typed into, not chosen from.
+  rows.addEventListener("click", (event) => event.stopPropagation());
+  return element;
 }
 
 function panels(robot: Robot, arrangement: Arrangement): HTMLElement {
@@ -81,7 +117,7 @@ function look(name: "theme" | "size", choices: readonly string[], about: string)
   });
 }
 
-function menu(name: string, items: readonly HTMLElement[]): HTMLElement {
+function menu(name: string, items: readonly HTMLElement[]): HTMLDetailsElement {
   const list = make("div", { class: "items" }, ...items);
   const element = make("details", { class: "menu" }, make("summary", {}, name), list);
   list.addEventListener("click", () => (element.open = false));

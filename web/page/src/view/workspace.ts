@@ -1,9 +1,10 @@
 // The panels of the layout, in columns: moved by their heads, resized at the lines between them.
 import { KINDS } from "../panels/kinds";
-import { DRAGGED_PATH, type Panel } from "../panels/panel";
-import type { Arrangement, Layout, PanelPlace, Spot } from "../store/layout";
-import type { Robot } from "../store/robot";
-import { button, make } from "./dom";
+import { DRAGGED_PATH, type Panel, type PanelKind } from "../panels/panel";
+import { robotColor, robotMark } from "../panels/series";
+import type { Arrangement, Layout, PanelPlace, Settings, Spot } from "../store/layout";
+import type { Known, Robots } from "../store/robots";
+import { button, make, select } from "./dom";
 
 const DRAGGED_PANEL = "application/x-hulk-panel";
 
@@ -11,6 +12,7 @@ interface Opened {
   frame: HTMLElement;
   panel: Panel | null;
   watch: ResizeObserver;
+  stop(): void;
 }
 
 export class Workspace {
@@ -18,20 +20,38 @@ export class Workspace {
   private readonly opened = new Map<string, Opened>();
 
   constructor(
-    private readonly robot: Robot,
+    private readonly robots: Robots,
     private readonly arrangement: Arrangement,
   ) {
-    arrangement.layout.watch((layout) => this.draw(layout));
+    let isFirst = true;
+    robots.known.watch(() => {
+      // Panels have to know of all of them.
+      if (!isFirst) this.closeAll();
+      isFirst = false;
+      this.draw(arrangement.layout.value);
+    });
+    let isDrawn = false;
+    arrangement.layout.watch((layout) => {
+      if (isDrawn) this.draw(layout);
+      isDrawn = true;
+    });
+  }
+
+  private closeAll(): void {
+    for (const id of [...this.opened.keys()]) this.close(id);
+  }
+
+  private close(id: string): void {
+    const opened = this.opened.get(id);
+    opened?.watch.disconnect();
+    opened?.stop();
+    opened?.panel?.close();
+    this.opened.delete(id);
   }
 
   private draw(layout: Layout): void {
     const wanted = new Set(layout.columns.flatMap((column) => column.panels.map((panel) => panel.id)));
-    for (const [id, opened] of this.opened) {
-      if (wanted.has(id)) continue;
-      opened.watch.disconnect();
-      opened.panel?.close();
-      this.opened.delete(id);
-    }
+    for (const id of [...this.opened.keys()]) if (!wanted.has(id)) this.close(id);
     const columns = layout.columns.flatMap((column, at) => {
       const frames = column.panels.flatMap((place, row) => {
         const { frame } = this.opened.get(place.id) ?? this.open(place);
@@ -54,27 +74,57 @@ export class Workspace {
     const title = make("span", { class: "muted subject" });
     const head = make("div", { class: "head", draggable: "true", tabindex: "0", title: "drag it, or Alt and arrow keys, to move the panel" }, make("h2", {}, kind?.name ?? place.kind), title);
     const frame = make("section", { class: "panel", "data-kind": place.kind, "aria-label": kind?.name ?? place.kind }, head);
-    const panel = kind?.open({
-      robot: this.robot,
-      arrangement: this.arrangement,
-      settings: place.settings,
-      save: (settings) => this.arrangement.configure(place.id, settings),
-      title: (text) => {
-        title.replaceChildren(make("bdi", {}, text));
-        title.title = text;
-      },
-    }) ?? null;
+    const known = this.robots.find(place.robot);
+    const panel = known === null ? null : this.panel(kind, known, place, title);
     const close = button("×", "close this panel", () => this.arrangement.remove(place.id), "plain");
-    head.append(make("span", { class: "space" }), ...(panel?.tools ?? []), close);
-    frame.append(panel?.content ?? make("p", { class: "muted" }, "this page does not have this panel"));
+    head.append(make("span", { class: "space" }), ...this.whose(place, known, frame), ...(panel?.tools ?? []), close);
+    const missing = known === null ? `${place.robot} is not among the robots that this page may show: choose another one, or start this page's robot with --peer ${place.robot}` : "this page does not have this panel";
+    frame.append(panel?.content ?? make("p", { class: "muted" }, missing));
     head.addEventListener("dragstart", (event) => event.dataTransfer?.setData(DRAGGED_PANEL, place.id));
     head.addEventListener("keydown", (event) => this.shift(place.id, frame, event));
     this.receive(frame, panel);
     const watch = new ResizeObserver(() => panel?.resized?.());
     watch.observe(frame);
-    const opened = { frame, panel, watch };
+    const stop = known?.robot.state.watch((state) => frame.classList.toggle("is-lost", state !== "open")) ?? (() => undefined);
+    const opened = { frame, panel, watch, stop };
     this.opened.set(place.id, opened);
     return opened;
+  }
+
+  private panel(kind: PanelKind | undefined, known: Known, place: PanelPlace, title: HTMLElement): Panel | null {
+    const context = {
+      robot: known.robot,
+      robots: this.robots.known.value,
+      arrangement: this.arrangement,
+      settings: place.settings,
+      save: (settings: Settings) => this.arrangement.configure(place.id, settings),
+      title: (text: string) => {
+        title.replaceChildren(make("bdi", {}, text));
+        title.title = text;
+      },
+    };
+    return kind?.open(context) ?? null;
+  }
+
+  /** Where there are several robots: which one the panel shows, by colour, letter and address. */
+  private whose(place: PanelPlace, shown: Known | null, frame: HTMLElement): HTMLElement[] {
+    const all = this.robots.known.value;
+    if (all.length < 2 && shown !== null) return [];
+    // There is place for the letter; the address is read in the list.
+    const nameOf = ({ at, address }: Known): string => `${robotMark(at)}\u00a0\u00a0\u00a0${address}`;
+    const names = all.map(nameOf);
+    const chosen = shown === null ? "no robot" : nameOf(shown);
+    if (shown !== null) {
+      frame.dataset["robot"] = robotMark(shown.at);
+      frame.style.setProperty("--robot", robotColor(shown.at));
+    }
+    const choices = shown === null ? [chosen, ...names] : names;
+    const list = select(choices, chosen, "which robot this panel shows", (name) => {
+      const known = all.find((one) => nameOf(one) === name);
+      if (known !== undefined) this.arrangement.assign(place.id, known.isOwn ? undefined : known.address);
+    });
+    list.classList.add("whose");
+    return [list];
   }
 
   /** The keyboard's way to move a panel: within its column, or into the next one. */

@@ -1,0 +1,178 @@
+//! Clients that watch a scenario: each of its robots is served at a port of its own, and time passes no faster than theirs.
+
+use std::net::{IpAddr, SocketAddr, ToSocketAddrs as _};
+use std::time::Instant;
+
+use crate::error::{Error, Result};
+use crate::launch::{Listening, Serve};
+use crate::stop::Stop;
+use crate::time::Timestamp;
+
+/// Who serves the robots, and where.
+pub(crate) struct Audience {
+    /// Starts a server.
+    pub(crate) serve: Serve,
+    /// What the server of the first robot is told; those of the others have the ports behind its.
+    pub(crate) listening: Listening,
+}
+
+impl Audience {
+    /// What the servers of so many robots are told: where they listen, and that the others belong to them.
+    ///
+    /// # Errors
+    /// Where the others could not be found by this address.
+    pub(crate) fn seats(&self, robots: usize) -> Result<Vec<Listening>> {
+        let written = self.listening.address.as_deref().unwrap_or_default();
+        let wrong = |why: &str| {
+            Error::new(format!(
+                "--listen {written}: {why}; each robot of a scenario has a port of its own, the first one this, \
+                 as in 127.0.0.1:4857"
+            ))
+        };
+        let mut addresses = written
+            .to_socket_addrs()
+            .map_err(|error| wrong(&error.to_string()))?;
+        let first = addresses.next().ok_or_else(|| wrong("it is nowhere"))?;
+        let is_anywhere = match first.ip() {
+            IpAddr::V4(address) => address.is_unspecified(),
+            IpAddr::V6(address) => address.is_unspecified(),
+        };
+        if is_anywhere || first.port() == 0 {
+            return Err(wrong(
+                "expected one address and port that browsers can open",
+            ));
+        }
+        let ports = first.port()..=u16::MAX;
+        let seats: Vec<_> = ports
+            .take(robots)
+            .map(|port| SocketAddr::new(first.ip(), port).to_string())
+            .collect();
+        if seats.len() < robots {
+            return Err(wrong("there are not so many ports behind it"));
+        }
+        let listening = |own: &String| {
+            let others = seats.iter().filter(|seat| *seat != own).cloned();
+            Listening {
+                address: Some(own.clone()),
+                peers: self.listening.peers.iter().cloned().chain(others).collect(),
+                ..self.listening.clone()
+            }
+        };
+        Ok(seats.iter().map(listening).collect())
+    }
+}
+
+/// How fast the world goes on.
+pub(super) enum Pace {
+    /// As fast as the machine can.
+    Free,
+    /// No faster than clocks on the wall; the world began then.
+    Wall(Instant),
+}
+
+impl Pace {
+    /// Until the world may come to this time.
+    ///
+    /// # Errors
+    /// Where somebody ends the run meanwhile.
+    pub(super) fn wait_for(&mut self, time: Timestamp, stop: &Stop) -> Result<()> {
+        let Self::Wall(begun) = self else {
+            return Ok(());
+        };
+        let (due, elapsed) = (time - Timestamp::ZERO, begun.elapsed());
+        match due.checked_sub(elapsed) {
+            Some(early) => stop.wait(early)?,
+            // A world that was too much for the machine does not hurry afterwards.
+            None => *begun += elapsed - due,
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::Duration;
+
+    use super::*;
+    use crate::launch::nobody;
+
+    fn audience(address: &str) -> Audience {
+        Audience {
+            serve: nobody,
+            listening: Listening {
+                address: Some(address.to_owned()),
+                token: Some("secret".to_owned()),
+                peers: vec!["nao22.local:4857".to_owned()],
+                ..Listening::default()
+            },
+        }
+    }
+
+    #[test]
+    fn every_robot_has_a_port_and_knows_the_others() {
+        let seats = audience("127.0.0.1:4857").seats(3).expect("three ports");
+        let addresses: Vec<_> = seats
+            .iter()
+            .filter_map(|seat| seat.address.as_deref())
+            .collect();
+        assert_eq!(
+            addresses,
+            ["127.0.0.1:4857", "127.0.0.1:4858", "127.0.0.1:4859"]
+        );
+        assert_eq!(
+            seats[1].peers,
+            ["nao22.local:4857", "127.0.0.1:4857", "127.0.0.1:4859"]
+        );
+        assert!(
+            seats
+                .iter()
+                .all(|seat| seat.token.as_deref() == Some("secret"))
+        );
+        let alone = audience("[::1]:1").seats(1).expect("one port");
+        assert_eq!(alone[0].address.as_deref(), Some("[::1]:1"));
+        assert_eq!(alone[0].peers, ["nao22.local:4857"]);
+    }
+
+    #[test]
+    fn an_address_that_no_browser_can_open_is_refused() {
+        for wrong in [
+            "0.0.0.0:4857",
+            "[::]:4857",
+            "127.0.0.1:0",
+            "127.0.0.1:65535",
+            "4857",
+            "",
+        ] {
+            let error = audience(wrong)
+                .seats(2)
+                .map(drop)
+                .expect_err(wrong)
+                .to_string();
+            assert!(
+                error.contains("--listen") && error.contains("127.0.0.1:4857"),
+                "{error}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_world_that_is_watched_waits_for_the_wall_and_does_not_hurry() {
+        let (stop, begun) = (Stop::new(), Instant::now());
+        let mut pace = Pace::Wall(begun);
+        let at = |milliseconds| Timestamp::ZERO + Duration::from_millis(milliseconds);
+        pace.wait_for(at(30), &stop).expect("nobody stops it");
+        assert!(begun.elapsed() >= Duration::from_millis(30));
+        // It was slow: what comes a little later is not at once.
+        std::thread::sleep(Duration::from_millis(100));
+        pace.wait_for(at(40), &stop).expect("nobody stops it");
+        let late = Instant::now();
+        pace.wait_for(at(60), &stop).expect("nobody stops it");
+        assert!(late.elapsed() >= Duration::from_millis(19));
+        stop.request();
+        let stopped = pace.wait_for(at(60_000), &stop);
+        assert!(stopped.is_err_and(|error| error.is_stopped()));
+        Pace::Free
+            .wait_for(at(60_000), &Stop::new())
+            .expect("it waits for nothing");
+    }
+}

@@ -1,0 +1,134 @@
+// Several robots on one page: each in its colour, each panel one of them, and nobody else.
+import assert from "node:assert/strict";
+import { join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { add, clearLayout, isConnected, open, panel, reads, until } from "../page.mjs";
+import { freePorts, PATIENCE, Stage, step } from "../robot.mjs";
+
+const SCENARIO = join(fileURLToPath(import.meta.url), "../../three_robots.toml");
+const COUNT = 3;
+/** As the page has them, in order of the robots' addresses. */
+const COLORS = [[0x00, 0x72, 0xb2], [0xcc, 0x79, 0xa7], [0x56, 0xb4, 0xe9]];
+const TOKEN = "secret";
+
+/** How many pixels of each colour there are. */
+function areaOf(page, canvas) {
+  return canvas.evaluate((canvas, colors) => {
+    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    const areas = colors.map(() => 0);
+    for (let at = 0; at < data.length; at += 4) {
+      const color = colors.findIndex((color) => color.every((part, offset) => data[at + offset] === part));
+      if (color >= 0) areas[color] += 1;
+    }
+    return areas;
+  }, COLORS);
+}
+
+async function choose(page, panel, address) {
+  const list = panel.getByLabel("which robot this panel shows");
+  const names = await list.locator("option").allTextContents();
+  await list.selectOption(names.find((name) => name.endsWith(address)));
+}
+
+export async function severalRobotsAreShown(browser, program, options, folder, picture) {
+  // Ports follow each other, and so do the robots' colours: as texts they must, too.
+  const port = await freePorts(COUNT);
+  const addresses = Array.from({ length: COUNT }, (_, at) => `127.0.0.1:${port + at}`);
+  const stage = new Stage(program, options, folder, port);
+  await stage.start("--scenario", SCENARIO, "--token", TOKEN);
+  const page = await browser.newPage({ viewport: { width: 1600, height: 900 } });
+  page.setDefaultTimeout(PATIENCE);
+  const wrong = [];
+  page.on("pageerror", (error) => wrong.push(error.message));
+  try {
+    await page.goto(stage.address);
+    await isConnected(page);
+    await everyRobotHasItsColour(page);
+    await panelsChoose(page, addresses);
+    await picture(page, "robots");
+    await tokensStayApart(page, addresses);
+    await strangersStayOutside(page, port + COUNT);
+    assert.deepEqual(wrong, []);
+  } finally {
+    await page.close();
+    await stage.stop();
+  }
+}
+
+async function everyRobotHasItsColour(page) {
+  await clearLayout(page);
+  await add(page, "Field");
+  const canvas = panel(page, "map").locator("canvas");
+  const since = Date.now();
+  for (let areas = []; ; await page.waitForTimeout(250)) {
+    areas = await areaOf(page, canvas);
+    if (areas.every((area) => area > 40)) break;
+    assert(Date.now() - since < PATIENCE, `robots on the field, by colour: ${areas}`);
+  }
+  await panel(page, "map").getByLabel("robots").uncheck();
+  for (const begin = Date.now(); ; await page.waitForTimeout(100)) {
+    const [own, ...others] = await areaOf(page, canvas);
+    if (own > 40 && others.every((area) => area === 0)) break;
+    assert(Date.now() - begin < PATIENCE, `robots that nobody wants to see: ${others}`);
+  }
+  await panel(page, "map").getByLabel("robots").check();
+  step("every robot of a scenario is on the field, in its colour");
+}
+
+/** The number of the shirt tells who answers. */
+async function panelsChoose(page, addresses) {
+  await open(page, "parameters.player.number", "Value");
+  const reading = panel(page, "value").locator(".reading");
+  await reads(reading, /^1$/, "the number of the first robot");
+  await choose(page, panel(page, "value"), addresses[1]);
+  await reads(reading, /^2$/, "the number of the second robot");
+  await page.reload();
+  await isConnected(page);
+  await reads(reading, /^2$/, "the number of the second robot, from a layout that was kept");
+  // One from another place, with a robot that this page may not show, and with one from before there were several.
+  const places = ["10.255.255.1:4857", undefined].map((robot) => ({ kind: "value", size: 1, settings: { path: "parameters.player.number" }, robot }));
+  const file = { version: 1, columns: [{ size: 1, panels: places }] };
+  const kept = await page.evaluate(() => localStorage.getItem("layout"));
+  await page.evaluate((text) => localStorage.setItem("layout", text), JSON.stringify(file));
+  await page.reload();
+  await isConnected(page);
+  await page.getByText(/^10\.255\.255\.1:4857 is not among the robots/).waitFor();
+  await reads(panel(page, "value").nth(1).locator(".reading"), /^1$/, "what an older layout shows");
+  await choose(page, panel(page, "value").first(), addresses[1]);
+  await reads(panel(page, "value").first().locator(".reading"), /^2$/, "the number of the robot in place of the one that is missing");
+  await page.evaluate((text) => localStorage.setItem("layout", text), kept);
+  await page.reload();
+  await isConnected(page);
+  await until(page, panel(page, "map").locator("canvas"), (canvas) => canvas.width > 16, "a field");
+  step("every panel chooses whose value it shows, and layouts keep it");
+}
+
+async function tokensStayApart(page, addresses) {
+  await page.locator("summary", { hasText: "Robots" }).click();
+  await page.waitForFunction((count) => document.querySelectorAll('.robot-row .state[data-state="open"]').length === count, COUNT, { timeout: PATIENCE });
+  const row = page.locator(".robot-row", { hasText: addresses[1] });
+  const token = row.getByLabel("token");
+  await token.fill(TOKEN);
+  await token.press("Enter");
+  await token.waitFor({ state: "hidden" });
+  assert(await page.locator("header > .access").getByLabel("token").isVisible(), "the page's own robot has its own token");
+  assert.deepEqual(await page.evaluate(() => Object.keys(sessionStorage)), [`token ${addresses[1]}`]);
+  await page.keyboard.press("Escape");
+  step("a token is told to the robot alone for which it was typed");
+}
+
+/** Neither robots that were not named, nor anybody else. */
+async function strangersStayOutside(page, port) {
+  const violated = await page.evaluate(
+    (address) =>
+      new Promise((resolve) => {
+        document.addEventListener("securitypolicyviolation", (event) => resolve(`${event.effectiveDirective} ${event.blockedURI}`));
+        const socket = new WebSocket(address);
+        socket.onopen = () => resolve("it was let in");
+        window.setTimeout(() => resolve("nothing was violated"), 5000);
+      }),
+    `ws://127.0.0.1:${port}/socket`,
+  );
+  assert.equal(violated, `connect-src ws://127.0.0.1:${port}/socket`);
+  step("the page asks no robot that was not named");
+}
