@@ -1,9 +1,12 @@
-//! What happened to the cycles of a recording: which are missing, were not finished, or began anew.
+//! What happened to the cycles of a recording: which are missing, were not finished, began anew, or had new parameters.
+
+use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::Players;
+use super::{Player, Players};
 use crate::Reflect;
+use crate::recorded::PARAMETERS;
 use crate::time::Timestamp;
 
 /// More are no picture, and slow to send.
@@ -30,6 +33,8 @@ pub enum What {
     Unfinished,
     /// It was the first after a restart.
     Restarted,
+    /// It was the first, of any instance, with these parameters: somebody changed them while the robot ran.
+    Parameters,
 }
 
 /// Of all instances, in order of time.
@@ -62,7 +67,51 @@ pub(super) fn events(players: &Players<'_>) -> Vec<Happened> {
             last = Some((head.number, head.start));
         }
     }
+    events.extend(changes(players));
     events.sort_by(|one, other| one.from.total_cmp(&other.from));
     events.truncate(MOST_EVENTS);
     events
+}
+
+/// The first cycle with each further version of the parameters.
+fn changes(players: &Players<'_>) -> impl Iterator<Item = Happened> {
+    let mut first_seen: BTreeMap<u64, (Timestamp, &'static str)> = BTreeMap::new();
+    for player in players
+        .players
+        .iter()
+        .filter(|player| reads_parameters(player))
+    {
+        for (position, frame) in player.frames.iter().enumerate() {
+            let Ok(version) = player.parameters_version(position) else {
+                continue;
+            };
+            let start = frame.head.start;
+            let seen = first_seen
+                .entry(version)
+                .or_insert((start, player.instance));
+            if start < seen.0 {
+                *seen = (start, player.instance);
+            }
+        }
+    }
+    // The recording began with the first one.
+    first_seen.into_values().skip(1).map(|(start, instance)| {
+        let at = start.as_nanos() as f64 / 1e9;
+        Happened {
+            instance: instance.to_owned(),
+            from: at,
+            to: at,
+            what: What::Parameters,
+        }
+    })
+}
+
+/// Frames of other instances begin with something else.
+fn reads_parameters(player: &Player<'_>) -> bool {
+    let mut reads = false;
+    if let Some(replay) = player.replay() {
+        let instance = replay.instance();
+        instance.references(&mut |reference| reads |= reference.instance == PARAMETERS);
+    }
+    reads
 }

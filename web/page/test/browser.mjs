@@ -7,7 +7,8 @@ import { join } from "node:path";
 import { chromium } from "playwright-core";
 import { begin, isConnected } from "./page.mjs";
 import { PATIENCE, Stage, step } from "./robot.mjs";
-import { aRecordingIsReplayed, foreignScriptsDoNotRun, layoutsStay, nonsenseDoesNoHarm, otherRobotsHaveNoFootball, restartsAreSurvived, tokensAreAskedFor } from "./steps/life.mjs";
+import { aRecordingIsReplayed, foreignScriptsDoNotRun, layoutsStay, nonsenseDoesNoHarm, otherRobotsHaveNoFootball, restartsAreSurvived, somethingHappens, tokensAreAskedFor } from "./steps/life.mjs";
+import { severalRobotsAreShown } from "./steps/robots.mjs";
 import { theRobotIsDriven, theWorldIsChanged } from "./steps/robotics.mjs";
 import { aParameterChangesAnOutput, curvesAndImagesMove, injectionsReplaceOutputs, parametersComeBack, valuesChange } from "./steps/values.mjs";
 
@@ -91,11 +92,14 @@ try {
   await aPhoneShowsIt(browser);
   await nonsenseDoesNoHarm(browser, stage);
   await otherRobotsHaveNoFootball(browser, stage);
+  await somethingHappens(page);
   await aRecordingIsReplayed(page, stage);
   await picture(page, "replay");
   await tokensAreAskedFor(page, stage);
   assert.deepEqual(wrong, []);
   await foreignScriptsDoNotRun(page);
+  await stage.stop();
+  await severalRobotsAreShown(browser, program, options, folder, picture);
 } finally {
   await browser.close();
   await stage.stop();

@@ -14,8 +14,15 @@ interface Event {
   instance: string;
   from: number;
   to: number;
-  what: "missing" | "unfinished" | "restarted";
+  what: "missing" | "unfinished" | "restarted" | "parameters";
 }
+
+const WORDS: Record<string, string> = {
+  missing: "cycles are missing",
+  unfinished: "the cycle failed or was abandoned",
+  restarted: "the first cycle after a restart",
+  parameters: "the first cycle with changed parameters",
+};
 
 interface Place {
   time: number;
@@ -158,7 +165,7 @@ class Replay implements Panel {
     this.marks.replaceChildren(
       ...names.map((name) => {
         const marks = this.events.filter(({ instance }) => instance === name).map((event) => {
-          const about = `${name}: ${event.what}, ${event.from.toFixed(3)} s${event.to > event.from ? ` to ${event.to.toFixed(3)} s` : ""}`;
+          const about = `${name}: ${WORDS[event.what] ?? event.what}, ${event.from.toFixed(3)} s${event.to > event.from ? ` to ${event.to.toFixed(3)} s` : ""}`;
           const mark = make("button", { type: "button", class: `event ${event.what}`, title: about, "aria-label": about, click: () => void this.ask({ time: event.from, play: false }) });
           mark.style.left = `${(100 * (event.from - begins)) / length}%`;
           mark.style.width = `max(4px, ${(100 * (event.to - event.from)) / length}%)`;
@@ -167,7 +174,9 @@ class Replay implements Panel {
         return make("div", { class: "event-lane" }, make("span", { class: "muted" }, `${name}: ${plural(marks.length, "event")}`), make("div", { class: "event-marks" }, ...marks));
       }),
     );
-    if (names.length === 0) this.marks.append(make("p", { class: "muted" }, "no cycle is missing, unfinished, or the first after a restart"));
+    const kinds = Object.keys(WORDS).filter((kind) => this.events.some(({ what }) => what === kind));
+    if (kinds.length > 0) this.marks.append(make("p", { class: "event-key muted" }, ...kinds.map((kind) => make("span", {}, make("i", { class: `event ${kind}` }), ` ${kind}`))));
+    if (names.length === 0) this.marks.append(make("p", { class: "muted" }, "no cycle is missing, unfinished, or the first after a restart or with changed parameters"));
   }
 }
 

@@ -2,12 +2,12 @@
 import assert from "node:assert/strict";
 import { existsSync } from "node:fs";
 import { join } from "node:path";
-import { add, begin, changes, clearLayout, hasCurve, hasPicture, isConnected, open, panel, reads, until } from "../page.mjs";
+import { add, ask, begin, changes, clearLayout, hasCurve, hasPicture, isConnected, open, panel, reads, until } from "../page.mjs";
 import { PATIENCE, step } from "../robot.mjs";
 
 export async function restartsAreSurvived(page, stage) {
   await stage.stop();
-  await page.locator('.state[data-state="lost"]').waitFor({ timeout: PATIENCE });
+  await page.locator('header > .state[data-state="lost"]').waitFor({ timeout: PATIENCE });
   assert.match((await panel(page, "value").locator("output").textContent()) ?? "", /cycle/, "what was there stays");
   await stage.start();
   await isConnected(page);
@@ -24,6 +24,43 @@ export async function layoutsStay(page) {
   step("the layout is kept");
 }
 
+/** What the timeline of a recording has to show: parameters change twice, and Control is not recorded between. */
+export async function somethingHappens(page) {
+  const write = (changes) => ask(page, { write: { changes: Object.entries(changes).map(([path, value]) => ({ path, value })) } });
+  const { value } = (await ask(page, { parameters: { path: "recording_switch" } })).parameters;
+  await write({ "recording_switch.states": [], "recording_switch.after_fall": 0 });
+  await page.waitForTimeout(2000);
+  await write({ "recording_switch.states": value.states, "recording_switch.after_fall": value.after_fall });
+  await page.waitForTimeout(2000);
+}
+
+async function whatHappenedIsMarked(page) {
+  const replay = panel(page, "replay");
+  const lane = replay.locator(".event-lane", { hasText: /^Control: / });
+  await lane.locator(".event.missing").first().waitFor({ timeout: PATIENCE });
+  assert((await replay.locator(".event.parameters").count()) >= 2, "both changes of parameters are marked");
+  const slider = replay.getByLabel("time of the recording");
+  const [begins, ends] = await slider.evaluate((element) => [Number(element.min), Number(element.max)]);
+  const marks = await replay.locator(".event-marks .event").evaluateAll((marks) =>
+    marks.map((mark) => {
+      const [box, lane] = [mark.getBoundingClientRect(), mark.parentElement.getBoundingClientRect()];
+      return { label: mark.getAttribute("aria-label"), color: getComputedStyle(mark).backgroundColor, area: box.width * box.height, middle: (box.left + box.right - 2 * lane.left) / (2 * lane.width) };
+    }),
+  );
+  for (const { label, color, area, middle } of marks) {
+    assert(area >= 24 && !/, 0\)$|transparent/.test(color), `${label} is drawn: ${area} px in ${color}`);
+    const times = [...label.matchAll(/(\d+\.\d+) s/g)].map(([, time]) => Number(time));
+    const expected = (times[0] + times.at(-1) - 2 * begins) / (2 * (ends - begins));
+    assert(Math.abs(middle - expected) < 0.02, `${label} is drawn at ${middle} of the axis, not at ${expected}`);
+  }
+  assert(new Set(marks.map(({ color }) => color)).size >= 2, "different things look different");
+  const gap = lane.locator(".event.missing").last();
+  const from = Number(/(\d+\.\d+) s/.exec(await gap.getAttribute("aria-label"))[1]);
+  await gap.click();
+  await reads(replay.locator("output"), new RegExp(`^${from.toFixed(3)}`), "the time of the mark");
+  step("what happened is marked on the time of a recording, and a mark leads there");
+}
+
 /** The robot has ended; its recording takes its place. */
 export async function aRecordingIsReplayed(page, stage) {
   const file = join(stage.run, "recording.mcap");
@@ -32,12 +69,14 @@ export async function aRecordingIsReplayed(page, stage) {
   await stage.start("--replay", file);
   await isConnected(page);
   await begin(page, "Replay");
+  await whatHappenedIsMarked(page);
   const replay = panel(page, "replay");
   const state = replay.locator("output");
+  await replay.getByRole("button", { name: /^play or pause/ }).click();
   await changes(page, state, "the time of the replay");
-  const cycle = replay.locator("tbody tr", { hasText: "VisionTop" }).locator("td").nth(1);
   await replay.getByRole("button", { name: /^play or pause/ }).click();
   await replay.getByRole("button", { name: /^play or pause/ }).filter({ hasText: "Play" }).waitFor();
+  const cycle = replay.locator("tbody tr", { hasText: "VisionTop" }).locator("td").nth(1);
   await replay.getByLabel("whose cycles are stepped").selectOption("VisionTop");
   const slider = replay.getByLabel("time of the recording");
   const half = await slider.evaluate((element) => (Number(element.min) + Number(element.max)) / 2);

@@ -1,25 +1,10 @@
 // Panels about football: driving, the simulated world, the map.
 import assert from "node:assert/strict";
-import { begin, changes, hasPicture, panel, reads, until } from "../page.mjs";
+import { ask, begin, changes, hasPicture, panel, reads, until } from "../page.mjs";
 import { PATIENCE, step } from "../robot.mjs";
 
-/** Asks the robot itself, beside the page. */
-function call(page, path, argument) {
-  return page.evaluate(
-    ([path, argument]) =>
-      new Promise((resolve, reject) => {
-        const socket = new WebSocket(`ws://${location.host}/socket`);
-        socket.onopen = () => socket.send(JSON.stringify({ id: 1, ask: { call: { path, argument } } }));
-        socket.onmessage = ({ data }) => {
-          const { answer } = JSON.parse(data);
-          if (answer === undefined) return;
-          socket.close();
-          if (answer.ok === undefined) reject(new Error(answer.error.message));
-          else resolve(answer.ok.called);
-        };
-      }),
-    [path, argument],
-  );
+async function call(page, path, argument) {
+  return (await ask(page, { call: { path, argument } })).called;
 }
 
 export async function theRobotIsDriven(page) {

@@ -195,6 +195,13 @@ fn cycles_that_were_not_recorded_are_told_with_their_place() {
             "{event:?}"
         );
     }
+    // `disturb` changes them once, after a second.
+    let changes = events.iter().filter(|event| event.what == What::Parameters);
+    let changes: Vec<_> = changes.map(|event| event.from).collect();
+    assert!(
+        matches!(changes[..], [at] if (1.0..1.1).contains(&at)),
+        "{events:?}"
+    );
     assert!(events.is_sorted_by(|one, next| one.from <= next.from));
 }
 
