@@ -4,6 +4,7 @@
 //! and writes what is made of them; nothing that exists is overwritten.
 
 mod export;
+mod images;
 mod info;
 mod list;
 mod values;
@@ -17,6 +18,7 @@ use hulkgen_mcap::RecordingFile;
 use crate::outcome::Refusal;
 
 pub use export::{Export, Exported, export};
+pub use images::Images;
 pub use info::{Info, InstanceInfo, info};
 pub use list::{Run, list};
 pub use values::{Found, Selection, Span, cat};

@@ -162,6 +162,30 @@ fn topics_are_listed_and_described_and_come_again_and_again() {
 }
 
 #[test]
+fn images_become_files() {
+    let robot = Robot::start(&[]);
+    let folder = robot.folder.path().join("images/top");
+    let echo = format!(
+        "topic echo VisionTop.main_outputs.image --rate 5 --count 2 --images {}",
+        folder.display()
+    );
+    for line in robot.lines(&echo) {
+        let file = line["file"].as_str().expect("a path");
+        let cycle = line["cycle"].as_u64().expect("a number");
+        assert!(file.ends_with(&format!("{cycle:08}.jpg")), "{file}");
+        let bytes = std::fs::read(file).expect("it was written");
+        // From the first marker of a JPEG file to the last.
+        assert!(bytes.len() > 1000 && bytes.starts_with(&[0xff, 0xd8, 0xff]));
+        assert!(bytes.ends_with(&[0xff, 0xd9]), "{file} is cut off");
+    }
+    let files = std::fs::read_dir(&folder).expect("it was made");
+    assert_eq!(files.count(), 2);
+    let refused = robot.hulkgen("topic echo Control.main_outputs.sensor_data --images nothing");
+    assert_eq!(refused.status.code(), Some(1));
+    assert!(!robot.folder.path().join("nothing").exists());
+}
+
+#[test]
 fn what_is_not_there_is_told_with_what_is() {
     let robot = Robot::start(&[]);
     let output = robot.hulkgen("topic echo Control.main_outputs.sensor_data.position");

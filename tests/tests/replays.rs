@@ -171,7 +171,8 @@ fn a_recording_says_what_would_have_been() {
     );
     let first = &revision["changes"][0]["first"];
     let speed = |value: &Value| value.as_f64().expect("a speed");
-    assert!((speed(&first["after"]) - speed(&first["before"]) - 0.5).abs() < 1e-6);
+    let faster = speed(&first["after"]) - speed(&first["before"]);
+    assert!((faster - 0.5).abs() < 1e-6, "{revision}");
     let unknown = ["replay", "tape.mcap", "--against", "nowhere"];
     let (_, said) = robot.hulkgen(&unknown, 2);
     assert!(said.contains("name a commit, branch or tag"), "{said}");

@@ -1,5 +1,6 @@
 //! What may stand on the command line of commands that ask a running robot: types for clap, no behaviour.
 
+use camino::Utf8PathBuf;
 use clap::{Args, Subcommand, ValueEnum};
 
 use super::TextOrJson;
@@ -28,6 +29,7 @@ Exit status: 0 answered, 1 no robot answers, or it refuses; 2 wrong usage.
 Examples:
   hulkgen topic list
   hulkgen topic echo Control.main_outputs.ball --rate 2
+  hulkgen topic echo VisionTop.main_outputs.image --rate 1 --images pictures
   hulkgen topic hz VisionTop.main_outputs.balls --host 10.1.24.22")]
 pub struct Topic {
     #[command(subcommand)]
@@ -56,6 +58,9 @@ pub enum TopicCommand {
         /// End after so many values
         #[arg(long, value_name = "NUMBER")]
         count: Option<u64>,
+        /// Write each value, an image, as a JPEG file into this folder, and print the file
+        #[arg(long, value_name = "FOLDER")]
+        images: Option<Utf8PathBuf>,
         #[command(flatten)]
         running: Running,
     },

@@ -3,6 +3,7 @@
 //! Invariant: these commands read no manifest and need no robot on this machine.
 
 mod connection;
+mod images;
 mod log;
 mod param;
 mod text;

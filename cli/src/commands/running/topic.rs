@@ -7,7 +7,7 @@ use protocol::{Ask, Encoding, Entry, EntryKind, Good, Lost, Message};
 use serde_json::{Value, json};
 
 use super::connection::Connection;
-use super::{NAMED, again, text};
+use super::{NAMED, again, images, text};
 use crate::arguments::{TextOrJson, Topic, TopicCommand};
 use crate::commands::plural;
 use crate::commands::terminal::Terminal;
@@ -36,9 +36,20 @@ pub(in crate::commands) fn topic(terminal: &Terminal, topic: &Topic) -> Result<O
             path,
             rate,
             count,
+            images,
             running,
         } => {
             let mut connection = Connection::open(running)?;
+            if let Some(folder) = images {
+                let wanted = images::Wanted {
+                    path,
+                    rate: *rate,
+                    count: *count,
+                    folder,
+                    format: running.format,
+                };
+                return images::save(terminal, &mut connection, &wanted);
+            }
             echo(
                 terminal,
                 &mut connection,
@@ -154,12 +165,12 @@ fn echo(
     })
 }
 
-fn tell_lost(terminal: &Terminal, lost: Lost) {
+pub(super) fn tell_lost(terminal: &Terminal, lost: Lost) {
     let number = usize::try_from(lost.updates).unwrap_or(usize::MAX);
     terminal.note(&format!("{} lost: too slow\n", plural(number, "update")));
 }
 
-fn subscribe(
+pub(super) fn subscribe(
     connection: &mut Connection,
     path: &str,
     rate: Option<f64>,
