@@ -8,7 +8,7 @@ use types::game::PrimaryState;
 use types::motion::{BodyMotion, HeadMotion, MotionCommand, Step};
 use types::world_state::WorldState;
 
-use super::parameters::BehaviorParameters;
+use super::parameters::{BehaviorParameters, WalkParameters};
 use super::walk_to::step_to;
 use super::way::{Circle, first_way_point};
 
@@ -111,10 +111,34 @@ impl View<'_> {
         on_the_way: Activity,
         there: Activity,
     ) -> Decision {
+        let near = self.parameters.walk.near;
+        self.go_to_from(near, pose, on_the_way, there)
+    }
+
+    /// Likewise, but sideways and backwards rather than turn away from a ball that it sees.
+    pub(super) fn go_to_facing_ball(
+        &self,
+        pose: &Isometry2<f32>,
+        on_the_way: Activity,
+        there: Activity,
+    ) -> Decision {
+        let walk = &self.parameters.walk;
+        let near = self.world.ball.map_or(walk.near, |_| walk.near_with_ball);
+        self.go_to_from(near, pose, on_the_way, there)
+    }
+
+    /// From `near` on in all directions.
+    fn go_to_from(
+        &self,
+        near: f32,
+        pose: &Isometry2<f32>,
+        on_the_way: Activity,
+        there: Activity,
+    ) -> Decision {
         match self.world.ground_to_field {
             Some(ground_to_field) => {
                 let target = ground_to_field.inverse() * pose;
-                self.walk_to(&target, None, on_the_way, there)
+                self.walk(near, &target, None, (on_the_way, there))
             }
             None => Decision::of_body(there, BodyMotion::Stand, self.head()),
         }
@@ -128,14 +152,29 @@ impl View<'_> {
         on_the_way: Activity,
         there: Activity,
     ) -> Decision {
-        let walk = &self.parameters.walk;
+        let near = self.parameters.walk.near;
+        self.walk(near, target, more, (on_the_way, there))
+    }
+
+    fn walk(
+        &self,
+        near: f32,
+        target: &Isometry2<f32>,
+        more: Option<Circle>,
+        (on_the_way, there): (Activity, Activity),
+    ) -> Decision {
+        let walk = WalkParameters {
+            near,
+            ..self.parameters.walk
+        };
         let obstacles = self.world.obstacles.iter().map(|obstacle| Circle {
             middle: obstacle.position,
             radius: obstacle.radius + walk.clearance,
         });
         let place = Point2::from(target.translation.vector);
-        let way_point = first_way_point(place, obstacles.chain(more));
-        let step = step_to(target, way_point, self.memory.is_walking, walk);
+        let turning = walk.forward / walk.turn.max(f32::EPSILON);
+        let way_point = first_way_point(place, obstacles.chain(more), turning);
+        let step = step_to(target, way_point, self.memory.is_walking, &walk);
         let mut decision = match step {
             Some(step) => Decision::walk(on_the_way, step, self.head()),
             None => Decision::of_body(there, BodyMotion::Stand, self.head()),

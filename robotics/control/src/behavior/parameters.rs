@@ -38,6 +38,9 @@ pub struct WalkParameters {
     /// From here on the robot takes its last heading, and goes in all directions.
     #[reflect(unit = "m", range = 0.0..)]
     pub near: f32,
+    /// Likewise, where it has to keep its eyes on the ball.
+    #[reflect(unit = "m", range = 0.0..)]
+    pub near_with_ball: f32,
     /// A place that is nearer has been reached.
     #[reflect(unit = "m", range = 0.0..)]
     pub arrived: f32,

@@ -49,7 +49,7 @@ fn restricted(view: &View<'_>, ball: &Ball) -> Option<Decision> {
             Activity::LeavePenaltyArea => places.outside_own_penalty_area(&of_role),
             _ => places.at_a_distance(&of_role, on_field),
         };
-        Some(view.go_to(&pose, activity, activity))
+        Some(view.go_to_facing_ball(&pose, activity, activity))
     };
     match (world.kicking_team, world.role) {
         (KickingTeam::Own, Role::Striker) => None,
@@ -126,11 +126,10 @@ fn hold(view: &View<'_>, role: Role) -> Decision {
     let ball = view.ball_on_field().unwrap_or_else(Point2::origin);
     let places = &view.parameters.places;
     let pose = places.of_role(role, ball, &view.parameters.keeper);
-    let (on_the_way, there) = match role {
-        Role::Keeper => (Activity::GuardGoal, Activity::GuardGoal),
-        _ => (Activity::HoldPosition, Activity::HoldPosition),
-    };
-    view.go_to(&pose, on_the_way, there)
+    match role {
+        Role::Keeper => view.go_to_facing_ball(&pose, Activity::GuardGoal, Activity::GuardGoal),
+        _ => view.go_to(&pose, Activity::HoldPosition, Activity::HoldPosition),
+    }
 }
 
 /// The goalkeeper: into the way of a ball that comes, at one that lies near the goal, else between the two.
@@ -248,6 +247,24 @@ mod tests {
             scene.kicked_off(since);
             let is_away = scene.view(play).activity == Activity::KeepDistance;
             assert_eq!(is_away, !is_free, "{since} s, {ball_ahead} m");
+        }
+    }
+
+    #[test]
+    fn who_gives_the_others_room_or_guards_the_goal_goes_back_with_its_face_to_the_ball() {
+        // The ball lies between the robot and the other goal; its place is behind it.
+        for (role, x, ball) in [(Role::Striker, 0.0, 0.4), (Role::Keeper, -3.1, 2.0)] {
+            let mut scene = Scene::at(x, 0.0, 0.0).with_ball(ball, 0.0);
+            scene.world.role = role;
+            scene.world.set_play = SetPlay::KickIn;
+            scene.world.kicking_team = KickingTeam::Opponent;
+            let step = scene.view(play).command.step;
+            assert!(step.forward < 0.0 && step.turn.abs() < 0.1, "{step:?}");
+            // Who does not see it turns round.
+            scene.world.ball = None;
+            scene.world.team_ball = Some(Point2::new(ball, 0.0));
+            let step = scene.view(play).command.step;
+            assert!(step.forward >= 0.0, "{step:?}");
         }
     }
 

@@ -22,16 +22,34 @@ pub(super) struct Circle {
 /// Where a robot at the origin goes first on the shortest way that was found to a point of its ground frame, m.
 ///
 /// A circle in which the robot or the point lies does not count, but the robot leaves one before it goes through its middle.
+/// To turn by 1 rad counts as `turning` m of way: of two sides that are nearly as long the robot keeps the one that it has
+/// turned to, also where the circle moves.
 pub(super) fn first_way_point(
     target: Point2<f32>,
     circles: impl Iterator<Item = Circle> + Clone,
+    turning: f32,
 ) -> Point2<f32> {
-    detour(Point2::origin(), target, &circles, DETOURS).0
+    let start = Start {
+        place: Point2::origin(),
+        turning,
+    };
+    detour(start, target, &circles, DETOURS).0
+}
+
+/// Where a way begins.
+#[derive(Clone, Copy)]
+struct Start {
+    place: Point2<f32>,
+    /// As how long counts turning away from x, m per rad.
+    turning: f32,
 }
 
 /// The first point of the way and how long that is, m.
 fn detour(
-    start: Point2<f32>,
+    Start {
+        place: start,
+        turning,
+    }: Start,
     target: Point2<f32>,
     circles: &(impl Iterator<Item = Circle> + Clone),
     detours: usize,
@@ -46,12 +64,18 @@ fn detour(
     };
     let around = [1.0, -1.0].map(|side| {
         let way_point = beside(start, &circle, side);
-        let (_, rest) = detour(way_point, target, circles, detours - 1);
+        let next = Start {
+            place: way_point,
+            turning: 0.0,
+        };
+        let (_, rest) = detour(next, target, circles, detours - 1);
         let is_taken = circles
             .clone()
             .any(|circle| (way_point - circle.middle).norm() < circle.radius);
         let toll = if is_taken { TOLL } else { 0.0 };
-        (way_point, (way_point - start).norm() + rest + toll)
+        let way = way_point - start;
+        let turned = math::atan2(way.y, way.x).abs() * turning;
+        (way_point, way.norm() + rest + toll + turned)
     });
     let [left, right] = around;
     if left.1 <= right.1 { left } else { right }
@@ -93,7 +117,7 @@ mod tests {
             middle: Point2::new(x, y),
             radius,
         });
-        first_way_point(Point2::from(target), circles)
+        first_way_point(Point2::from(target), circles, 0.16)
     }
 
     #[test]
@@ -121,6 +145,21 @@ mod tests {
         // Where a second one closes the shorter side, the other one is shorter.
         let around = way_point([3.0, 0.0], &[[1.5, 0.1, 0.5], [1.5, -0.8, 0.5]]);
         assert!(around.y > 0.0, "{around}");
+    }
+
+    #[test]
+    fn of_two_sides_that_are_nearly_as_long_it_keeps_the_one_that_it_faces() {
+        // The obstacle moves a little to and fro across the way; the robot has turned past it on one side.
+        for facing in [0.5_f32, -0.5] {
+            for moved in [-0.05_f32, 0.0, 0.05] {
+                let turn = Isometry2::rotation(-facing);
+                let target = turn * Point2::new(3.0, 0.0);
+                let obstacle = turn * Point2::new(1.0, moved);
+                let around = way_point([target.x, target.y], &[[obstacle.x, obstacle.y, 0.4]]);
+                let around = turn.inverse() * around;
+                assert!(around.y * facing > 0.0, "{facing} {moved}: {around}");
+            }
+        }
     }
 
     #[test]
