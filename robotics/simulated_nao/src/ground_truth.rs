@@ -59,6 +59,10 @@ pub struct GameTruth {
     pub kicking: Team,
     /// Goals of the own (blue) and the other (red) team.
     pub score: [u8; 2],
+    /// How often the referee has taken the robot out.
+    pub removed: usize,
+    /// How often for where it stood or walked.
+    pub misplaced: usize,
 }
 
 /// The body when a state was sent.
@@ -139,7 +143,7 @@ impl GroundTruth {
             robots: world.robots(robot).to_vec(),
             obstacles: world.obstacles(robot).collect(),
             team: world.team(robot),
-            game: world.game_truth(),
+            game: world.game_truth(robot),
         }
     }
 }

@@ -73,6 +73,8 @@ pub struct Referee {
     records: Vec<Record>,
     /// How many robots of each team were removed.
     removals: [u32; 2],
+    /// Who was removed and why, in that order.
+    removed: Vec<(usize, Penalty)>,
     movements: Vec<Movement>,
 }
 
@@ -103,6 +105,7 @@ impl Referee {
             secret: None,
             records: Vec::new(),
             removals: [0; 2],
+            removed: Vec::new(),
             movements: Vec::new(),
         }
     }
@@ -138,6 +141,12 @@ impl Referee {
         self.records.resize(players.len(), Record::default());
         self.remove(player, penalty, players, &mut rulings);
         rulings
+    }
+
+    /// Why a robot was taken out until now, by its place among the players.
+    pub fn removals(&self, player: usize) -> impl Iterator<Item = Penalty> {
+        let of = move |(place, penalty): &(usize, Penalty)| (*place == player).then_some(*penalty);
+        self.removed.iter().filter_map(of)
     }
 
     /// What time alone changes.

@@ -220,6 +220,9 @@ fn set_has_rules_of_its_own() {
     let penalty = |game: &Game, team: usize| game.said().teams[team].players[0].penalty;
     assert_eq!(penalty(&game, 1), Penalty::IllegalPositionInSet);
     assert_eq!(penalty(&game, 0), Penalty::None);
+    let removals = |player| game.referee.removals(player).collect::<Vec<_>>();
+    assert_eq!(removals(1), [Penalty::IllegalPositionInSet]);
+    assert_eq!(removals(0), []);
     game.move_player(0, [-1.3, 0.0, 0.0]);
     game.run_until(3.4);
     assert_eq!(penalty(&game, 0), Penalty::IllegalMotionInSet);

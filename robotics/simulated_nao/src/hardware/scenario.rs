@@ -146,6 +146,7 @@ impl Deed {
 /// getting anywhere; `harmful_commands`, how many wanted a joint beyond its limits; `ball.x`, `ball.y`, from the robot
 /// `ball.ahead`, `ball.aside`, `ball.distance`, and `ball_contacts` of all robots;
 /// `robots` are the others: `x`, `y`, `heading`, `team` (`own` or `opponent`), `number`;
+/// `removed`, how often the referee has taken the robot out, and `misplaced`, how often for where it stood or walked;
 /// `score.blue`, `score.red`, and where a game is played `game.state`, `game.set_play`, `game.kicking` (`blue` or `red`).
 pub(super) fn truth(truth: &GroundTruth) -> Value {
     let ground: Isometry3<f64> = truth.ground_to_field.cast();
@@ -200,6 +201,8 @@ pub(super) fn truth(truth: &GroundTruth) -> Value {
         "height": torso.translation.z,
         "ball": ball,
         "robots": robots,
+        "removed": truth.game.map_or(0, |game| game.removed),
+        "misplaced": truth.game.map_or(0, |game| game.misplaced),
         "score": { "blue": score[0], "red": score[1] },
         "game": game,
     })

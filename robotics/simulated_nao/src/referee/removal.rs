@@ -118,6 +118,7 @@ impl Referee {
             false => self.settings.removal + MORE * f64::from(*earlier),
         };
         *earlier += u32::from(!in_set);
+        self.removed.push((place, penalty));
         self.records[place] = Record {
             penalty,
             left,

@@ -79,12 +79,15 @@ impl World {
     }
 
     /// How the game really stands, where one is played.
-    pub(crate) fn game_truth(&self) -> Option<GameTruth> {
+    /// As a robot's place in the world has it.
+    pub(crate) fn game_truth(&self, robot: usize) -> Option<GameTruth> {
         self.game.as_ref().map(|Game { referee, .. }| GameTruth {
             state: referee.state,
             set_play: referee.set_play,
             kicking: referee.kicking,
             score: referee.score,
+            removed: referee.removals(robot).count(),
+            misplaced: referee.removals(robot).filter(is_of_place).count(),
         })
     }
 
@@ -117,4 +120,15 @@ impl World {
             }
         }
     }
+}
+
+/// Whether a robot was removed for where it stood or walked.
+fn is_of_place(penalty: &Penalty) -> bool {
+    matches!(
+        penalty,
+        Penalty::IllegalPosition
+            | Penalty::IllegalPositionInSet
+            | Penalty::IllegalMotionInSet
+            | Penalty::LeavingTheField
+    )
 }
