@@ -1,9 +1,10 @@
 //! Finds places from which the field looks as it was seen, wherever the robot believed to be.
 //!
 //! Two lines that cross at a right angle fix the pose but for which lines they are: every pair of the
-//! field's lines is tried, and what else was seen lately decides. The field looks the same from both
-//! goals, so each place has a twin: the one near the last belief counts, else the one in the own half,
-//! where the rules have robots put back.
+//! field's lines is tried, and what else was seen lately decides. So do the middle line and a piece of the
+//! centre circle: the circle's middle lies on both the line and the normal of the piece. The field looks
+//! the same from both goals, so each place has a twin: the one near the last belief counts, else the one in
+//! the own half, where the rules have robots put back.
 
 use nalgebra::{Isometry2, Rotation2, Vector2};
 use types::field_features::LineSegment;
@@ -11,7 +12,7 @@ use types::field_markings::{Course, FieldLine};
 
 use super::belief::{Hypothesis, quality};
 use super::estimate::Estimate;
-use super::sight::View;
+use super::sight::{self, View};
 use crate::angle::wrap;
 
 /// How many places are found at most.
@@ -21,6 +22,16 @@ pub(super) const MOST_PLACES: usize = 4;
 const SQUARE: f32 = 0.17;
 /// Shorter lines may be pieces of the circle, m.
 const LEAST_LENGTH: f32 = 0.7;
+/// So many of the longest lines are tried as the middle line.
+const MOST_MIDDLE_LINES: usize = 4;
+/// As pieces of the circle shorter lines have too uncertain a direction, m.
+const LEAST_CHORD: f32 = 0.3;
+/// A piece whose normal crosses the line at a smaller angle says too little about where; the sine of that.
+const LEAST_SINE: f32 = 0.3;
+/// A piece is none of the circle if the middle lies so much nearer or farther than it has to, m.
+const CHORD_TOLERANCE: f32 = 0.15;
+/// So many places by the circle are judged.
+const MOST_BY_CIRCLE: usize = 16;
 
 /// Places that explain enough of the lines, which are in the ground frame and the longest first; the best
 /// one first.
@@ -30,19 +41,54 @@ pub(super) fn places(
     view: &View<'_>,
 ) -> [Option<Hypothesis>; MOST_PLACES] {
     let mut found = [None; MOST_PLACES];
-    let Some((one, other)) = crossing(lines) else {
-        return found;
+    let mut judge = |pose: Isometry2<f32>| {
+        if let Some(hypothesis) = judged(&resolved(pose, anchor, view), lines, view) {
+            keep(&mut found, hypothesis, view);
+        }
     };
-    for (across, along) in [(one, other), (other, one)] {
-        let heading = heading(across, along);
-        for (first, second) in pairs(view) {
-            let pose = place(heading, (across, first.at), (along, second.at));
-            if let Some(hypothesis) = judged(&resolved(pose, anchor, view), lines, view) {
-                keep(&mut found, hypothesis, view);
+    if let Some((one, other)) = crossing(lines) {
+        for (across, along) in [(one, other), (other, one)] {
+            let heading = heading(across, along);
+            for (first, second) in pairs(view) {
+                judge(place(heading, (across, first.at), (along, second.at)));
             }
         }
     }
+    by_circle(lines, view).take(MOST_BY_CIRCLE).for_each(judge);
     found
+}
+
+/// Places from which one of the longest lines is the middle line and another one a piece of the circle.
+fn by_circle(lines: &[LineSegment], view: &View<'_>) -> impl Iterator<Item = Isometry2<f32>> {
+    let radius = view.markings.circle_radius;
+    let longest = lines.iter().filter(|line| line.length() >= LEAST_LENGTH);
+    longest
+        .take(MOST_MIDDLE_LINES)
+        .flat_map(move |middle_line| {
+            let pieces = lines.iter().filter(move |line| {
+                (LEAST_CHORD..=sight::LONGEST_CHORD * radius).contains(&line.length())
+            });
+            pieces.filter_map(move |piece| {
+                let middle = circle_middle(middle_line, piece, radius)?;
+                // The middle line goes across the field, and the circle's middle is that of the field.
+                let heading = Rotation2::rotation_between(&direction(middle_line), &Vector2::y());
+                Some(Isometry2::new(-(heading * middle), heading.angle()))
+            })
+        })
+}
+
+/// Where the line meets the normal of the piece, if that is as far from it as the middle of the circle is.
+fn circle_middle(line: &LineSegment, piece: &LineSegment, radius: f32) -> Option<Vector2<f32>> {
+    let (along, chord) = (direction(line), direction(piece));
+    let normal = Vector2::new(-chord.y, chord.x);
+    let sine = normal.perp(&along);
+    if sine.abs() < LEAST_SINE {
+        return None;
+    }
+    let from = nalgebra::center(&piece.start, &piece.end).coords;
+    let distance = (line.start.coords - from).perp(&along) / sine;
+    let expected = sight::chord_distance(piece.length(), radius);
+    ((distance.abs() - expected).abs() <= CHORD_TOLERANCE).then(|| from + normal * distance)
 }
 
 /// Every line across the field with every one along it that has another place; ends are judged later.

@@ -15,7 +15,7 @@ use super::estimate::{Estimate, Innovation};
 use crate::sight_noise::SightNoise;
 
 /// A chord longer than this share of the circle's radius is none.
-const LONGEST_CHORD: f32 = 1.5;
+pub(super) const LONGEST_CHORD: f32 = 1.5;
 
 /// The field and what is believed of those who look at it.
 #[derive(Clone, Copy, Debug)]
@@ -135,9 +135,7 @@ impl View<'_> {
         } else {
             outward
         };
-        // A line fitted to an arc of this half angle lies so much nearer to the middle than the arc.
-        let half_angle = math::asin((length / (2.0 * radius)).min(1.0)).max(1e-3);
-        let distance = radius * math::sin(half_angle) / half_angle;
+        let distance = chord_distance(length, radius);
         let noise = self.noise(pose, middle);
         let position = pose.translation.vector;
         let turned = |direction: Vector2<f32>| Vector2::new(-direction.y, direction.x);
@@ -164,4 +162,11 @@ impl View<'_> {
         };
         noise.covariance(pose.rotation * seen.coords)
     }
+}
+
+/// How far from the middle of a circle a line lies that was fitted to an arc with a chord of this length, all in m.
+pub(super) fn chord_distance(length: f32, radius: f32) -> f32 {
+    // The mean of the arc's distances along the normal.
+    let half_angle = math::asin((length / (2.0 * radius)).min(1.0)).max(1e-3);
+    radius * math::sin(half_angle) / half_angle
 }
