@@ -66,7 +66,7 @@ pub struct Parameter {
 pub struct Bridge {
     /// As clients of the running robot write it.
     pub path: String,
-    /// `main_output`, `additional_output`, `parameter` or `procedure`.
+    /// `main_output`, `additional_output`, `parameter`, `procedure` or `remote`.
     pub kind: BridgeKind,
     /// None where it is no value, or one of which only the running robot knows the type.
     #[serde(rename = "type")]
@@ -84,6 +84,9 @@ pub struct Bridge {
 pub struct Cycler {
     pub name: String,
     pub kind: Kind,
+    /// Another machine runs it; left out where none does.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub remote: bool,
     pub instances: Vec<String>,
     pub nodes: Vec<Node>,
 }
@@ -196,6 +199,14 @@ impl Kind {
 }
 
 impl Cycler {
+    /// Its kind, and whether another machine runs it.
+    pub fn kind_in_words(&self) -> &'static str {
+        match (self.kind, self.remote) {
+            (Kind::Perception, true) => "perception, on another machine",
+            (kind, _) => kind.word(),
+        }
+    }
+
     /// The nodes as they run in a cycle.
     pub fn in_run_order(&self) -> Vec<&Node> {
         let mut nodes: Vec<&Node> = self.nodes.iter().collect();

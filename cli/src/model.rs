@@ -23,6 +23,7 @@ use camino::Utf8PathBuf;
 use serde::Serialize;
 
 use crate::graph::{self, json};
+use crate::resolve;
 use crate::resolve::robot::{Partial, Robot};
 use crate::schedule::Schedule;
 
@@ -72,6 +73,9 @@ pub struct RuntimeModel {
 
 /// Decides what the generated crate of a robot says.
 pub fn describe(robot: &Robot, schedule: &Schedule) -> RuntimeModel {
+    // Clients see the whole robot, also what runs elsewhere.
+    let graph = json::render_for_clients(&graph::describe(robot, schedule));
+    let robot = &*resolve::here(robot);
     let parameters = parameters::describe(robot);
     let cyclers: Vec<CyclerModel> = robot
         .running()
@@ -86,7 +90,7 @@ pub fn describe(robot: &Robot, schedule: &Schedule) -> RuntimeModel {
         runtime: runtime::describe(robot, &cyclers),
         sink: recording::sink(robot),
         binaries: binary::describe(robot),
-        graph: json::render_for_clients(&graph::describe(robot, schedule)),
+        graph,
         outside: outside::describe(robot),
         parameters,
         cyclers,

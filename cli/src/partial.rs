@@ -1,17 +1,12 @@
 //! A robot of some of its cyclers: between stages ④ and ⑤, from [`Robot`] to [`Robot`].
 //!
-//! Cyclers that are left out keep their place, so that every position in the robot stays right; what others read of them
-//! stays as outputs that come from outside, all else of them goes.
-//!
 //! Invariant: with all cyclers named nothing of what runs differs from the whole robot.
-
-use std::collections::BTreeSet;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use schema::snake_case;
 
 use crate::resolve;
-use crate::resolve::robot::{Branch, Content, Cycler, Node, Partial, Reader, Robot, Tree};
+use crate::resolve::robot::{Cycler, Partial, Robot};
 use crate::workspace::Workspace;
 
 /// The robot has no cycler of this name.
@@ -39,22 +34,10 @@ pub fn restrict(
     if let Some(name) = names.iter().find(unknown) {
         return Err(unknown_cycler(&robot, name));
     }
-    for cycler in &mut robot.cyclers {
-        cycler.left_out = !names.contains(&cycler.name);
-        if cycler.left_out {
-            leave_out(cycler);
-        }
-        let outputs = cycler.outputs.iter_mut();
-        outputs.for_each(|output| output.shared = false);
-    }
-    resolve::mark_readers(&mut robot.cyclers);
-    for cycler in robot.cyclers.iter_mut().filter(|cycler| cycler.left_out) {
-        cycler.outputs.retain(|output| output.shared);
-    }
-    let running: BTreeSet<usize> = robot.running().map(|(position, _)| position).collect();
-    restrict_tree(&mut robot.parameter_tree, &|reader| {
-        running.contains(&reader.cycler)
-    });
+    // Which of its cyclers run where it runs is what was asked for, whatever other machine the manifest has them run on.
+    let cyclers = robot.cyclers.iter_mut();
+    cyclers.for_each(|cycler| cycler.remote = false);
+    resolve::leave_out(&mut robot, |cycler| !names.contains(&cycler.name));
     let only: Vec<String> = robot
         .running()
         .map(|(_, cycler)| cycler.name.clone())
@@ -86,39 +69,4 @@ fn unknown_cycler(robot: &Robot, name: &str) -> UnknownCycler {
         name: name.to_owned(),
         of_instance: of_instance.map(|cycler| cycler.name.clone()),
     }
-}
-
-/// Its nodes do nothing any more; they still say who writes what in the whole robot.
-fn leave_out(cycler: &mut Cycler) {
-    for node in &mut cycler.nodes {
-        *node = Node {
-            creation: Vec::new(),
-            cycle: Vec::new(),
-            outputs: Vec::new(),
-            restores: false,
-            new_bounds: Vec::new(),
-            cycle_bounds: Vec::new(),
-            restore_bounds: Vec::new(),
-            ..node.clone()
-        };
-    }
-    cycler.states.branches.clear();
-    cycler.additional_outputs.branches.clear();
-}
-
-/// Keeps the values that somebody reads who is there, and notes the levels that have lost some.
-fn restrict_tree(tree: &mut Tree<Reader>, is_there: &dyn Fn(&Reader) -> bool) {
-    let before = tree.branches.len();
-    tree.branches
-        .retain_mut(|Branch { content, .. }| match content {
-            Content::Leaf { users, .. } => {
-                users.retain(is_there);
-                !users.is_empty()
-            }
-            Content::Inner(tree) | Content::Instance { tree, .. } => {
-                restrict_tree(tree, is_there);
-                !tree.branches.is_empty()
-            }
-        });
-    tree.open = tree.branches.len() < before;
 }

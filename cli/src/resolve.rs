@@ -9,6 +9,7 @@ mod crates;
 mod hardware;
 mod hints;
 mod inputs;
+mod left_out;
 mod nodes;
 pub mod parameter_files;
 mod parameters;
@@ -33,7 +34,8 @@ use robot::{Cycler, CyclerKind, Instance, Node, OnFailure, Output, Robot, Schedu
 use scene::Scene;
 
 pub(crate) use crates::dependencies;
-pub(crate) use readers::mark_readers;
+pub(crate) use left_out::{here, leave_out};
+use readers::mark_readers;
 
 /// `pending_timeout` where the manifest says nothing.
 const PENDING_TIMEOUT: Duration = Duration::from_secs(1);
@@ -85,7 +87,7 @@ pub fn resolve(
         inherited: workspace.members().inherited.clone(),
     };
     hardware::check_served(manifest, sources, diagnostics);
-    robot.crates = dependencies(workspace, &robot);
+    robot.crates = dependencies(workspace, &here(&robot));
     sources.library.report_problems(diagnostics);
     diagnostics.stop_at_errors()?;
     warnings::warn(&robot, manifest, sources, diagnostics);
@@ -110,6 +112,7 @@ fn resolve_cycler(
     let resolved = Cycler {
         name: cycler.declared.name().to_owned(),
         left_out: false,
+        remote: declared.remote,
         kind: match declared.kind {
             schema::CyclerKind::Perception => CyclerKind::Perception,
             schema::CyclerKind::RealTime => CyclerKind::RealTime,

@@ -6,6 +6,7 @@ use crate::clock::Clock;
 use crate::cycler::{Counters, InstanceDescription};
 use crate::parameters::Live;
 use crate::rearm::Rearm;
+use crate::remote::Feed;
 use crate::robot::{Access, Robot};
 use crate::stop::Stop;
 use crate::tap::{Reports, Tap};
@@ -27,6 +28,8 @@ pub struct Link {
     pub parameters: Live,
     /// In manifest order.
     pub instances: Vec<InstanceLink>,
+    /// Instances that other machines run, in manifest order.
+    pub remotes: Vec<Box<dyn Feed>>,
 }
 
 /// One instance, for clients.
@@ -46,7 +49,8 @@ pub struct InstanceLink {
 }
 
 impl<P> Robot<P> {
-    /// What a server needs of this robot, before a driver turns it. [`Robot::access`] is empty afterwards: there is one server.
+    /// What a server needs of this robot, before a driver turns it. [`Robot::access`] and [`Robot::remotes`] are
+    /// empty afterwards: there is one server.
     pub fn link(&mut self, stop: &Stop, rearm: Rearm) -> Link {
         let access = std::mem::take(&mut self.access);
         let instances = self.instances.iter_mut().zip(access);
@@ -74,6 +78,7 @@ impl<P> Robot<P> {
             procedures: Vec::new(),
             parameters: self.parameters.live(),
             instances: instances.collect(),
+            remotes: std::mem::take(&mut self.remotes),
         }
     }
 }

@@ -7,6 +7,7 @@ use crate::injection::Inject;
 use crate::parameters::LiveParameters;
 use crate::procedure::CallAny;
 use crate::reflect;
+use crate::remote::Feed;
 use crate::stop::Stop;
 use crate::subscriptions::Subscriptions;
 
@@ -31,8 +32,11 @@ pub struct Robot<P> {
     pub instances: Vec<Box<dyn Instance>>,
     /// What clients may do with each instance, in the same order.
     pub access: Vec<Access>,
-    /// Instances that a partial robot does without: the hardware may have events for them, and nothing comes of those.
+    /// Instances that do not run here, in a partial robot or because another machine runs them: the hardware may have
+    /// events for them, and nothing comes of those.
     pub left_out: &'static [&'static str],
+    /// What stands in for instances that another machine runs, in manifest order: none was ever written until it is fed.
+    pub remotes: Vec<Box<dyn Feed>>,
     /// The parameters: what is changed here, every instance sees from its next `begin` on.
     pub parameters: LiveParameters<P>,
 }

@@ -40,6 +40,16 @@ impl<T> Stub<T> {
         self.instance
     }
 
+    /// Timestamp of the newest cycle, complete or not.
+    pub(crate) fn newest(&self) -> Option<Timestamp> {
+        self.newest
+    }
+
+    /// Timestamp of the cycle that is announced.
+    pub(crate) fn announced(&self) -> Option<Timestamp> {
+        self.newest.filter(|_| self.is_announced)
+    }
+
     /// A whole cycle whose data was taken at `timestamp`: others see it from their next `begin` on.
     ///
     /// # Errors
@@ -85,8 +95,7 @@ impl<T> Stub<T> {
     /// # Errors
     /// If none is announced.
     pub fn complete(&mut self, outputs: T) -> Result<()> {
-        let announced = self.newest.filter(|_| self.is_announced);
-        let timestamp = announced.ok_or_else(|| {
+        let timestamp = self.announced().ok_or_else(|| {
             let instance = self.instance;
             Error::new(format!("`{instance}` has announced no cycle to complete"))
         })?;

@@ -52,6 +52,7 @@ fn an_interrupted_run_reports_and_ends_with_130() {
             instances,
             access,
             left_out: &[],
+            remotes: Vec::new(),
             parameters: LiveParameters::new(parameters, start.parameters, start.clock),
         })
     };

@@ -103,6 +103,7 @@ fn run(directory: &TempDir, arguments: &[&str]) -> Ran {
             instances: vec![],
             access: vec![],
             left_out: &[],
+            remotes: Vec::new(),
             parameters: LiveParameters::new(parameters, start.parameters, start.clock),
         })
     };

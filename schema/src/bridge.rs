@@ -5,15 +5,15 @@ use serde::{Deserialize, Serialize};
 
 use crate::spelling::BridgeKey;
 
-/// Something of the running robot that a bridge gives a key of Zenoh: an output, a parameter or a procedure.
+/// Something of the running robot that a bridge gives a key of Zenoh: an output, a parameter, a procedure, or an instance that another machine runs.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Bridge {
-    /// As clients write it: `Control.main_outputs.pose`, `parameters.walking.speed`, `Control.procedures.walk`.
+    /// As clients write it: `Control.main_outputs.pose`, `parameters.walking.speed`, `Control.procedures.walk`; of a remote cycler the instance: `VisionTop`.
     pub path: String,
     /// Key of Zenoh without wildcards: `robot/pose`.
     pub key: BridgeKey,
-    /// Where values go. Left out: "out". Procedures take none: whoever queries the key calls them.
+    /// Where values go. Left out: "out", of a remote instance "in". Procedures take none: whoever queries the key calls them.
     #[serde(default)]
     pub direction: Option<Direction>,
     /// How values are written. Left out: "json".
@@ -31,7 +31,7 @@ pub enum Direction {
     /// From the robot to the key.
     #[default]
     Out,
-    /// From the key to the robot: parameters alone.
+    /// From the key to the robot: parameters and remote instances alone.
     In,
     /// Both: parameters alone.
     Both,

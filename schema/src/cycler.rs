@@ -53,6 +53,9 @@ pub struct Cycler {
     /// Which cycles are recorded. Left out: all of them.
     #[serde(default)]
     pub record: Option<Record>,
+    /// Perception: another machine runs it and feeds this robot with its cycles. Left out: it runs here.
+    #[serde(default)]
+    pub remote: bool,
 }
 
 /// How the cycles of a cycler are handed on.

@@ -29,6 +29,7 @@ const GENERATED: &[&str] = &[
     "docs/examples/timing/generated",
     "generated",
     "tests/robots/k1/generated",
+    "tests/robots/outpost/generated",
     "tests/robots/zoo/generated",
     "tests/robots/zoo/generated-control",
     "tests/robots/zoo/generated-vision-reflexes-lights",

@@ -113,6 +113,13 @@ fn the_second_body_is_current() {
 }
 
 #[test]
+fn the_outpost_is_current() {
+    let folder = root().join("tests/robots/outpost");
+    assert_success(&hulkgen(&folder, &["generate", "--check"]));
+    assert_success(&hulkgen(&folder, &["check", "--deny-warnings"]));
+}
+
+#[test]
 fn the_examples_are_current() {
     for example in ["rover", "sprinkler", "timing"] {
         let folder = root().join("docs/examples").join(example);

@@ -65,6 +65,7 @@ fn describe_cycler(robot: &Robot, cycler: &robot::Cycler, run_order: &[usize]) -
             CyclerKind::Perception => Kind::Perception,
             CyclerKind::RealTime => Kind::RealTime,
         },
+        remote: cycler.remote,
         instances: cycler
             .instances
             .iter()

@@ -34,7 +34,7 @@ fn write_cycler(text: &mut String, cycler: &Cycler) {
     let label = format!(
         "{} ({})\n{}",
         cycler.name,
-        cycler.kind.word(),
+        cycler.kind_in_words(),
         cycler.instances.join(", ")
     );
     line(

@@ -281,6 +281,7 @@ fn cycler(name: &str, kind: CyclerKind, instances: &[&str], nodes: Vec<Node>) ->
     Cycler {
         name: name.to_owned(),
         left_out: false,
+        remote: false,
         kind,
         instances: instances.iter().map(|name| instance(name)).collect(),
         nodes,

@@ -38,6 +38,7 @@ fn describe_cycler(cycler: &manifest::Cycler) -> Cycler {
             schema::CyclerKind::Perception => Kind::Perception,
             schema::CyclerKind::RealTime => Kind::RealTime,
         },
+        remote: cycler.declared.remote,
         instances: (cycler.instances.iter())
             .map(|instance| instance.name.to_string())
             .collect(),

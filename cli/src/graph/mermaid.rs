@@ -30,7 +30,7 @@ pub fn render(graph: &Graph) -> String {
 }
 
 fn write_cycler(text: &mut String, cycler: &Cycler) {
-    let (name, kind) = (&cycler.name, cycler.kind.word());
+    let (name, kind) = (&cycler.name, cycler.kind_in_words());
     let instances = match cycler.instances.as_slice() {
         [instance] if instance == name => String::new(),
         instances => format!(": {}", instances.join(", ")),

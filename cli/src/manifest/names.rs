@@ -117,6 +117,12 @@ fn check_counts(cycler: &Cycler, diagnostics: &mut Diagnostics) {
             "leave `instances` out for one instance named like the cycler",
         );
     }
+    if cycler.declared.remote && cycler.declared.kind == schema::CyclerKind::RealTime {
+        wrong(
+            format!("cycler `{name}` is real-time, and only perception cyclers can be remote"),
+            "remove `remote`: what runs at the pace of the body runs beside it",
+        );
+    }
     if cycler.nodes.is_empty() {
         wrong(
             format!("cycler `{name}` has no nodes"),

@@ -17,6 +17,12 @@ use crate::schedule::{CyclerSchedule, Schedule};
 use buffers::{instance_text, shared_outputs};
 use nodes::node_facts;
 
+/// Of a cycler that a partial robot does without.
+const LEFT_OUT: &str = "It is left out. Stubs stand in for the instances that are read; until one is fed nobody has written it.";
+
+/// Of a cycler that another machine runs.
+const FED: &str = "Another machine runs it and feeds the instances that are read; until one is fed nobody has written it.";
+
 /// Who reads and writes what, in words.
 #[derive(Clone, Debug, Serialize)]
 pub struct Dataflow {
@@ -26,7 +32,7 @@ pub struct Dataflow {
     /// The command that writes it, if that is not the header's.
     pub command: Option<String>,
     pub cyclers: Vec<CyclerText>,
-    /// Cyclers that are left out and read.
+    /// Cyclers that are read and do not run here.
     pub outside: Vec<OutsideText>,
     pub parameters: Vec<ParameterText>,
     pub targets: Vec<TargetText>,
@@ -45,11 +51,13 @@ pub struct CyclerText {
     pub outputs: Vec<OutputText>,
 }
 
-/// A section: one cycler that is left out, and what of it is read.
+/// A section: one cycler that does not run here, and what of it is read.
 #[derive(Clone, Debug, Serialize)]
 pub struct OutsideText {
     pub name: String,
     pub kind: &'static str,
+    /// Who writes in its place.
+    pub about: &'static str,
     pub instances: Vec<InstanceText>,
     pub outputs: Vec<OutputText>,
 }
@@ -123,6 +131,7 @@ pub fn describe(robot: &Robot, schedule: &Schedule) -> Dataflow {
             .map(|(position, cycler)| OutsideText {
                 name: cycler.name.clone(),
                 kind: sentences::kind(cycler.kind),
+                about: if cycler.remote { FED } else { LEFT_OUT },
                 instances: outside::instances(robot)
                     .into_iter()
                     .filter(|id| id.cycler == position)

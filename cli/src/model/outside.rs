@@ -1,4 +1,4 @@
-//! What a partial robot reads of cyclers that it does without.
+//! What a robot reads of cyclers that do not run where it runs.
 
 use std::collections::BTreeSet;
 
@@ -15,6 +15,8 @@ pub struct Outside {
     pub name: String,
     /// `vision`.
     pub module: String,
+    /// Why it does not run here, behind "which".
+    pub reason: &'static str,
     /// Main outputs that others read, sorted by name.
     pub outputs: Vec<OutputField>,
 }
@@ -24,6 +26,11 @@ pub fn describe(robot: &Robot) -> Vec<Outside> {
     let outside = cyclers(robot).map(|(_, cycler)| Outside {
         name: cycler.name.clone(),
         module: snake_case(&cycler.name),
+        reason: if cycler.remote {
+            "another machine runs"
+        } else {
+            "is left out"
+        },
         outputs: outputs(cycler),
     });
     outside.collect()

@@ -37,6 +37,8 @@ pub struct Runtime {
     pub instances: Vec<InstanceModel>,
     /// What stands in for instances that are left out and read, in manifest order.
     pub stubs: Vec<StubModel>,
+    /// What stands in for instances that another machine runs, in manifest order.
+    pub remotes: Vec<RemoteModel>,
     /// Names of all instances that are left out, in manifest order.
     pub left_out: Vec<String>,
     /// What all nodes ask of the hardware, sorted.
@@ -72,6 +74,17 @@ pub struct StubModel {
     pub module: String,
     /// Who reads it, as a sentence.
     pub about: String,
+}
+
+/// What stands in for an instance that another machine runs.
+#[derive(Clone, Debug, Serialize)]
+pub struct RemoteModel {
+    /// `VisionTop`.
+    pub name: String,
+    /// As in its buffer: `vision_top`.
+    pub variable: String,
+    /// For how long consumers wait for an announced cycle.
+    pub pending_timeout: Duration,
 }
 
 /// One instance between its buffers.
@@ -151,6 +164,7 @@ pub fn describe(robot: &Robot, cyclers: &[CyclerModel]) -> Runtime {
         robot: robot.name.clone(),
         instances,
         stubs: stubs(robot, cyclers, &buffers),
+        remotes: remotes(robot, &buffers),
         left_out: left_out(robot),
         buffers,
         hardware,
@@ -231,9 +245,10 @@ fn instance_model(robot: &Robot, buffer: &Buffer) -> InstanceModel {
 }
 
 fn stubs(robot: &Robot, cyclers: &[CyclerModel], buffers: &[Buffer]) -> Vec<StubModel> {
-    let outside = buffers
-        .iter()
-        .filter(|buffer| robot.cyclers[buffer.id.cycler].left_out);
+    let outside = buffers.iter().filter(|buffer| {
+        let cycler = &robot.cyclers[buffer.id.cycler];
+        cycler.left_out && !cycler.remote
+    });
     let stubs = outside.map(|Buffer { id, variable, .. }| {
         let cycler = &robot.cyclers[id.cycler];
         let names = |reads: &dyn Fn(&CyclerModel) -> bool| -> Vec<String> {
@@ -255,6 +270,21 @@ fn stubs(robot: &Robot, cyclers: &[CyclerModel], buffers: &[Buffer]) -> Vec<Stub
         }
     });
     stubs.collect()
+}
+
+fn remotes(robot: &Robot, buffers: &[Buffer]) -> Vec<RemoteModel> {
+    let remote = buffers.iter().filter(|buffer| {
+        let cycler = &robot.cyclers[buffer.id.cycler];
+        cycler.left_out && cycler.remote
+    });
+    let remotes = remote.map(|buffer| RemoteModel {
+        name: robot.cyclers[buffer.id.cycler].instances[buffer.id.instance]
+            .name
+            .clone(),
+        variable: buffer.variable.clone(),
+        pending_timeout: buffer.pending_timeout,
+    });
+    remotes.collect()
 }
 
 fn left_out(robot: &Robot) -> Vec<String> {

@@ -40,8 +40,8 @@ pub(super) fn render_database(cycler: &CyclerModel) -> String {
 /// The database of a cycler that is left out: what others read of it.
 pub(super) fn render_outside(cycler: &Outside) -> String {
     let title = format!(
-        "What others read of cycler `{}`, which is left out.",
-        cycler.name
+        "What others read of cycler `{}`, which {}.",
+        cycler.name, cycler.reason
     );
     let about = "Main outputs that come from outside; each names the node that writes it in the whole robot.";
     let outputs = cycler.outputs.iter();

@@ -12,7 +12,7 @@ use crate::model::runtime::{Buffer, InstanceModel, Runtime, end};
 use crate::model::{CyclerModel, RuntimeModel};
 pub(super) use instance::quote_body_fields;
 use instance::quote_instance;
-use stubs::{quote_new_stubs, quote_stubs};
+use stubs::{quote_new_stubs, quote_remotes, quote_stubs};
 
 /// One module for each cycler, and `create`.
 pub(super) fn render_runtime(model: &RuntimeModel) -> String {
@@ -63,6 +63,7 @@ fn quote_create(model: &RuntimeModel) -> TokenStream {
         "_hardware"
     });
     let left_out = &model.runtime.left_out;
+    let remotes = quote_remotes(&model.runtime);
     let paragraph = empty_line();
     let robot = quote! {
         ::framework::Robot {
@@ -71,6 +72,7 @@ fn quote_create(model: &RuntimeModel) -> TokenStream {
             instances: vec![#(Box::new(#instances)),*],
             access: vec![#(#access),*],
             left_out: &[#(#left_out),*],
+            remotes: #remotes,
             parameters: ::framework::LiveParameters::new(parameters, start.parameters, start.clock),
         }
     };

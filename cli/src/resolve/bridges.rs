@@ -74,6 +74,7 @@ fn resolved(bridge: &manifest::Bridge, found: Found) -> Bridge {
         key: declared.key.to_string(),
         direction: match found.kind {
             BridgeKind::Procedure => None,
+            BridgeKind::Remote => Some(Direction::In),
             _ => Some(declared.direction.unwrap_or_default()),
         },
         encoding: declared.encoding,
@@ -97,6 +98,12 @@ fn check(scene: &Scene<'_>, bridge: &manifest::Bridge, found: &Found) -> Result<
             return refuse(
                 format!("`{path}` is an output, which nodes alone write"),
                 "remove `direction`; what comes from outside is a parameter, a procedure or hardware",
+            );
+        }
+        Some(Direction::Out | Direction::Both) if found.kind == BridgeKind::Remote => {
+            return refuse(
+                format!("another machine runs `{path}`, and nothing of it goes out from here"),
+                "remove `direction`, or write `direction = \"in\"`",
             );
         }
         Some(_) if found.kind == BridgeKind::Procedure => {
@@ -167,7 +174,11 @@ fn find(scene: &Scene<'_>, path: &str) -> Result<Found, Refused> {
         });
     };
     let cycler = &scene.cyclers[id.cycler];
-    let group = names.next().unwrap_or_default();
+    let group = names.next();
+    if cycler.declared.declared.remote {
+        return remote(path, first, group);
+    }
+    let group = group.unwrap_or_default();
     let names: Vec<&str> = names.collect();
     match group {
         "main_outputs" => below(
@@ -185,6 +196,21 @@ fn find(scene: &Scene<'_>, path: &str) -> Result<Found, Refused> {
         _ => Err(Refused {
             message: format!("`{path}` names no output and no procedure of `{first}`"),
             help: suggestion(group, GROUPS, "behind the instance stands one of"),
+        }),
+    }
+}
+
+/// An instance that another machine runs: it is fed as a whole, and has nothing for clients.
+fn remote(path: &str, instance: &str, group: Option<&str>) -> Result<Found, Refused> {
+    match group {
+        None => Ok(Found {
+            kind: BridgeKind::Remote,
+            data: None,
+            text: None,
+        }),
+        Some(_) => Err(Refused {
+            message: format!("`{path}` is not here: another machine runs `{instance}`"),
+            help: format!("name the instance alone, `{instance}`: whoever has the key feeds it"),
         }),
     }
 }

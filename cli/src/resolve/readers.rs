@@ -3,7 +3,7 @@
 use super::robot::{CycleBinding, Cycler};
 
 /// Marks every output by who reads it.
-pub(crate) fn mark_readers(cyclers: &mut [Cycler]) {
+pub(super) fn mark_readers(cyclers: &mut [Cycler]) {
     for reader in 0..cyclers.len() {
         let bindings: Vec<CycleBinding> = cyclers[reader]
             .nodes

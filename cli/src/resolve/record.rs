@@ -48,6 +48,13 @@ struct Refused {
 fn condition(scene: &Scene<'_>, own: usize, written: &str) -> Result<Condition, Refused> {
     let (instance, path) = instance_of(scene, written)?;
     let cycler = instance.map_or(own, |instance| instance.cycler);
+    if cycler != own && scene.cyclers[cycler].declared.declared.remote {
+        return Err(Refused {
+            code: Code::UnknownInstance,
+            message: format!("`{written}` is not known here: another machine runs its cycler"),
+            help: "name an output of a cycler that runs here, perhaps one that reads it".to_owned(),
+        });
+    }
     let access = access(path);
     let name = &access.segments[0].name;
     let scene_cycler = &scene.cyclers[cycler];

@@ -86,7 +86,7 @@ pub struct Bridge {
     /// Its type, where it is a value and can be told.
     pub data: Option<String>,
     pub key: String,
-    /// Of values; procedures have none.
+    /// Of values and remote instances; procedures have none.
     pub direction: Option<schema::Direction>,
     pub encoding: schema::BridgeEncoding,
     /// Values in a second, at most.
@@ -100,6 +100,8 @@ pub enum BridgeKind {
     AdditionalOutput,
     Parameter,
     Procedure,
+    /// An instance that another machine runs.
+    Remote,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -152,6 +154,7 @@ impl BridgeKind {
             Self::AdditionalOutput => "additional output",
             Self::Parameter => "parameter",
             Self::Procedure => "procedure",
+            Self::Remote => "remote instance",
         }
     }
 }
@@ -184,9 +187,11 @@ impl OnFailure {
 pub struct Cycler {
     /// UpperCamelCase, as in the manifest.
     pub name: String,
-    /// A partial robot does without it: its nodes are known by name alone, they read nothing and ask for nothing. Its
-    /// outputs are those that others read, and come from outside.
+    /// It does not run here: its nodes are known by name alone, they read nothing and ask for nothing. Its outputs are
+    /// those that others read, and come from outside.
     pub left_out: bool,
+    /// Another machine runs it and feeds what the robot reads of it.
+    pub remote: bool,
     pub kind: CyclerKind,
     /// In manifest order; at least one.
     pub instances: Vec<Instance>,

@@ -190,6 +190,7 @@ impl<'r> Timeline<'r> {
             procedures: Vec::new(),
             parameters: parameters.live(),
             instances,
+            remotes: Vec::new(),
         };
         let timeline = Self {
             players,

@@ -491,6 +491,7 @@ pub(crate) fn robot(hardware: &Arc<ScriptedHardware>, setting: &Setting) -> Robo
         instances,
         access,
         left_out: &[],
+        remotes: Vec::new(),
         parameters: LiveParameters::new(parameters, Parameters { gain: 1 }, hardware.clock.clone()),
     }
 }

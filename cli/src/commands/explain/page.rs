@@ -2,7 +2,7 @@
 
 use super::parameter;
 use super::subject::{Endpoint, NodeSubject, OutputSubject, Subject};
-use crate::graph::{Bridge, Edge};
+use crate::graph::{Bridge, BridgeKind, Cycler, Edge};
 
 /// A section for each node, output, procedure and parameter of the name.
 pub(super) fn of_subject(subject: &Subject<'_>) -> String {
@@ -20,8 +20,9 @@ fn of_node(subject: &NodeSubject<'_>) -> String {
     let NodeSubject { cycler, node, .. } = subject;
     let kind = if node.setup { "setup node" } else { "node" };
     let (place, all) = (node.order, cycler.nodes.len());
+    let elsewhere = elsewhere(cycler);
     let mut text = format!(
-        "{}: {kind} of {}, runs as {place} of {all} from 0\n  {} in {}\n",
+        "{}: {kind} of {}, runs as {place} of {all} from 0{elsewhere}\n  {} in {}\n",
         node.path, cycler.name, node.type_name, node.file
     );
     if !node.interfaces.is_empty() {
@@ -102,6 +103,7 @@ fn of_bridge(bridge: &Bridge) -> String {
         schema::BridgeEncoding::Cdr => "CDR",
     };
     let way = match bridge.direction {
+        _ if bridge.kind == BridgeKind::Remote => "whoever has the key feeds it".to_owned(),
         None => "queries of it are calls".to_owned(),
         Some(schema::Direction::Out) => format!("its values go out as {encoding}"),
         Some(schema::Direction::In) => format!("it is written from outside, as {encoding}"),
@@ -126,14 +128,24 @@ fn of_output(subject: &OutputSubject<'_>) -> String {
     } = subject;
     let data = field.data.as_deref().unwrap_or("of unknown type");
     format!(
-        "{}.{}: {data}\n  written by {} ({}:{})\n  {}\n",
+        "{}.{}: {data}\n  written by {} ({}:{}){}\n  {}\n",
         cycler.name,
         field.name,
         node.path,
         node.file,
         field.line,
+        elsewhere(cycler),
         read_by(reads)
     )
+}
+
+/// Where it runs, if not on the robot.
+fn elsewhere(cycler: &Cycler) -> &'static str {
+    if cycler.remote {
+        ", on another machine"
+    } else {
+        ""
+    }
 }
 
 /// "read by `node` (kind)", each node once for each kind.

@@ -106,6 +106,10 @@ impl<'g> Subject<'g> {
             let mut parameters = self.parameters.iter();
             return parameters.any(|one| is_part(&one.path, path) || is_part(path, &one.path));
         }
+        if bridge.kind == BridgeKind::Remote {
+            let mut outputs = self.outputs.iter();
+            return outputs.any(|one| one.cycler.instances.contains(&bridge.path));
+        }
         let mut words = bridge.path.splitn(3, '.');
         let (Some(instance), Some(group_of_bridge), Some(name)) =
             (words.next(), words.next(), words.next())

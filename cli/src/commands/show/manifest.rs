@@ -67,6 +67,7 @@ fn write_cycler(text: &mut String, cycler: &Cycler) {
         .filter_map(|(name, duration)| Some(format!("{name} {}", duration?)))
         .collect();
     settings.extend(declared.queue.map(|queue| format!("queue {queue}")));
+    settings.extend(declared.remote.then(|| "run by another machine".to_owned()));
     if declared.on_failure != schema::OnFailure::default() {
         settings.push(format!("on failure {}", on_failure(declared.on_failure)));
     }

@@ -90,6 +90,7 @@ fn write_cycler(text: &mut String, robot: &Robot, cycler: &Cycler, edges: &[Edge
 
 fn settings(cycler: &Cycler) -> Vec<String> {
     let mut settings = vec![format!("on failure {}", cycler.on_failure.name())];
+    settings.extend(cycler.remote.then(|| "run by another machine".to_owned()));
     match cycler.kind {
         CyclerKind::Perception => {
             settings.push(format!("pending timeout {:?}", cycler.pending_timeout));

@@ -23,8 +23,11 @@ pub(super) fn targets(graph: &Graph, _: &Graph) -> Vec<Item> {
 pub(super) fn cyclers(graph: &Graph, _: &Graph) -> Vec<Item> {
     let cyclers = graph.cyclers.iter().map(|cycler| {
         let instances = cycler.instances.join(", ");
-        let text = format!("{}, {instances}", cycler.kind.word());
-        let value = json!({ "kind": cycler.kind, "instances": cycler.instances });
+        let text = format!("{}, {instances}", cycler.kind_in_words());
+        let mut value = json!({ "kind": cycler.kind, "instances": cycler.instances });
+        if cycler.remote {
+            value["remote"] = true.into();
+        }
         item(cycler.name.clone(), text, &value)
     });
     cyclers.collect()

@@ -87,8 +87,8 @@ pub(super) fn arrange(graph: &Graph, position: usize) -> Column<'_> {
 /// Kind and instances of a cycler.
 pub(super) fn subtitle(cycler: &Cycler) -> String {
     match cycler.instances.as_slice() {
-        [instance] if *instance == cycler.name => cycler.kind.word().to_owned(),
-        instances => format!("{}: {}", cycler.kind.word(), instances.join(", ")),
+        [instance] if *instance == cycler.name => cycler.kind_in_words().to_owned(),
+        instances => format!("{}: {}", cycler.kind_in_words(), instances.join(", ")),
     }
 }
 

@@ -1,9 +1,10 @@
-//! What stands in for instances that are left out.
+//! What stands in for instances that do not run here.
 
 use proc_macro2::TokenStream;
 use quote::quote;
 
 use crate::model::runtime::{Runtime, StubModel};
+use crate::render::instance::quote_duration;
 use crate::render::layout::doc;
 use crate::render::spelling::{ident, path};
 
@@ -33,4 +34,17 @@ pub(super) fn quote_new_stubs(runtime: &Runtime) -> TokenStream {
             quote!(#field: ::framework::Stub::new(#name, #writer, start.clock.clone()),)
         });
     quote!(let stubs = Stubs { #(#fields)* };)
+}
+
+/// What other machines feed.
+pub(super) fn quote_remotes(runtime: &Runtime) -> TokenStream {
+    if runtime.remotes.is_empty() {
+        return quote!(Vec::new());
+    }
+    let remotes = runtime.remotes.iter().map(|remote| {
+        let (name, timeout) = (&remote.name, quote_duration(remote.pending_timeout));
+        let writer = ident(&format!("{}_writer", remote.variable));
+        quote!(Box::new(::framework::Remote::new(#name, #writer, #timeout, start.clock.clone())))
+    });
+    quote!(vec![#(#remotes),*])
 }

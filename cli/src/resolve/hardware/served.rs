@@ -1,6 +1,6 @@
 //! Whether every target's hardware serves what the nodes ask, where that can be known.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use camino::Utf8Path;
 use syn::spanned::Spanned as _;
@@ -30,7 +30,7 @@ pub(in crate::resolve) fn check_served(
     sources: &Sources<'_>,
     diagnostics: &mut Diagnostics,
 ) {
-    let union = union_of_bounds(sources);
+    let union = union_of_bounds(manifest, sources);
     let mut targets: BTreeMap<&str, Vec<&Target>> = BTreeMap::new();
     for target in &manifest.targets {
         let hardware = target.declared.hardware.as_str();
@@ -48,10 +48,21 @@ pub(in crate::resolve) fn check_served(
     }
 }
 
-/// Traits of the workspace by their definition.
-fn union_of_bounds<'a>(sources: &'a Sources<'_>) -> BTreeMap<String, Union<'a>> {
+/// Traits of the workspace by their definition, as far as nodes ask for them that run with the hardware.
+fn union_of_bounds<'a>(
+    manifest: &Manifest,
+    sources: &'a Sources<'_>,
+) -> BTreeMap<String, Union<'a>> {
+    let cyclers = manifest.cyclers.iter();
+    let here: BTreeSet<&str> = cyclers
+        .filter(|cycler| !cycler.declared.remote)
+        .flat_map(|cycler| &cycler.nodes)
+        .map(|node| node.path.as_str())
+        .collect();
+    let nodes = sources.nodes.iter();
+    let nodes = nodes.filter(|(path, _)| here.contains(path.as_str()));
     let mut union: BTreeMap<String, Union> = BTreeMap::new();
-    for node in sources.nodes.values() {
+    for (_, node) in nodes {
         let signatures = &node.signatures;
         let all = [
             Some(&signatures.cycle),

@@ -133,6 +133,7 @@ fn resolve_cycler(builder: &CyclerBuilder) -> Cycler {
     Cycler {
         name: builder.name.clone(),
         left_out: false,
+        remote: false,
         kind: builder.kind,
         instances: builder.instances.iter().map(instance).collect(),
         outputs: outputs(&nodes),

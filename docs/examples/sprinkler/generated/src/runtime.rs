@@ -93,6 +93,7 @@ where
             },
         ],
         left_out: &[],
+        remotes: Vec::new(),
         parameters: LiveParameters::new(parameters, start.parameters, start.clock),
     })
 }

@@ -68,6 +68,7 @@ where
             },
         ],
         left_out: &[],
+        remotes: Vec::new(),
         parameters: LiveParameters::new(parameters, start.parameters, start.clock),
     })
 }

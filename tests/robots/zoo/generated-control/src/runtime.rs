@@ -138,6 +138,7 @@ where
                 },
             ],
             left_out: &["VisionTop", "VisionBottom", "Hearing", "Reflexes", "Lights"],
+            remotes: Vec::new(),
             parameters: LiveParameters::new(parameters, start.parameters, start.clock),
         },
         stubs,

@@ -244,6 +244,7 @@ where
                 },
             ],
             left_out: &["Hearing", "Control"],
+            remotes: Vec::new(),
             parameters: LiveParameters::new(parameters, start.parameters, start.clock),
         },
         stubs,

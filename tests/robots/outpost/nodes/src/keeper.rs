@@ -1,0 +1,4 @@
+//! What runs on the robot.
+
+pub mod book;
+pub mod clock;

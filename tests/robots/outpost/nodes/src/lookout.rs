@@ -1,0 +1,4 @@
+//! What another machine runs.
+
+pub mod ear;
+pub mod range_finder;
