@@ -83,7 +83,8 @@ pub(crate) fn list(hub: &Hub, below: &str, depth: usize) -> Result<Vec<Entry>, S
     Ok(listing.entries)
 }
 
-/// What a procedure is asked or answers, or a part of it: `INSTANCE.procedures.NAME.request`.
+/// What clients send, or a part of it: what a procedure is asked (`INSTANCE.procedures.NAME.request`) or answers, what a
+/// cycle of another machine writes (`INSTANCE`).
 pub(crate) fn message<'path>(hub: &Hub, path: &'path str) -> Option<(Shape, &'path str)> {
     let fits = |message: &Place<'_>| -> Option<(Shape, &'path str)> {
         let rest = path.strip_prefix(message.path.as_str())?;
@@ -99,7 +100,9 @@ pub(crate) fn message<'path>(hub: &Hub, path: &'path str) -> Option<(Shape, &'pa
     let messages = procedures
         .filter(|place| place.kind == EntryKind::Procedure)
         .flat_map(|procedure| &procedure.below);
-    messages.into_iter().find_map(fits)
+    let remotes = root.below.iter();
+    let remotes = remotes.filter(|place| place.kind == EntryKind::Message);
+    messages.chain(remotes).find_map(fits)
 }
 
 /// The output that a path names, with what follows behind its name.
@@ -190,6 +193,13 @@ fn tree(hub: &Hub) -> Place<'_> {
             procedures.add_procedure(procedure, caller.types(), caller.shapes());
         }
         place.below.extend(procedures.unless_empty());
+        root.below.push(place);
+    }
+    for remote in &hub.link.remotes {
+        let name = remote.instance();
+        let mut place = Place::folder(name, name.to_owned());
+        place.kind = EntryKind::Message;
+        place.shape = Some(remote.shape());
         root.below.push(place);
     }
     let mut parameters = Place::folder(PARAMETERS, PARAMETERS.to_owned());

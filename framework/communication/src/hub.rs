@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::time::{Duration, Instant};
 
 use axum::extract::ws::Message as Frame;
-use framework::link::{InstanceLink, Link};
+use framework::link::Link;
 use framework::procedure::PendingAny;
 use framework::report::InstanceReport;
 use framework::timing::{self, Timing};
@@ -20,7 +20,7 @@ use crate::logs::Logs;
 use crate::outbox::{Content, Outbox};
 use crate::parameters;
 use crate::press::Press;
-use crate::requests;
+use crate::requests::{self, Feeder};
 use crate::sources::{Rate, Source};
 use crate::timings;
 use crate::trace::Traces;
@@ -60,6 +60,8 @@ pub(crate) struct Hub {
     pub(crate) clients: BTreeMap<ClientId, Client>,
     /// Which client replaced which output last: (instance, name).
     pub(crate) injected: BTreeMap<(usize, &'static str), ClientId>,
+    /// Which client feeds which instance of another machine, by place.
+    pub(crate) feeders: BTreeMap<usize, Feeder>,
     pub(crate) waiting: Vec<Waiting>,
     pub(crate) logs: Logs,
     /// Paths of all nodes.
@@ -139,6 +141,7 @@ impl Hub {
             sources,
             clients: BTreeMap::new(),
             injected: BTreeMap::new(),
+            feeders: BTreeMap::new(),
             waiting: Vec::new(),
             files_looked_at: Instant::now(),
             timed: None,
@@ -195,6 +198,7 @@ impl Hub {
             source.stop_reading(id, None);
         }
         self.waiting.retain(|waiting| waiting.client != id);
+        self.stop_feeding(id);
         let held: Vec<_> = self
             .injected
             .iter()
@@ -411,15 +415,8 @@ impl Hub {
             },
             WaitingFor::Timings(missing) => {
                 missing.retain(|instance| self.reports.get(*instance).is_some_and(Option::is_none));
-                (missing.is_empty() || is_over).then(|| {
-                    let instances: Vec<&InstanceLink> = self.link.instances.iter().collect();
-                    let time = self.link.clock.now().as_nanos();
-                    Some(Ok(Good::Timings(timings::describe(
-                        time,
-                        &instances,
-                        &self.reports,
-                    ))))
-                })
+                (missing.is_empty() || is_over)
+                    .then(|| Some(Ok(Good::Timings(timings::describe(self, &self.reports)))))
             }
         }
     }

@@ -1,9 +1,11 @@
 //! What clients ask, and what becomes of it.
 
+mod feed;
 mod subscribe;
 
 use std::time::{Duration, Instant};
 
+pub(crate) use feed::Feeder;
 use framework::OutputKind;
 use protocol::{Ask, Change, Failure, Good, Level, Request, Value};
 use serde_json::Value as Json;
@@ -102,6 +104,13 @@ fn answer(hub: &mut Hub, client: ClientId, request: Request) -> Answered {
             argument,
             timeout,
         } => hub.call(client, id, &path, &argument, timeout),
+        Ask::Announce { instance, time } => hub.announce(client, &instance, time),
+        Ask::Complete {
+            instance,
+            time,
+            outputs,
+        } => hub.complete(client, &instance, time, &outputs),
+        Ask::Abandon { instance, time } => hub.abandon(client, &instance, time),
         Ask::Timings {} => {
             let reports = hub.ask_for_reports();
             hub.wait(client, id, reports, None)
@@ -122,6 +131,9 @@ fn writes(ask: &Ask) -> bool {
         | Ask::Inject { .. }
         | Ask::Release { .. }
         | Ask::Call { .. }
+        | Ask::Announce { .. }
+        | Ask::Complete { .. }
+        | Ask::Abandon { .. }
         | Ask::SetLogLevel { .. } => true,
         Ask::Authenticate { .. }
         | Ask::Paths { .. }

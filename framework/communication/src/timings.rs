@@ -2,18 +2,18 @@
 
 use std::time::Duration;
 
-use framework::link::InstanceLink;
 use framework::report::{InstanceReport, NodeReport, QueueReport};
 use framework::timing::Histogram;
-use protocol::{Durations, Granted, InstanceTimings, NodeTimings, QueueTimings, Timings};
+use protocol::{
+    Durations, Granted, InstanceTimings, NodeTimings, QueueTimings, RemoteTimings, Timings,
+};
+
+use crate::hub::Hub;
 
 /// What all instances did; of one that did not report there are counts alone.
-pub(crate) fn describe(
-    time: u64,
-    instances: &[&InstanceLink],
-    reports: &[Option<Box<InstanceReport>>],
-) -> Timings {
-    let described = instances.iter().zip(reports).map(|(instance, report)| {
+pub(crate) fn describe(hub: &Hub, reports: &[Option<Box<InstanceReport>>]) -> Timings {
+    let instances = hub.link.instances.iter();
+    let described = instances.zip(reports).map(|(instance, report)| {
         let counts = instance.counters.read();
         let report = report.as_deref();
         let nodes = report.map(|report| &report.nodes[..]).unwrap_or_default();
@@ -32,9 +32,22 @@ pub(crate) fn describe(
             queues: queues.iter().map(queue).collect(),
         }
     });
+    let remotes = hub.link.remotes.iter().enumerate();
+    let remotes = remotes.map(|(index, remote)| {
+        let counts = remote.counts();
+        RemoteTimings {
+            name: remote.instance().to_owned(),
+            is_fed: hub.is_fed(index),
+            completed: counts.completed,
+            unannounced: counts.unannounced,
+            abandoned: counts.abandoned,
+            refused: counts.refused,
+        }
+    });
     Timings {
-        time,
+        time: hub.link.clock.now().as_nanos(),
         instances: described.collect(),
+        remotes: remotes.collect(),
     }
 }
 

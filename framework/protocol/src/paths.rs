@@ -55,7 +55,8 @@ pub enum EntryKind {
     Parameter,
     /// Call.
     Procedure,
-    /// What a procedure is asked or answers, or a part of it, for forms: only its schema can be had.
+    /// What clients send, or a part of it, for forms: what a procedure is asked or answers, and, by the name of its instance,
+    /// what a cycle of another machine writes. Only its schema can be had.
     Message,
 }
 

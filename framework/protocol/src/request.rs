@@ -110,6 +110,32 @@ pub enum Ask {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         timeout: Option<f64>,
     },
+    /// A cycle of an instance that another machine runs has begun: who reads in order of time waits for it. Answer: `done`.
+    ///
+    /// One client at a time feeds an instance, until it disconnects or has said nothing of it for its `pending_timeout`.
+    /// A cycle that was announced before is abandoned.
+    Announce {
+        /// One that another machine runs, of kind `message` in `paths`.
+        instance: String,
+        /// When its data was taken, in nanoseconds of the robot's clock: not in the future, after the cycle before.
+        time: u64,
+    },
+    /// What that cycle wrote; one that was not announced begins and ends at once. Answer: `done`.
+    Complete {
+        /// As in `announce`.
+        instance: String,
+        /// As in `announce`.
+        time: u64,
+        /// In JSON: an object of the main outputs that the robot reads; others are ignored.
+        outputs: Value,
+    },
+    /// That cycle writes nothing: nobody waits for it any more. Answer: `done`.
+    Abandon {
+        /// As in `announce`.
+        instance: String,
+        /// As in `announce`.
+        time: u64,
+    },
     /// Log messages from now on, after those of the last minutes. Answer: `done`, then logs.
     Logs {
         /// At least this severe; absent: `info`.

@@ -117,6 +117,8 @@ const HONEST: &[&str] = &[
     r#"{"id":1,"ask":{"subscribe":{"path":"a.b","rate":0.5,"encoding":"binary"}}}"#,
     r#"{"id":1,"ask":{"write":{"changes":[{"path":"a","value":{"b":[1]}}]}}}"#,
     r#"{"id":1,"ask":{"trace":{"seconds":1e3}}}"#,
+    r#"{"id":1,"ask":{"complete":{"instance":"A","time":9,"outputs":{"b":[1]}}}}"#,
+    r#"{"answer":{"id":2,"ok":{"timings":{"time":1,"instances":[],"remotes":[{"name":"A","is_fed":true,"completed":5,"unannounced":1,"abandoned":2,"refused":3}]}}}}"#,
 ];
 
 /// What was read, written and read again; whether it was a message at all.

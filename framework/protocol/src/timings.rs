@@ -10,6 +10,9 @@ pub struct Timings {
     pub time: u64,
     /// In manifest order.
     pub instances: Vec<InstanceTimings>,
+    /// Instances that other machines run, in manifest order.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub remotes: Vec<RemoteTimings>,
 }
 
 /// One instance.
@@ -85,6 +88,23 @@ pub struct QueueTimings {
     pub late: u64,
     /// Cycles that found no place.
     pub dropped: u64,
+}
+
+/// An instance that another machine runs. Every cycle that began was completed, was abandoned, or is announced.
+#[derive(Clone, Debug, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
+pub struct RemoteTimings {
+    /// Its name.
+    pub name: String,
+    /// Whether a client feeds it.
+    pub is_fed: bool,
+    /// Cycles that are complete.
+    pub completed: u64,
+    /// Of those: never announced, so that nobody waited for them.
+    pub unannounced: u64,
+    /// Cycles that were announced and not completed: withdrawn, ended by the next, or left by the client.
+    pub abandoned: u64,
+    /// Messages that were refused.
+    pub refused: u64,
 }
 
 /// Durations in microseconds.

@@ -98,6 +98,29 @@ export type Ask = {
     timeout?: number | null;
   };
 } | {
+  announce: {
+    /** One that another machine runs, of kind `message` in `paths`. */
+    instance: string;
+    /** When its data was taken, in nanoseconds of the robot's clock: not in the future, after the cycle before. */
+    time: number;
+  };
+} | {
+  complete: {
+    /** As in `announce`. */
+    instance: string;
+    /** As in `announce`. */
+    time: number;
+    /** In JSON: an object of the main outputs that the robot reads; others are ignored. */
+    outputs: Json;
+  };
+} | {
+  abandon: {
+    /** As in `announce`. */
+    instance: string;
+    /** As in `announce`. */
+    time: number;
+  };
+} | {
   logs: {
     /** At least this severe; absent: `info`. */
     level?: Level | null;
@@ -392,6 +415,22 @@ export type Refusal = {
   message: string;
 };
 
+/** An instance that another machine runs. Every cycle that began was completed, was abandoned, or is announced. */
+export type RemoteTimings = {
+  /** Its name. */
+  name: string;
+  /** Whether a client feeds it. */
+  is_fed: boolean;
+  /** Cycles that are complete. */
+  completed: number;
+  /** Of those: never announced, so that nobody waited for them. */
+  unannounced: number;
+  /** Cycles that were announced and not completed: withdrawn, ended by the next, or left by the client. */
+  abandoned: number;
+  /** Messages that were refused. */
+  refused: number;
+};
+
 /** One message of a client. The robot gives exactly one answer to each, in any order. */
 export type Request = {
   /** Chosen by the client; the answer has the same. */
@@ -426,6 +465,8 @@ export type Timings = {
   time: number;
   /** In manifest order. */
   instances: Array<InstanceTimings>;
+  /** Instances that other machines run, in manifest order. */
+  remotes?: Array<RemoteTimings>;
 };
 
 /** What would be lost at the next start. */

@@ -3,7 +3,9 @@
 use std::thread;
 use std::time::{Duration, Instant};
 
-use protocol::{Ask, Durations, Good, Granted, InstanceTimings, NodeTimings, Timings};
+use protocol::{
+    Ask, Durations, Good, Granted, InstanceTimings, NodeTimings, RemoteTimings, Timings,
+};
 use serde_json::json;
 
 use super::connection::Connection;
@@ -86,7 +88,21 @@ fn table(timings: &Timings, before: Option<&Timings>) -> String {
         let granted = instance.scheduling.as_ref()?;
         Some(format!("{}: {}\n", instance.name, thread_text(granted)))
     });
-    text::columns(&rows, true) + &threads.collect::<String>()
+    let remotes = timings.remotes.iter().map(remote_line);
+    text::columns(&rows, true) + &threads.chain(remotes).collect::<String>()
+}
+
+/// What came of an instance that another machine runs.
+fn remote_line(remote: &RemoteTimings) -> String {
+    let fed = if remote.is_fed {
+        "fed by another machine"
+    } else {
+        "fed by nobody"
+    };
+    format!(
+        "{}: {fed}; {} completed, {} of them unannounced, {} abandoned, {} refused\n",
+        remote.name, remote.completed, remote.unannounced, remote.abandoned, remote.refused
+    )
 }
 
 /// What holds for a thread: `fifo 80, core 0, memory locked`.
@@ -171,6 +187,21 @@ mod tests {
                         Control          83.0 Hz  900.0  1500.2  2000.0   183                0         1\n  \
                         control::walk                                   183        2       3\n";
         assert_eq!(shown, expected);
+    }
+
+    #[test]
+    fn what_other_machines_feed_stands_below_the_table() {
+        let timings = json!({ "time": 1, "instances": [], "remotes": [{
+            "name": "Lookout", "is_fed": true, "completed": 5, "unannounced": 1, "abandoned": 2, "refused": 3,
+        }] });
+        let timings = serde_json::from_value(timings).expect("these are timings");
+        let table = table(&timings, None);
+        assert_eq!(
+            table.lines().last(),
+            Some(
+                "Lookout: fed by another machine; 5 completed, 1 of them unannounced, 2 abandoned, 3 refused"
+            )
+        );
     }
 
     #[test]

@@ -4,6 +4,7 @@ mod files;
 mod fuzz;
 mod hostile;
 mod limits;
+mod remote;
 mod requests;
 mod subscriptions;
 mod zoo;
