@@ -6,6 +6,7 @@
 //! Setup nodes are not called; what they wrote stands in the frame. What nodes command goes nowhere. A node that asks the
 //! hardware for something in a cycle cannot be replayed in that cycle; it is counted.
 
+mod carry;
 mod compare;
 mod compared;
 mod difference;
@@ -28,9 +29,10 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use crate::cycler::{Cycler, Finished, Instance};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::recorded::{Head, Loading, Recorded, Stored, Types, digest};
 
+pub use carry::Setup;
 pub use compare::{Change, Comparison, InstanceCompared, compare};
 pub(crate) use difference::first_difference;
 pub use elsewhere::{Elsewhere, answer};
@@ -64,6 +66,12 @@ pub trait Replay {
 
     /// Runs its nodes, up to the first that is none of these if some are named, and finishes it.
     fn run(&mut self, nodes: Option<&[String]>) -> Ran;
+
+    /// After a cycle: what a next one would find, as the content of a frame.
+    ///
+    /// # Errors
+    /// If a value cannot be serialised.
+    fn left_behind(&mut self) -> Result<Vec<u8>>;
 
     /// The instance.
     fn instance(&self) -> &dyn Instance;
@@ -125,6 +133,11 @@ where
             }
             Err(error) => Ran::Failed(error.to_string()),
         }
+    }
+
+    fn left_behind(&mut self) -> Result<Vec<u8>> {
+        let left = self.cycler.left_behind();
+        left.map_err(|error| Error::new(error.to_string()))
     }
 
     fn instance(&self) -> &dyn Instance {

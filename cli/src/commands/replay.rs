@@ -77,6 +77,9 @@ fn arguments(replay: &Replay) -> Result<Vec<OsString>, Refusal> {
     if replay.verify {
         arguments.push("--verify".into());
     }
+    if replay.carry {
+        arguments.push("--carry".into());
+    }
     let mut add = |name: &str, value: &str| arguments.extend([name.into(), value.into()]);
     for assignment in &replay.set {
         add("--set", assignment);
@@ -114,6 +117,7 @@ mod tests {
     fn options_of_the_program_are_passed_on() {
         for (line, expected) in [
             ("/a --verify", "--replay /a --verify"),
+            ("/a --set a=1 --carry", "--replay /a --carry --set a=1"),
             (
                 "/a --verify --node walk --tolerance 1e-3 --format json",
                 "--replay /a --verify --node walk --tolerance 0.001 --format json",

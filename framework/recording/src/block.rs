@@ -106,7 +106,16 @@ impl Block {
     }
 }
 
-impl Writing<'_> {
+impl<'block> Writing<'block> {
+    /// Into memory that grows, for whoever wants the bytes alone.
+    pub fn growing(bytes: &'block mut Vec<u8>) -> Self {
+        Self {
+            bytes,
+            limit: usize::MAX,
+            is_full: false,
+        }
+    }
+
     /// Appends, unless there is no room: then nothing more is written, and the message is not.
     #[inline]
     pub fn put(&mut self, bytes: &[u8]) -> Result<(), Full> {

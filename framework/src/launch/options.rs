@@ -141,6 +141,7 @@ Usage: {name} [OPTIONS] [-- HARDWARE OPTIONS]
   --node NAME         with --replay: only what this node needs, and its outputs
   --replay FILE --set PATH=VALUE
                       what would change under other parameters
+  --carry             with --set: cycles go on with the states that the one before them left
   --replay FILE --against PROGRAM [--against-name NAME]
                       what another build of the robot computes otherwise
   --replay FILE --answer
@@ -468,6 +469,7 @@ mod tests {
             &["--node", "walk"],
             &["--replay=old", "--verify", "--set", "a=1"],
             &["--replay=old", "--against=other", "--tolerance=1e-6"],
+            &["--replay=old", "--verify", "--carry"],
             &["--replay=old", "--verify", "--tolerance=-1"],
             &["--recording-budget", "2"],
         ] {

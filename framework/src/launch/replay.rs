@@ -26,6 +26,8 @@ pub(super) struct Replaying {
     pub(super) file: PathBuf,
     /// Whether it gives the same bits.
     pub(super) verify: bool,
+    /// Whether cycles under other parameters go on with what the one before them left behind.
+    pub(super) carry: bool,
     /// What one node needs instead of everything.
     pub(super) node: Option<String>,
     pub(super) tolerance: Option<f64>,
@@ -47,6 +49,7 @@ impl Replaying {
         match option {
             "replay" => self.file = parser.value()?.into(),
             "verify" => self.verify = true,
+            "carry" => self.carry = true,
             "node" => self.node = Some(parser.value()?.string()?),
             "tolerance" => self.tolerance = Some(tolerance(&parser.value()?.string()?)?),
             "against" => self.against = Some(parser.value()?.into()),
@@ -92,6 +95,9 @@ impl Replaying {
             return Err(Error::new(
                 "--capture NODE, --instance NAME and --at CYCLE go together",
             ));
+        }
+        if self.carry && !changes {
+            return Err(Error::new("--carry is for --set"));
         }
         let options = !deeds.is_empty() || self.node.is_some();
         if options && !is_asked {
@@ -204,7 +210,7 @@ fn replayed<P: ParameterData>(
         say(&comparison, comparison.to_json(), options.format, output)?;
         comparison.is_good()
     } else if !options.settings.is_empty() {
-        let comparison = under::<P>(target, recording, &options.settings, needed.as_ref())?;
+        let comparison = under::<P>(target, recording, options, needed.as_ref())?;
         say(&comparison, comparison.to_json(), options.format, output)?;
         comparison.is_good()
     } else {
@@ -267,9 +273,11 @@ fn against(
 fn under<P: ParameterData>(
     target: &Target,
     recording: &Recording,
-    settings: &[(String, String)],
+    options: &Options,
     needed: Option<&Needed>,
 ) -> Result<Comparison> {
+    let settings = &options.settings;
+    let carry = options.replay.carry;
     let values = value_channels(recording)?;
     let mut unread = Vec::new();
     let other = OtherParameters::new(recording, &values, &mut |recorded| {
@@ -284,16 +292,26 @@ fn under<P: ParameterData>(
         })
     };
     let mut after = players()?.under(&other);
+    if carry {
+        after = after.carrying(target.graph)?;
+    }
     let mut comparison = compare(&mut players()?, &mut after, needed)?;
     let settings = settings.iter();
     let settings: Vec<_> = settings
         .map(|(path, value)| format!("{path}={value}"))
         .collect();
     comparison.names = ("as recorded".to_owned(), settings.join(" "));
-    comparison.notes.push(
-        "each cycle begins with the states that were recorded: what a change does over many cycles, only a run shows"
-            .to_owned(),
-    );
+    let note = match carry {
+        false => {
+            "each cycle begins with the states that were recorded: --carry says what a change does over many cycles"
+        }
+        true => {
+            // All nodes ran.
+            comparison.recomputed.clear();
+            "cycles go on with the states that the one before them left: sensors, other instances and clients are as they were recorded"
+        }
+    };
+    comparison.notes.push(note.to_owned());
     for path in unread {
         comparison.notes.push(format!(
             "`{path}` is read in `new` alone, which a replay does not call: it changes nothing here"

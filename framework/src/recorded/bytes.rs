@@ -67,6 +67,11 @@ impl<'frame> Loading<'frame> {
         Ok(value)
     }
 
+    /// What was not taken yet.
+    pub(crate) fn rest(&self) -> &'frame [u8] {
+        self.bytes
+    }
+
     /// Whether everything was taken.
     pub fn is_empty(&self) -> bool {
         self.bytes.is_empty()

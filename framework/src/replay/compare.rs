@@ -37,6 +37,8 @@ pub struct InstanceCompared {
     pub changed: u64,
     /// Outputs that were compared.
     pub outputs: u64,
+    /// Of the second, cycles that went on with what the one before them left behind; `None`: that was not asked.
+    pub carried: Option<u64>,
     /// Cycles in which a node asked the hardware for something.
     pub needs_hardware: u64,
     /// Outputs that one of the two does not have: of the first, of the second.
@@ -105,6 +107,8 @@ pub fn compare(
                 break;
             }
         }
+        let player = after.of(instance).map(|(player, _)| player);
+        compared.counts.carried = player.and_then(|player| player.carried());
         comparison.instances.push(compared.counts);
         comparison.changes.extend(compared.changes.into_values());
     }

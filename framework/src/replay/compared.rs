@@ -34,6 +34,7 @@ impl InstanceCompared {
             "cycles": self.cycles,
             "changed": self.changed,
             "outputs": self.outputs,
+            "carried": self.carried,
             "needs_hardware": self.needs_hardware,
             "only_before": self.alone.0,
             "only_after": self.alone.1,
@@ -77,6 +78,9 @@ impl fmt::Display for Comparison {
                 ..
             } = one;
             write!(out, "{instance:<16} {cycles:>8} {changed:>8} {outputs:>9}")?;
+            if let Some(carried) = one.carried {
+                write!(out, "  {carried} carried on")?;
+            }
             if one.needs_hardware > 0 {
                 write!(out, "  {} needing hardware", one.needs_hardware)?;
             }

@@ -2,9 +2,11 @@
 
 use std::collections::BTreeMap;
 
+use hulkgen_mcap::layout::Part;
 use hulkgen_recording::Recording;
 
-use super::{Needed, OtherParameters, Ran, Replay, Replayable, types};
+use super::carry::composed;
+use super::{Needed, OtherParameters, Ran, Replay, Replayable, Setup, types};
 use crate::error::{Error, Result};
 use crate::recorded::{BEGUN, FINISHED, FRAMES, Head, Loading, Stored, VALUES, VERSION};
 
@@ -32,6 +34,17 @@ pub struct Player<'r> {
     other_types: Option<String>,
     /// Position of the frame that was loaded last.
     loaded: Option<usize>,
+    carrying: Option<Carrying>,
+}
+
+/// That cycles go on with what the cycle before left behind.
+struct Carrying {
+    setup: Setup,
+    parts: Vec<Part>,
+    /// By the last cycle that ran, for the frame at this position.
+    left: Option<(usize, Vec<u8>)>,
+    /// Cycles that went on so.
+    cycles: u64,
 }
 
 /// One recorded cycle.
@@ -163,6 +176,24 @@ impl<'r> Players<'r> {
         self
     }
 
+    /// The same, with all nodes, where each cycle goes on with what the one before it left behind: states, what nodes share,
+    /// previous outputs and histories. What setup nodes left, other instances wrote and clients did is as it was recorded.
+    ///
+    /// # Errors
+    /// If this is not the graph of the robot.
+    pub fn carrying(mut self, graph: &str) -> Result<Self> {
+        for player in &mut self.players {
+            player.nodes = None;
+            player.carrying = Some(Carrying {
+                setup: Setup::of(player.instance, graph)?,
+                parts: (player.replayable.types)().parts,
+                left: None,
+                cycles: 0,
+            });
+        }
+        Ok(self)
+    }
+
     /// As [`Self::of`].
     ///
     /// # Errors
@@ -208,6 +239,7 @@ impl<'r> Player<'r> {
             replay: None,
             other_types: None,
             loaded: None,
+            carrying: None,
         }
     }
 
@@ -241,10 +273,56 @@ impl<'r> Player<'r> {
     /// # Errors
     /// If its frame, or one that it needs, does not fit this robot.
     pub fn play(&mut self, position: usize, chunks: &[Stored<'_>]) -> Result<Ran> {
-        self.load_at(position, chunks)?;
-        let replay = self.replay.as_mut();
-        let nodes = self.nodes.as_deref();
-        Ok(replay.map_or(Ran::NeedsHardware, |replay| replay.run(nodes)))
+        if !self.carry_to(position, chunks)? {
+            self.load_at(position, chunks)?;
+        }
+        let Some(replay) = self.replay.as_mut() else {
+            return Ok(Ran::NeedsHardware);
+        };
+        let ran = replay.run(self.nodes.as_deref());
+        if let Some(carrying) = &mut self.carrying {
+            carrying.left = match ran {
+                Ran::Finished => Some((position + 1, replay.left_behind()?)),
+                // Nobody knows what it would have left.
+                Ran::NeedsHardware | Ran::Failed(_) => None,
+            };
+        }
+        Ok(ran)
+    }
+
+    /// Makes the cycle at this position the one that has just begun, with what the one before it left behind, if that is
+    /// wanted and the one before it is the one that ran last; gives whether.
+    fn carry_to(&mut self, position: usize, chunks: &[Stored<'_>]) -> Result<bool> {
+        let Some(carrying) = &mut self.carrying else {
+            return Ok(false);
+        };
+        let left = carrying.left.take().filter(|(at, _)| *at == position);
+        let (Some((_, left)), Some(replay)) = (left, &mut self.replay) else {
+            return Ok(false);
+        };
+        let (before, frame) = (self.frames[position - 1], self.frames[position]);
+        if frame.head.restarted || before.head.number + 1 != frame.head.number {
+            return Ok(false);
+        }
+        self.loaded = None;
+        let content = composed(
+            &carrying.parts,
+            &carrying.setup,
+            frame.content.rest(),
+            &left,
+        )?;
+        replay.load(
+            frame.head,
+            &mut Loading::new(&content),
+            &chunks[frame.chunk],
+        )?;
+        carrying.cycles += 1;
+        Ok(true)
+    }
+
+    /// How many cycles went on with what the one before them left behind; `None`: that was not wanted.
+    pub fn carried(&self) -> Option<u64> {
+        self.carrying.as_ref().map(|carrying| carrying.cycles)
     }
 
     /// Makes the cycle at this position the one that has just begun.

@@ -13,9 +13,9 @@ use zoo_runtime::recording;
 
 use super::{Tape, as_it_is, on, record_in_lockstep};
 
-const GRAPH: &str = include_str!("../../../generated/graph.json");
+pub(crate) const GRAPH: &str = include_str!("../../../generated/graph.json");
 
-fn recorded() -> Tape {
+pub(crate) fn recorded() -> Tape {
     let tape = Tape::new();
     record_in_lockstep(&tape.path, Settings::default(), on, &as_it_is);
     tape
