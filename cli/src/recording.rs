@@ -28,6 +28,9 @@ const FRAMES: &str = "hulkgen-frames";
 const VALUES: &str = "hulkgen-values";
 const JSON: &str = "json";
 
+/// The channel of what was said.
+const LOGS: &str = "logs";
+
 /// The metadata entry of a channel of frames that names their types.
 const TYPES: &str = "types";
 

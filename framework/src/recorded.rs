@@ -12,6 +12,7 @@ mod capture;
 mod ends;
 mod history;
 mod inputs;
+mod logs;
 mod output;
 mod recorder;
 mod report;

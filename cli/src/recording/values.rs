@@ -7,7 +7,7 @@ use hulkgen_mcap::layout::{Layout, Layouts, Part, PartKind, Values};
 use hulkgen_mcap::{Channel, Message, RecordingFile};
 use serde_json::Value;
 
-use super::{FRAMES, JSON, TYPES, VALUES};
+use super::{FRAMES, JSON, LOGS, TYPES, VALUES};
 use crate::diagnostics::suggestion;
 use crate::outcome::Refusal;
 
@@ -186,7 +186,7 @@ fn sources(channel: &Channel, layouts: &Layouts) -> Vec<Source> {
     match &*channel.encoding {
         JSON => vec![Source {
             path: channel.topic.clone(),
-            is_output: true,
+            is_output: channel.topic != LOGS,
             layout: Layout::Unknown,
         }],
         VALUES => match layouts.values.get(instance) {

@@ -10,6 +10,7 @@ use hulkgen_recording::{
     Attachment, Channel, ChannelId, Counts, Description, Metadata, Recorder, Settings,
 };
 
+use super::logs::{self, LOGS, LogRecorder};
 use super::output::{self, OutputChannels};
 use super::recorder::{Condition, CycleObserver, CycleRecorder, Wanted};
 use super::{InstanceRecorded, PARAMETERS, RecordingReport, Types, VERSION};
@@ -43,6 +44,7 @@ pub struct Recording {
     recorder: Recorder,
     observers: BTreeMap<&'static str, Box<dyn Observer>>,
     wanted: Vec<(&'static str, Arc<AtomicU64>)>,
+    logs: Option<LogRecorder>,
 }
 
 impl Recording {
@@ -85,9 +87,11 @@ impl Recording {
         let outputs = output::find(&about.outputs, described(robot))?;
         let mut description = describe(&descriptions, &types, &written, about);
         let outputs = OutputChannels::add(outputs, &mut description);
+        let of_logs = logs::add_channel(&mut description);
         let of_outputs = outputs.track_names();
         let of_outputs = of_outputs.iter().map(String::as_str);
-        let all: Vec<_> = names.iter().copied().chain(of_outputs).collect();
+        let all = names.iter().copied().chain(of_outputs).chain([LOGS]);
+        let all: Vec<_> = all.collect();
         let rewrites = outputs.rewrites();
         let (recorder, mut tracks) =
             Recorder::start_rewriting(path, description, &all, settings, rewrites).map_err(
@@ -95,6 +99,9 @@ impl Recording {
                     Error::from(error).context(format!("cannot record into {}", path.display()))
                 },
             )?;
+        let logs = tracks
+            .pop()
+            .map(|track| LogRecorder::start(track, of_logs, robot.clock.clone()));
         let mut of_outputs = outputs.recorders(tracks.split_off(names.len()));
         // Channels: frames of all instances, then values.
         let values = (names.len()..).map(|index| ChannelId(index as u16));
@@ -124,6 +131,7 @@ impl Recording {
             recorder,
             observers,
             wanted,
+            logs: logs.transpose()?,
         })
     }
 
@@ -163,6 +171,8 @@ impl Recording {
     /// Ends the file; observers that are gone by now have handed over everything.
     pub fn end(mut self) -> RecordingReport {
         self.observers.clear();
+        // It hands over what was said last.
+        self.logs = None;
         let mut instances = self.counts();
         let wanted = Metadata {
             name: "wanted".to_owned(),

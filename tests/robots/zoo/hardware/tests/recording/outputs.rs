@@ -25,10 +25,14 @@ fn record(outputs: &[&str]) -> framework::Result<Tape> {
         .run_until(Timestamp::from_nanos(1_000_000_000), |_| {})
         .expect("the zoo goes on");
     drop(lockstep);
+    framework::logs::tell_warning("zoo::test", &SAID);
     let report = recording.end();
     assert!(report.ended.is_complete, "{report}");
     Ok(tape)
 }
+
+/// In the log of each of these recordings.
+const SAID: &str = "somebody opened the cage";
 
 const OUTPUTS: [&str; 2] = [
     "Control.main_outputs.speed",
@@ -60,6 +64,38 @@ fn an_output_has_a_channel_of_its_own() {
             .collect();
         assert!(values.len() > 50, "{output}: {} values", values.len());
     }
+}
+
+#[test]
+fn what_was_said_is_in_a_channel_of_log_messages() {
+    let tape = record(&[]).expect("it has no outputs");
+    let file = tape.read();
+    let mut channels = file.channels.iter();
+    let (number, channel) = channels
+        .find(|(_, channel)| channel.topic == "logs")
+        .expect("every recording has it");
+    let schema = file
+        .schemas
+        .iter()
+        .find(|(known, _)| Some(*known) == channel.schema);
+    assert_eq!(schema.expect("it is there").1.name, "foxglove.Log");
+    let messages = file.chunks.iter().flat_map(|chunk| chunk.messages());
+    let logs = messages.filter(|message| message.channel == *number);
+    let logs = logs.map(|message| serde_json::from_slice(message.data).expect("it is JSON"));
+    // Those of tests beside this one are there, too.
+    let own: Vec<Value> = logs.filter(|log: &Value| log["message"] == SAID).collect();
+    let log = own.last().expect("it was said before the end");
+    assert_eq!(
+        (&log["level"], &log["name"]),
+        (&3.into(), &"zoo::test".into())
+    );
+    // The thread's last cycle.
+    assert!(
+        log["instance"].is_string() && log["cycle"].is_u64(),
+        "{log}"
+    );
+    // In lockstep it is the time of the run.
+    assert_eq!(log["timestamp"]["sec"], 1, "{log}");
 }
 
 #[test]
@@ -97,4 +133,5 @@ fn python_decodes_every_channel() {
             .count();
         assert_eq!(counts[&channel.topic], own, "{}", channel.topic);
     }
+    assert!(counts["logs"].as_u64() > Some(0), "{counts}");
 }

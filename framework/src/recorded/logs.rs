@@ -1,0 +1,157 @@
+//! What nodes, hardware and framework say, as a channel of Foxglove's log messages.
+//!
+//! Messages wait in their queue until a thread of the recording's own looks: no cycle waits for it. What the queue has no
+//! room for is told in a message of its own.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread::{self, JoinHandle};
+use std::time::Duration;
+
+use hulkgen_recording::{Channel, ChannelId, Description, Schema, Track};
+use serde_json::Value;
+
+use super::SaveError;
+use super::output::JSON;
+use crate::clock::Clock;
+use crate::foxglove::{Log, Message};
+use crate::logs::{Level, Record, Sink};
+
+/// What the channel is called, and the track among those of instances.
+pub(super) const LOGS: &str = "logs";
+
+/// How often the thread looks: the queue has room for more than nodes say in this time.
+const LOOK: Duration = Duration::from_millis(50);
+
+/// Describes the channel, behind those that there are.
+pub(super) fn add_channel(description: &mut Description) -> ChannelId {
+    let schema = description.schemas.len() as u16;
+    let channel = ChannelId(description.channels.len() as u16);
+    description.schemas.push(Schema {
+        name: Log::SCHEMA.name.to_owned(),
+        encoding: "jsonschema".to_owned(),
+        data: (Log::SCHEMA.json)().to_string().into_bytes(),
+    });
+    description.channels.push(Channel {
+        topic: LOGS.to_owned(),
+        schema: Some(schema),
+        encoding: JSON.to_owned(),
+        metadata: Vec::new(),
+        once_per_chunk: false,
+    });
+    channel
+}
+
+/// The thread that records messages; it ends with this.
+pub(super) struct LogRecorder {
+    is_ending: Arc<AtomicBool>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl LogRecorder {
+    /// Records what is said from now on, by this clock.
+    ///
+    /// # Errors
+    /// If there can be no thread.
+    pub(super) fn start(track: Track, channel: ChannelId, clock: Clock) -> std::io::Result<Self> {
+        let is_ending = Arc::<AtomicBool>::default();
+        let sink = Sink::new(clock.clone());
+        let mut writing = Writing {
+            track,
+            channel,
+            sink,
+            clock,
+        };
+        let ending = is_ending.clone();
+        let thread = thread::Builder::new()
+            .name("logs".to_owned())
+            .spawn(move || {
+                // Relaxed: nothing else is told by it; what was said before is in the queue, which orders itself.
+                while !ending.load(Ordering::Relaxed) {
+                    writing.record();
+                    thread::park_timeout(LOOK);
+                }
+                writing.record();
+            })?;
+        Ok(Self {
+            is_ending,
+            thread: Some(thread),
+        })
+    }
+}
+
+impl Drop for LogRecorder {
+    fn drop(&mut self) {
+        self.is_ending.store(true, Ordering::Relaxed);
+        if let Some(thread) = self.thread.take() {
+            thread.thread().unpark();
+            // A panic there has been told; what it had not written is lost with it.
+            let _ = thread.join();
+        }
+    }
+}
+
+struct Writing {
+    track: Track,
+    channel: ChannelId,
+    sink: Arc<Sink>,
+    clock: Clock,
+}
+
+impl Writing {
+    fn record(&mut self) {
+        while let Some(record) = self.sink.take() {
+            self.write(&record);
+        }
+        let left_out = self.sink.left_out();
+        if left_out > 0 {
+            let message = format!("{left_out} messages were left out: too many at once");
+            self.write(&Record {
+                time: self.clock.now(),
+                level: Level::WARN,
+                module: module_path!(),
+                instance: None,
+                cycle: None,
+                message,
+                fields: serde_json::Map::new(),
+            });
+        }
+        // Whoever looks at the file of a running robot finds them.
+        self.track.hand_over();
+    }
+
+    fn write(&mut self, record: &Record) {
+        let text = as_log(record).to_string();
+        let time = record.time.as_nanos();
+        let cycle = record.cycle.unwrap_or_default() as u32;
+        // What becomes of it is counted.
+        let _ = self.track.frame(time, 0, |frame| {
+            frame.message(self.channel, cycle, time, |writing| {
+                writing.put(text.as_bytes()).map_err(SaveError::from)
+            })
+        });
+    }
+}
+
+/// The message in Foxglove's form, and what that has no field for.
+fn as_log(record: &Record) -> Value {
+    let log = Log {
+        timestamp: record.time.into(),
+        level: match record.level {
+            Level::TRACE | Level::DEBUG => 1,
+            Level::INFO => 2,
+            Level::WARN => 3,
+            Level::ERROR => 4,
+        },
+        message: record.message.clone(),
+        name: record.module.to_owned(),
+        ..Log::default()
+    };
+    let mut log = crate::foxglove::written(&log).unwrap_or_default();
+    if let Some(log) = log.as_object_mut() {
+        log.insert("instance".to_owned(), record.instance.into());
+        log.insert("cycle".to_owned(), record.cycle.into());
+        log.insert("fields".to_owned(), record.fields.clone().into());
+    }
+    log
+}
