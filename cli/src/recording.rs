@@ -10,7 +10,7 @@ mod list;
 mod values;
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use hulkgen_mcap::RecordingFile;
@@ -19,7 +19,7 @@ use crate::outcome::Refusal;
 
 pub use export::{Export, Exported, export};
 pub use images::Images;
-pub use info::{Info, InstanceInfo, info};
+pub use info::{Info, InstanceInfo, PartInfo, info};
 pub use list::{Run, list};
 pub use values::{Found, Selection, Span, cat};
 

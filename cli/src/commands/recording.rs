@@ -2,6 +2,9 @@
 //!
 //! Invariant: these commands read no manifest; `pull`, which does, is that of `deploy`.
 
+#[cfg(test)]
+mod tests;
+
 use serde_json::{Value, json};
 
 use super::plural;
@@ -9,6 +12,9 @@ use super::terminal::Terminal;
 use crate::arguments::{ExportKind, Recording, RecordingCommand, Selection, TextOrJson};
 use crate::outcome::{Outcome, Refusal};
 use crate::recording::{self, Export, Info, Run, Span};
+
+/// Parts of the frames of an instance that a text names; JSON has all.
+const PARTS: usize = 8;
 
 pub(super) fn run(terminal: &Terminal, recording: &Recording) -> Result<Outcome, Refusal> {
     match &recording.command {
@@ -166,13 +172,15 @@ fn info_text(info: &Info) -> String {
     if info.gone > 0 {
         text += &format!(", {} older ones gone", info.gone);
     }
-    text += "\n\ninstance              frames  dropped  types             record\n";
+    text +=
+        "\n\ninstance              frames  dropped  bytes per cycle  types             record\n";
     for one in &info.instances {
         text += &format!(
-            "{:<20} {:>7} {:>8}  {:<16}  {}\n",
-            one.instance, one.frames, one.dropped, one.types, one.record
+            "{:<20} {:>7} {:>8} {:>16.1}  {:<16}  {}\n",
+            one.instance, one.frames, one.dropped, one.bytes_per_cycle, one.types, one.record
         );
     }
+    text += &parts_text(info);
     text += "\nchannel                            messages       size  encoding\n";
     for one in info.channels.iter().filter(|one| one.messages > 0) {
         text += &format!(
@@ -189,6 +197,29 @@ fn info_text(info: &Info) -> String {
     for one in &info.largest_states {
         let what = format!("{} {}", one.instance, one.node);
         text += &format!("{what:<44} {:>9}\n", size(one.bytes));
+    }
+    text
+}
+
+/// What frames consist of, node by node.
+fn parts_text(info: &Info) -> String {
+    let mut text =
+        "\npart of frames                                  bytes per cycle      most\n".to_owned();
+    for one in &info.instances {
+        let (shown, rest) = one.parts.split_at(one.parts.len().min(PARTS));
+        for part in shown.iter().filter(|part| part.most_bytes > 0) {
+            let what = format!("{} {}", one.instance, part.name);
+            text += &format!(
+                "{what:<46} {:>16.1} {:>9}\n",
+                part.bytes_per_cycle,
+                size(part.most_bytes)
+            );
+        }
+        if !rest.is_empty() {
+            let bytes: f64 = rest.iter().map(|part| part.bytes_per_cycle).sum();
+            let what = format!("{} {} others", one.instance, rest.len());
+            text += &format!("{what:<46} {bytes:>16.1}\n");
+        }
     }
     text
 }

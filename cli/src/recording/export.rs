@@ -8,6 +8,7 @@ use std::io::{BufWriter, Write};
 
 use camino::Utf8Path;
 use hulkgen_mcap::RecordingFile;
+use hulkgen_mcap::layout::Layouts;
 use serde_json::{Value, json};
 
 use super::values::{Found, Selection, cat};
@@ -73,8 +74,16 @@ fn write(
     if kind == Export::Png {
         let mut count = 0;
         fs::create_dir_all(into).map_err(failed)?;
+        let images = Layouts::of(&file.contents().attachments).images;
         exported.silent = cat(file, selection, &mut |found| {
-            let image = png::image(&found.value).ok_or_else(|| no_image(&found))?;
+            if found.value.is_null() {
+                // None in this cycle.
+                return Ok(true);
+            }
+            let pixels = images.get(&found.path);
+            let image = png::image(&found.value)
+                .or_else(|| png::typed(&found.value, pixels?))
+                .ok_or_else(|| no_image(&found))?;
             let name = format!("{:08}.{}", found.cycle, image.extension);
             fs::write(into.join(name), image.bytes).map_err(failed)?;
             count += 1;
@@ -104,7 +113,7 @@ fn write(
 
 fn no_image(found: &Found) -> Refusal {
     Refusal::wrong_usage(format!("`{}` is no image", found.path)).help(
-        "images are recorded with `hulkgen run --record-output PATH` where their type says that it is one",
+        "name an output whose type says that it is an image, the whole of it; of recordings of earlier builds `hulkgen run --record-output PATH` is needed",
     )
 }
 

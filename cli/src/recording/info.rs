@@ -42,7 +42,7 @@ pub struct Info {
 }
 
 /// What is recorded of one instance.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct InstanceInfo {
     pub instance: String,
     /// Which cycles the manifest asks for.
@@ -53,6 +53,22 @@ pub struct InstanceInfo {
     pub dropped: u64,
     /// Digest of the types of its frames.
     pub types: String,
+    /// Of a frame on average, with its head.
+    pub bytes_per_cycle: f64,
+    /// What frames consist of, largest first.
+    pub parts: Vec<PartInfo>,
+}
+
+/// A part of the frames of an instance: the state of a node, an output, what was seen of another instance.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PartInfo {
+    /// As nodes and manifest name it.
+    pub name: String,
+    pub kind: PartKind,
+    /// On average.
+    pub bytes_per_cycle: f64,
+    /// In the largest frame.
+    pub most_bytes: u64,
 }
 
 /// What a channel has.
@@ -168,19 +184,36 @@ fn instances(contents: &Contents, channels: &BTreeMap<u16, Counted<'_>>) -> Vec<
             frames: counted.frames,
             dropped: count("dropped") + count("failed") + count("lost"),
             types: counted.types.to_owned(),
+            bytes_per_cycle: per_cycle(counted.bytes, counted.frames),
+            parts: counted.parts_info(),
         }
     });
     described.collect()
+}
+
+/// To a tenth of a byte.
+fn per_cycle(bytes: u64, cycles: u64) -> f64 {
+    (bytes as f64 * 10.0 / cycles.max(1) as f64).round() / 10.0
 }
 
 /// One channel while it is counted.
 struct Counted<'a> {
     info: ChannelInfo,
     frames: u64,
+    /// Of frames where they begin.
+    bytes: u64,
     types: &'a str,
     parts: &'a [Part],
-    /// Of each part, in the largest frame.
-    largest: Vec<u64>,
+    /// Of each part.
+    sizes: Vec<Sizes>,
+}
+
+#[derive(Clone, Copy, Default)]
+struct Sizes {
+    /// Of all frames.
+    all: u64,
+    /// In the largest frame.
+    most: u64,
 }
 
 impl<'a> Counted<'a> {
@@ -195,9 +228,10 @@ impl<'a> Counted<'a> {
                 ..ChannelInfo::default()
             },
             frames: 0,
+            bytes: 0,
             types,
             parts,
-            largest: vec![0; parts.len()],
+            sizes: vec![Sizes::default(); parts.len()],
         }
     }
 
@@ -211,29 +245,44 @@ impl<'a> Counted<'a> {
             return;
         };
         self.frames += 1;
+        self.bytes += message.data.len() as u64;
         let mut values = Values::new(frame);
-        for (part, largest) in self.parts.iter().zip(&mut self.largest) {
+        for (part, sizes) in self.parts.iter().zip(&mut self.sizes) {
             // What cannot be read has no size.
             let Ok(bytes) = values.skip(&part.layout) else {
                 break;
             };
-            *largest = (*largest).max(bytes as u64);
+            sizes.all += bytes as u64;
+            sizes.most = sizes.most.max(bytes as u64);
         }
+    }
+
+    fn parts_info(&self) -> Vec<PartInfo> {
+        let parts = self.parts.iter().zip(&self.sizes);
+        let parts = parts.map(|(part, sizes)| PartInfo {
+            name: part.name.clone(),
+            kind: part.kind,
+            bytes_per_cycle: per_cycle(sizes.all, self.frames),
+            most_bytes: sizes.most,
+        });
+        let mut parts: Vec<_> = parts.collect();
+        parts.sort_by(|one, other| other.bytes_per_cycle.total_cmp(&one.bytes_per_cycle));
+        parts
     }
 
     fn states(&self) -> impl Iterator<Item = StateInfo> + '_ {
         let instance = super::values::instance_of(&self.info.topic);
-        let parts = self.parts.iter().zip(&self.largest);
+        let parts = self.parts.iter().zip(&self.sizes);
         let states = parts.filter(|(part, _)| {
             matches!(
                 part.kind,
                 PartKind::Node | PartKind::State | PartKind::History
             )
         });
-        states.map(move |(part, bytes)| StateInfo {
+        states.map(move |(part, sizes)| StateInfo {
             instance: instance.to_owned(),
             node: part.name.clone(),
-            bytes: *bytes,
+            bytes: sizes.most,
         })
     }
 }

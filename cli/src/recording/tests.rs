@@ -36,6 +36,15 @@ fn layouts() -> Layouts {
     };
     let position = Layout::Tuple(vec![Layout::Float(32), Layout::Float(32)]);
     let ball = structure("Ball", &[("position", position), ("name", Layout::Text)]);
+    let gray = |bytes: Layout| {
+        let number = Layout::Unsigned(32);
+        let fields = [
+            ("width", number.clone()),
+            ("height", number),
+            ("data", bytes),
+        ];
+        Layout::Option(Box::new(structure("Gray", &fields)))
+    };
     let part = |name: &str, kind, layout| Part {
         name: name.to_owned(),
         kind,
@@ -43,25 +52,32 @@ fn layouts() -> Layouts {
     };
     let bytes = Layout::List(Box::new(Layout::Unsigned(8)));
     Layouts {
-        frames: [(
-            "0123".to_owned(),
-            vec![
-                part("head", PartKind::Other, Layout::Unsigned(64)),
-                part("control::walk", PartKind::Node, bytes),
-                part("image", PartKind::Output, Layout::Unsigned(16)),
-            ],
-        )]
+        frames: [
+            (
+                "0123".to_owned(),
+                vec![
+                    part("head", PartKind::Other, Layout::Unsigned(64)),
+                    part("control::walk", PartKind::Node, bytes.clone()),
+                    part("image", PartKind::Output, Layout::Unsigned(16)),
+                ],
+            ),
+            (
+                "4567".to_owned(),
+                vec![part("image", PartKind::Output, gray(bytes))],
+            ),
+        ]
         .into(),
         values: [(
             "Control".to_owned(),
             structure("SharedOutputs", &[("ball", Layout::Option(Box::new(ball)))]),
         )]
         .into(),
+        images: [("Eye.main_outputs.image".to_owned(), "gray".to_owned())].into(),
     }
 }
 
 /// A recording as a robot writes it; `with_end`: of a run that ended.
-fn record(path: &Utf8Path, with_end: bool) {
+pub(crate) fn record(path: &Utf8Path, with_end: bool) {
     let channel = |topic: &str, encoding: &str, metadata: &[(&str, &str)]| Channel {
         topic: topic.to_owned(),
         schema: None,
@@ -85,6 +101,7 @@ fn record(path: &Utf8Path, with_end: bool) {
             channel("frames/Control", "hulkgen-frames", &[("types", "0123")]),
             channel("values/Control", "hulkgen-values", &[]),
             channel("Camera.main_outputs.image", "json", &[]),
+            channel("frames/Eye", "hulkgen-frames", &[("types", "4567")]),
         ],
         metadata: vec![
             metadata(
@@ -126,6 +143,12 @@ fn record(path: &Utf8Path, with_end: bool) {
         writer.add(&message(1, cycle, &[1, 0, 0, 0, 0, 0, 0, 0, 0]));
         let image = json!({"width": 1, "height": 1, "step": 3, "encoding": "rgb8", "data": "AQID"});
         writer.add(&message(3, cycle, image.to_string().as_bytes()));
+        // Two pixels, in every fourth cycle.
+        let gray: &[u8] = match cycle % 4 {
+            0 => &[0, 1, 2, 1, 2, 50, 60],
+            _ => &[0, 0],
+        };
+        writer.add(&message(4, cycle, gray));
         if cycle % 8 == 7 {
             writer.close_chunk().expect("there is room");
         }
@@ -139,7 +162,7 @@ fn record(path: &Utf8Path, with_end: bool) {
     writer.finish().expect("there is room");
 }
 
-fn folder() -> (tempfile::TempDir, Utf8PathBuf) {
+pub(crate) fn folder() -> (tempfile::TempDir, Utf8PathBuf) {
     let folder = tempfile::tempdir().expect("there is room");
     let path = Utf8PathBuf::try_from(folder.path().to_owned()).expect("UTF-8");
     (folder, path)
@@ -175,6 +198,15 @@ fn what_a_recording_is_needs_no_types() {
     );
     let control = &info.instances[0];
     assert_eq!((control.frames, control.dropped), (u64::from(CYCLES), 3));
+    let parts = control.parts.iter();
+    let parts: Vec<_> = parts
+        .map(|part| (&*part.name, part.bytes_per_cycle, part.most_bytes))
+        .collect();
+    // The state is as long as the cycle's number, behind a byte that says how long it is.
+    let walk = ("control::walk", 20.5, u64::from(CYCLES));
+    assert_eq!(parts, [walk, ("head", 1.0, 1), ("image", 1.0, 1)]);
+    // With a byte that says what kind of message it is.
+    assert_eq!(control.bytes_per_cycle, 23.5);
     let largest = &info.largest_states[0];
     assert_eq!(
         (&*largest.node, largest.bytes),
@@ -215,7 +247,7 @@ fn values_are_shown_by_path_and_once() {
     };
     assert_eq!(found(&path, &span).len(), 2);
     let all = found(&path, &Selection::default());
-    assert_eq!(all.len(), 3 * CYCLES as usize, "outputs without states");
+    assert_eq!(all.len(), 4 * CYCLES as usize, "outputs without states");
 }
 
 #[test]
@@ -360,13 +392,20 @@ fn values_become_tables_lines_and_images() {
     let image = std::fs::read(images.join("00000003.png")).expect("it was written");
     assert!(image.starts_with(b"\x89PNG"));
     assert!(image.windows(4).any(|window| window == [0, 1, 2, 3]));
+    let eyes = folder.join("eyes");
+    let eye = of(&["Eye.main_outputs.image"]);
+    let exported = export(&path, &eye, Export::Png, &eyes).expect("its type is an image");
+    assert_eq!(exported.files, u64::from(CYCLES) / 4, "others have none");
+    let image = std::fs::read(eyes.join("00000004.png")).expect("it was written");
+    let row = [0, 50, 50, 50, 60, 60, 60];
+    assert!(image.windows(row.len()).any(|window| window == row));
     let refused = export(&path, &ball, Export::Png, &folder.join("none"));
     assert!(refused.is_err(), "a ball is no image");
     let left: Vec<_> = std::fs::read_dir(&folder)
         .expect("it is there")
         .map(|entry| entry.expect("it is there").file_name())
         .filter(|name| {
-            !["a.mcap", "ball.csv", "ball.json", "images"]
+            !["a.mcap", "ball.csv", "ball.json", "eyes", "images"]
                 .map(Into::into)
                 .contains(name)
         })

@@ -14,7 +14,7 @@ use super::{Loading, SaveError, Saving};
 use crate::cycler::Instance;
 use crate::data::Data;
 use crate::error::{Error, Result};
-use crate::reflect::Reflect;
+use crate::reflect::{Pixels, Reflect};
 use crate::subscriptions::Subscriptions;
 use crate::tap::{OutputKind, OutputVisitor};
 use crate::time::Timestamp;
@@ -32,6 +32,7 @@ pub struct Forms {
 struct Form {
     schema: fn() -> Schema,
     rewrite: fn(u64, &[u8], &mut Vec<u8>) -> bool,
+    image: fn() -> Option<Pixels>,
 }
 
 impl<'a> OutputVisitor<'a> for Forms {
@@ -39,6 +40,7 @@ impl<'a> OutputVisitor<'a> for Forms {
         self.forms.push(Form {
             schema: schema::<T>,
             rewrite: rewrite::<T>,
+            image: || T::shape().image(),
         });
     }
 }
@@ -188,6 +190,16 @@ pub(super) fn find<'a>(
         found.push(wanted);
     }
     Ok(found)
+}
+
+/// Main outputs that are images, as clients name them, and what their pixels are called.
+pub(super) fn images<'a>(
+    instances: impl Iterator<Item = (&'a dyn Instance, &'a Subscriptions)>,
+) -> BTreeMap<String, String> {
+    let outputs = instances.flat_map(|(instance, subscriptions)| all(instance, subscriptions));
+    let main = outputs.filter(|output| output.kind == OutputKind::Main);
+    main.filter_map(|output| Some((output.topic(), (output.form.image)()?.name().to_owned())))
+        .collect()
 }
 
 fn all(instance: &dyn Instance, subscriptions: &Subscriptions) -> Vec<Wanted> {

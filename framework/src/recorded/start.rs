@@ -85,7 +85,9 @@ impl Recording {
         let types = robot.instances.iter().map(|instance| instance.types());
         let types: Vec<_> = types.collect();
         let outputs = output::find(&about.outputs, described(robot))?;
-        let mut description = describe(&descriptions, &types, &written, about);
+        let types_file = types_file(&types, output::images(described(robot)));
+        let digests: Vec<_> = types.iter().map(Types::digest).collect();
+        let mut description = describe(&descriptions, &digests, &written, about, types_file);
         let outputs = OutputChannels::add(outputs, &mut description);
         let of_logs = logs::add_channel(&mut description);
         let of_outputs = outputs.track_names();
@@ -246,9 +248,10 @@ fn conditions<P>(robot: &Robot<P>, all: &[InstanceDescription]) -> Result<Condit
 
 fn describe(
     instances: &[InstanceDescription],
-    types: &[Types],
+    types: &[String],
     written: &[&'static str],
     About { mut run, files, .. }: About,
+    types_file: (String, String, String),
 ) -> Description {
     let channel = |topic: String, encoding: &str, once_per_chunk| Channel {
         topic,
@@ -259,8 +262,7 @@ fn describe(
     };
     let frames = instances.iter().zip(types).map(|(one, types)| {
         let mut channel = channel(format!("frames/{}", one.name), FRAMES, false);
-        let digest = (TYPES.to_owned(), types.digest());
-        channel.metadata.push(digest);
+        channel.metadata.push((TYPES.to_owned(), types.clone()));
         channel
     });
     let values = written.iter().chain([&PARAMETERS]);
@@ -287,7 +289,7 @@ fn describe(
         ],
         attachments: files
             .into_iter()
-            .chain([types_file(types)])
+            .chain([types_file])
             .map(|(name, media_type, text)| Attachment {
                 name,
                 media_type,
@@ -297,9 +299,12 @@ fn describe(
     }
 }
 
-/// All types, once.
-fn types_file(types: &[Types]) -> (String, String, String) {
-    let mut layouts = Layouts::default();
+/// All types, once; which outputs are images.
+fn types_file(types: &[Types], images: BTreeMap<String, String>) -> (String, String, String) {
+    let mut layouts = Layouts {
+        images,
+        ..Layouts::default()
+    };
     for one in types {
         layouts.frames.insert(one.digest(), one.parts.clone());
         let values = one.values.iter();

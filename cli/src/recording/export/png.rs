@@ -1,4 +1,4 @@
-//! Images in Foxglove's schemas as PNG.
+//! Images as PNG: in Foxglove's schemas, or as their type has them.
 //!
 //! Format: <https://www.w3.org/TR/png-3>, its data as stored blocks of <https://www.rfc-editor.org/rfc/rfc1951>: larger than
 //! they could be, and every program reads them.
@@ -29,12 +29,32 @@ pub(super) fn image(value: &Value) -> Option<Image> {
     }
     let number = |name: &str| value.get(name).and_then(Value::as_u64);
     let (width, height, step) = (number("width")?, number("height")?, number("step")?);
+    let encoding = value.get("encoding")?.as_str()?;
+    png((width, height), step, encoding, &data)
+}
+
+/// The file of a value of a type that is an image: these pixels, row by row, without gaps.
+pub(super) fn typed(value: &Value, pixels: &str) -> Option<Image> {
+    let number = |name: &str| value.get(name).and_then(Value::as_u64);
+    let size @ (width, _) = (number("width")?, number("height")?);
+    let (encoding, bytes) = match pixels {
+        "gray" => ("mono8", 1),
+        "rgb" => ("rgb8", 3),
+        "yuyv" => ("yuyv", 2),
+        _ => return None,
+    };
+    let data = value.get("data")?.as_array()?.iter();
+    let data = data.map(|byte| u8::try_from(byte.as_u64()?).ok());
+    let data: Vec<u8> = data.collect::<Option<_>>()?;
+    png(size, width.checked_mul(bytes)?, encoding, &data)
+}
+
+fn png((width, height): (u64, u64), step: u64, encoding: &str, data: &[u8]) -> Option<Image> {
     if width == 0 || height == 0 || width.checked_mul(height)? > PIXELS {
         return None;
     }
     let rows = data.chunks_exact(usize::try_from(step).ok().filter(|step| *step > 0)?);
     let rows = rows.take(height as usize);
-    let encoding = value.get("encoding")?.as_str()?;
     let mut pixels = Vec::new();
     let mut count = 0;
     for row in rows {

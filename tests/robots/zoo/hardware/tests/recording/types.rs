@@ -13,6 +13,12 @@ fn every_frame_and_value_can_be_read_without_its_type() {
     record_in_lockstep(&tape.path, Settings::default(), on, &as_it_is);
     let file = tape.read();
     let layouts = Layouts::of(&file.attachments);
+    // Both cameras', and nothing else.
+    let images = ["VisionBottom", "VisionTop"].map(|camera| {
+        let path = format!("{camera}.main_outputs.image");
+        (path, "gray".to_owned())
+    });
+    assert_eq!(layouts.images, images.into());
     let (mut frames, mut values) = (0, 0);
     for message in file.chunks.iter().flat_map(|chunk| chunk.messages()) {
         let mut channels = file.channels.iter();
