@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use serde_json::Value;
 use support::target_folder;
@@ -10,14 +11,21 @@ use support::target_folder;
 /// The node that is looked at.
 const NODE: &str = "nodes/src/control/speed_choice.rs";
 
+/// To cargo the packages of all new robots are the same, whichever folder they lie in: one at a time is compiled.
+static TURN: Mutex<()> = Mutex::new(());
+
 struct Recorded {
     folder: tempfile::TempDir,
+    _turn: MutexGuard<'static, ()>,
 }
 
 impl Recorded {
     /// A new robot under git that ran for a second.
     fn new() -> Self {
+        // Before its files are written: they have to be newer than what was compiled of another robot.
+        let turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
         let robot = Self {
+            _turn: turn,
             folder: tempfile::tempdir().expect("there is room for a folder"),
         };
         let made = hulkgen_in(robot.folder.path(), &["new", "robot"]);
