@@ -110,6 +110,11 @@ impl Robot {
         self.start.saturating_add(time)
     }
 
+    /// A time in nanoseconds since 1970 on the robot's clock, as [`Robot::since_1970`]; `None`: it had not started then.
+    pub fn since_start(&self, since_1970: u64) -> Option<u64> {
+        since_1970.checked_sub(self.start)
+    }
+
     /// What the robot says makes no sense to the caller.
     pub fn confused(&self) -> Error {
         self.error(Why::Confused)

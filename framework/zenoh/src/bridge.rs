@@ -11,6 +11,7 @@ use zenoh::query::Query;
 use crate::Result;
 use crate::cdr::{self, Layout};
 use crate::edges::{self, Direction, Edge, Encoding, Kind};
+use crate::feed;
 use crate::keys::{Keys, LONGEST, Wish, refuse};
 
 /// Answers that are awaited of the robot at a time; it has a limit of its own for those that take long.
@@ -35,6 +36,8 @@ pub(crate) struct Bridge<'keys> {
     told: BTreeMap<usize, Told>,
     /// By number of the request.
     awaited: BTreeMap<u32, Awaited>,
+    /// How often what came in was refused, by path.
+    refused: BTreeMap<String, u64>,
 }
 
 /// Values of an edge.
@@ -87,6 +90,7 @@ impl<'keys> Bridge<'keys> {
             subscriptions: BTreeMap::new(),
             told: BTreeMap::new(),
             awaited: BTreeMap::new(),
+            refused: BTreeMap::new(),
         };
         for index in 0..bridge.keys.edges().len() {
             let edge = bridge.keys.edges()[index].clone();
@@ -241,17 +245,16 @@ impl<'keys> Bridge<'keys> {
     fn grant(&mut self, wish: Wish) -> Result<()> {
         match wish {
             Wish::Put(index, bytes) => {
-                let Some(path) = self.path_of(index) else {
+                let Some(edge) = self.keys.edges().get(index).cloned() else {
                     return Ok(());
                 };
-                match read_json(&bytes) {
-                    Ok(value) if self.has(index, &value) => {}
-                    Ok(value) => {
-                        self.will_write(index);
-                        let id = self.robot.send(write(&path, value))?;
-                        self.await_answer(id, Asker::Put(index, path));
+                match self.put(index, &edge, &bytes) {
+                    Ok(Some(ask)) => {
+                        let id = self.robot.send(ask)?;
+                        self.await_answer(id, Asker::Put(index, edge.path));
                     }
-                    Err(message) => eprintln!("warning: `{path}`: {message}"),
+                    Ok(None) => {}
+                    Err(message) => self.tell_refused(&edge.path, &message),
                 }
             }
             Wish::Query(index, query) => {
@@ -278,6 +281,28 @@ impl<'keys> Bridge<'keys> {
         Ok(())
     }
 
+    /// What a sample of a key means; `None`: the robot has that value already.
+    fn put(&mut self, index: usize, edge: &Edge, bytes: &[u8]) -> Result<Option<Ask>> {
+        let value = read_json(bytes)?;
+        if edge.kind == Kind::Remote {
+            return feed::ask(&edge.path, value, |time| self.robot.since_start(time)).map(Some);
+        }
+        if self.has(index, &value) {
+            return Ok(None);
+        }
+        self.will_write(index);
+        Ok(Some(write(&edge.path, value)))
+    }
+
+    /// Who put a value cannot be told, so it is told here: the 1st, 2nd, 4th, … time of each path.
+    fn tell_refused(&mut self, path: &str, message: &str) {
+        let times = self.refused.entry(path.to_owned()).or_insert(0);
+        *times += 1;
+        if times.is_power_of_two() {
+            eprintln!("warning: `{path}`: {message} (refused {times} times)");
+        }
+    }
+
     fn path_of(&self, index: usize) -> Option<String> {
         self.keys.edges().get(index).map(|edge| edge.path.clone())
     }
@@ -290,7 +315,7 @@ impl<'keys> Bridge<'keys> {
         let good = match (answer.outcome, &awaited.asker) {
             (Outcome::Ok(good), _) => *good,
             (Outcome::Error(failure), Asker::Put(_, path)) => {
-                eprintln!("warning: `{path}`: {}", failure.message);
+                self.tell_refused(path, &failure.message);
                 return Ok(());
             }
             (Outcome::Error(failure), Asker::Query(_, query) | Asker::Written(_, query)) => {

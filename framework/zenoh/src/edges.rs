@@ -27,6 +27,8 @@ pub(crate) enum Kind {
     AdditionalOutput,
     Parameter,
     Procedure,
+    /// An instance that another machine runs.
+    Remote,
 }
 
 #[derive(Clone, Copy, Debug, Deserialize, Eq, PartialEq)]

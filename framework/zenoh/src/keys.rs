@@ -22,7 +22,7 @@ pub(crate) const LONGEST: usize = 1 << 20;
 
 /// What the other side wants. Numbers are places in the list of edges.
 pub(crate) enum Wish {
-    /// A value of a parameter.
+    /// A value of a parameter, or what became of a cycle of another machine.
     Put(usize, Vec<u8>),
     /// A call of a procedure, or a parameter to be read or written.
     Query(usize, Query),

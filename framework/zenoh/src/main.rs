@@ -3,13 +3,14 @@
 //!
 //! ```text
 //! robot <--docs/protocol.md--> Robot --Bridge--> publishers  --Zenoh--> other machines, ROS 2 by rmw_zenoh
-//!                                    <--wishes-- subscribers, queryables
+//!                                    <--wishes-- subscribers, queryables: parameters, calls, cycles of other machines
 //! ```
 //! Invariant: neither side waits for the other. Who is away is waited for, and what comes meanwhile is refused.
 
 mod bridge;
 mod cdr;
 mod edges;
+mod feed;
 mod keys;
 mod options;
 

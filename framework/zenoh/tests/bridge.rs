@@ -27,13 +27,21 @@ fn skip(test: &str, what: &str) {
     println!("SKIPPED {test}: {what}");
 }
 
-/// The zoo's program and python with what the client imports; else what is missing.
-fn parts() -> Result<PathBuf, &'static str> {
+/// Programs of the zoo and of the outpost, where python has what the clients import; else what is missing.
+struct Parts {
+    zoo: PathBuf,
+    outpost: PathBuf,
+}
+
+fn parts() -> Result<Parts, &'static str> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let given = std::env::var_os("HULKGEN_ROBOT").map(PathBuf::from);
-    let program = given.unwrap_or_else(|| root.join("target/debug/loud"));
-    if !program.is_file() {
-        return Err("`cargo build -p zoo_runtime` in the repository, or HULKGEN_ROBOT");
+    let zoo = given.unwrap_or_else(|| root.join("target/debug/loud"));
+    let outpost = zoo.with_file_name("tower");
+    if !zoo.is_file() || !outpost.is_file() {
+        return Err(
+            "`cargo build -p zoo_runtime -p outpost_runtime` in the repository, or HULKGEN_ROBOT",
+        );
     }
     let mut python = Command::new("python3");
     let python = python.args(["-c", "import pycdr2, zenoh"]);
@@ -41,7 +49,7 @@ fn parts() -> Result<PathBuf, &'static str> {
     if !python.is_ok_and(|status| status.success()) {
         return Err("python3 -m pip install eclipse-zenoh pycdr2");
     }
-    Ok(program)
+    Ok(Parts { zoo, outpost })
 }
 
 fn free_address() -> SocketAddr {
@@ -63,7 +71,12 @@ impl Place {
     }
 
     fn robot(&self, program: &Path, at: SocketAddr, folder: &Path) -> Running {
-        let zoo = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/robots/zoo");
+        let name = if program.ends_with("tower") {
+            "outpost"
+        } else {
+            "zoo"
+        };
+        let robots = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/robots");
         let mut robot = self.command(program);
         let at = at.to_string();
         robot.args([
@@ -74,7 +87,7 @@ impl Place {
             &at,
             "--run-folder",
         ]);
-        robot.arg(folder).current_dir(zoo);
+        robot.arg(folder).current_dir(robots.join(name));
         quiet(&mut robot)
     }
 
@@ -90,6 +103,18 @@ impl Place {
         client.args([format!("tcp/{zenoh}"), what.to_owned()]);
         client
     }
+}
+
+/// The machine that runs the outpost's lookouts, until it has seen everything in the book.
+fn look_out(mut machine: Command, zenoh: SocketAddr) {
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/lookouts.py");
+    let machine = machine.arg(script).arg(format!("tcp/{zenoh}"));
+    let output = machine.output().expect("python3 was there a moment ago");
+    let said = String::from_utf8_lossy(&output.stdout);
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{said}{stderr}");
+    assert!(said.contains("20 ships in order"), "{said}");
+    println!("{said}");
 }
 
 fn quiet(command: &mut Command) -> Running {
@@ -117,7 +142,7 @@ fn exchange(client: &mut Command) {
 #[test]
 fn three_processes_exchange_everything() {
     let program = match parts() {
-        Ok(program) => program,
+        Ok(parts) => parts.zoo,
         Err(what) => return skip("three_processes_exchange_everything", what),
     };
     let folder = std::env::temp_dir().join(format!("hulkgen-zenoh-{}", std::process::id()));
@@ -131,9 +156,25 @@ fn three_processes_exchange_everything() {
 }
 
 #[test]
+fn another_machine_feeds_a_robot_with_what_it_sees() {
+    const TEST: &str = "another_machine_feeds_a_robot_with_what_it_sees";
+    let program = match parts() {
+        Ok(parts) => parts.outpost,
+        Err(what) => return skip(TEST, what),
+    };
+    let folder = std::env::temp_dir().join(format!("hulkgen-outpost-{}", std::process::id()));
+    let (robot_at, zenoh_at) = (free_address(), free_address());
+    let here = Place(None);
+    let _robot = here.robot(&program, robot_at, &folder);
+    let _bridge = here.bridge(robot_at, zenoh_at);
+    look_out(here.command(Path::new("python3")), zenoh_at);
+    let _ = std::fs::remove_dir_all(&folder);
+}
+
+#[test]
 fn a_robot_and_a_bridge_that_went_away_are_found_again() {
     let program = match parts() {
-        Ok(program) => program,
+        Ok(parts) => parts.zoo,
         Err(what) => return skip("a_robot_and_a_bridge_that_went_away_are_found_again", what),
     };
     let folder = std::env::temp_dir().join(format!("hulkgen-zenoh-again-{}", std::process::id()));
@@ -193,8 +234,8 @@ struct Network {
 
 impl Network {
     /// `None`: nobody permits it.
-    fn new() -> Option<Self> {
-        let id = std::process::id();
+    fn new(test: &str) -> Option<Self> {
+        let id = format!("{test}-{}", std::process::id());
         let network = Self {
             near: format!("hulkgen-near-{id}"),
             far: format!("hulkgen-far-{id}"),
@@ -247,30 +288,31 @@ fn run(line: &str) -> bool {
     status.is_ok_and(|status| status.success())
 }
 
-#[test]
-fn a_network_that_loses_and_delays_carries_everything() {
-    const TEST: &str = "a_network_that_loses_and_delays_carries_everything";
+/// Robot and bridge behind the cable, with the other machine at its far end; `what` is done there, and something has to get
+/// lost meanwhile. `None`: all is there and permitted; else what is missing.
+fn at_both_ends(
+    test: &str,
+    program: impl Fn(Parts) -> PathBuf,
+    what: impl Fn(&Place, SocketAddr),
+) -> Option<&'static str> {
     let program = match parts() {
-        Ok(program) => program,
-        Err(what) => return skip(TEST, what),
+        Ok(parts) => program(parts),
+        Err(what) => return Some(what),
     };
     if !run("ip -V") || !run("tc -V") {
-        return skip(TEST, "`ip` and `tc` (iproute2)");
+        return Some("`ip` and `tc` (iproute2)");
     }
-    let Some(network) = Network::new() else {
-        return skip(
-            TEST,
-            "permission for network namespaces, for example as root",
-        );
+    let Some(network) = Network::new(test) else {
+        return Some("permission for network namespaces, for example as root");
     };
-    let folder = std::env::temp_dir().join(format!("hulkgen-zenoh-far-{}", std::process::id()));
+    let folder = std::env::temp_dir().join(format!("hulkgen-{test}-{}", std::process::id()));
     let robot_at = SocketAddr::from(([127, 0, 0, 1], 4857));
     let zenoh_at = SocketAddr::from(([10, 0, 0, 1], 7447));
     let near = Place(Some(network.near.clone()));
     let far = Place(Some(network.far.clone()));
     let robot = near.robot(&program, robot_at, &folder);
     let bridge = near.bridge(robot_at, zenoh_at);
-    exchange(&mut far.client(zenoh_at, "exchanges"));
+    what(&far, zenoh_at);
     let told = network.told();
     assert!(
         !told.contains("dropped 0,"),
@@ -279,4 +321,36 @@ fn a_network_that_loses_and_delays_carries_everything() {
     println!("{told}");
     drop((robot, bridge));
     let _ = std::fs::remove_dir_all(&folder);
+    None
+}
+
+#[test]
+fn a_network_that_loses_and_delays_carries_everything() {
+    let missing = at_both_ends(
+        "exchange",
+        |parts| parts.zoo,
+        |far, zenoh_at| {
+            exchange(&mut far.client(zenoh_at, "exchanges"));
+        },
+    );
+    if let Some(what) = missing {
+        skip("a_network_that_loses_and_delays_carries_everything", what);
+    }
+}
+
+#[test]
+fn ships_are_in_order_behind_a_network_that_loses_and_delays() {
+    let missing = at_both_ends(
+        "lookouts",
+        |parts| parts.outpost,
+        |far, zenoh_at| {
+            look_out(far.command(Path::new("python3")), zenoh_at);
+        },
+    );
+    if let Some(what) = missing {
+        skip(
+            "ships_are_in_order_behind_a_network_that_loses_and_delays",
+            what,
+        );
+    }
 }
