@@ -48,7 +48,7 @@ async function whatHappenedIsMarked(page) {
     }),
   );
   for (const { label, color, area, middle } of marks) {
-    assert(area >= 24 && !/, 0\)$|transparent/.test(color), `${label} is drawn: ${area} px in ${color}`);
+    assert(area >= 24 && !/^rgba\(.*, 0\)$|transparent/.test(color), `${label} is drawn: ${area} px in ${color}`);
     const times = [...label.matchAll(/(\d+\.\d+) s/g)].map(([, time]) => Number(time));
     const expected = (times[0] + times.at(-1) - 2 * begins) / (2 * (ends - begins));
     assert(Math.abs(middle - expected) < 0.02, `${label} is drawn at ${middle} of the axis, not at ${expected}`);
