@@ -29,6 +29,7 @@ use quote::quote;
 use crate::model::RuntimeModel;
 use spelling::ident;
 
+pub use recording::render_stand_in;
 pub use templates::render_template;
 
 /// Text by path relative to the workspace root.

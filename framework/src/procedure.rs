@@ -28,6 +28,7 @@ pub fn procedure<Request, Response>() -> (Caller<Request, Response>, Answerer<Re
     let answerer = Answerer {
         receiver,
         taken: None,
+        asked: None,
     };
     (Caller { sender }, answerer)
 }
@@ -43,6 +44,8 @@ pub struct Caller<Request, Response> {
 pub struct Answerer<Request, Response> {
     receiver: Receiver<Asked<Request, Response>>,
     taken: Option<Asked<Request, Response>>,
+    /// In a replay and in tests: what becomes of the call that [`Answerer::ask`] made.
+    asked: Option<Pending<Response>>,
 }
 
 /// One call, as the node sees it in one cycle.
@@ -155,12 +158,19 @@ impl<Request, Response> Answerer<Request, Response> {
         self.taken.as_ref().map(|asked| &asked.request)
     }
 
-    /// The call of this cycle, whose answer nobody waits for.
+    /// The call of this cycle, without a client; [`Self::answered`] tells what comes of it.
     pub(crate) fn ask(&mut self, request: Option<Request>) {
-        self.taken = request.map(|request| Asked {
-            request,
-            answers: sync_channel(1).0,
+        self.asked = None;
+        self.taken = request.map(|request| {
+            let (answers, receiver) = sync_channel(1);
+            self.asked = Some(Pending { receiver });
+            Asked { request, answers }
         });
+    }
+
+    /// What the call that [`Self::ask`] made ended with; once.
+    pub(crate) fn answered(&self) -> Option<Answer<Response>> {
+        self.asked.as_ref()?.try_answer()
     }
 
     /// Ends the cycle: what is not answered is refused.

@@ -30,4 +30,5 @@ pub use output::Forms;
 pub use report::{InstanceRecorded, RecordingReport};
 pub use start::{About, Recording};
 pub(crate) use start::{FRAMES, TYPES, VALUES};
-pub use types::{Describing, Types, describe};
+pub(crate) use types::taken;
+pub use types::{Describing, Taken, Types, describe};

@@ -3,10 +3,11 @@
 //! ```text
 //! file -> chunks -> frames of one instance -> states, inputs -> run, finish -> digests, beside those of the recording
 //! ```
-//! Setup nodes are not called; what they wrote stands in the frame. What nodes command goes nowhere. A node that asks the
+//! Setup nodes are not called; what they wrote stands in the frame. What nodes command goes nowhere; [`commanded!`](crate::commanded) notes it for whoever listens. A node that asks the
 //! hardware for something in a cycle cannot be replayed in that cycle; it is counted.
 
 mod carry;
+mod commands;
 mod compare;
 mod compared;
 mod difference;
@@ -30,9 +31,11 @@ use serde_json::Value;
 
 use crate::cycler::{Cycler, Finished, Instance};
 use crate::error::{Error, Result};
-use crate::recorded::{Head, Loading, Recorded, Stored, Types, digest};
+use crate::recorded::{self, Head, Loading, Recorded, Stored, Taken, Types, digest};
 
 pub use carry::Setup;
+pub use commands::{Argument, Command, is_listening, note, telling};
+pub(crate) use commands::{listen, noted};
 pub use compare::{Change, Comparison, InstanceCompared, compare};
 pub(crate) use difference::first_difference;
 pub use elsewhere::{Elsewhere, answer};
@@ -66,6 +69,9 @@ pub trait Replay {
 
     /// Runs its nodes, up to the first that is none of these if some are named, and finishes it.
     fn run(&mut self, nodes: Option<&[String]>) -> Ran;
+
+    /// What the loaded cycle has taken beside inputs; once it ran, its answers.
+    fn taken(&self) -> Taken;
 
     /// After a cycle: what a next one would find, as the content of a frame.
     ///
@@ -133,6 +139,10 @@ where
             }
             Err(error) => Ran::Failed(error.to_string()),
         }
+    }
+
+    fn taken(&self) -> Taken {
+        recorded::taken(self.cycler.body())
     }
 
     fn left_behind(&mut self) -> Result<Vec<u8>> {

@@ -37,7 +37,7 @@ use crate::launch::Target;
 use crate::parameters;
 use crate::time::{CycleTime, Timestamp};
 
-pub use captured::{Captured, CapturedSeries};
+pub use captured::{Captured, CapturedCall, CapturedHistory, CapturedSeries};
 pub use created::created;
 pub use generated::{assert_generated, assert_generated_with};
 pub use parameter_file::ParameterFile;

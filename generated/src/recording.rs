@@ -5,6 +5,7 @@
 use framework::Leased;
 use framework::Result;
 use framework::Timestamp;
+use framework::commanded;
 use framework::recorded::describe;
 use framework::replay::Replayable;
 use framework::replay::no_hardware;
@@ -69,7 +70,8 @@ pub const INSTANCES: &[Replayable] = &[
 pub struct Sink;
 
 impl ActuatorInterface for Sink {
-    fn write_command(&self, _: &MotorCommands, _: &Leds) -> Result<()> {
+    fn write_command(&self, motors: &MotorCommands, leds: &Leds) -> Result<()> {
+        commanded!("ActuatorInterface::write_command", motors, leds);
         Ok(())
     }
 }
@@ -81,11 +83,13 @@ impl CameraInterface for Sink {
 }
 
 impl MessageInterface for Sink {
-    fn send_to_game_controller(&self, _: Endpoint, _: &[u8]) -> Result<()> {
+    fn send_to_game_controller(&self, to: Endpoint, bytes: &[u8]) -> Result<()> {
+        commanded!("MessageInterface::send_to_game_controller", to, bytes);
         Ok(())
     }
 
-    fn send_to_team(&self, _: &[u8]) -> Result<()> {
+    fn send_to_team(&self, bytes: &[u8]) -> Result<()> {
+        commanded!("MessageInterface::send_to_team", bytes);
         Ok(())
     }
 }
@@ -109,7 +113,8 @@ impl SensorInterface for Sink {
 }
 
 impl SpeakerInterface for Sink {
-    fn play_tone(&self, _: &Tone) -> Result<()> {
+    fn play_tone(&self, tone: &Tone) -> Result<()> {
+        commanded!("SpeakerInterface::play_tone", tone);
         Ok(())
     }
 }

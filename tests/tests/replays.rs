@@ -1,12 +1,79 @@
 //! A robot of its own is recorded, and its recording answers: other parameters, one node, another revision, a test of a node.
 
 use std::fs;
+use std::net::TcpListener;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
 use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
 
 use serde_json::Value;
 use support::target_folder;
+
+/// A busy machine may take so long for anything.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// A node whose test has to bring a state that is made whole, hardware, the past and a call.
+const EVERYTHING: &str = r#"//! Sums up what was wished for, and says it twice.
+
+use std::sync::Arc;
+
+use framework::{
+    CyclerState, HardwareInterface, HistoricInput, MainOutput, Parameter, Procedure, Result, context,
+};
+use serde::{Deserialize, Serialize};
+
+use crate::interfaces::Wheels;
+
+#[derive(Debug, Deserialize, Serialize)]
+pub struct Everything {
+    sum: f32,
+    #[serde(skip)]
+    factors: Arc<[f32]>,
+}
+
+#[context]
+pub struct CreationContext {
+    factor: Parameter<f32, "speed_choice.cruising">,
+    node: CyclerState<f32, "everything.called">,
+}
+
+#[context]
+pub struct CycleContext {
+    hardware_interface: HardwareInterface,
+    past: HistoricInput<Option<f32>, "wheel_speed?">,
+    node: CyclerState<f32, "everything.called">,
+    set: Procedure<f32, f32, "set">,
+}
+
+#[context]
+pub struct MainOutputs {
+    newest: MainOutput<f32>,
+}
+
+impl Everything {
+    pub fn new(context: CreationContext) -> Result<Self> {
+        Ok(Self { sum: *context.node, factors: Arc::new([*context.factor]) })
+    }
+
+    pub fn restore(&mut self, context: CreationContext) -> Result<()> {
+        self.factors = Arc::new([*context.factor]);
+        Ok(())
+    }
+
+    pub fn cycle(&mut self, context: CycleContext<impl Wheels>) -> Result<MainOutputs> {
+        let past: f32 = context.past.iter().filter_map(|(_, speed)| speed.copied()).sum();
+        self.sum += past * self.factors[0];
+        if let Some(call) = context.set {
+            self.sum = *call.request();
+            *context.node += 1.0;
+            call.answer(*context.node);
+        }
+        context.hardware_interface.write_speed(self.sum * 0.0)?;
+        Ok(MainOutputs { newest: (past + *context.node).into() })
+    }
+}
+"#;
 
 /// The node that is looked at.
 const NODE: &str = "nodes/src/control/speed_choice.rs";
@@ -80,6 +147,41 @@ impl Recorded {
         )
     }
 
+    /// Runs the program that was built, until a client has called `procedure`; gives the cycle that took the call.
+    fn record_call(&self, file: &str, procedure: &str, request: &str) -> u64 {
+        let free = TcpListener::bind("127.0.0.1:0").and_then(|listener| listener.local_addr());
+        let address = free.expect("this machine has a free port").to_string();
+        let mut program = Command::new(target_folder().join("simulation"))
+            .args(["--headless", "--record", file, "--listen", &address])
+            .current_dir(self.path())
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .expect("it was built");
+        let path = format!("Control.procedures.{procedure}");
+        let call = ["call", "--host", &address, &path, request];
+        let begin = Instant::now();
+        while !hulkgen_in(&self.path(), &call).status.success() {
+            assert!(begin.elapsed() < PATIENCE, "nobody answers `{path}`");
+            std::thread::sleep(Duration::from_millis(100));
+        }
+        let asked = Command::new("kill")
+            .args(["-INT", &program.id().to_string()])
+            .status();
+        assert!(asked.expect("every Unix has it").success());
+        let ended = program.wait().expect("it is our child");
+        assert!(ended.success(), "{ended}");
+        let path = format!("Control.frame.{procedure}");
+        let calls = hulkgen_in(&self.path(), &["recording", "cat", file, &path]);
+        let calls = String::from_utf8_lossy(&calls.stdout).into_owned();
+        let calls = calls
+            .lines()
+            .map(|line| -> Value { serde_json::from_str(line).expect("an object a line") });
+        let mut calls = calls.filter(|call| !call["value"].is_null());
+        let call = calls.next().expect("it was recorded");
+        call["cycle"].as_u64().expect("a number")
+    }
+
     #[track_caller]
     fn replay(&self, words: &[&str]) -> Value {
         let all = ["replay", "tape.mcap", "--format", "json"];
@@ -89,7 +191,11 @@ impl Recorded {
     }
 
     fn edit(&self, from: &str, to: &str) {
-        let path = self.path().join(NODE);
+        self.edit_in(NODE, from, to);
+    }
+
+    fn edit_in(&self, file: &str, from: &str, to: &str) {
+        let path = self.path().join(file);
         let before = fs::read_to_string(&path).expect("the node is there");
         assert_eq!(before.matches(from).count(), 1, "`{from}`");
         fs::write(path, before.replace(from, to)).expect("the folder is ours");
@@ -230,10 +336,101 @@ fn a_captured_cycle_is_a_test_that_fails_when_the_node_changes() {
         said.contains("is not in the recording, which has cycles 1 to"),
         "{said}"
     );
-    let said = capture("wheel_sender", &cycle, 1);
-    assert!(said.contains("it uses the hardware"), "{said}");
+    capture("wheel_sender", &cycle, 0);
+    let name = format!("wheel_sender_control_{cycle}");
+    let tested = robot.test(&name);
+    assert!(tested.status.success(), "{}", text(&tested));
+    let sender = "nodes/src/control/wheel_sender.rs";
+    robot.edit_in(
+        sender,
+        ".write_speed(*context.wheel_speed)?",
+        ".write_speed(*context.wheel_speed * 1.01)?",
+    );
+    let said = text(&robot.test(&name));
+    assert!(
+        said.contains("command 0 to the hardware is not what was recorded"),
+        "{said}"
+    );
     let said = capture("odometry_receiver", &cycle, 1);
     assert!(said.contains("a setup node"), "{said}");
     let said = capture("speed_choise", &cycle, 2);
     assert!(said.contains("did you mean"), "{said}");
+}
+
+#[test]
+fn a_test_brings_hardware_the_past_a_call_and_a_state_that_is_made_whole() {
+    let robot = Recorded::new();
+    let node = [
+        "add-node",
+        "nodes::control::everything",
+        "--cycler",
+        "Control",
+    ];
+    let added = hulkgen_in(&robot.path(), &node);
+    assert!(added.status.success(), "{}", text(&added));
+    let file = "nodes/src/control/everything.rs";
+    fs::write(robot.path().join(file), EVERYTHING).expect("the folder is ours");
+    robot.hulkgen(
+        &["run", "--for", "100ms", "--headless", "--record", "off"],
+        0,
+    );
+    let cycle = robot.record_call("call.mcap", "set", "0.25").to_string();
+    let words = [
+        "capture",
+        "call.mcap",
+        "--at",
+        &cycle,
+        "--node",
+        "everything",
+    ];
+    robot.hulkgen(&words, 0);
+    let name = format!("everything_control_{cycle}");
+    let tested = robot.test(&name);
+    assert!(tested.status.success(), "{}", text(&tested));
+    assert!(text(&tested).contains("1 passed"), "{}", text(&tested));
+    for (right, wrong, message) in [
+        (
+            "self.sum = *call.request()",
+            "self.sum += *call.request()",
+            "the state of the node",
+        ),
+        (
+            "call.answer(*context.node)",
+            "call.answer(self.sum)",
+            "`set` is not answered as",
+        ),
+        (
+            "(past + *context.node)",
+            "(past - *context.node)",
+            "`newest` is not what",
+        ),
+        (
+            "write_speed(self.sum * 0.0)",
+            "write_speed(self.sum)",
+            "command 0 to the hardware",
+        ),
+        (
+            "context.past.iter()",
+            "context.past.iter().filter(|_| false)",
+            "`newest` is not what",
+        ),
+        (
+            "self.factors = Arc::new([*context.factor]);",
+            "",
+            "index out of bounds",
+        ),
+    ] {
+        robot.edit_in(file, right, wrong);
+        let tested = robot.test(&name);
+        assert!(!tested.status.success(), "{wrong}");
+        assert!(
+            text(&tested).contains(message),
+            "{wrong}: {}",
+            text(&tested)
+        );
+        match wrong {
+            "" => {}
+            wrong => robot.edit_in(file, wrong, right),
+        }
+    }
 }

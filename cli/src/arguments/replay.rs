@@ -55,8 +55,8 @@ pub struct Replay {
 
 /// Make a cycle of a recording a test of a node, in the node's crate
 ///
-/// The test calls the node with what it took in that cycle and compares its outputs, bit for bit; inputs, parameters, the
-/// state before and the outputs stand in a data file beside it.
+/// The test calls the node with what it took in that cycle and compares its outputs, its state, its answer to a call and what
+/// it told the hardware, bit for bit; all values stand in a data file beside it.
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "\
 Exit status: 0 written, 1 the cycle or the node cannot be captured, errors in the robot or a failed build, 2 wrong usage.

@@ -13,7 +13,6 @@ use crate::diagnostics::{listed, nearest};
 use crate::drift;
 use crate::graph::{self, Cycler, Graph, Node};
 use crate::outcome::{Outcome, Refusal};
-use crate::resolve::robot::Robot;
 use crate::scaffold;
 
 pub(super) fn run(session: &mut Session<'_>, capture: &Capture) -> Result<Outcome, Failure> {
@@ -25,7 +24,7 @@ pub(super) fn run(session: &mut Session<'_>, capture: &Capture) -> Result<Outcom
     let robot = &understood.robot;
     let graph = graph::describe(robot, &understood.schedule);
     let (cycler, node) = find(&graph, &capture.node)?;
-    scaffold::check_capturable(node, restores(robot, node))?;
+    scaffold::check_capturable(robot, node)?;
     let instance = instance(cycler, node, capture.instance.as_deref())?;
     let wanted = Wanted {
         target: capture.target.as_deref(),
@@ -102,11 +101,6 @@ fn find<'g>(graph: &'g Graph, name: &str) -> Result<(&'g Cycler, &'g Node), Refu
             Err(Refusal::wrong_usage(message).help(format!("name one of {}", listed(several))))
         }
     }
-}
-
-fn restores(robot: &Robot, node: &Node) -> bool {
-    let mut nodes = robot.cyclers.iter().flat_map(|cycler| &cycler.nodes);
-    nodes.any(|one| one.path == node.path && one.restores)
 }
 
 /// The instance that is asked for, or the only one.

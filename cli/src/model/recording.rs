@@ -6,9 +6,9 @@ use serde::Serialize;
 
 use super::cycler::CyclerModel;
 use super::frame::Hardware;
-use crate::resolve::robot::{Condition, Interface, Method, Record, Robot};
+use crate::resolve::robot::{Condition, Interface, Record, Robot};
 
-pub use crate::resolve::robot::Answer;
+pub use crate::resolve::robot::{Answer, Method};
 
 /// What stands in for the hardware in a replay.
 #[derive(Clone, Debug, Default, Serialize)]
@@ -50,14 +50,19 @@ impl Sink {
 pub fn sink(robot: &Robot) -> Sink {
     let nodes = robot.running().flat_map(|(_, cycler)| &cycler.nodes);
     let asked = nodes.flat_map(|node| [&node.new_bounds, &node.cycle_bounds, &node.restore_bounds]);
-    let known = |interface: &Interface| Some((interface.path.clone(), interface.methods.clone()?));
-    let traits: BTreeMap<_, _> = asked.flatten().filter_map(known).collect();
-    let traits = traits.into_iter();
     Sink {
-        traits: traits
-            .map(|(path, methods)| SinkTrait { path, methods })
-            .collect(),
+        traits: traits(asked.flatten()),
     }
+}
+
+/// Those of the traits that can be written down, each once, sorted by path.
+pub fn traits<'a>(asked: impl Iterator<Item = &'a Interface>) -> Vec<SinkTrait> {
+    let known = |interface: &Interface| Some((interface.path.clone(), interface.methods.clone()?));
+    let traits: BTreeMap<_, _> = asked.filter_map(known).collect();
+    let traits = traits.into_iter();
+    traits
+        .map(|(path, methods)| SinkTrait { path, methods })
+        .collect()
 }
 
 /// Decides what an instance records.

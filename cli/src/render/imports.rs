@@ -171,6 +171,7 @@ impl VisitMut for Collect<'_> {
     }
 
     fn visit_macro_mut(&mut self, invocation: &mut syn::Macro) {
+        self.visit_path_mut(&mut invocation.path);
         visit_vec(invocation, |element| self.visit_expr_mut(element));
     }
 }
@@ -200,6 +201,7 @@ impl VisitMut for Shorten<'_> {
     }
 
     fn visit_macro_mut(&mut self, invocation: &mut syn::Macro) {
+        self.visit_path_mut(&mut invocation.path);
         visit_vec(invocation, |element| self.visit_expr_mut(element));
     }
 }

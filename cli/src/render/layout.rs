@@ -83,6 +83,15 @@ pub(super) fn rust_file(title: &str, modules: &[String], items: TokenStream) -> 
     text
 }
 
+/// The text of items alone, each with an empty line before it.
+pub(super) fn items(items: TokenStream) -> String {
+    let mut file: syn::File = syn::parse2(items.clone())
+        .unwrap_or_else(|error| panic!("hulkgen quoted no Rust ({error}): {items}"));
+    EmptyLines.visit_file_mut(&mut file);
+    let items = file.items.into_iter();
+    items.map(|item| format!("\n{}", formatted(item))).collect()
+}
+
 /// Text of an item, its empty lines in place.
 fn formatted(item: syn::Item) -> String {
     let file = syn::File {

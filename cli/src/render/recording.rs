@@ -19,6 +19,7 @@ use crate::model::{CyclerModel, RuntimeModel};
 use outside::quote_outside;
 use replay::quote_replays;
 use sink::quote_sink;
+pub use sink::render_stand_in;
 use tape::{Tape, quote_tape};
 
 /// One module for each cycler, what stands in for the hardware, and all instances that can be replayed.
@@ -30,7 +31,11 @@ pub(super) fn render_recording(model: &RuntimeModel) -> String {
         .collect();
     modules.sort_unstable();
     let modules = modules.into_iter().map(ident);
-    let sink = quote_sink(&model.sink);
+    let sink = quote_sink(
+        "Sink",
+        "The hardware of a replay: what it is told to do goes nowhere, and it cannot be asked.",
+        &model.sink.traits,
+    );
     let replayed = replay::replayed(model).map(|(instance, cycler)| {
         let (name, module) = (&instance.name, ident(&cycler.module));
         let create = replay::function(instance);

@@ -35,11 +35,11 @@ pub(super) fn data_type(text: &str) -> TokenStream {
 }
 
 /// A function's signature whose paths are absolute.
-pub(super) fn make_absolute(signature: &str) -> TokenStream {
-    let mut signature: syn::Signature = syn::parse_str(signature)
-        .unwrap_or_else(|error| panic!("hulkgen resolved no signature ({error}): {signature}"));
+pub(super) fn signature(text: &str) -> syn::Signature {
+    let mut signature: syn::Signature = syn::parse_str(text)
+        .unwrap_or_else(|error| panic!("hulkgen resolved no signature ({error}): {text}"));
     MakeAbsolute.visit_signature_mut(&mut signature);
-    quote!(#signature)
+    signature
 }
 
 struct MakeAbsolute;

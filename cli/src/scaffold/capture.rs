@@ -1,15 +1,20 @@
 //! A test of a node from one cycle of a recording: what the node took as a data file, and the test that reads it.
 
+mod writing;
+
 use camino::Utf8PathBuf;
 use serde::Serialize;
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
 use super::{Changes, own_member};
+use crate::diagnostics::listed;
 use crate::graph::{Context, Cycler, Field, Node};
+use crate::model::recording::traits;
 use crate::outcome::Refusal;
-use crate::render::render_template;
-use crate::resolve::robot::Robot;
+use crate::render::{render_stand_in, render_template};
+use crate::resolve::robot::{Interface, Node as Resolved, Robot};
 use crate::workspace::Workspace;
+use writing::Writing;
 
 /// Which call of which node.
 #[derive(Clone, Copy, Debug)]
@@ -31,10 +36,21 @@ struct Test<'a> {
     instance: &'a str,
     cycle: u64,
     probes: bool,
+    /// The hardware's place is taken by this; empty: the node asks for none.
+    stand_in: String,
+    /// Where the state is made whole by `restore`.
+    restored: Option<Literal>,
     before: Vec<String>,
     fields: Vec<Line>,
     after: Vec<String>,
     uses_outputs: bool,
+}
+
+/// A context, and what its fields refer to.
+#[derive(Serialize)]
+struct Literal {
+    before: Vec<String>,
+    fields: Vec<Line>,
 }
 
 #[derive(Serialize)]
@@ -47,7 +63,7 @@ struct Line {
 ///
 /// # Errors
 /// With what stands against it.
-pub fn check_capturable(node: &Node, restores: bool) -> Result<(), Refusal> {
+pub fn check_capturable(robot: &Robot, node: &Node) -> Result<(), Refusal> {
     let refuse = |what: &str, help: &str| {
         let message = format!("`{}` cannot be captured: {what}", node.path);
         Err(Refusal::bad(message).help(help.to_owned()))
@@ -56,40 +72,39 @@ pub fn check_capturable(node: &Node, restores: bool) -> Result<(), Refusal> {
         let what = "it is a setup node, which a replay does not call";
         return refuse(what, "capture a node that reads what it writes");
     }
-    if restores {
-        let what = "its state is made whole by `restore`, of what `new` is told";
-        return refuse(
-            what,
-            "write its test by hand, or keep all of its state in the recording",
-        );
-    }
-    let cycle = || {
-        node.fields
-            .iter()
-            .filter(|field| field.context == Context::Cycle)
+    let Some(resolved) = resolved(robot, node) else {
+        return Ok(());
     };
-    for (kind, what, help) in [
-        (
-            "HardwareInterface",
-            "it uses the hardware, which a test would have to stand for",
-            "write its test by hand with a hardware of its own",
-        ),
-        (
-            "Procedure",
-            "it answers calls, which the recording has in another form",
-            "write its test by hand",
-        ),
-        (
-            "HistoricInput",
-            "it reads the past, which lies in other frames",
-            "write its test by hand with `framework::testing::history`",
-        ),
-    ] {
-        if let Some(field) = cycle().find(|field| field.kind == kind) {
-            return refuse(&format!("with `{}` {what}", field.name), help);
-        }
+    let is_reading = |interface: &&Interface| interface.reading != Some(false);
+    if let Some(interface) = resolved.restore_bounds.iter().find(is_reading) {
+        let what = format!(
+            "its `restore` asks `{}`, whose answers are not recorded",
+            interface.path
+        );
+        return refuse(&what, "keep in its state what `restore` asks for");
+    }
+    let unknown = asked(resolved).filter(|interface| interface.methods.is_none());
+    let unknown: Vec<_> = unknown.map(|interface| interface.path.as_str()).collect();
+    if !unknown.is_empty() {
+        let what = format!(
+            "nothing can be written that stands in for {}",
+            listed(unknown)
+        );
+        let help =
+            "hardware traits of the workspace without generics and supertraits can be stood in for";
+        return refuse(&what, help);
     }
     Ok(())
+}
+
+fn resolved<'r>(robot: &'r Robot, node: &Node) -> Option<&'r Resolved> {
+    let mut nodes = robot.cyclers.iter().flat_map(|cycler| &cycler.nodes);
+    nodes.find(|one| one.path == node.path)
+}
+
+/// What a test of the node asks of the hardware: it does not call `new`.
+fn asked(node: &Resolved) -> impl Iterator<Item = &Interface> {
+    node.cycle_bounds.iter().chain(&node.restore_bounds)
 }
 
 /// The test and its data, in the node's crate.
@@ -108,23 +123,28 @@ pub fn capture(
     let cycle = snapshot["cycle"].as_u64().unwrap_or_default();
     let last = node.path.rsplit("::").next().unwrap_or_default();
     let name = format!("{last}_{}_{cycle}", schema::snake_case(instance));
-    let mut writing = Writing {
-        capture,
-        instance,
-        values: Map::new(),
-        latest: Map::new(),
-        before: Vec::new(),
-        probes: false,
-    };
-    let mut fields = Vec::new();
-    for field in &node.fields {
-        if field.context == Context::Cycle {
-            let value = writing.field(field)?;
-            let name = field.name.clone();
-            fields.push(Line { name, value });
-        }
+    let mut writing = Writing::new(capture, instance);
+    let resolved = resolved(robot, node);
+    let restored = resolved
+        .filter(|resolved| resolved.restores)
+        .map(|_| {
+            literal(
+                &mut writing,
+                node,
+                Context::Creation,
+                Writing::creation_field,
+            )
+        })
+        .transpose()?;
+    let Literal { before, fields } = literal(&mut writing, node, Context::Cycle, Writing::field)?;
+    let stand_in = stand_in(node, resolved, restored.is_some());
+    let (returned, uses_outputs) = returned(node);
+    let mut after = std::mem::take(&mut writing.after);
+    after.extend(returned);
+    after.push("captured.assert_state(&node);".to_owned());
+    if !stand_in.is_empty() {
+        after.push("captured.assert_commands();".to_owned());
     }
-    let (after, uses_outputs) = comparisons(node);
     let test = Test {
         name: &name,
         function: format!(
@@ -137,24 +157,14 @@ pub fn capture(
         instance,
         cycle,
         probes: writing.probes,
-        before: writing.before,
+        stand_in,
+        restored,
+        before,
         fields,
         after,
         uses_outputs,
     };
-    let data = json!({
-        "version": 1,
-        "node": node.path,
-        "instance": instance,
-        "cycle": cycle,
-        "start_ns": snapshot["start_ns"],
-        "since_last_ns": snapshot["since_last_ns"],
-        "state": snapshot["state"],
-        "fields": writing.values,
-        "latest": writing.latest,
-        "outputs": snapshot["outputs"],
-    });
-    let data = serde_json::to_string_pretty(&data).expect("JSON has only string keys");
+    let data = data(&writing, capture);
     let folder: Utf8PathBuf = member.folder.join("tests");
     let text = render_template("captured", templates::node::CAPTURED_RS, &test);
     Ok(Changes::from([
@@ -166,218 +176,75 @@ pub fn capture(
     ]))
 }
 
-/// Statements that compare all outputs, and whether returned ones are among them.
-fn comparisons(node: &Node) -> (Vec<String>, bool) {
+/// The file that the test reads.
+fn data(writing: &Writing<'_>, Capture { node, snapshot, .. }: Capture<'_>) -> String {
+    let data = json!({
+        "version": 2,
+        "node": node.path,
+        "instance": snapshot["instance"],
+        "cycle": snapshot["cycle"],
+        "start_ns": snapshot["start_ns"],
+        "since_last_ns": snapshot["since_last_ns"],
+        "state": snapshot["state"],
+        "creation": writing.creation,
+        "fields": writing.values,
+        "latest": writing.latest,
+        "calls": writing.calls,
+        "outputs": snapshot["outputs"],
+        "state_after": snapshot["state_after"],
+        "commands": snapshot["commands"],
+    });
+    serde_json::to_string_pretty(&data).expect("JSON has only string keys")
+}
+
+/// How a method of [`Writing`] fills a field.
+type Fill<'a> = fn(&mut Writing<'a>, &Field) -> Result<String, Refusal>;
+
+/// One of the node's contexts.
+fn literal<'a>(
+    writing: &mut Writing<'a>,
+    node: &Node,
+    context: Context,
+    fill: Fill<'a>,
+) -> Result<Literal, Refusal> {
+    let mut fields = Vec::new();
+    for field in node.fields.iter().filter(|one| one.context == context) {
+        let value = fill(writing, field)?;
+        let name = field.name.clone();
+        fields.push(Line { name, value });
+    }
+    let before = std::mem::take(&mut writing.before);
+    Ok(Literal { before, fields })
+}
+
+/// What takes the node's commands, where its contexts have hardware.
+fn stand_in(node: &Node, resolved: Option<&Resolved>, restored: bool) -> String {
+    let has_hardware = |field: &Field| {
+        let is_written = match field.context {
+            Context::Creation => restored,
+            _ => true,
+        };
+        is_written && field.kind == "HardwareInterface"
+    };
+    if !node.fields.iter().any(has_hardware) {
+        return String::new();
+    }
+    let traits = resolved.map(|node| traits(asked(node))).unwrap_or_default();
+    let about = "In place of the hardware: what the node tells it is compared with what it told it when it was recorded.";
+    render_stand_in("Commanded", about, &traits)
+}
+
+/// Statements that compare the outputs which `cycle` returns, and whether there are any.
+fn returned(node: &Node) -> (Vec<String>, bool) {
     let outputs = node
         .fields
         .iter()
-        .filter(|field| field.kind == "MainOutput");
-    let lines = outputs.clone().map(|field| {
+        .filter(|field| field.kind == "MainOutput" && field.context == Context::Outputs);
+    let lines = outputs.map(|field| {
         let name = &field.name;
-        match field.context {
-            Context::Outputs => format!("captured.assert_output({name:?}, &outputs.{name}.value);"),
-            _ => format!("captured.assert_output({name:?}, &{name});"),
-        }
+        format!("captured.assert_output({name:?}, &outputs.{name}.value);")
     });
-    let returned = outputs
-        .clone()
-        .any(|field| field.context == Context::Outputs);
-    (lines.collect(), returned)
-}
-
-/// A test that is being written.
-struct Writing<'a> {
-    capture: Capture<'a>,
-    instance: &'a str,
-    /// By field.
-    values: Map<String, Value>,
-    latest: Map<String, Value>,
-    before: Vec<String>,
-    probes: bool,
-}
-
-impl Writing<'_> {
-    /// The right side of a field in the context; its value goes into the data.
-    fn field(&mut self, field: &Field) -> Result<String, Refusal> {
-        let snapshot = self.capture.snapshot;
-        let name = field.name.as_str();
-        let path = field.path.as_deref().unwrap_or_default();
-        let optional = path.contains('?') && field.kind != "RequiredInput";
-        let value = if optional {
-            format!("captured.value::<Option<_>>({name:?}).as_ref()")
-        } else {
-            format!("&captured.value({name:?})")
-        };
-        Ok(match field.kind {
-            "CycleTime" => "captured.time()".to_owned(),
-            "Parameter" => {
-                let path = path.replace("$cycler_instance", &schema::snake_case(self.instance));
-                self.keep(field, at(&snapshot["parameters"], &path))?;
-                value
-            }
-            "CyclerState" => {
-                self.keep(field, at(&snapshot["cycler_state"], path))?;
-                if field
-                    .data
-                    .as_deref()
-                    .is_some_and(|data| data.starts_with('&'))
-                {
-                    return Ok(value);
-                }
-                self.before
-                    .push(format!("let mut {name} = captured.value({name:?});"));
-                format!("&mut {name}")
-            }
-            "PreviousInput" => {
-                self.keep(field, at(&snapshot["previous"], path))?;
-                value
-            }
-            "Input" | "RequiredInput" => {
-                let of = match &field.instance {
-                    None => Some(&snapshot["own"]),
-                    Some(instance) => self.newest(instance).map(|other| &other["outputs"]),
-                };
-                self.keep(field, of.and_then(|of| at(of, path)))?;
-                value
-            }
-            "LatestInput" => self.latest_input(field, path, optional)?,
-            "PerceptionInput" => self.series(field, path, optional)?,
-            "AdditionalOutput" => {
-                self.probes = true;
-                self.before
-                    .push(format!("let mut {name} = AdditionalProbe::default();"));
-                format!("{name}.output()")
-            }
-            "MainOutput" => {
-                self.before
-                    .push(format!("let mut {name} = Default::default();"));
-                format!("&mut {name}")
-            }
-            other => {
-                let message =
-                    format!("`{name}` is of the kind `{other}`, which cannot be captured");
-                return Err(Refusal::bad(message).help("write its test by hand"));
-            }
-        })
-    }
-
-    fn keep(&mut self, field: &Field, value: Option<Value>) -> Result<(), Refusal> {
-        let value = value.ok_or_else(|| {
-            let message = format!(
-                "the cycle does not have what `{}` reads: whoever writes it had not run yet",
-                field.name
-            );
-            Refusal::bad(message).help("name a later cycle")
-        })?;
-        self.values.insert(field.name.clone(), value);
-        Ok(())
-    }
-
-    /// The newest cycle of another instance that was seen.
-    fn newest(&self, instance: &str) -> Option<&Value> {
-        let others = self.capture.snapshot["others"].as_array()?;
-        let mut others = others.iter();
-        others.find(|other| other["instance"] == instance && other["kind"] == "latest")
-    }
-
-    fn latest_input(
-        &mut self,
-        field: &Field,
-        path: &str,
-        optional: bool,
-    ) -> Result<String, Refusal> {
-        let name = field.name.as_str();
-        let instance = field.instance.as_deref().unwrap_or_default();
-        let Some(seen) = self.newest(instance).cloned() else {
-            return Ok("None".to_owned());
-        };
-        self.keep(field, at(&seen["outputs"], path))?;
-        let about =
-            ["timestamp_ns", "cycle", "is_new"].map(|key| (key.to_owned(), seen[key].clone()));
-        let about: Map<_, _> = about.into_iter().collect();
-        self.latest.insert(name.to_owned(), about.into());
-        Ok(if optional {
-            self.before
-                .push(format!("let {name}: Option<_> = captured.value({name:?});"));
-            format!("captured.latest({name:?}, {name}.as_ref())")
-        } else {
-            self.before
-                .push(format!("let {name} = captured.value({name:?});"));
-            format!("captured.latest({name:?}, &{name})")
-        })
-    }
-
-    fn series(&mut self, field: &Field, path: &str, optional: bool) -> Result<String, Refusal> {
-        let name = field.name.as_str();
-        let snapshot = self.capture.snapshot;
-        let written = field.instance.as_deref().unwrap_or_default();
-        let instances = self.instances(written);
-        let others = snapshot["others"].as_array();
-        let place = |other: &Value| instances.iter().position(|one| other["instance"] == **one);
-        let part = |kind: &str| -> Vec<Value> {
-            let others = others.into_iter().flatten();
-            let mut seen: Vec<_> = others
-                .filter(|other| other["kind"] == kind && place(other).is_some())
-                .collect();
-            let number = |other: &Value, key: &str| other[key].as_u64();
-            seen.sort_by_key(|other| {
-                (
-                    number(other, "order_ns"),
-                    number(other, "timestamp_ns"),
-                    place(other),
-                    number(other, "cycle"),
-                )
-            });
-            let seen = seen.into_iter().map(|other| {
-                let value = at(&other["outputs"], path);
-                json!({ "timestamp_ns": other["timestamp_ns"], "value": value })
-            });
-            seen.collect()
-        };
-        let both = json!({ "persistent": part("persistent"), "transient": part("transient") });
-        self.keep(field, Some(both))?;
-        let seen = if optional { "seen_optional" } else { "seen" };
-        self.before
-            .push(format!("let {name} = captured.series({name:?});"));
-        self.before.push(format!("let {name} = {name}.{seen}();"));
-        Ok(format!("{name}.input()"))
-    }
-
-    /// Of a cycler all, of an instance itself.
-    fn instances(&self, written: &str) -> Vec<String> {
-        let others = self.capture.snapshot["cyclers"][written].as_array();
-        match others {
-            Some(names) => names
-                .iter()
-                .filter_map(|name| name.as_str().map(str::to_owned))
-                .collect(),
-            None => vec![written.to_owned()],
-        }
-    }
-}
-
-/// The value at a path whose `?` look into what may be absent; `None`: there is no such place.
-fn at(value: &Value, path: &str) -> Option<Value> {
-    path.split('.').try_fold(value.clone(), |value, part| {
-        let name = part.trim_end_matches('?');
-        match value {
-            Value::Null => Some(Value::Null),
-            value => value.get(name).cloned(),
-        }
-    })
-}
-
-#[cfg(test)]
-mod tests {
-    use serde_json::json;
-
-    use super::at;
-
-    #[test]
-    fn paths_lead_into_what_may_be_absent() {
-        let value = json!({"a": {"b": null, "c": {"d": 1}}});
-        assert_eq!(at(&value, "a.c?.d"), Some(json!(1)));
-        assert_eq!(at(&value, "a.b?.d"), Some(json!(null)));
-        assert_eq!(at(&value, "a.x"), None);
-    }
+    let lines: Vec<_> = lines.collect();
+    let are_there = !lines.is_empty();
+    (lines, are_there)
 }

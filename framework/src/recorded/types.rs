@@ -1,16 +1,16 @@
 //! Of which types the frames of an instance are.
 
-use std::marker::PhantomData;
-
 use hulkgen_mcap::Layout;
 use hulkgen_mcap::layout::{Part, PartKind, first_difference};
+use serde::Serialize;
 use serde::de::DeserializeOwned;
+use serde_json::{Map, Value, json};
 
 use super::trace::layout_of;
 use super::{Foreign, Head, PARAMETERS, Recorded};
 use crate::buffer::Reader;
 use crate::guarded::{Condition, Guarded};
-use crate::history::History;
+use crate::history::{History, Past};
 use crate::injection::Injected;
 use crate::procedure::Answerer;
 use crate::time::Timestamp;
@@ -26,20 +26,37 @@ pub struct Types {
 
 /// Takes down the types of a body's fields; generated beside what saves and loads them.
 #[derive(Debug)]
-pub struct Describing<B: ?Sized> {
+pub struct Describing<'body, B: ?Sized> {
     types: Types,
-    body: PhantomData<fn(&B)>,
+    /// Of which values are wanted, too.
+    body: Option<&'body B>,
+    taken: Taken,
+}
+
+/// What a cycle has that neither outputs nor states are, as JSON by name; `null` where JSON cannot say it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Taken {
+    /// Of each output by time: `{"timestamp_ns", "value"}`, oldest first, without this cycle's.
+    pub histories: Map<String, Value>,
+    /// What each procedure is asked; only those that are.
+    pub calls: Map<String, Value>,
+    /// What was answered: `{"Ok": response}` or `{"Err": reason}`; only where there was a call.
+    pub answers: Map<String, Value>,
 }
 
 /// The types of what a recording takes of this body.
 pub fn describe<B: Recorded>() -> Types {
-    let mut describing = Describing {
-        types: Types::default(),
-        body: PhantomData,
-    };
+    let mut describing = Describing::of(None);
     describing.add(PartKind::Other, "head", layout_of::<Head>());
     B::describe(&mut describing);
     describing.types
+}
+
+/// What the cycle of a body has taken.
+pub(crate) fn taken<B: Recorded>(body: &B) -> Taken {
+    let mut describing = Describing::of(Some(body));
+    B::describe(&mut describing);
+    describing.taken
 }
 
 impl Types {
@@ -54,7 +71,15 @@ impl Types {
     }
 }
 
-impl<B: Recorded> Describing<B> {
+impl<'body, B: Recorded> Describing<'body, B> {
+    fn of(body: Option<&'body B>) -> Self {
+        Self {
+            types: Types::default(),
+            body,
+            taken: Taken::default(),
+        }
+    }
+
     fn add(&mut self, kind: PartKind, name: &str, layout: Layout) {
         self.types.parts.push(Part {
             name: name.to_owned(),
@@ -108,9 +133,22 @@ impl<B: Recorded> Describing<B> {
     }
 
     /// An output by time.
-    pub fn history<T: Clone + DeserializeOwned>(&mut self, name: &str, _: fn(&B) -> &History<T>) {
+    pub fn history<T: Clone + Serialize + DeserializeOwned>(
+        &mut self,
+        name: &str,
+        of: fn(&B) -> &History<T>,
+    ) {
         let layout = layout_of::<(bool, Vec<(Timestamp, T)>)>();
         self.add(PartKind::History, name, layout);
+        if let Some(body) = self.body {
+            let all = of(body).project(|value| value);
+            let all = (0..all.len()).map(|index| {
+                let (timestamp, value) = all.value(index);
+                json!({ "timestamp_ns": timestamp.as_nanos(), "value": as_json(value) })
+            });
+            let all = all.collect::<Vec<_>>().into();
+            self.taken.histories.insert(name.to_owned(), all);
+        }
     }
 
     /// What is read of another instance.
@@ -129,16 +167,31 @@ impl<B: Recorded> Describing<B> {
     }
 
     /// The call of a procedure.
-    pub fn procedure<Request: DeserializeOwned, Response>(
+    pub fn procedure<Request: Serialize + DeserializeOwned, Response: Serialize>(
         &mut self,
         name: &str,
-        _: fn(&B) -> &Answerer<Request, Response>,
+        of: fn(&B) -> &Answerer<Request, Response>,
     ) {
         self.add(PartKind::Other, name, layout_of::<Option<Request>>());
+        if let Some(body) = self.body {
+            let answerer = of(body);
+            let Taken { calls, answers, .. } = &mut self.taken;
+            if let Some(request) = answerer.request() {
+                calls.insert(name.to_owned(), as_json(request));
+            }
+            if let Some(answer) = answerer.answered() {
+                let answer = answer.map_err(|refused| refused.0.to_string());
+                answers.insert(name.to_owned(), as_json(&answer));
+            }
+        }
     }
 
     /// Who listens to additional outputs.
     pub fn subscribed<T: DeserializeOwned>(&mut self, _: fn(&B) -> &T) {
         self.add(PartKind::Other, "subscribed", layout_of::<T>());
     }
+}
+
+fn as_json(value: &impl Serialize) -> Value {
+    serde_json::to_value(value).unwrap_or_default()
 }

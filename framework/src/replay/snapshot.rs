@@ -2,12 +2,14 @@
 
 use serde_json::{Map, Value, json};
 
-use super::{Needed, Players, Ran, as_json};
+use super::{Needed, Players, Ran, Replay, as_json, listen, noted};
 use crate::cycler::{Reference, ReferenceKind};
+use crate::digest::Digest;
 use crate::error::{Error, Result};
+use crate::guarded::State;
 
 /// Version of what [`snapshot`] gives.
-pub const SNAPSHOT_VERSION: u32 = 1;
+pub const SNAPSHOT_VERSION: u32 = 2;
 
 /// Which call of a node.
 #[derive(Clone, Copy, Debug)]
@@ -50,15 +52,23 @@ pub fn snapshot(
     let chunk = player.chunk_of(position);
     let replay = player.replay_mut()?;
     let previous = outputs(replay.instance());
-    let state = state_of(replay, &needed.node)?;
+    let (state, _) = state_of(replay, &needed.node)?;
+    // `restore` sees what nodes share as the cycle found it.
+    let cycler_state_at_begin = shared_state(replay);
     let references = references(replay.instance());
+    let taken = replay.taken();
+    listen();
     finished(replay.run(Some(inputs)))?;
-    let cycler_state = state_of(replay, "cycler_state").unwrap_or_default();
+    let commands_before = noted().len();
+    let cycler_state = shared_state(replay);
     let own = outputs(replay.instance());
 
     // And with it: its outputs.
     player.load_at(position, chunks)?;
+    listen();
     let written = written(player.replay_mut()?, call, nodes)?;
+    let mut commands = noted();
+    commands.drain(..commands_before.min(commands.len()));
 
     let mut others = Vec::new();
     let mut parameters_read = Value::Null;
@@ -82,21 +92,33 @@ pub fn snapshot(
         "start_ns": head.start.as_nanos(),
         "since_last_ns": head.since_last.as_nanos() as u64,
         "state": state,
+        "state_after": written.state,
+        "cycler_state_at_begin": cycler_state_at_begin,
         "cycler_state": cycler_state,
+        "histories": taken.histories,
+        "calls": taken.calls,
+        "answers": written.answers,
+        "commands": commands,
         "parameters": parameters_read,
         "own": own,
         "previous": previous,
         "others": others,
-        "outputs": written,
+        "outputs": written.outputs,
     }))
 }
 
-/// Runs the loaded cycle up to and with the node: its outputs, by name.
-fn written(
-    replay: &mut dyn super::Replay,
-    call: Call<'_>,
-    nodes: &[String],
-) -> Result<Map<String, Value>> {
+/// What a node left behind.
+struct Written {
+    /// Value and digest, by name.
+    outputs: Map<String, Value>,
+    /// Value and digest.
+    state: Value,
+    /// By procedure.
+    answers: Map<String, Value>,
+}
+
+/// Runs the loaded cycle up to and with the node.
+fn written(replay: &mut dyn Replay, call: Call<'_>, nodes: &[String]) -> Result<Written> {
     let Call {
         instance,
         cycle,
@@ -117,19 +139,24 @@ fn written(
             needed.node
         )));
     }
-    let mut written = Map::new();
+    let mut outputs = Map::new();
     let digested = replay.instance().digests(&mut |node, output, digest| {
         if node == needed.node {
             let value = value_of(replay.instance(), output);
-            let digest = format!("{digest:016x}");
-            written.insert(
-                output.to_owned(),
-                json!({ "value": value, "digest": digest }),
-            );
+            outputs.insert(output.to_owned(), with_digest(value, digest));
         }
     });
     digested.map_err(|error| Error::new(error.to_string()))?;
-    Ok(written)
+    let (state, digest) = state_of(replay, &needed.node)?;
+    Ok(Written {
+        outputs,
+        state: with_digest(state, digest),
+        answers: replay.taken().answers,
+    })
+}
+
+fn with_digest(value: Value, digest: u64) -> Value {
+    json!({ "value": value, "digest": format!("{digest:016x}") })
 }
 
 fn missing(name: &str) -> Error {
@@ -243,17 +270,27 @@ fn value_of(instance: &dyn crate::cycler::Instance, output: &str) -> Value {
     value.unwrap_or_default()
 }
 
-fn state_of(replay: &mut dyn super::Replay, wanted: &str) -> Result<Value> {
+fn shared_state(replay: &mut dyn Replay) -> Value {
+    state_of(replay, "cycler_state").map_or(Value::Null, |(state, _)| state)
+}
+
+/// A state and its digest.
+fn state_of(replay: &mut dyn Replay, wanted: &str) -> Result<(Value, u64)> {
     let mut found = None;
     replay.instance_mut().states(&mut |name, state| {
         if name == wanted {
-            let mut json = Vec::new();
-            let mut serializer = serde_json::Serializer::new(&mut json);
-            let saved = state.save(&mut <dyn erased_serde::Serializer>::erase(&mut serializer));
-            found = Some(saved.and_then(|()| Ok(serde_json::from_slice(&json)?)));
+            found = Some(saved(state));
         }
     });
     found.unwrap_or_else(|| Err(Error::new(format!("there is no state of `{wanted}`"))))
+}
+
+fn saved(state: &dyn State) -> Result<(Value, u64)> {
+    let (mut json, mut digest) = (Vec::new(), Digest::new());
+    let mut serializer = serde_json::Serializer::new(&mut json);
+    state.save(&mut <dyn erased_serde::Serializer>::erase(&mut serializer))?;
+    state.save(&mut <dyn erased_serde::Serializer>::erase(&mut digest))?;
+    Ok((serde_json::from_slice(&json)?, digest.value()))
 }
 
 fn counted(instance: &dyn crate::cycler::Instance, node: &str) -> (u64, u64) {

@@ -7,8 +7,10 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use crate::buffer::Latest;
+use crate::history::HistoricInput;
+use crate::procedure::{Answerer, Call, procedure};
 use crate::recorded::digest;
-use crate::replay::first_difference;
+use crate::replay::{Command, first_difference, listen, noted};
 use crate::temporal::PerceptionInput;
 use crate::time::{CycleTime, Timestamp};
 
@@ -25,12 +27,27 @@ pub struct CapturedSeries<T> {
     transient: Vec<(Timestamp, T)>,
 }
 
+/// Values of a historic input, with this cycle's.
+#[derive(Clone, Debug)]
+pub struct CapturedHistory<T> {
+    past: Vec<(Timestamp, T)>,
+    now: Timestamp,
+    value: T,
+}
+
+/// What a procedure is asked, and what the node answers.
+#[derive(Debug)]
+pub struct CapturedCall<Request, Response> {
+    answerer: Answerer<Request, Response>,
+}
+
 impl Captured {
-    /// A file with this text.
+    /// A file with this text; from here on commands to hardware that [`commanded!`](crate::commanded) is told of are noted.
     ///
     /// # Panics
     /// If it is no such file.
     pub fn new(text: &str) -> Self {
+        listen();
         let all = serde_json::from_str(text);
         Self {
             all: all.unwrap_or_else(|error| panic!("the captured file is damaged: {error}")),
@@ -64,6 +81,14 @@ impl Captured {
         read(&self.all["fields"][field], field)
     }
 
+    /// What the node saw in a field when it was created, or restored.
+    ///
+    /// # Panics
+    /// If the field is of another type now.
+    pub fn creation_value<T: DeserializeOwned>(&self, field: &str) -> T {
+        read(&self.all["creation"][field], field)
+    }
+
     /// A latest input; `value` is what [`Self::value`] gave for its field, or `None` of it.
     ///
     /// # Panics
@@ -85,21 +110,41 @@ impl Captured {
     /// # Panics
     /// If the field is of another type now.
     pub fn series<T: DeserializeOwned>(&self, field: &str) -> CapturedSeries<T> {
-        let part = |name: &str| {
-            let values = self.all["fields"][field][name].as_array();
-            let values = values.unwrap_or_else(|| panic!("`{field}` was no perception input"));
-            let entry = |entry: &Value| {
-                (
-                    timestamp(&entry["timestamp_ns"]),
-                    read(&entry["value"], field),
-                )
-            };
-            values.iter().map(entry).collect()
-        };
+        let part = |name: &str| entries(&self.all["fields"][field][name], field);
         CapturedSeries {
             persistent: part("persistent"),
             transient: part("transient"),
         }
+    }
+
+    /// The values of a historic input.
+    ///
+    /// # Panics
+    /// If the field is of another type now.
+    pub fn history<T: DeserializeOwned>(&self, field: &str) -> CapturedHistory<T> {
+        let of_field = &self.all["fields"][field];
+        CapturedHistory {
+            past: entries(&of_field["past"], field),
+            now: self.time().start,
+            value: read(&of_field["value"], field),
+        }
+    }
+
+    /// What a procedure is asked.
+    ///
+    /// # Panics
+    /// If the request is of another type now.
+    pub fn call<Request, Response>(&self, field: &str) -> CapturedCall<Request, Response>
+    where
+        Request: DeserializeOwned,
+    {
+        // That the client does not wait changes nothing for the node.
+        let (_, mut answerer) = procedure();
+        let request = &self.all["calls"][field]["request"];
+        // A request may be `null` itself, so that there is one says another key.
+        let is_asked: bool = read(&self.all["calls"][field]["is_asked"], field);
+        answerer.ask(is_asked.then(|| read(request, field)));
+        CapturedCall { answerer }
     }
 
     /// Compares an output with the recorded one, bit for bit.
@@ -107,18 +152,78 @@ impl Captured {
     /// # Panics
     /// If they differ, with the first place and both values.
     pub fn assert_output<T: Serialize>(&self, output: &str, value: &T) {
-        let recorded = &self.all["outputs"][output];
-        let bits = digest(value).unwrap_or_else(|error| panic!("`{output}`: {error}"));
-        if recorded["digest"] == format!("{bits:016x}") {
-            return;
-        }
-        let now = serde_json::to_value(value).unwrap_or_default();
-        let path = first_difference(&recorded["value"], &now);
-        panic!(
-            "`{output}` is not what was recorded, first in `{path}`\n  recorded: {}\n  now:      {now}",
-            recorded["value"]
+        assert_same(&format!("`{output}`"), &self.all["outputs"][output], value);
+    }
+
+    /// Compares the node after the call with what it was then, bit for bit.
+    ///
+    /// # Panics
+    /// As [`Self::assert_output`].
+    pub fn assert_state<N: Serialize>(&self, node: &N) {
+        assert_same("the state of the node", &self.all["state_after"], node);
+    }
+
+    /// Compares what a procedure was answered with the recorded answer.
+    ///
+    /// # Panics
+    /// If they differ, with both.
+    pub fn assert_answer<Request, Response: Serialize>(
+        &self,
+        field: &str,
+        mut call: CapturedCall<Request, Response>,
+    ) {
+        call.answerer.close();
+        let answer = call.answerer.answered();
+        let answer = answer.map(|answer| answer.map_err(|refused| refused.0.to_string()));
+        let now = serde_json::to_value(answer).unwrap_or_default();
+        let recorded = &self.all["calls"][field]["answer"];
+        assert!(
+            now == *recorded,
+            "`{field}` is not answered as it was recorded\n  recorded: {recorded}\n  now:      {now}"
         );
     }
+
+    /// Compares what the node told the hardware with what it told it then: which commands in which order, and the bits of
+    /// all arguments that can be serialised.
+    ///
+    /// # Panics
+    /// If they differ, with the first command that does, or if the file is damaged.
+    pub fn assert_commands(&self) {
+        let recorded: Vec<Command> = read(&self.all["commands"], "the commands");
+        let now = noted();
+        let shown = |command: Option<&Command>| {
+            let command = command.map(|command| {
+                let arguments = command.arguments.iter().flatten();
+                let arguments: Vec<_> = arguments.map(|one| one.value.to_string()).collect();
+                format!("{}({})", command.command, arguments.join(", "))
+            });
+            command.unwrap_or_else(|| "nothing".to_owned())
+        };
+        let all = 0..recorded.len().max(now.len());
+        for (place, recorded, now) in all.map(|place| (place, recorded.get(place), now.get(place)))
+        {
+            assert!(
+                recorded == now,
+                "command {place} to the hardware is not what was recorded\n  recorded: {}\n  now:      {}",
+                shown(recorded),
+                shown(now)
+            );
+        }
+    }
+}
+
+/// Compares a value with its recorded bits.
+fn assert_same(what: &str, recorded: &Value, value: &impl Serialize) {
+    let bits = digest(value).unwrap_or_else(|error| panic!("{what}: {error}"));
+    if recorded["digest"] == format!("{bits:016x}") {
+        return;
+    }
+    let now = serde_json::to_value(value).unwrap_or_default();
+    let path = first_difference(&recorded["value"], &now);
+    panic!(
+        "{what} is not what was recorded, first in `{path}`\n  recorded: {}\n  now:      {now}",
+        recorded["value"]
+    );
 }
 
 impl<T> CapturedSeries<T> {
@@ -149,6 +254,56 @@ impl<V: Copy> CapturedSeries<V> {
     pub fn input(&self) -> PerceptionInput<'_, V> {
         super::perception(&self.persistent, &self.transient)
     }
+}
+
+impl<T> CapturedHistory<T> {
+    /// As the node sees it.
+    pub fn seen(&self) -> CapturedHistory<&T> {
+        self.each(|value| value)
+    }
+
+    fn each<'a, V>(&'a self, see: impl Fn(&'a T) -> V) -> CapturedHistory<V> {
+        let past = self.past.iter();
+        CapturedHistory {
+            past: past.map(|(at, value)| (*at, see(value))).collect(),
+            now: self.now,
+            value: see(&self.value),
+        }
+    }
+}
+
+impl<T> CapturedHistory<Option<T>> {
+    /// As the node sees it where its path has a `?`.
+    pub fn seen_optional(&self) -> CapturedHistory<Option<&T>> {
+        self.each(Option::as_ref)
+    }
+}
+
+impl<V: Copy> CapturedHistory<V> {
+    /// For the context.
+    pub fn input(&self) -> HistoricInput<'_, V> {
+        super::history(&self.past, self.now, self.value)
+    }
+}
+
+impl<Request, Response> CapturedCall<Request, Response> {
+    /// For the context.
+    pub fn call(&mut self) -> Option<Call<'_, Request, Response>> {
+        self.answerer.call()
+    }
+}
+
+/// Values with their times.
+fn entries<T: DeserializeOwned>(values: &Value, field: &str) -> Vec<(Timestamp, T)> {
+    let values = values.as_array();
+    let values = values.unwrap_or_else(|| panic!("`{field}` had no values by time"));
+    let entry = |entry: &Value| {
+        (
+            timestamp(&entry["timestamp_ns"]),
+            read(&entry["value"], field),
+        )
+    };
+    values.iter().map(entry).collect()
 }
 
 fn timestamp(nanoseconds: &Value) -> Timestamp {

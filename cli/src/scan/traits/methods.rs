@@ -5,8 +5,8 @@ use std::rc::Rc;
 use quote::ToTokens;
 use serde::Serialize;
 use syn::{
-    FnArg, GenericArgument, Item, PathArguments, ReturnType, Signature, TraitItem, TraitItemFn,
-    Type, TypeParamBound,
+    FnArg, GenericArgument, Item, Pat, PathArguments, ReturnType, Signature, TraitItem,
+    TraitItemFn, Type, TypeParamBound,
 };
 
 use super::{MARKERS, is_nothing, is_result_of_nothing};
@@ -18,7 +18,7 @@ use crate::scan::types::Resolved;
 /// A method without a body of its own.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub struct Method {
-    /// With absolute types and without names of arguments: `fn write(&self, _: &[f32]) -> framework::Result<()>`.
+    /// With absolute types: `fn write(&self, angles: &[f32]) -> framework::Result<()>`.
     pub signature: String,
     pub answer: Answer,
 }
@@ -88,7 +88,11 @@ impl Library<'_> {
                 FnArg::Receiver(_) => None,
                 FnArg::Typed(typed) => {
                     let data = nameable(self.resolve(module, &typed.ty))?;
-                    Some(format!("_: {data}"))
+                    let name = match &*typed.pat {
+                        Pat::Ident(name) => name.ident.to_string(),
+                        _ => "_".to_owned(),
+                    };
+                    Some(format!("{name}: {data}"))
                 }
             })
             .collect::<Option<_>>()?;

@@ -4,6 +4,7 @@
 
 use framework::Result;
 use framework::Timestamp;
+use framework::commanded;
 use framework::recorded::describe;
 use framework::replay::Replayable;
 use framework::replay::no_hardware;
@@ -50,7 +51,8 @@ impl rover_nodes::interfaces::Lidar for Sink {
 }
 
 impl Motors for Sink {
-    fn write_speeds(&self, _: Speeds) -> Result<()> {
+    fn write_speeds(&self, speeds: Speeds) -> Result<()> {
+        commanded!("Motors::write_speeds", speeds);
         Ok(())
     }
 }

@@ -4,6 +4,7 @@
 
 use framework::Result;
 use framework::Timestamp;
+use framework::commanded;
 use framework::recorded::describe;
 use framework::replay::Replayable;
 use framework::replay::no_hardware;
@@ -48,7 +49,8 @@ impl SoilProbe for Sink {
 }
 
 impl Valve for Sink {
-    fn write_valve(&self, _: bool) -> Result<()> {
+    fn write_valve(&self, is_open: bool) -> Result<()> {
+        commanded!("Valve::write_valve", is_open);
         Ok(())
     }
 }

@@ -4,6 +4,7 @@
 
 use framework::Result;
 use framework::Timestamp;
+use framework::commanded;
 use framework::recorded::describe;
 use framework::replay::Replayable;
 use framework::replay::no_hardware;
@@ -58,13 +59,15 @@ impl Camera for Sink {
 }
 
 impl Console for Sink {
-    fn print(&self, _: &str) -> Result<()> {
+    fn print(&self, line: &str) -> Result<()> {
+        commanded!("Console::print", line);
         Ok(())
     }
 }
 
 impl Effort for Sink {
-    fn take(&self, _: f32) -> Result<()> {
+    fn take(&self, seconds: f32) -> Result<()> {
+        commanded!("Effort::take", seconds);
         Ok(())
     }
 }

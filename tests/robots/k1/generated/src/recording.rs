@@ -4,6 +4,7 @@
 
 use framework::Result;
 use framework::Timestamp;
+use framework::commanded;
 use framework::recorded::describe;
 use framework::replay::Replayable;
 use framework::replay::no_hardware;
@@ -36,7 +37,8 @@ impl BodyInterface for Sink {
 }
 
 impl MotorInterface for Sink {
-    fn write_motors(&self, _: &MotorCommands) -> Result<()> {
+    fn write_motors(&self, commands: &MotorCommands) -> Result<()> {
+        commanded!("MotorInterface::write_motors", commands);
         Ok(())
     }
 }

@@ -4,6 +4,7 @@
 
 use framework::Result;
 use framework::Timestamp;
+use framework::commanded;
 use framework::recorded::describe;
 use framework::replay::Replayable;
 use framework::replay::no_hardware;
@@ -38,7 +39,8 @@ impl BodyInterface for Sink {
 }
 
 impl LegInterface for Sink {
-    fn write_angles(&self, _: &[f32]) -> Result<()> {
+    fn write_angles(&self, angles: &[f32]) -> Result<()> {
+        commanded!("LegInterface::write_angles", angles);
         Ok(())
     }
 }

@@ -4,6 +4,7 @@
 
 use framework::Result;
 use framework::Timestamp;
+use framework::commanded;
 use framework::recorded::describe;
 use framework::replay::Replayable;
 use framework::replay::no_hardware;
@@ -96,11 +97,14 @@ impl EyeInterface for Sink {
 }
 
 impl LampInterface for Sink {
-    fn write_brightness(&self, _: f32) {}
+    fn write_brightness(&self, brightness: f32) {
+        commanded!("LampInterface::write_brightness", brightness);
+    }
 }
 
 impl LegInterface for Sink {
-    fn write_angles(&self, _: &[f32]) -> Result<()> {
+    fn write_angles(&self, angles: &[f32]) -> Result<()> {
+        commanded!("LegInterface::write_angles", angles);
         Ok(())
     }
 }

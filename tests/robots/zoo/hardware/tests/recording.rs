@@ -2,6 +2,8 @@
 
 #[path = "recording/asked.rs"]
 mod asked;
+#[path = "recording/captured.rs"]
+mod captured;
 #[path = "recording/carried.rs"]
 mod carried;
 #[path = "recording/cost.rs"]
