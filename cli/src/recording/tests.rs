@@ -76,6 +76,35 @@ fn layouts() -> Layouts {
     }
 }
 
+/// What a robot writes in a cycle.
+fn add_cycle(writer: &mut Writer, cycle: u32) {
+    // Twice, as chunks of two readers have it.
+    let position = [cycle as f32, 0.5].map(f32::to_le_bytes).concat();
+    let ball = [&[1][..], &position, &[2], b"a,"].concat();
+    writer.add(&message(
+        2,
+        cycle,
+        if cycle % 2 == 0 { &ball } else { &[0] },
+    ));
+    writer.add(&message(
+        2,
+        cycle,
+        if cycle % 2 == 0 { &ball } else { &[0] },
+    ));
+    let state = vec![7; cycle as usize];
+    let frame = [&[0, cycle as u8, cycle as u8][..], &state, &[9]].concat();
+    writer.add(&message(1, cycle, &frame));
+    writer.add(&message(1, cycle, &[1, 0, 0, 0, 0, 0, 0, 0, 0]));
+    let image = json!({"width": 1, "height": 1, "step": 3, "encoding": "rgb8", "data": "AQID"});
+    writer.add(&message(3, cycle, image.to_string().as_bytes()));
+    // Two pixels, in every fourth cycle.
+    let gray: &[u8] = match cycle % 4 {
+        0 => &[0, 1, 2, 1, 2, 50, 60],
+        _ => &[0, 0],
+    };
+    writer.add(&message(4, cycle, gray));
+}
+
 /// A recording as a robot writes it; `with_end`: of a run that ended.
 pub(crate) fn record(path: &Utf8Path, with_end: bool) {
     let channel = |topic: &str, encoding: &str, metadata: &[(&str, &str)]| Channel {
@@ -124,31 +153,7 @@ pub(crate) fn record(path: &Utf8Path, with_end: bool) {
     };
     let mut writer = Writer::create(path.as_std_path(), description, u64::MAX).expect("it is new");
     for cycle in 0..CYCLES {
-        // Twice, as chunks of two readers have it.
-        let position = [cycle as f32, 0.5].map(f32::to_le_bytes).concat();
-        let ball = [&[1][..], &position, &[2], b"a,"].concat();
-        writer.add(&message(
-            2,
-            cycle,
-            if cycle % 2 == 0 { &ball } else { &[0] },
-        ));
-        writer.add(&message(
-            2,
-            cycle,
-            if cycle % 2 == 0 { &ball } else { &[0] },
-        ));
-        let state = vec![7; cycle as usize];
-        let frame = [&[0, cycle as u8, cycle as u8][..], &state, &[9]].concat();
-        writer.add(&message(1, cycle, &frame));
-        writer.add(&message(1, cycle, &[1, 0, 0, 0, 0, 0, 0, 0, 0]));
-        let image = json!({"width": 1, "height": 1, "step": 3, "encoding": "rgb8", "data": "AQID"});
-        writer.add(&message(3, cycle, image.to_string().as_bytes()));
-        // Two pixels, in every fourth cycle.
-        let gray: &[u8] = match cycle % 4 {
-            0 => &[0, 1, 2, 1, 2, 50, 60],
-            _ => &[0, 0],
-        };
-        writer.add(&message(4, cycle, gray));
+        add_cycle(&mut writer, cycle);
         if cycle % 8 == 7 {
             writer.close_chunk().expect("there is room");
         }
