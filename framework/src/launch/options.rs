@@ -272,7 +272,8 @@ fn peer(text: &str) -> Result<String> {
                 !host.is_empty() && host.bytes().all(is_letter)
             }
         };
-        is_host && port.parse::<u16>().is_ok_and(|port| port > 0)
+        let is_number = port.bytes().all(|byte| byte.is_ascii_digit());
+        is_host && is_number && port.parse::<u16>().is_ok_and(|port| port > 0)
     });
     parts.map(|_| address.to_ascii_lowercase()).ok_or_else(|| {
         Error::new(format!(
@@ -426,6 +427,7 @@ mod tests {
             "a",
             "a:",
             "a:0",
+            "a:+1",
             "a:65536",
             "*:1",
             "a:*",

@@ -1,6 +1,6 @@
 //! Clients that watch a scenario: each of its robots is served at a port of its own, and time passes no faster than theirs.
 
-use std::net::{IpAddr, SocketAddr, ToSocketAddrs as _};
+use std::net::{SocketAddr, ToSocketAddrs as _};
 use std::time::Instant;
 
 use crate::error::{Error, Result};
@@ -33,11 +33,7 @@ impl Audience {
             .to_socket_addrs()
             .map_err(|error| wrong(&error.to_string()))?;
         let first = addresses.next().ok_or_else(|| wrong("it is nowhere"))?;
-        let is_anywhere = match first.ip() {
-            IpAddr::V4(address) => address.is_unspecified(),
-            IpAddr::V6(address) => address.is_unspecified(),
-        };
-        if is_anywhere || first.port() == 0 {
+        if first.ip().is_unspecified() || first.port() == 0 {
             return Err(wrong(
                 "expected one address and port that browsers can open",
             ));
