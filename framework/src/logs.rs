@@ -7,6 +7,7 @@
 //! Without a sink nothing is collected, and a message costs one load.
 
 use std::cell::Cell;
+use std::collections::BTreeMap;
 use std::fmt::{self, Write};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, PoisonError, RwLock, RwLockReadGuard, Weak};
@@ -68,6 +69,26 @@ pub struct Sink {
     records: ArrayQueue<Record>,
     left_out: AtomicU64,
     rules: RwLock<Rules>,
+}
+
+/// How often modules say something: what one says too often is left to who counts.
+#[derive(Clone, Debug, Default)]
+pub struct Rates {
+    /// Of each module: a second, and how many messages came in it.
+    seconds: BTreeMap<&'static str, (u64, usize)>,
+}
+
+impl Rates {
+    /// Whether the module has said at most so many in the second of this message, with it.
+    pub fn is_allowed(&mut self, record: &Record, most: usize) -> bool {
+        let second = record.time.as_nanos() / 1_000_000_000;
+        let rate = self.seconds.entry(record.module).or_default();
+        if rate.0 != second {
+            *rate = (second, 0);
+        }
+        rate.1 += 1;
+        rate.1 <= most
+    }
 }
 
 /// Which messages are made.
@@ -368,6 +389,25 @@ mod tests {
         assert!(!sink.wants(Level::DEBUG, "anything", None));
         sink.set_level(None, Level::DEBUG);
         assert!(sink.wants(Level::DEBUG, "walk", place("Control")));
+    }
+
+    #[test]
+    fn a_module_says_so_many_messages_in_a_second() {
+        let mut rates = Rates::default();
+        let record = |module, milliseconds| Record {
+            time: Timestamp::from_nanos(milliseconds * 1_000_000),
+            level: Level::INFO,
+            module,
+            instance: None,
+            cycle: None,
+            message: String::new(),
+            fields: Map::new(),
+        };
+        let mut is_allowed =
+            |module, milliseconds| rates.is_allowed(&record(module, milliseconds), 2);
+        assert!(is_allowed("walk", 0) && is_allowed("walk", 998));
+        assert!(!is_allowed("walk", 999));
+        assert!(is_allowed("see", 999) && is_allowed("walk", 1000));
     }
 
     #[test]

@@ -215,6 +215,9 @@ fn read<T: Default + DeserializeOwned + Serialize>(outputs: &Value) -> Result<T,
         // serde does not say where: it is the output that cannot be put among those of a default.
         let default = serde_json::to_value(T::default()).unwrap_or_default();
         let is_wrong = |(name, value): &(&String, &Value)| {
+            if default.get(name.as_str()).is_none() {
+                return false;
+            }
             let mut one = default.clone();
             let Some(place) = one.get_mut(name.as_str()) else {
                 return false;

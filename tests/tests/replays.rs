@@ -3,7 +3,7 @@
 use std::fs;
 use std::net::TcpListener;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::process::{Child, Command, Output, Stdio};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -151,13 +151,13 @@ impl Recorded {
     fn record_call(&self, file: &str, procedure: &str, request: &str) -> u64 {
         let free = TcpListener::bind("127.0.0.1:0").and_then(|listener| listener.local_addr());
         let address = free.expect("this machine has a free port").to_string();
-        let mut program = Command::new(target_folder().join("simulation"))
+        let program = Command::new(target_folder().join("simulation"))
             .args(["--headless", "--record", file, "--listen", &address])
             .current_dir(self.path())
             .stdout(Stdio::null())
             .stderr(Stdio::null())
-            .spawn()
-            .expect("it was built");
+            .spawn();
+        let mut program = Program(program.expect("it was built"));
         let path = format!("Control.procedures.{procedure}");
         let call = ["call", "--host", &address, &path, request];
         let begin = Instant::now();
@@ -166,10 +166,10 @@ impl Recorded {
             std::thread::sleep(Duration::from_millis(100));
         }
         let asked = Command::new("kill")
-            .args(["-INT", &program.id().to_string()])
+            .args(["-INT", &program.0.id().to_string()])
             .status();
         assert!(asked.expect("every Unix has it").success());
-        let ended = program.wait().expect("it is our child");
+        let ended = program.0.wait().expect("it is our child");
         assert!(ended.success(), "{ended}");
         let path = format!("Control.frame.{procedure}");
         let calls = hulkgen_in(&self.path(), &["recording", "cat", file, &path]);
@@ -213,6 +213,16 @@ impl Recorded {
                 target.parent().expect("target/<profile>"),
             );
         cargo.output().expect("cargo can be started")
+    }
+}
+
+/// Ends with the test, also where that fails.
+struct Program(Child);
+
+impl Drop for Program {
+    fn drop(&mut self) {
+        let _ = self.0.kill();
+        let _ = self.0.wait();
     }
 }
 
@@ -397,7 +407,7 @@ fn a_test_brings_hardware_the_past_a_call_and_a_state_that_is_made_whole() {
         (
             "call.answer(*context.node)",
             "call.answer(self.sum)",
-            "`set` is not answered as",
+            "the answer of `set` is not what was recorded",
         ),
         (
             "(past + *context.node)",

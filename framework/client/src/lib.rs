@@ -28,6 +28,9 @@ const MOMENT: Duration = Duration::from_millis(5);
 /// A robot pings every 20 s; one that says nothing for so long has gone without a word.
 const SILENCE: Duration = Duration::from_secs(60);
 
+/// No answer is awaited longer: a day.
+const LONGEST: Duration = Duration::from_secs(86_400);
+
 /// Messages that are kept while an answer is awaited; of more the oldest are lost.
 const KEPT: usize = 4096;
 
@@ -147,7 +150,7 @@ impl Robot {
     /// As [`Robot::ask`].
     pub fn ask_for(&mut self, ask: Ask, duration: Duration) -> Result<Good, Error> {
         let id = self.send(ask)?;
-        let end = Instant::now() + PATIENCE + duration;
+        let end = Instant::now() + PATIENCE + duration.min(LONGEST);
         loop {
             match self.hear_new(end)? {
                 // What is so wrong that its number cannot be read is refused without one.

@@ -1,10 +1,10 @@
 //! Log messages: fetched from where instances leave them, numbered, and kept for those who come late.
 
-use std::collections::{BTreeMap, VecDeque};
+use std::collections::VecDeque;
 use std::sync::Arc;
 
 use framework::Clock;
-use framework::logs::{self, Record, Sink};
+use framework::logs::{self, Rates, Record, Sink};
 use protocol::{Level, Log};
 
 use crate::limits::Limits;
@@ -16,8 +16,7 @@ pub(crate) struct Logs {
     kept: VecDeque<Log>,
     /// Messages so far, those that were left out, too.
     number: u64,
-    /// Of each module: a second, and how many messages came in it.
-    rates: BTreeMap<&'static str, (u64, usize)>,
+    rates: Rates,
 }
 
 impl Logs {
@@ -26,7 +25,7 @@ impl Logs {
             sink: Sink::new(clock),
             kept: VecDeque::new(),
             number: 0,
-            rates: BTreeMap::new(),
+            rates: Rates::default(),
         }
     }
 
@@ -36,7 +35,7 @@ impl Logs {
         self.number += self.sink.left_out();
         while let Some(record) = self.sink.take() {
             self.number += 1;
-            if self.is_allowed(&record, limits) {
+            if self.rates.is_allowed(&record, limits.logs_per_second) {
                 new.push(describe(record, self.number, nodes));
             }
         }
@@ -53,16 +52,6 @@ impl Logs {
 
     pub(crate) fn set_level(&self, of: Option<(&str, Option<&str>)>, level: Level) {
         self.sink.set_level(of, level_of(level));
-    }
-
-    fn is_allowed(&mut self, record: &Record, limits: &Limits) -> bool {
-        let second = record.time.as_nanos() / 1_000_000_000;
-        let rate = self.rates.entry(record.module).or_default();
-        if rate.0 != second {
-            *rate = (second, 0);
-        }
-        rate.1 += 1;
-        rate.1 <= limits.logs_per_second
     }
 }
 

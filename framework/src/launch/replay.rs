@@ -96,7 +96,7 @@ impl Replaying {
                 "--capture NODE, --instance NAME and --at CYCLE go together",
             ));
         }
-        if self.carry && !changes {
+        if self.carry && !(is_asked && changes) {
             return Err(Error::new("--carry is for --set"));
         }
         let options = !deeds.is_empty() || self.node.is_some();

@@ -15,13 +15,16 @@ use super::SaveError;
 use super::output::JSON;
 use crate::clock::Clock;
 use crate::foxglove::{Log, Message};
-use crate::logs::{Level, Record, Sink};
+use crate::logs::{Level, Rates, Record, Sink};
 
 /// What the channel is called, and the track among those of instances.
 pub(super) const LOGS: &str = "logs";
 
 /// How often the thread looks: the queue has room for more than nodes say in this time.
 const LOOK: Duration = Duration::from_millis(50);
+
+/// Messages of a module in a second: what one says in a loop takes no room from frames.
+const MOST: usize = 200;
 
 /// Describes the channel, behind those that there are.
 pub(super) fn add_channel(description: &mut Description) -> ChannelId {
@@ -61,6 +64,7 @@ impl LogRecorder {
             channel,
             sink,
             clock,
+            rates: Rates::default(),
         };
         let ending = is_ending.clone();
         let thread = thread::Builder::new()
@@ -96,14 +100,20 @@ struct Writing {
     channel: ChannelId,
     sink: Arc<Sink>,
     clock: Clock,
+    rates: Rates,
 }
 
 impl Writing {
     fn record(&mut self) {
+        let mut left_out = 0;
         while let Some(record) = self.sink.take() {
-            self.write(&record);
+            if self.rates.is_allowed(&record, MOST) {
+                self.write(&record);
+            } else {
+                left_out += 1;
+            }
         }
-        let left_out = self.sink.left_out();
+        left_out += self.sink.left_out();
         if left_out > 0 {
             let message = format!("{left_out} messages were left out: too many at once");
             self.write(&Record {

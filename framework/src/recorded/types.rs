@@ -7,7 +7,7 @@ use serde::de::DeserializeOwned;
 use serde_json::{Map, Value, json};
 
 use super::trace::layout_of;
-use super::{Foreign, Head, PARAMETERS, Recorded};
+use super::{Foreign, Head, PARAMETERS, Recorded, digest};
 use crate::buffer::Reader;
 use crate::guarded::{Condition, Guarded};
 use crate::history::{History, Past};
@@ -40,7 +40,7 @@ pub struct Taken {
     pub histories: Map<String, Value>,
     /// What each procedure is asked; only those that are.
     pub calls: Map<String, Value>,
-    /// What was answered: `{"Ok": response}` or `{"Err": reason}`; only where there was a call.
+    /// What was answered, `{"Ok": response}` or `{"Err": reason}`, with its digest; only where there was a call.
     pub answers: Map<String, Value>,
 }
 
@@ -181,7 +181,10 @@ impl<'body, B: Recorded> Describing<'body, B> {
             }
             if let Some(answer) = answerer.answered() {
                 let answer = answer.map_err(|refused| refused.0.to_string());
-                answers.insert(name.to_owned(), as_json(&answer));
+                let digest = digest(&answer)
+                    .map_or_else(|error| error.to_string(), |digest| format!("{digest:016x}"));
+                let answer = json!({ "value": as_json(&answer), "digest": digest });
+                answers.insert(name.to_owned(), answer);
             }
         }
     }

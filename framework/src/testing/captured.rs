@@ -163,24 +163,25 @@ impl Captured {
         assert_same("the state of the node", &self.all["state_after"], node);
     }
 
-    /// Compares what a procedure was answered with the recorded answer.
+    /// Compares what a procedure was answered with the recorded answer, bit for bit.
     ///
     /// # Panics
-    /// If they differ, with both.
+    /// As [`Self::assert_output`].
     pub fn assert_answer<Request, Response: Serialize>(
         &self,
         field: &str,
         mut call: CapturedCall<Request, Response>,
     ) {
         call.answerer.close();
-        let answer = call.answerer.answered();
-        let answer = answer.map(|answer| answer.map_err(|refused| refused.0.to_string()));
-        let now = serde_json::to_value(answer).unwrap_or_default();
         let recorded = &self.all["calls"][field]["answer"];
-        assert!(
-            now == *recorded,
-            "`{field}` is not answered as it was recorded\n  recorded: {recorded}\n  now:      {now}"
-        );
+        let what = format!("the answer of `{field}`");
+        match call.answerer.answered() {
+            Some(answer) => {
+                let answer = answer.map_err(|refused| refused.0.to_string());
+                assert_same(&what, recorded, &answer);
+            }
+            None => assert!(recorded.is_null(), "{what} does not come: {recorded}"),
+        }
     }
 
     /// Compares what the node told the hardware with what it told it then: which commands in which order, and the bits of

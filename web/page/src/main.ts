@@ -15,7 +15,9 @@ address.protocol = address.protocol === "https:" ? "wss:" : "ws:";
 address.search = "";
 address.hash = "";
 
-const robots = new Robots(location.host, address.href);
+// Robots name each other with a port always, browsers leave out that of the scheme.
+const own = location.port === "" && location.protocol === "http:" ? `${location.hostname}:80` : location.host;
+const robots = new Robots(own, address.href);
 const arrangement = new Arrangement();
 const sidebar = new Sidebar(robots.own, arrangement);
 const workspace = new Workspace(robots, arrangement);

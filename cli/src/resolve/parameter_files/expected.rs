@@ -26,6 +26,8 @@ pub(super) struct Child<'a> {
     pub(super) expected: Expected<'a>,
     /// It has to be given.
     pub(super) required: bool,
+    /// An array of all fields may end before it.
+    pub(super) has_default: bool,
     /// Where numbers in it must lie, if the field says so.
     pub(super) limits: Option<Range>,
     /// Other keys that mean the same.
@@ -48,6 +50,7 @@ impl<'a> Child<'a> {
     pub(super) fn of(data: Resolved) -> Self {
         Self {
             required: !is_optional(&data),
+            has_default: false,
             expected: Expected::Value(data),
             limits: None,
             aliases: Vec::new(),
@@ -161,13 +164,18 @@ fn child<'a>(content: &'a Content<Reader>, sources: &Sources<'_>) -> Child<'a> {
 
 /// What stands under a key that derived serde reads, without its other names.
 pub(super) fn of_key(key: &Key) -> Child<'static> {
+    let has_default = key.has_default;
     if key.by_function {
-        return Child::opaque(key.required);
+        return Child {
+            has_default,
+            ..Child::opaque(key.required)
+        };
     }
     // What cannot be read is told by the macro.
     let hints = Hints::read(&key.field.attributes);
     Child {
         required: key.required,
+        has_default,
         limits: hints.ok().and_then(|hints| hints.range),
         ..Child::of(key.field.data.clone())
     }

@@ -12,8 +12,10 @@ pub(super) struct Key {
     pub(super) name: String,
     /// What they may write instead.
     pub(super) aliases: Vec<String>,
-    /// It has no default.
+    /// It has no default, and is no `Option`.
     pub(super) required: bool,
+    /// Where an array ends before it, it has its default.
+    pub(super) has_default: bool,
     /// A function of the author's reads it, which may take anything.
     pub(super) by_function: bool,
     pub(super) field: StructField,
@@ -56,25 +58,31 @@ pub(super) fn field_keys(
     let keys = fields.into_iter().map(|field| {
         let required = !has_default && !is_optional(&field.data);
         let name = renamed(&field.name, rule)?;
-        key(field, name, required)
+        key(field, name, required, has_default)
     });
     let keys: Option<Vec<Option<Key>>> = keys.collect();
     Some(keys?.into_iter().flatten().collect())
 }
 
 /// Inner `None`: serde does not read the field.
-fn key(field: StructField, name_by_rule: String, required: bool) -> Option<Option<Key>> {
+fn key(
+    field: StructField,
+    name_by_rule: String,
+    required: bool,
+    has_default: bool,
+) -> Option<Option<Key>> {
     let mut key = Key {
         name: name_by_rule,
         aliases: Vec::new(),
         required,
+        has_default,
         by_function: false,
         field,
     };
     let mut skipped = false;
     for item in serde_items(&key.field.attributes)? {
         match (name(&item).as_str(), text(&item)) {
-            ("default", _) => key.required = false,
+            ("default", _) => (key.required, key.has_default) = (false, true),
             ("skip" | "skip_deserializing", _) => skipped = true,
             ("rename", Some(name)) => key.name = name,
             ("alias", Some(name)) => key.aliases.push(name),

@@ -91,7 +91,7 @@ impl Judge<'_> {
     fn check_in_order(self, value: &Spanned<DeValue<'_>>, fields: &[Child<'_>]) -> Option<Mistake> {
         let items = value.get_ref().as_array()?;
         let mut rest = fields.iter().skip(items.len());
-        if items.len() > fields.len() || rest.any(|field| field.required) {
+        if items.len() > fields.len() || rest.any(|field| !field.has_default) {
             return Some(wrong_count(value, items.len(), fields.len()));
         }
         let mut items = items.iter().zip(fields);

@@ -85,7 +85,7 @@ impl Hub {
                     "another client feeds `{instance}`: end it, or let it be silent for {timeout:?}"
                 )));
             }
-            remote.let_go();
+            // What the other announced is let go by the next cycle, if that is none of those that are refused.
         }
         deed(remote.as_mut()).map_err(|error| Failure::new(error.to_string()))?;
         let heard = Instant::now();

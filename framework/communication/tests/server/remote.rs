@@ -183,6 +183,19 @@ fn a_silent_feeder_is_replaced() {
 }
 
 #[test]
+fn who_is_refused_takes_nothing_from_a_silent_feeder() {
+    let outpost = Outpost::new(Listening::default());
+    let (mut first, mut second) = (outpost.client(), outpost.client());
+    let time = passed(&mut first);
+    first.ok(announce("LookoutNorth", time));
+    eventually("it is silent for five seconds", || {
+        let refused = second.error(announce("LookoutNorth", u64::MAX));
+        refused.contains("is the clock of the other machine ahead?")
+    });
+    first.ok(complete("LookoutNorth", time, 1));
+}
+
+#[test]
 fn what_cannot_be_is_refused_with_the_reason() {
     let outpost = Outpost::new(Listening::default());
     let mut client = outpost.client();

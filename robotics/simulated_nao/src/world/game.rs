@@ -78,8 +78,7 @@ impl World {
             .map(|game| referee::message(&game.referee, &game.settings, now, &self.players()))
     }
 
-    /// How the game really stands, where one is played.
-    /// As a robot's place in the world has it.
+    /// How the game really stands for the robot at this place of the world, where one is played.
     pub(crate) fn game_truth(&self, robot: usize) -> Option<GameTruth> {
         self.game.as_ref().map(|Game { referee, .. }| GameTruth {
             state: referee.state,

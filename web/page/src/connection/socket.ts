@@ -49,13 +49,24 @@ export class Socket {
   private nextId = 1;
   /** Questions since the robot said something. */
   private silence = 0;
+  private readonly watching: number;
+  private isClosed = false;
 
   constructor(
     private readonly address: string,
     private readonly listener: Listener,
   ) {
-    window.setInterval(() => this.watch(), QUESTION_MILLISECONDS);
+    this.watching = window.setInterval(() => this.watch(), QUESTION_MILLISECONDS);
     this.connect();
+  }
+
+  /** For good. */
+  close(): void {
+    this.isClosed = true;
+    window.clearInterval(this.watching);
+    const socket = this.socket;
+    if (socket !== null) this.lose();
+    socket?.close();
   }
 
   /** Asks the robot; without a connection the answer is an error. */
@@ -72,6 +83,7 @@ export class Socket {
   }
 
   private connect(): void {
+    if (this.isClosed) return;
     this.listener.state("connecting");
     const socket = new WebSocket(this.address);
     socket.binaryType = "arraybuffer";

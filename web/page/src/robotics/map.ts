@@ -30,6 +30,7 @@ class FieldMap implements Panel {
   private readonly hidden: Set<Layer>;
   private readonly stop: () => void;
   private stopTruth = (): void => undefined;
+  private isClosed = false;
   private size: FieldSize = RULES;
   private truth: Truth | null = null;
   private trail: Point[] = [];
@@ -61,6 +62,7 @@ class FieldMap implements Panel {
   }
 
   close(): void {
+    this.isClosed = true;
     this.stop();
     this.stopTruth();
     this.others.close();
@@ -93,6 +95,7 @@ class FieldMap implements Panel {
     watch("path", named(entries, "path") ?? named(entries, "planned_path"), 5);
     const cameras = entries.filter((entry) => /^[^.]+\.main_outputs\.lines$/.test(entry.path));
     [0, 1].forEach((at) => watch(`lines ${at}`, cameras[at]));
+    if (this.isClosed) return;
     this.stopTruth();
     this.truth = null;
     if (entries.some((entry) => entry.path === TRUTH)) {

@@ -10,6 +10,7 @@ const KEPT = 8;
 export class Values {
   private readonly samples = new Map<string, Sample[]>();
   private readonly stops = new Map<string, () => void>();
+  private isClosed = false;
 
   constructor(
     private readonly robot: Robot,
@@ -21,7 +22,8 @@ export class Values {
     this.stops.get(name)?.();
     this.stops.delete(name);
     this.samples.delete(name);
-    if (path === null) return;
+    // Whoever waited for the robot meanwhile may be late.
+    if (path === null || this.isClosed) return;
     const sample = (next: Sample): void => {
       const kept = this.samples.get(name) ?? [];
       this.samples.set(name, [...kept.slice(1 - KEPT), next]);
@@ -47,6 +49,7 @@ export class Values {
   }
 
   close(): void {
+    this.isClosed = true;
     for (const stop of this.stops.values()) stop();
     this.stops.clear();
   }

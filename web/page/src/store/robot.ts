@@ -43,6 +43,11 @@ export class Robot {
     });
   }
 
+  /** Nobody asks for it any more. */
+  close(): void {
+    this.socket.close();
+  }
+
   get state(): Readable<State> {
     return this.states;
   }

@@ -48,6 +48,11 @@ export class Robots {
     const addresses = [...new Set([this.address, ...named])].sort();
     if (addresses.join() === this.list.value.map((known) => known.address).join()) return;
     this.list.set(addresses.map((address, at) => this.entry(address, at)));
+    for (const [address, robot] of this.others) {
+      if (addresses.includes(address)) continue;
+      robot.close();
+      this.others.delete(address);
+    }
   }
 
   private entry(address: string, at: number): Known {

@@ -17,7 +17,8 @@ export class Signal<T> implements Readable<T> {
 
   set(value: T): void {
     this.current = value;
-    for (const listener of [...this.listeners]) listener(value);
+    // One of them may stop others: those are not told any more.
+    for (const listener of [...this.listeners]) if (this.listeners.has(listener)) listener(value);
   }
 
   watch(listener: (value: T) => void): () => void {

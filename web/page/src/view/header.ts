@@ -34,21 +34,25 @@ function beside(robots: Robots): HTMLElement {
   const rows = make("div", { class: "robots" });
   const element = menu("Robots", [rows]);
   let list = "";
+  let stops: (() => void)[] = [];
   const show = (): void => {
     const all = robots.known.value;
     element.hidden = all.length < 2;
     const addresses = all.map(({ address }) => address).join();
     if (!element.open || list === addresses) return;
     list = addresses;
+    stops.forEach((stop) => stop());
+    stops = [];
     rows.replaceChildren(
       ...all.map(({ address, at, isOwn, robot }) => {
         const mark = make("span", { class: "robot-mark" }, robotMark(at));
         mark.style.setProperty("--robot", robotColor(at));
         const state = make("output", { class: "state of-one" });
-        robot.state.watch((now) => {
+        const showState = robot.state.watch((now) => {
           state.dataset["state"] = now === "open" ? "open" : "lost";
           state.textContent = now === "open" ? "connected" : "not there, trying again …";
         });
+        stops.push(showState);
         const row = make("div", { class: "robot-row" }, mark, make("span", {}, isOwn ? `${address} (this page's)` : address), state);
         // That of the page's own robot stands in the line above everything.
         if (!isOwn) row.append(token(robot));

@@ -98,17 +98,25 @@ fn what_stands_in_the_file_is_judged_where_a_type_is_made_of_another() {
         #[derive(Deserialize)]
         #[serde(from = \"Round\")]
         pub struct Round { pub value: f32 }
+        #[derive(Deserialize)]
+        pub struct Pair { pub one: f32, pub other: Option<f32> }
     ";
-    let robot = |frame: &str, angle: &str| {
-        let fields = "a: Parameter<motion::Motion, \"motion\">, b: Parameter<motion::Angle, \"angle\">, c: Parameter<motion::Round, \"round\">,";
-        let file = format!("angle = {angle}\nround = 1\n[[motion.frames]]\n{frame}\n");
+    let robot = |frame: &str, angle: &str, pair: &str| {
+        let fields = "a: Parameter<motion::Motion, \"motion\">, b: Parameter<motion::Angle, \"angle\">, c: Parameter<motion::Round, \"round\">, d: Parameter<motion::Pair, \"pair\">,";
+        let file =
+            format!("angle = {angle}\nround = 1\npair = {pair}\n[[motion.frames]]\n{frame}\n");
         robot(fields, "")
             .file("crates/types/src/lib.rs", "pub mod motion;")
             .file("crates/types/src/motion.rs", types)
             .file("parameters/default.toml", &file)
     };
     for leg in ["[-1.0, 0.0]", "[0.5]", "{ hip = 0.1 }"] {
-        robot(&format!("duration = 5.0\nleg = {leg}"), "90.0").robot();
+        robot(
+            &format!("duration = 5.0\nleg = {leg}"),
+            "90.0",
+            "{ one = 1 }",
+        )
+        .robot();
     }
     for (duration, leg, angle, message) in [
         ("6", "[0, 0]", "1", "`motion.frames` is 6, not within 0..=5"),
@@ -146,6 +154,9 @@ fn what_stands_in_the_file_is_judged_where_a_type_is_made_of_another() {
         ),
     ] {
         let frame = format!("duration = {duration}\nleg = {leg}");
-        robot(&frame, angle).expect("mistyped-parameter", &[message]);
+        robot(&frame, angle, "[1, 2]").expect("mistyped-parameter", &[message]);
     }
+    // serde takes an array that ends early for one whose last fields have defaults, which an `Option` has not.
+    robot("duration = 1\nleg = [0, 0]", "1", "[1]")
+        .expect("mistyped-parameter", &["`pair` has 1 element, not 2"]);
 }
