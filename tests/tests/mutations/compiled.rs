@@ -24,10 +24,11 @@ use crate::robot::Robot;
 
 /// What the generated crate is compiled of.
 // The zoo: tests of the server need it, and cargo reads the manifests of all.
-const FOLDERS: [&str; 5] = [
+const FOLDERS: [&str; 6] = [
     "framework",
     "generated",
     "robotics",
+    "tests/robots/outpost",
     "tests/robots/zoo",
     "web",
 ];

@@ -175,6 +175,13 @@ fn wrong_place(
             plain: true,
             ..
         } => {
+            if let Some(items) = inner.as_array() {
+                let mut pairs = items.iter().zip(fields);
+                let wrong = pairs.find_map(|(item, (_, field, _))| {
+                    wrong_place(robot, file, &filled(data, field), item)
+                });
+                return wrong.or_else(|| here(items.len() == fields.len()));
+            }
             let Some(table) = inner.as_table() else {
                 return here(false);
             };
@@ -215,6 +222,10 @@ fn is_complete(robot: &Robot, file: &str, data: &str, values: &[&Value<'_>]) -> 
     else {
         return true;
     };
+    if last.get_ref().is_array() {
+        // One of another length is of the wrong type.
+        return true;
+    }
     let tables: Vec<_> = values
         .iter()
         .filter_map(|value| value.get_ref().as_table())
