@@ -394,7 +394,7 @@ mod tests {
     #[test]
     fn a_module_says_so_many_messages_in_a_second() {
         let mut rates = Rates::default();
-        let record = |module, milliseconds| Record {
+        let record = |module, milliseconds: u64| Record {
             time: Timestamp::from_nanos(milliseconds * 1_000_000),
             level: Level::INFO,
             module,
