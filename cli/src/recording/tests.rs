@@ -84,12 +84,12 @@ fn add_cycle(writer: &mut Writer, cycle: u32) {
     writer.add(&message(
         2,
         cycle,
-        if cycle % 2 == 0 { &ball } else { &[0] },
+        if cycle.is_multiple_of(2) { &ball } else { &[0] },
     ));
     writer.add(&message(
         2,
         cycle,
-        if cycle % 2 == 0 { &ball } else { &[0] },
+        if cycle.is_multiple_of(2) { &ball } else { &[0] },
     ));
     let state = vec![7; cycle as usize];
     let frame = [&[0, cycle as u8, cycle as u8][..], &state, &[9]].concat();
