@@ -13,6 +13,7 @@ mod compared;
 mod difference;
 mod elsewhere;
 mod events;
+mod graph;
 mod needed;
 mod other;
 mod play;

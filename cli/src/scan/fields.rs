@@ -5,7 +5,7 @@ use std::rc::Rc;
 
 use camino::Utf8PathBuf;
 use syn::ext::IdentExt;
-use syn::{Attribute, Fields, Item, Meta};
+use syn::{Attribute, Fields, Generics, Item, Meta};
 
 use super::library::Library;
 use super::lookup::ItemId;
@@ -77,9 +77,16 @@ const HARMLESS: &[&str] = &[
     "warn",
 ];
 
-impl Library<'_> {
-    /// The fields of a struct of the workspace; `None` for everything else, and where a macro may have changed it.
-    pub fn fields(&self, data: &Resolved) -> Option<StructFields> {
+/// A struct or an enum of the workspace that no macro may have changed.
+struct Plain<'a> {
+    item: &'a ItemId,
+    arguments: &'a [Resolved],
+    attributes: &'a [Attribute],
+    generics: &'a Generics,
+}
+
+impl<'a> Plain<'a> {
+    fn of(data: &'a Resolved) -> Option<Self> {
         let Shape::Named {
             definition: Definition::Workspace(item),
             arguments,
@@ -87,16 +94,36 @@ impl Library<'_> {
         else {
             return None;
         };
+        let (attributes, generics) = match item.item() {
+            Item::Struct(item) => (&item.attrs, &item.generics),
+            Item::Enum(item) => (&item.attrs, &item.generics),
+            _ => return None,
+        };
+        attributes.iter().all(is_harmless).then_some(Self {
+            item,
+            arguments,
+            attributes,
+            generics,
+        })
+    }
+
+    fn substitutions(&self) -> Option<Substitutions> {
+        substitutions(self.generics, self.arguments.to_vec())
+    }
+}
+
+impl Library<'_> {
+    /// The fields of a struct of the workspace; `None` for everything else, and where a macro may have changed it.
+    pub fn fields(&self, data: &Resolved) -> Option<StructFields> {
+        let plain = Plain::of(data)?;
+        let item = plain.item;
         let Item::Struct(definition) = item.item() else {
             return None;
         };
         let Fields::Named(fields) = &definition.fields else {
             return None;
         };
-        if !definition.attrs.iter().all(is_harmless) {
-            return None;
-        }
-        let generics = substitutions(&definition.generics, arguments.clone())?;
+        let generics = plain.substitutions()?;
         let fields = fields
             .named
             .iter()
@@ -123,20 +150,12 @@ impl Library<'_> {
 
     /// The variants of an enum of the workspace; `None` for everything else, and where a macro may have changed it.
     pub fn variants(&self, data: &Resolved) -> Option<Variants> {
-        let Shape::Named {
-            definition: Definition::Workspace(item),
-            arguments,
-        } = &data.shape
-        else {
-            return None;
-        };
+        let plain = Plain::of(data)?;
+        let item = plain.item;
         let Item::Enum(definition) = item.item() else {
             return None;
         };
-        if !definition.attrs.iter().all(is_harmless) {
-            return None;
-        }
-        let generics = substitutions(&definition.generics, arguments.clone())?;
+        let generics = plain.substitutions()?;
         let variants = definition.variants.iter().map(|variant| Variant {
             name: variant.ident.unraw().to_string(),
             attributes: variant.attrs.clone(),
@@ -152,56 +171,27 @@ impl Library<'_> {
     /// The attributes of a struct or an enum of the workspace; `None` for everything else, and where a macro may have
     /// changed it.
     pub fn attributes<'a>(&self, data: &'a Resolved) -> Option<&'a [Attribute]> {
-        let Shape::Named {
-            definition: Definition::Workspace(item),
-            ..
-        } = &data.shape
-        else {
-            return None;
-        };
-        let attributes = match item.item() {
-            Item::Struct(item) => &item.attrs,
-            Item::Enum(item) => &item.attrs,
-            _ => return None,
-        };
-        attributes.iter().all(is_harmless).then_some(attributes)
+        Plain::of(data).map(|plain| plain.attributes)
     }
 
-    /// What a type means that stands where a struct or an enum of the workspace is defined.
+    /// What a type means that stands where such a struct or enum is defined.
     pub fn resolve_beside(&self, data: &Resolved, written: &syn::Type) -> Option<Resolved> {
-        let Shape::Named {
-            definition: Definition::Workspace(item),
-            arguments,
-        } = &data.shape
-        else {
-            return None;
-        };
-        let generics = match item.item() {
-            Item::Struct(item) => &item.generics,
-            Item::Enum(item) => &item.generics,
-            _ => return None,
-        };
-        let generics = substitutions(generics, arguments.clone())?;
-        Some(self.resolve_with(&item.module, written, &generics, 0))
+        let plain = Plain::of(data)?;
+        let generics = plain.substitutions()?;
+        Some(self.resolve_with(&plain.item.module, written, &generics, 0))
     }
 
     /// Whether a type of the workspace certainly has no field with a name.
     pub fn is_without_fields(&self, data: &Resolved) -> bool {
-        let Shape::Named {
-            definition: Definition::Workspace(item),
-            ..
-        } = &data.shape
-        else {
+        let Some(plain) = Plain::of(data) else {
             return false;
         };
-        let (name, attributes) = match item.item() {
-            Item::Enum(item) => (&item.ident, &item.attrs),
-            Item::Struct(item) if !matches!(item.fields, Fields::Named(_)) => {
-                (&item.ident, &item.attrs)
-            }
+        let name = match plain.item.item() {
+            Item::Enum(item) => &item.ident,
+            Item::Struct(item) if !matches!(item.fields, Fields::Named(_)) => &item.ident,
             _ => return false,
         };
-        attributes.iter().all(is_harmless) && !dereferences(&item.module.syntax, name, attributes)
+        !dereferences(&plain.item.module.syntax, name, plain.attributes)
     }
 
     fn variant_fields(

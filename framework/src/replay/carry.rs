@@ -8,8 +8,8 @@ use std::collections::BTreeSet;
 
 use hulkgen_mcap::Layout;
 use hulkgen_mcap::layout::{Part, PartKind, Unreadable, Values};
-use serde::Deserialize;
 
+use super::graph::{Field, Graph};
 use crate::error::{Error, Result};
 
 /// What setup nodes of an instance leave behind.
@@ -21,42 +21,13 @@ pub struct Setup {
     states: Vec<String>,
 }
 
-/// As much of `graph.json` as matters here.
-#[derive(Deserialize)]
-struct Graph {
-    cyclers: Vec<Cycler>,
-}
-
-#[derive(Deserialize)]
-struct Cycler {
-    instances: Vec<String>,
-    nodes: Vec<Node>,
-}
-
-#[derive(Deserialize)]
-struct Node {
-    path: String,
-    setup: bool,
-    fields: Vec<Field>,
-}
-
-#[derive(Deserialize)]
-struct Field {
-    kind: String,
-    #[serde(rename = "type")]
-    data: Option<String>,
-    path: Option<String>,
-}
-
 impl Setup {
     /// Of an instance in the graph that `hulkgen graph --format json` prints.
     ///
     /// # Errors
     /// If it is no such graph.
     pub fn of(instance: &str, graph: &str) -> Result<Self> {
-        let graph: Graph = serde_json::from_str(graph)
-            .map_err(|_| Error::new("this program does not know its graph: build it again"))?;
-        let mut cyclers = graph.cyclers.into_iter();
+        let mut cyclers = Graph::read(graph)?.cyclers.into_iter();
         let cycler = cyclers.find(|one| one.instances.iter().any(|name| name == instance));
         let mut setup = Self::default();
         for node in cycler.into_iter().flat_map(|cycler| cycler.nodes) {
@@ -176,11 +147,11 @@ mod tests {
     use super::{Setup, composed};
 
     const GRAPH: &str = r#"{"cyclers": [{"instances": ["Top", "Bottom"], "nodes": [
-        {"path": "a::eye", "setup": true, "fields": [
+        {"path": "a::eye", "setup": true, "order": 0, "fields": [
             {"kind": "CyclerState", "type": "u8", "path": "both.eye"},
             {"kind": "CyclerState", "type": "&u8", "path": "both.node"},
             {"kind": "Parameter", "type": "u8", "path": "gain"}]},
-        {"path": "a::node", "setup": false, "fields": [
+        {"path": "a::node", "setup": false, "order": 1, "fields": [
             {"kind": "CyclerState", "type": "u8", "path": "both.node"}]}]}]}"#;
 
     fn structure(fields: &[&str]) -> Layout {

@@ -2,8 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use serde::Deserialize;
-
+use super::graph::Graph;
 use crate::error::{Error, Result};
 use crate::parameters::nearest;
 
@@ -16,33 +15,13 @@ pub struct Needed {
     instances: BTreeMap<String, Vec<String>>,
 }
 
-/// As much of `graph.json` as matters here.
-#[derive(Deserialize)]
-struct Graph {
-    cyclers: Vec<Cycler>,
-}
-
-#[derive(Deserialize)]
-struct Cycler {
-    instances: Vec<String>,
-    nodes: Vec<Node>,
-}
-
-#[derive(Deserialize)]
-struct Node {
-    path: String,
-    setup: bool,
-    order: usize,
-}
-
 impl Needed {
     /// Of the node with this path, or whose path ends with this name, in the graph that `hulkgen graph --format json` prints.
     ///
     /// # Errors
     /// If there is no such node, more than one, or it is a setup node: what it wrote stands in the frames.
     pub fn new(name: &str, graph: &str) -> Result<Self> {
-        let graph: Graph = serde_json::from_str(graph)
-            .map_err(|_| Error::new("this program does not know its graph: build it again"))?;
+        let graph = Graph::read(graph)?;
         let node = graph.node(name)?.to_owned();
         let mut instances = BTreeMap::new();
         for cycler in graph.cyclers {
@@ -123,11 +102,11 @@ mod tests {
 
     const GRAPH: &str = r#"{"cyclers": [
         {"instances": ["Top", "Bottom"], "nodes": [
-            {"path": "a::eye", "setup": true, "order": 0},
-            {"path": "a::second", "setup": false, "order": 2},
-            {"path": "a::first", "setup": false, "order": 1},
-            {"path": "a::third", "setup": false, "order": 3}]},
-        {"instances": ["Body"], "nodes": [{"path": "b::first", "setup": false, "order": 0}]}]}"#;
+            {"path": "a::eye", "setup": true, "order": 0, "fields": []},
+            {"path": "a::second", "setup": false, "order": 2, "fields": []},
+            {"path": "a::first", "setup": false, "order": 1, "fields": []},
+            {"path": "a::third", "setup": false, "order": 3, "fields": []}]},
+        {"instances": ["Body"], "nodes": [{"path": "b::first", "setup": false, "order": 0, "fields": []}]}]}"#;
 
     #[test]
     fn all_that_runs_before_a_node_is_needed_in_the_order_of_the_calls() {
