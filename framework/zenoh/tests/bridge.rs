@@ -98,23 +98,31 @@ impl Place {
     }
 
     fn client(&self, zenoh: SocketAddr, what: &str) -> Command {
-        let mut client = self.command(Path::new("python3"));
-        client.arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/client.py"));
-        client.args([format!("tcp/{zenoh}"), what.to_owned()]);
+        let mut client = self.script("client.py", zenoh);
+        client.arg(what);
         client
     }
-}
 
-/// The machine that runs the outpost's lookouts, until it has seen everything in the book.
-fn look_out(mut machine: Command, zenoh: SocketAddr) {
-    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/lookouts.py");
-    let machine = machine.arg(script).arg(format!("tcp/{zenoh}"));
-    let output = machine.output().expect("python3 was there a moment ago");
-    let said = String::from_utf8_lossy(&output.stdout);
-    let stderr = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{said}{stderr}");
-    assert!(said.contains("20 ships in order"), "{said}");
-    println!("{said}");
+    fn script(&self, name: &str, zenoh: SocketAddr) -> Command {
+        let script = Path::new(env!("CARGO_MANIFEST_DIR"))
+            .join("tests")
+            .join(name);
+        let mut python = self.command(Path::new("python3"));
+        // Without files of bytecode among the sources.
+        python.arg("-B").arg(script).arg(format!("tcp/{zenoh}"));
+        python
+    }
+
+    /// The machine that runs the outpost's lookouts, until it has seen everything in the book.
+    fn look_out(&self, zenoh: SocketAddr) {
+        let output = self.script("lookouts.py", zenoh).output();
+        let output = output.expect("python3 was there a moment ago");
+        let said = String::from_utf8_lossy(&output.stdout);
+        let stderr = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{said}{stderr}");
+        assert!(said.contains("20 ships in order"), "{said}");
+        println!("{said}");
+    }
 }
 
 fn quiet(command: &mut Command) -> Running {
@@ -167,7 +175,7 @@ fn another_machine_feeds_a_robot_with_what_it_sees() {
     let here = Place(None);
     let _robot = here.robot(&program, robot_at, &folder);
     let _bridge = here.bridge(robot_at, zenoh_at);
-    look_out(here.command(Path::new("python3")), zenoh_at);
+    here.look_out(zenoh_at);
     let _ = std::fs::remove_dir_all(&folder);
 }
 
@@ -343,9 +351,7 @@ fn ships_are_in_order_behind_a_network_that_loses_and_delays() {
     let missing = at_both_ends(
         "lookouts",
         |parts| parts.outpost,
-        |far, zenoh_at| {
-            look_out(far.command(Path::new("python3")), zenoh_at);
-        },
+        |far, zenoh_at| far.look_out(zenoh_at),
     );
     if let Some(what) = missing {
         skip(

@@ -10,15 +10,10 @@ import sys
 import time
 from dataclasses import dataclass
 
-import zenoh
 from pycdr2 import IdlStruct
 from pycdr2.types import float32, sequence
 
-# A busy machine may take so long for anything.
-PATIENCE = 90
-
-# Longer than the bridge takes.
-TOO_LONG = b"0" * 1_100_000
+from elsewhere import PATIENCE, TOO_LONG, connected, until
 
 CDR_POSE = "0/pose/zoo_interfaces::msg::dds_::Pose_/RIHS01_" + 64 * "0"
 
@@ -33,17 +28,6 @@ class Point(IdlStruct, typename="Point"):
 class Pose(IdlStruct, typename="Pose"):
     position: sequence[Point, 1]
     heading: float32
-
-
-def until(what, condition):
-    """What the condition gives once that is something."""
-    end = time.monotonic() + PATIENCE
-    while time.monotonic() < end:
-        value = condition()
-        if value:
-            return value
-        time.sleep(0.05)
-    raise SystemExit(f"no {what} within {PATIENCE} s")
 
 
 class Listener:
@@ -185,12 +169,7 @@ def misses(session):
 
 def main():
     endpoint, what = sys.argv[1:]
-    config = zenoh.Config()
-    config.insert_json5("mode", '"client"')
-    config.insert_json5("connect/endpoints", json.dumps([endpoint]))
-    config.insert_json5("connect/timeout_ms", str(PATIENCE * 1000))
-    config.insert_json5("scouting/multicast/enabled", "false")
-    with zenoh.open(config) as session:
+    with connected(endpoint) as session:
         {"exchanges": exchanges, "misses": misses}[what](session)
 
 

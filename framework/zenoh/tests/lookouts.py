@@ -9,24 +9,9 @@ import time
 
 import zenoh
 
-# A busy machine may take so long for anything.
-PATIENCE = 90
+from elsewhere import TOO_LONG, connected, until
 
 ROUNDS = 12
-
-# Longer than the bridge takes.
-TOO_LONG = b"0" * 1_100_000
-
-
-def until(what, condition):
-    """What the condition gives once that is something."""
-    end = time.monotonic() + PATIENCE
-    while time.monotonic() < end:
-        value = condition()
-        if value:
-            return value
-        time.sleep(0.05)
-    raise SystemExit(f"no {what} within {PATIENCE} s")
 
 
 class Outpost:
@@ -104,12 +89,7 @@ def ships(outpost):
 
 
 def main():
-    config = zenoh.Config()
-    config.insert_json5("mode", '"client"')
-    config.insert_json5("connect/endpoints", json.dumps(sys.argv[1:]))
-    config.insert_json5("connect/timeout_ms", str(PATIENCE * 1000))
-    config.insert_json5("scouting/multicast/enabled", "false")
-    with zenoh.open(config) as session:
+    with connected(sys.argv[1]) as session:
         outpost = Outpost(session)
         until("book", lambda: outpost.entries is not None)
         nonsense(outpost)
