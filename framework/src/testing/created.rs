@@ -7,10 +7,12 @@ use crate::data::ParameterData;
 use crate::error::Result;
 use crate::hardware::{Hardware, HardwareContext};
 use crate::parameters::Layers;
+use crate::report::tell_test;
 use crate::robot::{Robot, Start};
 use crate::stop::Stop;
 
-/// The hardware of `target` with these options, and the robot that `create` makes on it, with the parameters of `layers`.
+/// The hardware of `target` with these options, and the robot that `create` makes on it, with the parameters of `layers`. What
+/// this process tells of robots from here on, `cargo test` shows where a test fails.
 ///
 /// # Panics
 /// If a parameter is missing or does not fit, or hardware or robot cannot be created.
@@ -22,6 +24,7 @@ pub fn created<H: Hardware, P: ParameterData>(
     stop: &Stop,
     create: impl FnOnce(&Arc<H>, Start<P>) -> Result<Robot<P>>,
 ) -> (Arc<H>, Robot<P>) {
+    tell_test();
     let parameters = layers.load().expect("the parameters are complete");
     let hardware = H::new(HardwareContext {
         options: options.iter().copied().map(str::to_owned).collect(),
