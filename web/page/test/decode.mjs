@@ -1,17 +1,9 @@
 // Compares what the page reads with what the reference read: `node decode.mjs CORPUS`. Used by a test of the framework.
 import assert from "node:assert/strict";
-import { mkdtempSync, readFileSync, rmSync } from "node:fs";
-import { tmpdir } from "node:os";
-import { dirname, join } from "node:path";
-import { fileURLToPath } from "node:url";
-import { build } from "rolldown";
+import { readFileSync } from "node:fs";
+import { load } from "./load.mjs";
 
-const here = dirname(fileURLToPath(import.meta.url));
-const folder = mkdtempSync(join(tmpdir(), "hulkgen-decode-"));
-const file = join(folder, "binary.mjs");
-await build({ input: join(here, "../src/connection/binary.ts"), output: { file, format: "esm" }, logLevel: "warn" });
-const { decode, Malformed } = await import(file);
-rmSync(folder, { recursive: true });
+const { decode, Malformed } = await load("connection/binary.ts");
 
 /** As JSON; numbers of 32 bits are written with fewer digits than they have as 64. */
 function same(one, other) {

@@ -3,26 +3,13 @@ import { expect } from "../connection/socket";
 import type { Json } from "../protocol";
 import { button, complain, make, select } from "../view/dom";
 import { plural } from "../view/format";
+import { kindsOf, lanesOf, type Happened } from "./happened";
 import { textSetting, type Context, type Panel, type PanelKind } from "./panel";
 
 const TIMELINE = "Replay.procedures.timeline";
 const PERIOD_MILLISECONDS = 250;
 const SPEEDS = ["-4 ×", "-1 ×", "-0.25 ×", "0.1 ×", "0.25 ×", "0.5 ×", "1 ×", "2 ×", "4 ×", "16 ×"];
 const EVERY = "all instances";
-
-interface Event {
-  instance: string;
-  from: number;
-  to: number;
-  what: "missing" | "unfinished" | "restarted" | "parameters";
-}
-
-const WORDS: Record<string, string> = {
-  missing: "cycles are missing",
-  unfinished: "the cycle failed or was abandoned",
-  restarted: "the first cycle after a restart",
-  parameters: "the first cycle with changed parameters",
-};
 
 interface Place {
   time: number;
@@ -31,7 +18,7 @@ interface Place {
   is_playing: boolean;
   speed: number;
   instances: { instance: string; cycle: number | null; frames: number; missing: number }[];
-  events?: Event[];
+  events?: Happened[];
 }
 
 class Replay implements Panel {
@@ -48,7 +35,6 @@ class Replay implements Panel {
   private readonly timer: number;
   private readonly stop: () => void;
   private place: Place | null = null;
-  private events: Event[] = [];
   private isDragged = false;
   private isAsked = false;
 
@@ -127,8 +113,7 @@ class Replay implements Panel {
     this.isAsked = true;
     try {
       const place = expect(await robot.ask({ call: { path: TIMELINE, argument: move } }), "called") as unknown as Place;
-      if (place.events !== undefined) this.events = place.events;
-      this.show(place, place.events !== undefined);
+      this.show(place);
       complain(this.failure, null);
     } catch (error) {
       complain(this.failure, error);
@@ -136,7 +121,7 @@ class Replay implements Panel {
     this.isAsked = false;
   }
 
-  private show(place: Place, hasEvents: boolean): void {
+  private show(place: Place): void {
     const isFirst = this.place === null;
     this.place = place;
     this.play.textContent = place.is_playing ? "Pause" : "Play";
@@ -155,28 +140,26 @@ class Replay implements Panel {
         make("tr", { class: missing > 0 ? "bad" : "" }, make("td", {}, instance), ...[cycle ?? "–", frames, missing].map((text) => make("td", {}, String(text)))),
       ),
     );
-    if (hasEvents) this.drawEvents(place);
+    if (place.events !== undefined) this.drawEvents(place.events, place);
   }
 
   /** A line for each instance to which something happened; what it was is told by words, too. */
-  private drawEvents({ begins, ends }: Place): void {
-    const length = Math.max(ends - begins, 1e-9);
-    const names = [...new Set(this.events.map(({ instance }) => instance))];
+  private drawEvents(events: readonly Happened[], { begins, ends }: Place): void {
+    const lanes = lanesOf(events, begins, ends);
     this.marks.replaceChildren(
-      ...names.map((name) => {
-        const marks = this.events.filter(({ instance }) => instance === name).map((event) => {
-          const about = `${name}: ${WORDS[event.what] ?? event.what}, ${event.from.toFixed(3)} s${event.to > event.from ? ` to ${event.to.toFixed(3)} s` : ""}`;
-          const mark = make("button", { type: "button", class: `event ${event.what}`, title: about, "aria-label": about, click: () => void this.ask({ time: event.from, play: false }) });
-          mark.style.left = `${(100 * (event.from - begins)) / length}%`;
-          mark.style.width = `max(4px, ${(100 * (event.to - event.from)) / length}%)`;
+      ...lanes.map(({ instance, marks }) => {
+        const buttons = marks.map(({ what, about, time, left, width }) => {
+          const mark = make("button", { type: "button", class: `event ${what}`, title: about, "aria-label": about, click: () => void this.ask({ time, play: false }) });
+          mark.style.left = `${left}%`;
+          mark.style.width = `max(4px, ${width}%)`;
           return mark;
         });
-        return make("div", { class: "event-lane" }, make("span", { class: "muted" }, `${name}: ${plural(marks.length, "event")}`), make("div", { class: "event-marks" }, ...marks));
+        return make("div", { class: "event-lane" }, make("span", { class: "muted" }, `${instance}: ${plural(marks.length, "event")}`), make("div", { class: "event-marks" }, ...buttons));
       }),
     );
-    const kinds = Object.keys(WORDS).filter((kind) => this.events.some(({ what }) => what === kind));
+    const kinds = kindsOf(events);
     if (kinds.length > 0) this.marks.append(make("p", { class: "event-key muted" }, ...kinds.map((kind) => make("span", {}, make("i", { class: `event ${kind}` }), ` ${kind}`))));
-    if (names.length === 0) this.marks.append(make("p", { class: "muted" }, "no cycle is missing, unfinished, or the first after a restart or with changed parameters"));
+    if (lanes.length === 0) this.marks.append(make("p", { class: "muted" }, "no cycle is missing, unfinished, or the first after a restart or with changed parameters"));
   }
 }
 
