@@ -7,8 +7,10 @@ import type { Known } from "../store/robots";
 export interface Context {
   /** The one that the panel shows. */
   readonly robot: Robot;
-  /** All that the page may show, that one among them; a panel is opened anew where they change. */
+  /** All that the page may show; a panel is opened anew where they change. */
   readonly robots: readonly Known[];
+  /** The panel's one among them. */
+  readonly known: Known;
   readonly arrangement: Arrangement;
   readonly settings: Settings;
   /** Keeps settings for the next time. */
@@ -51,10 +53,4 @@ export function textSetting(settings: Settings, name: string, otherwise = ""): s
 export function numberSetting(settings: Settings, name: string, otherwise: number): number {
   const value = settings[name];
   return typeof value === "number" ? value : otherwise;
-}
-
-/** A setting that is a list of texts. */
-export function listSetting(settings: Settings, name: string): string[] {
-  const value = settings[name];
-  return Array.isArray(value) ? value.filter((item): item is string => typeof item === "string") : [];
 }

@@ -1,18 +1,23 @@
-// A panel with curves of any numbers of the robot, at the rate of its cycles.
+// A panel with curves of any numbers of one robot or of several, at the rate of their cycles.
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 import { button, complain, download, eachFrame, make, select } from "../view/dom";
 import { number } from "../view/format";
 import { nameOf } from "../store/paths";
-import { listSetting, numberSetting, type Context, type Panel, type PanelKind } from "./panel";
-import { align, COLORS, height, readCurves, Series } from "./series";
+import { Curve, isShared, kept, lookOfOtherRun, looksOf, nameIn, wantedIn, type Look, type Wanted } from "./curve";
+import { numberSetting, type Context, type Panel, type PanelKind } from "./panel";
+import { align, readCurves, robotChoice, robotMark, type Series } from "./series";
 
 const WINDOWS = ["5 s", "10 s", "20 s", "60 s", "300 s"];
+const EVERYBODY = "all\u00a0\u00a0\u00a0robots";
+/** Clocks of robots are known so well, in seconds. */
+const SLACK = 1;
 
-interface Curve {
-  path: string;
+interface Line {
+  label: string;
+  look: Look;
   series: Series;
-  stop(): void;
+  isOfOtherRun: boolean;
 }
 
 class Plot implements Panel {
@@ -24,12 +29,16 @@ class Plot implements Panel {
   private readonly failure = make("p", { class: "failure", hidden: true });
   private readonly pause: HTMLButtonElement;
   private readonly input = make("input", { type: "text", placeholder: "add a path", "aria-label": "add a path", spellcheck: "false" });
+  /** Of which robot the next curve is; only where there are several. */
+  private readonly whose: HTMLSelectElement;
   private readonly draw = eachFrame(() => this.update());
   private window: number;
   /** While paused: what is shown, in seconds. */
   private held: [number, number] | null = null;
   private drawn: uPlot | null = null;
-  /** Curves of another run, by path. */
+  /** What the chart has, the curves first. */
+  private lines: Line[] = [];
+  /** Curves of another run, by name. */
   private others = new Map<string, Series>();
   private readonly stop: () => void;
 
@@ -47,31 +56,43 @@ class Plot implements Panel {
       compare((others) => {
         this.others = others;
         this.rebuild();
-      }, this.failure),
+        if (others.size === 0) complain(this.failure, "this file has no curves: save some with CSV");
+      }),
     ];
+    const { robots, known } = context;
+    this.whose = select([...robots.map(robotChoice), EVERYBODY], robotChoice(known), "whose numbers are added: typed or dropped", () => undefined);
+    this.whose.hidden = robots.length < 2;
     this.input.addEventListener("change", () => {
       if (this.input.value.trim() !== "") this.accept(this.input.value.trim());
       this.input.value = "";
     });
     this.content.append(this.chips, this.failure, this.chart);
     this.chart.addEventListener("dblclick", () => this.go());
-    for (const path of listSetting(context.settings, "paths")) this.add(path);
+    for (const wanted of wantedIn(context.settings)) this.add(wanted);
     this.rebuild();
-    const stop = context.robot.moment.watch((moment) => {
-      if (moment !== null) this.show([moment.time - this.window / 2, moment.time + this.window / 2]);
-    });
+    const stops = [
+      context.robot.moment.watch((moment) => {
+        if (moment !== null) this.show([moment.time - this.window / 2, moment.time + this.window / 2]);
+      }),
+      context.robot.welcome.watch((welcome) => {
+        if (welcome === null) return;
+        for (const { series } of this.curves) series.isNow(welcome.time / 1e9 + SLACK);
+      }),
+    ];
     // The axes are drawn in colours of the page.
     const repaint = (): void => this.rebuild();
     window.addEventListener("look", repaint);
     this.stop = () => {
-      stop();
+      stops.forEach((stop) => stop());
       window.removeEventListener("look", repaint);
     };
   }
 
   accept(path: string): void {
-    if (this.curves.some((curve) => curve.path === path)) return;
-    this.add(path);
+    const { robots, known } = this.context;
+    const chosen = robots.filter((one) => this.whose.value === EVERYBODY || this.whose.value === robotChoice(one));
+    // The panel's own robot is not named: the curve goes with the panel to another one.
+    for (const one of chosen) this.add(one === known ? { path } : { path, robot: one.address });
     this.rebuild();
     this.save();
   }
@@ -83,65 +104,82 @@ class Plot implements Panel {
 
   close(): void {
     this.stop();
-    for (const curve of this.curves) curve.stop();
+    for (const curve of this.curves) curve.close();
     this.drawn?.destroy();
   }
 
-  private add(path: string): void {
-    const series = new Series();
-    const stop = this.context.robot.subscriptions.watch(
-      { path },
-      {
-        sample: ({ time, value }) => {
-          series.add(time / 1e9, height(value));
-          this.draw();
-        },
-        refused: (reason) => complain(this.failure, reason === null ? null : `${path}: ${reason}`),
-      },
-    );
-    this.curves.push({ path, series, stop });
+  private add(wanted: Wanted): void {
+    const { known: own, robots, robot } = this.context;
+    const known = wanted.robot === undefined ? own : (robots.find(({ address }) => address === wanted.robot) ?? null);
+    const isThere = this.curves.some((curve) => curve.wanted.path === wanted.path && (curve.known === null ? curve.wanted.robot === wanted.robot : curve.known === known));
+    if (!isThere) this.curves.push(new Curve(wanted, known, robot, this.draw, () => this.tell()));
   }
 
   private drop(curve: Curve): void {
-    curve.stop();
+    curve.close();
     this.curves.splice(this.curves.indexOf(curve), 1);
-    complain(this.failure, null);
     this.rebuild();
     this.save();
   }
 
   private save(): void {
-    this.context.save({ paths: this.curves.map((curve) => curve.path), window: this.window });
+    this.context.save({ paths: this.curves.map(({ wanted }) => kept(wanted)), window: this.window });
+  }
+
+  /** What is wrong with curves, and whose robots are not there. */
+  private tell(): void {
+    const failures = this.curves.flatMap(({ failure, wanted }) => (failure === null ? [] : [`${wanted.path}: ${failure}`]));
+    complain(this.failure, failures.length > 0 ? failures.join("\n") : null);
+    this.curves.forEach((curve, at) => this.chips.children[at]?.classList.toggle("lost", !curve.isThere));
+  }
+
+  /** As legend and head call it. */
+  private label({ wanted, known }: Curve): string {
+    // Of a part of a list, the list's name, too.
+    const name = /\.\d+$/.test(wanted.path) ? shortly(wanted.path) : nameOf(wanted.path);
+    return isShared(this.curves) ? `${known === null ? wanted.robot : robotMark(known.at)} ${name}` : name;
+  }
+
+  private chip(curve: Curve, look: Look): HTMLElement {
+    const { wanted, known } = curve;
+    const swatch = make("span", { class: "swatch" });
+    swatch.style.background = stroke(look);
+    const mark = make("span", { class: "robot-mark" }, known === null ? "?" : robotMark(known.at));
+    mark.style.setProperty("--robot", look.color);
+    const gone = button("×", `remove ${nameIn(wanted)}`, () => this.drop(curve), "plain");
+    return make("span", { class: "chip", title: nameIn(wanted) }, swatch, isShared(this.curves) ? mark : null, shortly(wanted.path), gone);
   }
 
   private rebuild(): void {
-    this.context.title(this.curves.map((curve) => nameOf(curve.path)).join(", "));
-    this.chips.replaceChildren(
-      ...this.curves.map((curve, at) => {
-        const swatch = make("span", { class: "swatch" });
-        swatch.style.background = color(at);
-        const gone = button("×", `remove ${curve.path}`, () => this.drop(curve), "plain");
-        return make("span", { class: "chip", title: curve.path }, swatch, shortly(curve.path), gone);
-      }),
-      this.input,
-    );
+    const looks = looksOf(this.curves);
+    this.lines = this.curves.map((curve, at) => ({ label: this.label(curve), look: looks[at] as Look, series: curve.series, isOfOtherRun: false }));
+    this.context.title(this.lines.map(({ label }) => label).join(", "));
+    this.chips.replaceChildren(...this.curves.map((curve, at) => this.chip(curve, looks[at] as Look)), this.input, this.whose);
+    this.tell();
+    // Curves that the other run has, too.
+    this.curves.forEach((curve, at) => {
+      const series = this.others.get(nameIn(curve.wanted));
+      if (series !== undefined) this.lines.push({ label: `${this.label(curve)} of the other run`, look: lookOfOtherRun(looks[at] as Look), series, isOfOtherRun: true });
+    });
     this.drawn?.destroy();
     this.chart.classList.toggle("unused", this.curves.length === 0);
     const ink = getComputedStyle(document.body).getPropertyValue("--faint");
     const line = getComputedStyle(document.body).getPropertyValue("--rule");
-    const font = `${getComputedStyle(document.body).getPropertyValue("--small")} system-ui, sans-serif`;
+    const small = getComputedStyle(document.body).getPropertyValue("--small");
+    const font = `${small} system-ui, sans-serif`;
+    const width = (values: string[] | null): number => Math.max(64, 24 + 0.6 * Number.parseFloat(small) * Math.max(0, ...(values ?? []).map(({ length }) => length)));
     const axis = { font, stroke: ink, grid: { stroke: line, width: 1 }, ticks: { stroke: line, width: 1 } };
     const options: uPlot.Options = {
       width: Math.max(this.chart.clientWidth, 100),
       height: Math.max(this.chart.clientHeight - 30, 60),
       scales: { x: { time: false } },
-      axes: [{ ...axis, values: (_, ticks) => ticks.map((tick) => `${short(tick)} s`) }, { ...axis, size: 64, values: (_, ticks) => ticks.map(short) }],
+      axes: [{ ...axis, values: (_, ticks) => ticks.map((tick) => `${short(tick)} s`) }, { ...axis, size: (_, values) => width(values), values: (_, ticks) => ticks.map(short) }],
       cursor: { drag: { x: true, y: false, setScale: false } },
       series: [
         { label: "time", value: (_, time) => (time === null ? "–" : `${time.toFixed(3)} s`) },
-        ...this.curves.map((curve, at) => curveOf(nameOf(curve.path), color(at), [])),
-        ...this.compared().map((curve) => curveOf(`${nameOf(curve.path)} of the other run`, color(this.curves.indexOf(curve)), [4, 4])),
+        ...this.lines.map(seriesOf),
       ],
+      legend: { markers: { width: 0, fill: (_, at) => stroke((this.lines[at - 1] as Line).look) } },
       hooks: { setSelect: [(chart) => this.zoom(chart)] },
     };
     this.drawn = new uPlot(options, this.shown() as uPlot.AlignedData, this.chart);
@@ -158,13 +196,7 @@ class Plot implements Panel {
   }
 
   private shown(): ReturnType<typeof align> {
-    const others = this.compared().map(({ path }) => this.others.get(path) as Series);
-    return align([...this.curves.map((curve) => curve.series), ...others], ...this.range());
-  }
-
-  /** Curves that the other run has, too. */
-  private compared(): Curve[] {
-    return this.curves.filter(({ path }) => this.others.has(path));
+    return align(this.lines.map(({ series }) => series), ...this.range());
   }
 
   private update(): void {
@@ -208,25 +240,23 @@ class Plot implements Panel {
   private export(): void {
     const [times, ...all] = this.shown();
     const columns = all.slice(0, this.curves.length);
-    const head = ["time", ...this.curves.map((curve) => curve.path)].join(",");
+    const head = ["time", ...this.curves.map(({ wanted }) => nameIn(wanted))].join(",");
     const rows = times.map((time, row) => [time, ...columns.map((column) => column[row] ?? "")].join(","));
     download("plot.csv", `${[head, ...rows].join("\n")}\n`, "text/csv");
   }
 }
 
-function curveOf(label: string, stroke: string, dash: number[]): uPlot.Series {
+function seriesOf({ label, look, isOfOtherRun }: Line): uPlot.Series {
   const value = (_: uPlot, value: number | null): string => (value === null || value === undefined ? "–" : number(value));
-  return { label, stroke, dash, width: dash.length > 0 ? 2 : 1.5, spanGaps: dash.length > 0, points: { show: false }, value };
+  return { label, stroke: look.color, dash: look.dash, width: isOfOtherRun ? 2 : 1.5, spanGaps: isOfOtherRun, points: { show: false }, value };
 }
 
 /** Opens curves that another plot has saved, of another run over the same seconds. */
-function compare(deed: (others: Map<string, Series>) => void, failure: HTMLElement): HTMLElement {
+function compare(deed: (others: Map<string, Series>) => void): HTMLElement {
   const file = make("input", { type: "file", accept: ".csv,text/csv", hidden: true, "aria-label": "curves of another run" });
   file.addEventListener("change", () => {
     void file.files?.[0]?.text().then((text) => {
-      const others = readCurves(text);
-      complain(failure, others.size === 0 ? "this file has no curves: save some with CSV" : null);
-      deed(others);
+      deed(readCurves(text));
       file.value = "";
     });
   });
@@ -243,8 +273,11 @@ function shortly(path: string): string {
   return path.split(".").slice(-2).join(".");
 }
 
-function color(at: number): string {
-  return COLORS[at % COLORS.length] as string;
+/** The background that shows how a curve is drawn. */
+function stroke({ color, dash }: Look): string {
+  let end = 0;
+  const stops = dash.map((length, at) => `${at % 2 === 0 ? color : "transparent"} ${end}px ${(end += length)}px`);
+  return stops.length === 0 ? color : `repeating-linear-gradient(90deg, ${stops.join(", ")})`;
 }
 
 function legendHeight(chart: HTMLElement): number {

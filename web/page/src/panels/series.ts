@@ -24,6 +24,19 @@ export class Series {
     }
   }
 
+  /** What comes next is not joined to what was: there was no connection between. */
+  interrupt(): void {
+    const last = this.times[this.times.length - 1];
+    if (last !== undefined && this.values[this.values.length - 1] !== null) this.add(last + 1e-6, null);
+  }
+
+  /** The robot's clock says this now: points after it belong to another run. */
+  isNow(time: number): void {
+    if (this.from(time) === this.times.length) return;
+    this.times = [];
+    this.values = [];
+  }
+
   /** The first point that is not before a time. */
   from(time: number): number {
     let [low, high] = [0, this.times.length];
@@ -89,6 +102,11 @@ const ROBOT_COLORS = [0, 3, 5, 7, 4, 6, 2].map((at) => COLORS[at] as string);
 /** The colour of the robot at this place of the list of robots. */
 export function robotColor(at: number): string {
   return ROBOT_COLORS[at % ROBOT_COLORS.length] as string;
+}
+
+/** The robot in a list to choose from: there is place for the letter, the address is read in the open list. */
+export function robotChoice({ at, address }: { at: number; address: string }): string {
+  return `${robotMark(at)}\u00a0\u00a0\u00a0${address}`;
 }
 
 /** The letter of the robot at this place, for whom colours are not enough: A to Z, then numbers. */

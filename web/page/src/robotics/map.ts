@@ -43,10 +43,9 @@ class FieldMap implements Panel {
   constructor(private readonly context: Context) {
     this.hidden = new Set(LAYERS.filter((layer) => context.settings[layer] === false));
     this.values = new Values(context.robot, this.draw);
-    const { robots, robot } = context;
-    this.others = new Others(robots.filter((known) => known.robot !== robot), this.draw);
-    const own = robots.find((known) => known.robot === robot);
-    if (own !== undefined && robots.length > 1) [this.color, this.mark] = [robotColor(own.at), robotMark(own.at)];
+    const { robots, known: own } = context;
+    this.others = new Others(robots.filter((known) => known !== own), this.draw);
+    if (robots.length > 1) [this.color, this.mark] = [robotColor(own.at), robotMark(own.at)];
     this.others.show(!this.hidden.has("robots"));
     const layers = LAYERS.filter((layer) => layer !== "robots" || robots.length > 1).map((layer) => {
       const box = make("input", { type: "checkbox", checked: !this.hidden.has(layer) });

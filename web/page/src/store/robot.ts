@@ -1,6 +1,7 @@
 // Owns what the page knows of its robot: connection, paths, subscriptions, logs. Panels read it and ask through it.
 import { expect, Refused, Socket, type State } from "../connection/socket";
 import type { Ask, Good, Log, Message, Welcome } from "../protocol";
+import { Alignment } from "./clock";
 import { Paths } from "./paths";
 import { Signal, type Readable } from "./signal";
 import { Subscriptions } from "./subscriptions";
@@ -21,6 +22,7 @@ export class Robot {
   readonly moment = new Signal<Moment | null>(null);
   readonly subscriptions = new Subscriptions(() => (this.isWelcome ? this.socket : null));
   readonly paths = new Paths((ask) => this.ask(ask));
+  private readonly alignments = new WeakMap<Robot, Alignment>();
   private readonly socket: Socket;
   private readonly states = new Signal<State>("connecting");
   private readonly welcomes = new Signal<Welcome | null>(null);
@@ -69,6 +71,13 @@ export class Robot {
   /** The newest messages, oldest first. */
   get logs(): Readable<readonly Log[]> {
     return this.kept;
+  }
+
+  /** Seconds from the times of another robot to those of this one; null: not known now. */
+  shiftFrom(other: Robot): Readable<number | null> {
+    const alignment = this.alignments.get(other) ?? new Alignment(this, other);
+    this.alignments.set(other, alignment);
+    return alignment.shift;
   }
 
   ask(ask: Ask): Promise<Good> {

@@ -1,7 +1,7 @@
 // The panels of the layout, in columns: moved by their heads, resized at the lines between them.
 import { KINDS } from "../panels/kinds";
 import { DRAGGED_PATH, type Panel, type PanelKind } from "../panels/panel";
-import { robotColor, robotMark } from "../panels/series";
+import { robotChoice, robotColor, robotMark } from "../panels/series";
 import type { Arrangement, Layout, PanelPlace, Settings, Spot } from "../store/layout";
 import type { Known, Robots } from "../store/robots";
 import { button, make, select } from "./dom";
@@ -95,6 +95,7 @@ export class Workspace {
     const context = {
       robot: known.robot,
       robots: this.robots.known.value,
+      known,
       arrangement: this.arrangement,
       settings: place.settings,
       save: (settings: Settings) => this.arrangement.configure(place.id, settings),
@@ -110,17 +111,15 @@ export class Workspace {
   private whose(place: PanelPlace, shown: Known | null, frame: HTMLElement): HTMLElement[] {
     const all = this.robots.known.value;
     if (all.length < 2 && shown !== null) return [];
-    // There is place for the letter; the address is read in the list.
-    const nameOf = ({ at, address }: Known): string => `${robotMark(at)}\u00a0\u00a0\u00a0${address}`;
-    const names = all.map(nameOf);
-    const chosen = shown === null ? "no robot" : nameOf(shown);
+    const names = all.map(robotChoice);
+    const chosen = shown === null ? "no robot" : robotChoice(shown);
     if (shown !== null) {
       frame.dataset["robot"] = robotMark(shown.at);
       frame.style.setProperty("--robot", robotColor(shown.at));
     }
     const choices = shown === null ? [chosen, ...names] : names;
     const list = select(choices, chosen, "which robot this panel shows", (name) => {
-      const known = all.find((one) => nameOf(one) === name);
+      const known = all.find((one) => robotChoice(one) === name);
       if (known !== undefined) this.arrangement.assign(place.id, known.isOwn ? undefined : known.address);
     });
     list.classList.add("whose");

@@ -11,17 +11,30 @@ const COUNT = 3;
 const COLORS = [[0x00, 0x72, 0xb2], [0xcc, 0x79, 0xa7], [0x56, 0xb4, 0xe9]];
 const TOKEN = "secret";
 
-/** How many pixels of each colour there are. */
-function areaOf(page, canvas) {
-  return canvas.evaluate((canvas, colors) => {
-    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
-    const areas = colors.map(() => 0);
-    for (let at = 0; at < data.length; at += 4) {
-      const color = colors.findIndex((color) => color.every((part, offset) => data[at + offset] === part));
-      if (color >= 0) areas[color] += 1;
-    }
-    return areas;
-  }, COLORS);
+/** How many pixels of each colour there are; `apart`: by how much each part of one may differ. */
+function areaOf(page, canvas, apart = 0) {
+  return canvas.evaluate(
+    (canvas, [colors, apart]) => {
+      const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+      const areas = colors.map(() => 0);
+      for (let at = 0; at < data.length; at += 4) {
+        const color = colors.findIndex((color) => color.every((part, offset) => Math.abs(data[at + offset] - part) <= apart));
+        if (color >= 0 && data[at + 3] > 128) areas[color] += 1;
+      }
+      return areas;
+    },
+    [COLORS, apart],
+  );
+}
+
+/** Waits until there is so much of each colour. */
+async function showsAll(page, canvas, least, what, apart) {
+  const since = Date.now();
+  for (let areas = []; ; await page.waitForTimeout(250)) {
+    areas = await areaOf(page, canvas, apart);
+    if (areas.every((area) => area > least)) break;
+    assert(Date.now() - since < PATIENCE, `${what}, by colour: ${areas}`);
+  }
 }
 
 async function choose(page, panel, address) {
@@ -45,6 +58,7 @@ export async function severalRobotsAreShown(browser, program, options, folder, p
     await isConnected(page);
     await everyRobotHasItsColour(page);
     await panelsChoose(page, addresses);
+    await curvesShareAPlot(page, addresses);
     await picture(page, "robots");
     await tokensStayApart(page, addresses);
     await strangersStayOutside(page, port + COUNT);
@@ -59,12 +73,7 @@ async function everyRobotHasItsColour(page) {
   await clearLayout(page);
   await add(page, "Field");
   const canvas = panel(page, "map").locator("canvas");
-  const since = Date.now();
-  for (let areas = []; ; await page.waitForTimeout(250)) {
-    areas = await areaOf(page, canvas);
-    if (areas.every((area) => area > 40)) break;
-    assert(Date.now() - since < PATIENCE, `robots on the field, by colour: ${areas}`);
-  }
+  await showsAll(page, canvas, 40, "robots on the field");
   await panel(page, "map").getByLabel("robots").uncheck();
   for (const begin = Date.now(); ; await page.waitForTimeout(100)) {
     const [own, ...others] = await areaOf(page, canvas);
@@ -101,6 +110,36 @@ async function panelsChoose(page, addresses) {
   await isConnected(page);
   await until(page, panel(page, "map").locator("canvas"), (canvas) => canvas.width > 16, "a field");
   step("every panel chooses whose value it shows, and layouts keep it");
+}
+
+/** Where everybody stands along the field, and the second robot across it, too: two strokes in one colour. */
+async function curvesShareAPlot(page, addresses) {
+  const [path, further] = [0, 1].map((axis) => `Control.main_outputs.ground_to_field.translation.${axis}`);
+  await add(page, "Plot");
+  const plot = panel(page, "plot");
+  const draw = async (whose, path) => {
+    const list = plot.getByLabel("whose numbers are added");
+    const names = await list.locator("option").allTextContents();
+    await list.selectOption(names.find((name) => name.endsWith(whose)));
+    await plot.getByLabel("add a path").fill(path);
+    await plot.getByLabel("add a path").press("Enter");
+  };
+  await draw("robots", path);
+  await draw(addresses[1], further);
+  const names = ["A translation.0", "B translation.0", "C translation.0", "B translation.1"];
+  const looks = async () => {
+    assert.deepEqual(await plot.locator(".u-series .u-label").allTextContents(), ["time", ...names]);
+    await showsAll(page, plot.locator("canvas"), 20, "curves in the plot", 8);
+    const strokes = await plot.locator(".u-series .u-marker").evaluateAll((markers) => markers.slice(1).map((marker) => getComputedStyle(marker).background));
+    assert.equal(new Set(strokes).size, names.length, `every curve looks otherwise: ${strokes}`);
+    COLORS.forEach((color, at) => assert(strokes[at].includes(`rgb(${color.join(", ")})`), `${names[at]} is drawn as ${strokes[at]}`));
+    assert(strokes[3].includes(`rgb(${COLORS[1].join(", ")})`), `${names[3]} is drawn as ${strokes[3]}`);
+  };
+  await looks();
+  await page.reload();
+  await isConnected(page);
+  await looks();
+  step("one plot has curves of several robots, in their colours, and layouts keep it");
 }
 
 async function tokensStayApart(page, addresses) {

@@ -1,0 +1,57 @@
+// Owns how far the clocks of two robots are apart: each program counts from its own start.
+import { expect } from "../connection/socket";
+import type { Robot } from "./robot";
+import { Signal } from "./signal";
+
+/** Robots of one world go on by turns: so far apart their clocks are one. In seconds. */
+const SLACK = 0.1;
+
+/** Of so many questions the one counts that was answered most quickly. */
+const QUESTIONS = 3;
+
+/** Between two values, in seconds. */
+type Range = [number, number];
+
+export class Alignment {
+  /** Seconds from the times of `other` to those of `own`; null: not known of the connections that there are now. */
+  readonly shift = new Signal<number | null>(null);
+  /** Kept as long as it may be right, so that curves have no steps. */
+  private last = 0;
+  private turn = 0;
+
+  constructor(
+    private readonly own: Pick<Robot, "ask" | "welcome">,
+    private readonly other: Pick<Robot, "ask" | "welcome">,
+  ) {
+    // Either may have been started anew.
+    own.welcome.watch(() => void this.measure());
+    other.welcome.watch(() => void this.measure());
+  }
+
+  private async measure(): Promise<void> {
+    const turn = ++this.turn;
+    this.shift.set(null);
+    let best: Range = [-Infinity, Infinity];
+    try {
+      for (let question = 0; question < QUESTIONS; question++) {
+        const [here, there] = await Promise.all([lead(this.own), lead(this.other)]);
+        const range: Range = [here[0] - there[1], here[1] - there[0]];
+        if (range[1] - range[0] < best[1] - best[0]) best = range;
+      }
+    } catch {
+      // A connection is gone: the next one asks again.
+      return;
+    }
+    if (turn !== this.turn) return;
+    const isStill = best[0] - SLACK <= this.last && this.last <= best[1] + SLACK;
+    if (!isStill) this.last = (best[0] + best[1]) / 2;
+    this.shift.set(this.last);
+  }
+}
+
+/** How far the robot's clock is ahead of the browser's: what it says of parameters has the time of some moment between question and answer. */
+async function lead(robot: Pick<Robot, "ask">): Promise<Range> {
+  const asked = performance.now() / 1e3;
+  const { time } = expect(await robot.ask({ read: { path: "parameters" } }), "value");
+  return [time / 1e9 - performance.now() / 1e3, time / 1e9 - asked];
+}
