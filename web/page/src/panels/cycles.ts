@@ -177,11 +177,14 @@ class Cycles implements Panel {
   private paintAxis(context: CanvasRenderingContext2D, width: number, height: number, faint: string, rule: string): void {
     context.font = "12px system-ui, sans-serif";
     context.textAlign = "center";
+    // A phone has no place for all of them.
+    const labelled = width - NAMES < 320 ? 2 : 1;
     for (let part = 0; part <= 4; part++) {
       const x = NAMES + (part / 4) * (width - NAMES);
       upright(context, x, height, rule, []);
+      if (part % labelled !== 0) continue;
       context.fillStyle = faint;
-      context.fillText(`−${((1 - part / 4) * this.window).toFixed(0)} ms`, Math.min(x, width - 24), 14);
+      context.fillText(part === 4 ? "0 ms" : `−${((1 - part / 4) * this.window).toFixed(0)} ms`, Math.min(x, width - 24), 14);
     }
   }
 

@@ -9,7 +9,7 @@ import { numberSetting, type Context, type Panel, type PanelKind } from "./panel
 import { align, readCurves, robotChoice, robotMark, type Series } from "./series";
 
 const WINDOWS = ["5 s", "10 s", "20 s", "60 s", "300 s"];
-const EVERYBODY = "all\u00a0\u00a0\u00a0robots";
+const EVERYBODY = "all\u00a0\u00a0\u00a0\u00a0\u00a0\u00a0robots";
 /** Clocks of robots are known so well, in seconds. */
 const SLACK = 1;
 
@@ -61,6 +61,7 @@ class Plot implements Panel {
     ];
     const { robots, known } = context;
     this.whose = select([...robots.map(robotChoice), EVERYBODY], robotChoice(known), "whose numbers are added: typed or dropped", () => undefined);
+    this.whose.classList.add("whose");
     this.whose.hidden = robots.length < 2;
     this.input.addEventListener("change", () => {
       if (this.input.value.trim() !== "") this.accept(this.input.value.trim());

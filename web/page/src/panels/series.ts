@@ -106,7 +106,7 @@ export function robotColor(at: number): string {
 
 /** The robot in a list to choose from: there is place for the letter, the address is read in the open list. */
 export function robotChoice({ at, address }: { at: number; address: string }): string {
-  return `${robotMark(at)}\u00a0\u00a0\u00a0${address}`;
+  return `${robotMark(at)}${"\u00a0".repeat(6)}${address}`;
 }
 
 /** The letter of the robot at this place, for whom colours are not enough: A to Z, then numbers. */
