@@ -7,6 +7,7 @@
 //! Invariant: a file is parsed once for each text that it has, and only if a node or one of its names leads there, or it belongs to the crate of a
 //! target's hardware.
 
+mod brackets;
 pub mod compare;
 pub mod components;
 mod depth;
@@ -38,6 +39,7 @@ use crate::manifest::Manifest;
 use crate::workspace::{MANIFEST, Workspace, says_generated};
 
 pub use library::Library;
+use library::NotFound;
 pub use node::NodeSource;
 pub use state::StateSource;
 pub(crate) use state::derives;
@@ -63,7 +65,7 @@ pub fn scan<'workspace>(
     workspace.begin_parsing();
     let library = Library::new(workspace, &manifest.robot.generated);
     let file = Utf8Path::new(MANIFEST);
-    let mut nodes = BTreeMap::new();
+    let (mut nodes, mut unread) = (BTreeMap::new(), Diagnostics::new());
     for entry in manifest.cyclers.iter().flat_map(|cycler| &cycler.nodes) {
         let path = entry.path.as_str();
         if nodes.contains_key(path) {
@@ -72,7 +74,11 @@ pub fn scan<'workspace>(
         let node = match library.find_module(path) {
             Ok(module) => node::scan(path, module, diagnostics),
             Err(error) => {
-                diagnostics.add(error.describe(path, file, &entry.range));
+                let found = match error {
+                    NotFound::Told => &mut unread,
+                    _ => &mut *diagnostics,
+                };
+                found.add(error.describe(path, file, &entry.range));
                 None
             }
         };
@@ -82,6 +88,10 @@ pub fn scan<'workspace>(
     }
     report_broken_packages(workspace, manifest, diagnostics);
     library.report_problems(diagnostics);
+    // What is wrong with a file is told once, in the file, and not by each of its nodes.
+    if !diagnostics.has_errors() {
+        diagnostics.extend(unread);
+    }
     diagnostics.stop_at_errors()?;
     Ok(Sources { nodes, library })
 }

@@ -9,6 +9,7 @@ use std::sync::Arc;
 use camino::{Utf8Path, Utf8PathBuf};
 use syn::{Expr, ExprLit, Item, ItemMod, Lit, Meta};
 
+use super::brackets::unbalanced;
 use super::depth::too_deep;
 use super::module::{Entry, Module, Visible, folder_of};
 use super::range;
@@ -275,7 +276,10 @@ impl<'workspace> Library<'workspace> {
                 Some(Rc::new(Module::new(path, file, folder, syntax)))
             }
             Err(error) => {
-                let problem = problem(error.to_string()).at(&file, range(error.span()), "");
+                let problem = match unbalanced(&text) {
+                    Some(found) => found.describe(&file, &text),
+                    None => problem(error.to_string()).at(&file, range(error.span()), ""),
+                };
                 self.problems.borrow_mut().push(problem);
                 None
             }

@@ -90,6 +90,23 @@ fn a_misspelled_node_is_told_with_the_nearest() {
 }
 
 #[test]
+fn a_missing_bracket_is_told_once_in_the_file_of_the_node() {
+    let fixture = Fixture::control(&["a", "b"]).file(
+        "crates/nodes/src/lib.rs",
+        "pub mod a;\npub mod b;\npub struct Pose\n    x: f32,\n}\n",
+    );
+    let answer = fixture.answer();
+    assert_eq!(answer.codes, ["syntax"], "{}", answer.text);
+    for part in [
+        "this `}` closes nothing",
+        "crates/nodes/src/lib.rs:5:1",
+        "help: ",
+    ] {
+        assert!(answer.text.contains(part), "{}", answer.text);
+    }
+}
+
+#[test]
 fn a_file_without_a_mod_line_is_told_as_such() {
     let fixture = Fixture::control(&["a"])
         .node("a", acting())
