@@ -30,7 +30,7 @@ pub use asked::Answers;
 pub use changes::Changes;
 pub use members::{Member, Members};
 pub(crate) use members::{normalized, relative};
-pub use revision::RevisionError;
+pub use revision::{Missing, RevisionError};
 pub use watch::Glance;
 
 /// Name of the manifest at the workspace root.

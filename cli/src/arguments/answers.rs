@@ -51,11 +51,11 @@ pub struct Explain {
 Exit status: 0 compared, whatever changed; 2 the revision cannot be read.
 
 Examples:
-  hulkgen diff HEAD                         # what is not committed
+  hulkgen diff                              # what is not committed
   hulkgen diff main --format json | jq '.edges.added'")]
 pub struct Diff {
     /// A commit, branch or tag
-    #[arg(value_name = "REV")]
+    #[arg(value_name = "REV", default_value = "HEAD")]
     pub revision: String,
     /// Form of the answer
     #[arg(long, value_enum, default_value = "text")]

@@ -11,7 +11,7 @@ use crate::graph::{self, Graph, listed};
 use crate::manifest;
 use crate::outcome::{Outcome, Refusal};
 use crate::pipeline;
-use crate::workspace::{RevisionError, Workspace};
+use crate::workspace::{Missing, RevisionError, Workspace};
 
 /// One of the two robots.
 struct Side {
@@ -76,9 +76,13 @@ fn refusal(error: RevisionError) -> Failure {
     let refusal = Refusal::wrong_usage(error.to_string());
     Failure::Refused(match error {
         RevisionError::NoGit { .. } => refusal.help("install git"),
-        RevisionError::Unreadable { .. } => {
-            refusal.help("name a commit, branch or tag of this repository")
-        }
+        RevisionError::Unreadable { missing, .. } => refusal.help(match missing {
+            Missing::Repository => {
+                "put the robot into git: `git init && git add --all && git commit`"
+            }
+            Missing::Commits => "nothing is committed yet: `git add --all && git commit`",
+            Missing::Revision => "name a commit, branch or tag of this repository",
+        }),
     })
 }
 

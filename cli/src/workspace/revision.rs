@@ -16,7 +16,20 @@ pub enum RevisionError {
     NoGit { reason: String },
     /// What git says.
     #[error("git cannot read `{revision}`: {reason}")]
-    Unreadable { revision: String, reason: String },
+    Unreadable {
+        revision: String,
+        reason: String,
+        missing: Missing,
+    },
+}
+
+/// What there would have to be first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Missing {
+    Repository,
+    Commits,
+    /// The revision, or something of it.
+    Revision,
 }
 
 /// Endings of files that say something about a robot.
@@ -34,7 +47,8 @@ struct Entry {
 pub(super) fn load(root: &Utf8Path, revision: &str) -> Result<Memory, RevisionError> {
     let git = Git { root, revision };
     let commit = format!("{revision}^{{commit}}");
-    let commit = git.ask(&["rev-parse", "--verify", "--end-of-options", &commit])?;
+    let commit = git.ask(&["rev-parse", "--verify", "--end-of-options", &commit]);
+    let commit = commit.map_err(|error| git.explained(error))?;
     let commit = git.text(&commit)?;
     let prefix = git.ask(&["rev-parse", "--show-prefix"])?;
     let prefix = git.text(&prefix)?.trim_end_matches(['\n', '/']);
@@ -111,7 +125,20 @@ impl Git<'_> {
         RevisionError::Unreadable {
             revision: self.revision.to_owned(),
             reason: reason.to_owned(),
+            missing: Missing::Revision,
         }
+    }
+
+    /// An error about the revision, with what is missing before that; git's own words are in the language of its user.
+    fn explained(&self, mut error: RevisionError) -> RevisionError {
+        if let RevisionError::Unreadable { missing, .. } = &mut error {
+            if self.ask(&["rev-parse", "--git-dir"]).is_err() {
+                *missing = Missing::Repository;
+            } else if self.ask(&["rev-parse", "--verify", "HEAD"]).is_err() {
+                *missing = Missing::Commits;
+            }
+        }
+        error
     }
 }
 

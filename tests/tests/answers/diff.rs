@@ -168,7 +168,7 @@ fn git_waits_for_nobody() {
     let executable = std::fs::Permissions::from_mode(0o755);
     std::fs::set_permissions(folder.join("git"), executable).expect("the folder is ours");
     let path = std::env::var("PATH").unwrap_or_default();
-    let mut diff = crate::hulkgen(robot.folder(), "diff HEAD");
+    let mut diff = crate::hulkgen(robot.folder(), "diff");
     diff.env("PATH", format!("{}:{path}", folder.display()))
         .stdin(Stdio::piped());
     let said = Ended::of(&mut diff).expect(2).stderr;
@@ -477,7 +477,15 @@ fn what_cannot_be_compared_is_wrong_usage() {
         robot.folder().parent().expect("it has one"),
     );
     let outside = Ended::of(&mut outside).expect(2).stderr;
-    assert!(outside.contains("git cannot read `HEAD`"), "{outside}");
+    for part in ["git cannot read `HEAD`", "help: put the robot into git"] {
+        assert!(outside.contains(part), "{part}: {outside}");
+    }
+    repository.git("init --quiet");
+    let before = robot.run("diff").expect(2).stderr;
+    assert!(
+        before.contains("help: nothing is committed yet"),
+        "{before}"
+    );
 }
 
 #[test]
