@@ -37,7 +37,13 @@ const GLOBAL: &str = "Global options";
     after_help = "\
 Exit status: 0 done and good, 1 the answer is bad, 2 wrong usage, 3 drift (generate --check only),
              101 a bug in hulkgen, 130 Ctrl-C.
-Data goes to stdout, everything else to stderr.",
+Data goes to stdout, everything else to stderr.
+
+Begin with:
+  hulkgen new my_robot          # a robot that runs; or, in the folder of one:
+  hulkgen run                   # generate, build, run until Ctrl-C
+  hulkgen doctor                # what this machine lacks
+  hulkgen run --help            # examples and exit status of a command",
     arg_required_else_help = true
 )]
 pub struct Arguments {
