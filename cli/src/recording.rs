@@ -15,7 +15,7 @@ pub(crate) mod tests;
 use camino::{Utf8Path, Utf8PathBuf};
 use hulkgen_mcap::RecordingFile;
 
-use crate::outcome::Refusal;
+use crate::outcome::{Outcome, Refusal};
 
 pub use export::{Export, Exported, export};
 pub use images::Images;
@@ -36,8 +36,20 @@ const TYPES: &str = "types";
 
 /// A file that can be read, or why it cannot.
 pub fn open(path: &Utf8Path) -> Result<RecordingFile, Refusal> {
-    RecordingFile::open(path.as_std_path())
-        .map_err(|error| Refusal::bad(format!("cannot read `{path}`: {error}")))
+    RecordingFile::open(path.as_std_path()).map_err(|error| match path.exists() {
+        true => Refusal::bad(format!("cannot read `{path}`: {error}")),
+        false => Refusal {
+            outcome: Outcome::Bad,
+            ..missing(path)
+        },
+    })
+}
+
+/// There is no such recording: where to look for one.
+pub fn missing(path: &Utf8Path) -> Refusal {
+    Refusal::wrong_usage(format!("there is no recording `{path}`")).help(
+        "a run says where it records (`runs/<start>-<process>/recording.mcap`); `hulkgen recording list` names what is below `runs`",
+    )
 }
 
 /// What became of a file that breaks off.

@@ -13,12 +13,12 @@ use crate::diagnostics::{listed, nearest};
 use crate::drift;
 use crate::graph::{self, Cycler, Graph, Node};
 use crate::outcome::{Outcome, Refusal};
+use crate::recording;
 use crate::scaffold;
 
 pub(super) fn run(session: &mut Session<'_>, capture: &Capture) -> Result<Outcome, Failure> {
     if !capture.file.is_file() {
-        let message = format!("there is no recording `{}`", capture.file);
-        return Err(Refusal::wrong_usage(message).into());
+        return Err(recording::missing(&capture.file).into());
     }
     let understood = session.understand()?;
     let robot = &understood.robot;

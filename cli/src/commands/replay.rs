@@ -11,14 +11,12 @@ use super::session::Session;
 use crate::arguments::{Replay, TextOrJson};
 use crate::cache::checkout;
 use crate::outcome::{Outcome, Refusal};
+use crate::recording;
 
 pub(super) fn run(session: &mut Session<'_>, replay: &Replay) -> Result<Outcome, Failure> {
     // Before anything is built.
     if !replay.file.is_file() {
-        let refusal = Refusal::wrong_usage(format!("there is no recording `{}`", replay.file));
-        return Err(refusal
-            .help("a run says where it records: `runs/<start>-<process>/recording.mcap`")
-            .into());
+        return Err(recording::missing(&replay.file).into());
     }
     let mut arguments = arguments(replay)?;
     let wanted = Wanted {

@@ -8,6 +8,7 @@ use hulkgen_mcap::{
 use serde_json::{Value, json};
 
 use super::{Export, Found, Selection, Span, cat, export, info, list, recover};
+use crate::outcome::Outcome;
 
 /// Cycles of the recording below.
 const CYCLES: u32 = 40;
@@ -219,6 +220,26 @@ fn what_a_recording_is_needs_no_types() {
     );
     assert_eq!(info.channels[1].messages, 2 * u64::from(CYCLES));
     assert_eq!(info.run["robot"], "test");
+}
+
+#[test]
+fn who_names_no_recording_hears_where_they_are() {
+    let refusal = info("runs/absent.mcap".into()).expect_err("there is none");
+    assert_eq!(refusal.outcome, Outcome::Bad);
+    assert_eq!(refusal.message, "there is no recording `runs/absent.mcap`");
+    assert!(
+        refusal
+            .help
+            .is_some_and(|help| help.contains("`hulkgen recording list`"))
+    );
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let folder = Utf8Path::from_path(folder.path()).expect("it is UTF-8");
+    let refusal = info(folder).expect_err("it is a folder");
+    assert!(
+        refusal.message.starts_with("cannot read"),
+        "{}",
+        refusal.message
+    );
 }
 
 #[test]
