@@ -19,9 +19,13 @@ mod removal;
 mod rename;
 mod uses;
 
+use std::collections::BTreeSet;
+
 use camino::Utf8PathBuf;
 
+use crate::diagnostics::{listed, nearest};
 use crate::outcome::Refusal;
+use crate::resolve::robot::Robot;
 use crate::workspace::{MANIFEST, Member, Workspace};
 
 pub use crate::workspace::Changes;
@@ -60,22 +64,28 @@ fn manifest_change(
 /// The package with this library, if people write it: never the generated one.
 fn own_member<'w>(
     workspace: &'w Workspace,
-    generated: &Utf8PathBuf,
+    robot: &Robot,
     library: &str,
 ) -> Result<&'w Member, Refusal> {
     let own = || {
         let members = workspace.members().libraries();
-        members.filter(|member| member.folder != *generated)
+        members.filter(|member| member.folder != robot.generated)
     };
     let found = own().find(|member| member.library == library);
     found.ok_or_else(|| {
-        let names = || own().map(|member| member.library.as_str());
-        unknown(
-            &format!("no crate of the workspace is called `{library}`"),
-            library,
-            names,
-            "the crates are",
-        )
+        // In a workspace of many crates most have no nodes, and are of no help.
+        let nodes = robot.cyclers.iter().flat_map(|cycler| &cycler.nodes);
+        let crates = nodes.filter_map(|node| node.path.split("::").next());
+        let list = format!(
+            "the robot's nodes stand in {}",
+            listed(crates.collect::<BTreeSet<_>>())
+        );
+        let names = own().map(|member| member.library.as_str());
+        let message = format!("no crate of the workspace is called `{library}`");
+        Refusal::wrong_usage(message).help(match nearest(library, names) {
+            Some(near) => format!("did you mean `{near}`? {list}"),
+            None => list,
+        })
     })
 }
 
@@ -86,7 +96,6 @@ fn unknown<'a, N: IntoIterator<Item = &'a str>>(
     names: impl Fn() -> N,
     introduction: &str,
 ) -> Refusal {
-    use crate::diagnostics::{listed, nearest};
     let list = format!("{introduction} {}", listed(names()));
     Refusal::wrong_usage(message).help(match nearest(wrong, names()) {
         Some(near) => format!("did you mean `{near}`? {list}"),

@@ -288,10 +288,12 @@ fn a_node_is_added_with_everything_that_belongs_to_it() {
     let robot = Scaffolded::new(&[]);
     let before = robot.read("hulk.toml");
     robot.run("add-node nodes::control::odometry --cycler Control", 0);
-    robot.run(
+    let answer = robot.run(
         "add-node nodes::legs::gait::step_planner --cycler Control --setup",
         0,
     );
+    let next = "next: write what it does into nodes/src/legs/gait/step_planner.rs, then `hulkgen generate`";
+    assert!(answer.contains(next), "{answer}");
     let manifest = robot.read("hulk.toml");
     let added: Vec<&str> = manifest
         .lines()
@@ -306,8 +308,11 @@ fn a_node_is_added_with_everything_that_belongs_to_it() {
     );
     robot.run("check", 0);
     robot.run("generate --check", 0);
-    robot.run("remove-node nodes::control::odometry --delete", 0);
-    robot.run("remove-node nodes::legs::gait::step_planner", 0);
+    let answer = robot.run("remove-node nodes::control::odometry --delete", 0);
+    assert!(!answer.contains(" stay: "), "{answer}");
+    let answer = robot.run("remove-node nodes::legs::gait::step_planner", 0);
+    let kept = "nodes/src/legs/gait/step_planner.rs and its `mod` line stay: ";
+    assert!(answer.contains(kept), "{answer}");
     assert_eq!(robot.read("hulk.toml"), before);
     assert!(!robot.path().join("nodes/src/control/odometry.rs").exists());
     assert!(
@@ -445,6 +450,11 @@ fn what_cannot_be_done_changes_no_byte() {
             "add-node my_robot_runtime::a --cycler Control",
             2,
             "no crate of the workspace",
+        ),
+        (
+            "add-node thinking::a --cycler Control",
+            2,
+            "the robot's nodes stand in `nodes`\n",
         ),
         (
             "add-cycler control --kind real-time --setup-node nodes::a",

@@ -3,6 +3,7 @@
 //! The robot is looked at before and after the change. Nothing is written unless both are free of errors, and then
 //! everything is written or nothing.
 
+use camino::Utf8PathBuf;
 use serde_json::json;
 
 use super::session::Session;
@@ -27,7 +28,18 @@ pub(super) fn add_node(session: &mut Session<'_>, add: &AddNode) -> Result<Outco
         setup: add.setup,
     };
     let changes = scaffold::add_node(&session.workspace, &robot, &node)?;
-    apply(session, changes, add.format)
+    let name = add.node.rsplit("::").next();
+    let is_its = |file: &&Utf8PathBuf| file.extension() == Some("rs") && file.file_stem() == name;
+    let written = changes.keys().find(is_its).cloned();
+    let outcome = apply(session, changes, add.format)?;
+    if let Some(file) = written
+        && add.format == TextOrJson::Text
+    {
+        session.terminal.note(&format!(
+            "next: write what it does into {file}, then `hulkgen generate`; `hulkgen diff` tells what changed\n"
+        ));
+    }
+    Ok(outcome)
 }
 
 pub(super) fn add_cycler(session: &mut Session<'_>, add: &AddCycler) -> Result<Outcome, Failure> {
@@ -62,7 +74,19 @@ pub(super) fn remove_node(
     if pipeline::understand(&after, &mut found).is_ok() {
         changes.extend(scaffold::without_unread(&after, &found)?);
     }
-    apply(session, changes, remove.format)
+    let outcome = apply(session, changes, remove.format)?;
+    let all = robot.cyclers.iter().flat_map(|cycler| &cycler.nodes);
+    let entries: Vec<_> = all.filter(|node| node.path == remove.node).collect();
+    if let [node] = entries[..]
+        && !remove.delete
+        && remove.format == TextOrJson::Text
+    {
+        session.terminal.note(&format!(
+            "{} and its `mod` line stay: delete them when nobody wants the node back (`--delete` does so at once)\n",
+            node.file
+        ));
+    }
+    Ok(outcome)
 }
 
 pub(super) fn rename_output(

@@ -118,7 +118,7 @@ pub fn capture(
 ) -> Result<Changes, Refusal> {
     let Capture { node, snapshot, .. } = capture;
     let library = node.path.split("::").next().unwrap_or_default();
-    let member = own_member(workspace, &robot.generated, library)?;
+    let member = own_member(workspace, robot, library)?;
     let instance = snapshot["instance"].as_str().unwrap_or_default();
     let cycle = snapshot["cycle"].as_u64().unwrap_or_default();
     let last = node.path.rsplit("::").next().unwrap_or_default();

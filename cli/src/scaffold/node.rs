@@ -72,7 +72,7 @@ pub(super) fn node_files(
     for name in &names {
         files::check_module_name(name)?;
     }
-    let member = own_member(workspace, &robot.generated, library)?;
+    let member = own_member(workspace, robot, library)?;
     let (mut changes, file) = module::declare(workspace, member, &names)?;
     let last = names.last().copied().unwrap_or_default();
     let output = if taken.contains(last) {

@@ -92,11 +92,7 @@ fn deletion(
     node: &Node,
 ) -> Result<Vec<(Utf8PathBuf, Option<String>)>, Refusal> {
     let mut segments = node.path.split("::");
-    let member = own_member(
-        workspace,
-        &robot.generated,
-        segments.next().unwrap_or_default(),
-    )?;
+    let member = own_member(workspace, robot, segments.next().unwrap_or_default())?;
     let names: Vec<&str> = segments.collect();
     if module::has_modules(&read(workspace, &node.file)?) {
         let message = format!("`{}` declares modules of its own", node.file);
