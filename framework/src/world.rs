@@ -76,6 +76,8 @@ impl PendingAny for Answered {
     }
 }
 
+/// Readers of TOML say in several lines what clients have one for.
 fn refused(error: Error) -> Refused {
-    Refused(error.to_string().into())
+    let lines: Vec<_> = error.to_string().lines().map(str::to_owned).collect();
+    Refused(lines.join(" ").into())
 }

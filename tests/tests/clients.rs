@@ -223,7 +223,10 @@ fn nobody_who_answers_is_told_with_what_to_do() {
 #[test]
 fn parameters_are_changed_together_or_not_at_all() {
     let robot = Robot::start(&[]);
-    robot.answer("param set ball_filter.gate=2.5 parameters.ball_filter.rolling_time=1.5");
+    let now =
+        robot.answer("param set ball_filter.gate=2.5 parameters.ball_filter.rolling_time=1.5");
+    let lines = "ball_filter.gate = 2.5\nball_filter.rolling_time = 1.5\nversion ";
+    assert!(now.starts_with(lines), "{now}");
     let gate = |robot: &Robot| robot.lines("param get ball_filter.gate")[0]["value"].clone();
     assert_eq!(gate(&robot), 2.5);
     let half = robot.hulkgen("param set ball_filter.gate=4 ball_filter.nothing=1");
@@ -307,10 +310,16 @@ fn a_simulated_world_tells_the_truth_and_is_disturbed() {
         near(&truth["ball"]["x"], 1.5) && near(&truth["ball"]["y"], -0.5),
         "{truth}"
     );
-    let refused = robot.hulkgen(r#"call framework.procedures.disturb {"bal":[1.0,0.0]}"#);
-    let stderr = String::from_utf8_lossy(&refused.stderr).into_owned();
-    assert_eq!(refused.status.code(), Some(1));
-    assert!(stderr.contains("unknown field `bal`"), "{stderr}");
+    for (argument, told) in [
+        (r#" {"bal":[1.0,0.0]}"#, "unknown field `bal`"),
+        (r#" {"push":3}"#, "an array of length 3 in `push`\n"),
+        ("", "help: if it wants an argument"),
+    ] {
+        let refused = robot.hulkgen(&format!("call framework.procedures.disturb{argument}"));
+        let stderr = String::from_utf8_lossy(&refused.stderr).into_owned();
+        assert_eq!(refused.status.code(), Some(1));
+        assert!(stderr.contains(told), "{stderr}");
+    }
 }
 
 #[test]

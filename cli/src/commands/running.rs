@@ -88,7 +88,13 @@ pub(super) fn call(terminal: &Terminal, call: &Call) -> Result<Outcome, Refusal>
         },
         // The robot says itself when the call has failed.
         Duration::from_secs_f64(call.timeout.unwrap_or(5.0)),
-    )?;
+    );
+    let good = good.map_err(|refusal| match (&call.argument, &refusal.help) {
+        (None, None) => refusal.help(format!(
+            "if it wants an argument: JSON behind the path; `hulkgen topic info {path}` names its type"
+        )),
+        _ => refusal,
+    })?;
     let Good::Called(response) = good else {
         return Err(connection.confused());
     };

@@ -30,11 +30,22 @@ pub(in crate::commands) fn param(terminal: &Terminal, param: &Param) -> Result<O
                 .map(|change| parse(change))
                 .collect::<Result<_, _>>()?;
             let mut connection = Connection::open(running)?;
-            let Good::Written { version } = connection.ask(Ask::Write { changes })? else {
+            let ask = Ask::Write {
+                changes: changes.clone(),
+            };
+            let Good::Written { version } = connection.ask(ask)? else {
                 return Err(connection.confused());
             };
             match running.format {
-                TextOrJson::Text => format!("version {version}\n"),
+                TextOrJson::Text => {
+                    let known = unstored(&mut connection)?;
+                    for path in waiting(&changes, &known.creation_only) {
+                        terminal.note(&format!(
+                            "`{path}` is read only when nodes are created: what runs does not see the change\n"
+                        ));
+                    }
+                    written(&changes, version)
+                }
                 TextOrJson::Json => format!("{}\n", json!({ "version": version })),
             }
         }
@@ -83,6 +94,32 @@ fn parse(change: &str) -> Result<Change, Refusal> {
         path: without_root(path.trim()).to_owned(),
         value: serde_json::from_str(value).unwrap_or_else(|_| Value::String(value.to_owned())),
     })
+}
+
+/// A line for each change, and how long they last.
+fn written(changes: &[Change], version: u64) -> String {
+    let line = |change: &Change| format!("{} = {}\n", change.path, change.value);
+    let lines: String = changes.iter().map(line).collect();
+    format!(
+        "{lines}version {version} of the parameters, until the robot ends; `hulkgen param store` tells how to keep them\n"
+    )
+}
+
+/// Which of the parameters that nodes read only when they are created were changed, in part or as a part of more.
+fn waiting<'a>(changes: &[Change], creation_only: &'a [String]) -> Vec<&'a str> {
+    let is_in = |inner: &str, outer: &str| {
+        let rest = inner.strip_prefix(outer);
+        outer.is_empty() || rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+    };
+    let is_changed = |path: &&str| {
+        let mut changed = changes.iter().map(|change| change.path.as_str());
+        changed.any(|changed| is_in(changed, path) || is_in(path, changed))
+    };
+    creation_only
+        .iter()
+        .map(String::as_str)
+        .filter(is_changed)
+        .collect()
 }
 
 /// People may write paths of parameters as subscriptions have them.
@@ -225,9 +262,13 @@ fn show_unstored(unstored: &Unstored, format: TextOrJson) -> String {
         ]
     };
     let rows: Vec<_> = unstored.changes.iter().map(row).collect();
+    let deed = match rows.as_slice() {
+        [] => "the files say all that is so",
+        _ => "`hulkgen param store LAYER` writes this into the file of a layer",
+    };
     let layers = unstored.layers.join(", ");
     format!(
-        "{}layers, later ones win: {layers}\n",
+        "{}{deed}; layers, later ones win: {layers}\n",
         text::columns(&rows, false)
     )
 }
@@ -264,7 +305,49 @@ fn store(
 mod tests {
     use serde_json::json;
 
-    use super::{parse, part, without_root};
+    use super::{parse, part, show_unstored, waiting, without_root, written};
+    use crate::arguments::TextOrJson;
+
+    #[test]
+    fn a_change_says_what_is_so_now() {
+        let changes = ["walk.speed=0.2", "parameters.name=Max"];
+        let changes = changes.map(|change| parse(change).expect("it has an equals sign"));
+        let text = written(&changes, 3);
+        let lines = "walk.speed = 0.2\nname = \"Max\"\nversion 3 of the parameters";
+        assert!(text.starts_with(lines), "{text}");
+        let creation_only = ["name", "walk", "walker.name", "nam", "walk.speed.x"];
+        let creation_only = creation_only.map(str::to_owned);
+        assert_eq!(
+            waiting(&changes, &creation_only),
+            ["name", "walk", "walk.speed.x"]
+        );
+    }
+
+    #[test]
+    fn what_is_in_no_file_is_shown_with_the_command_that_stores_it() {
+        let mut unstored = protocol::Unstored {
+            version: 2,
+            creation_only: Vec::new(),
+            changes: vec![protocol::UnstoredChange {
+                path: "walk.speed".to_owned(),
+                value: json!(0.2),
+                stored: json!(0.1),
+                version: 2,
+            }],
+            layers: vec!["default".to_owned(), "lab/default".to_owned()],
+        };
+        let text = show_unstored(&unstored, TextOrJson::Text);
+        let lines: Vec<&str> = text.lines().collect();
+        let [change, deed] = lines[..] else {
+            panic!("{text}")
+        };
+        assert!(change.ends_with("files say 0.1"), "{text}");
+        assert!(deed.starts_with("`hulkgen param store LAYER`"), "{text}");
+        assert!(deed.ends_with(": default, lab/default"), "{text}");
+        unstored.changes.clear();
+        let text = show_unstored(&unstored, TextOrJson::Text);
+        assert!(!text.contains("LAYER"), "{text}");
+    }
 
     #[test]
     fn values_are_json_or_texts() {
