@@ -15,6 +15,8 @@ use crate::scheduling::Granted;
 use crate::temporal::QueueCounts;
 use crate::timing::{CountingAllocator, Histogram};
 
+pub(crate) use text::plural;
+
 /// A whole run.
 #[derive(Debug)]
 pub struct RobotReport {

@@ -10,7 +10,7 @@ use crate::cycler::{Counters, Counts};
 use crate::error::{Error, Result};
 use crate::guarded::contain;
 use crate::recorded::{self, Recording};
-use crate::report::tell;
+use crate::report::{plural, tell};
 use crate::robot::Robot;
 use crate::stop::Stop;
 
@@ -147,12 +147,12 @@ impl Line {
         // Writing to a string cannot fail.
         let _ = write!(line, "  |  {} {rate:6.1}/s", self.name);
         for (count, what) in [
-            (counts.failures, "failures"),
-            (counts.overruns, "overruns"),
-            (counts.restarts, "restarts"),
+            (counts.failures, "failure"),
+            (counts.overruns, "overrun"),
+            (counts.restarts, "restart"),
         ] {
             if count > 0 {
-                let _ = write!(line, ", {count} {what}");
+                let _ = write!(line, ", {}", plural(count, what));
             }
         }
     }

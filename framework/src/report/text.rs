@@ -112,7 +112,8 @@ fn write_remarks(instance: &InstanceReport, formatter: &mut fmt::Formatter<'_>) 
     Ok(())
 }
 
-fn plural(count: u64, what: &str) -> String {
+/// A count with its word, which takes an `s` where it has to.
+pub(crate) fn plural(count: u64, what: &str) -> String {
     let ending = if count == 1 { "" } else { "s" };
     format!("{count} {what}{ending}")
 }
