@@ -153,8 +153,8 @@ pub fn bind(table: &str, address: Ipv4Addr, port: u16, key: &str) -> Result<UdpS
             )
         } else {
             format!(
-                "cannot use UDP port {port} ({table}.{key}); stop the program \
-                 that does, choose another one, or use --free-ports"
+                "cannot use UDP port {port} ({table}.{key}); end the robot or program \
+                 that does, choose another one, or take free ones by `-- --free-ports`"
             )
         })
     })?;
