@@ -4,7 +4,7 @@ use std::path::Path;
 use std::process::Command;
 
 use serde_json::Value;
-use support::root;
+use support::{root, skip};
 
 fn cargo(arguments: &[&str]) -> String {
     let output = Command::new(env!("CARGO"))
@@ -267,6 +267,58 @@ fn what_is_published_can_be_packaged_in_one_call() {
             .lines()
             .any(|line| line.contains("cargo package") && line.split(' ').any(|word| word == name));
         assert!(is_told, "CONTRIBUTING.md packages no {name}");
+    }
+}
+
+#[test]
+fn packages_bring_the_texts_of_their_licences() {
+    let names = publishable();
+    for package in packages() {
+        if !names.iter().any(|name| package["name"] == name.as_str()) {
+            continue;
+        }
+        let manifest = package["manifest_path"].as_str().expect("a path");
+        let folder = Path::new(manifest).parent().expect("it is in a folder");
+        for text in ["LICENSE-MIT", "LICENSE-APACHE"] {
+            let own = std::fs::read_to_string(folder.join(text));
+            let own = own.unwrap_or_else(|error| panic!("{} {text}: {error}", folder.display()));
+            let whole = std::fs::read_to_string(root().join(text)).expect("it is there");
+            assert!(own == whole, "{} {text}", folder.display());
+        }
+    }
+}
+
+#[test]
+fn the_licences_of_all_that_is_linked_are_collected() {
+    if Command::new("python3").arg("--version").output().is_err() {
+        return skip(
+            "the_licences_of_all_that_is_linked_are_collected",
+            "python3 (apt install python3)",
+        );
+    }
+    let output = Command::new(root().join(".ci/licences"))
+        .arg("hulkgen")
+        .output()
+        .expect("it can be started");
+    let notes = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{notes}");
+    assert!(!notes.contains("note: "), "{notes}");
+    let texts = String::from_utf8(output.stdout).expect("licences are UTF-8");
+    let tree = cargo(&[
+        "tree", "--locked", "-p", "hulkgen", "-e", "normal", "--prefix", "none", "--format", "{p}",
+    ]);
+    let mut linked: Vec<_> = tree
+        .lines()
+        .filter(|line| !line.contains("(/"))
+        .filter_map(|line| line.trim_end_matches(" (*)").split_once(" v"))
+        .collect();
+    linked.sort_unstable();
+    linked.dedup();
+    assert!(linked.len() > 50, "{linked:?}");
+    for (name, version) in linked {
+        let version = version.split(' ').next().unwrap_or_default();
+        let head = format!("== {name} {version}: ");
+        assert_eq!(texts.matches(&head).count(), 1, "{head}");
     }
 }
 
