@@ -68,6 +68,10 @@ impl Named {
     }
 
     fn objection_to_cargo(&self, arguments: &[&str]) -> Option<String> {
+        // Else cargo takes the newest versions there are: compiled anew, untested, and not what is at hand offline.
+        if arguments.first() == Some(&"install") && !arguments.contains(&"--locked") {
+            return Some("add `--locked`, or Cargo.lock does not count".to_owned());
+        }
         let own = arguments.split(|word| *word == "--").next()?;
         let of = |option: &str| {
             let at = own.iter().position(|word| *word == option)?;
