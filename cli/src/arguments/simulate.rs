@@ -30,6 +30,12 @@ pub struct Simulate {
     /// Play each with so many seeds, counted on from --seed
     #[arg(long, value_name = "COUNT", default_value = "1", value_parser = clap::value_parser!(u64).range(1..))]
     pub repeat: u64,
+    /// Let several robots live on so many threads [default: as many as the machine has]; changes nothing but the time it takes
+    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u64).range(1..))]
+    pub threads: Option<u64>,
+    /// Tell a digest of all that each robot wrote
+    #[arg(long)]
+    pub digests: bool,
     /// Open no window
     #[arg(long)]
     pub headless: bool,

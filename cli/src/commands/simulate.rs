@@ -47,6 +47,9 @@ fn arguments(simulate: &Simulate, scenario: &Utf8Path) -> Result<Vec<OsString>, 
     let mut add = |name: &str, value: &str| arguments.extend([name.into(), value.into()]);
     add("--seed", &simulate.seed.to_string());
     add("--repeat", &simulate.repeat.to_string());
+    if let Some(threads) = simulate.threads {
+        add("--threads", &threads.to_string());
+    }
     for assignment in &simulate.set {
         add("--set", assignment);
     }
@@ -55,6 +58,9 @@ fn arguments(simulate: &Simulate, scenario: &Utf8Path) -> Result<Vec<OsString>, 
     }
     if simulate.format == TextOrJson::Json {
         add("--format", "json");
+    }
+    if simulate.digests {
+        arguments.push("--digests".into());
     }
     if !simulate.options.is_empty() {
         arguments.push("--".into());
@@ -73,7 +79,7 @@ mod tests {
 
     #[test]
     fn the_program_plays_the_file_wherever_it_runs() {
-        let line = "hulkgen simulate a.toml b.toml --seed 3 --repeat 4 --headless --set c=1 --listen [::1]:5 --format json -- --imperfect 2";
+        let line = "hulkgen simulate a.toml b.toml --seed 3 --repeat 4 --threads 2 --digests --headless --set c=1 --listen [::1]:5 --format json -- --imperfect 2";
         let parsed = Arguments::try_parse_from(line.split(' ')).expect("it is right usage");
         let Command::Simulate(simulate) = parsed.command else {
             panic!("it is `simulate`")
@@ -86,7 +92,7 @@ mod tests {
         assert_eq!(
             words.join(" "),
             format!(
-                "--scenario {} --seed 3 --repeat 4 --set c=1 --listen [::1]:5 --format json -- --imperfect 2",
+                "--scenario {} --seed 3 --repeat 4 --threads 2 --set c=1 --listen [::1]:5 --format json --digests -- --imperfect 2",
                 folder.join("a.toml").display()
             )
         );
