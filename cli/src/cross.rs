@@ -4,6 +4,7 @@
 //! Invariant: tools are pinned and checked by digest; a folder of tools that is not whole is not used.
 
 mod elf;
+mod processor;
 mod requirements;
 mod tools;
 mod verdict;
@@ -11,6 +12,7 @@ mod verdict;
 use camino::Utf8Path;
 
 pub use elf::{Elf, Version};
+pub use processor::Processor;
 pub use tools::Tools;
 pub use verdict::{Wanted, objections};
 

@@ -1,6 +1,6 @@
 //! `build`: generate, build for the target's machine, and tell whether the program would start there.
 
-use std::ffi::OsString;
+use std::ffi::{OsStr, OsString};
 
 use camino::Utf8PathBuf;
 use serde_json::json;
@@ -12,7 +12,7 @@ use super::run::{absolute, choose_target, profile};
 use super::session::Session;
 use crate::arguments::{self, TextOrJson};
 use crate::cache::user_folder;
-use crate::cross::{self, Elf, Tools, Wanted};
+use crate::cross::{self, Elf, Processor, Tools, Wanted};
 use crate::outcome::{Outcome, Refusal};
 use crate::resolve::robot::Target;
 
@@ -38,6 +38,15 @@ pub(super) fn run(
     if session.diagnostics.has_errors() {
         return Ok(Outcome::Bad);
     }
+    let own_flags = std::env::var_os("RUSTFLAGS");
+    if let Some(cpu) = &target.cpu {
+        let processor = Processor {
+            folder: session.workspace.root(),
+            triple: wanted.as_ref().map(|wanted| wanted.triple.as_str()),
+            cpu,
+        };
+        refuse_lacking(&processor, own_flags.as_deref())?;
+    }
     generate::write(session, &understood)?;
     let profile = profile(build.build.profile.as_deref(), target).unwrap_or(OWN_PROFILE);
     let target_dir = build
@@ -52,7 +61,7 @@ pub(super) fn run(
         request.cross(&tools, triple);
     }
     if let Some(cpu) = &target.cpu {
-        request.set("RUSTFLAGS", flags(std::env::var_os("RUSTFLAGS"), cpu));
+        request.set("RUSTFLAGS", flags(own_flags, cpu));
     }
     // What is left out of the program is not sent to the robot either; panics keep file and line.
     let strip = profile.replace('-', "_").to_uppercase();
@@ -101,6 +110,19 @@ fn wanted_of(triple: &str) -> Result<Wanted, Refusal> {
         ))
         .help("write it like `x86_64-unknown-linux-gnu.2.28`")
     })
+}
+
+/// Nothing is built with flags of the environment that let the program use what the processor lacks.
+fn refuse_lacking(processor: &Processor<'_>, own: Option<&OsStr>) -> Result<(), Refusal> {
+    let own = own.map(OsStr::to_string_lossy).unwrap_or_default();
+    let features = processor.lacks(&own)?;
+    if features.is_empty() {
+        return Ok(());
+    }
+    let (names, cpu) = (features.join(", "), processor.cpu);
+    let message = format!("RUSTFLAGS lets the program use {names}, which `{cpu}` lacks");
+    Err(Refusal::bad(message)
+        .help("take it out of RUSTFLAGS, or name a newer processor as the target's `cpu`"))
 }
 
 /// rustc's flags of the environment, and the target's processor.
@@ -159,6 +181,20 @@ mod tests {
             flags(own, "x86-64-v2"),
             "-Cdebuginfo=0 -Ctarget-cpu=x86-64-v2"
         );
+    }
+
+    #[test]
+    fn flags_that_the_processor_cannot_keep_are_refused() {
+        let processor = Processor {
+            folder: camino::Utf8Path::new("."),
+            triple: Some("x86_64-unknown-linux-gnu"),
+            cpu: "silvermont",
+        };
+        let refused = |flags: &str| refuse_lacking(&processor, Some(flags.as_ref()));
+        assert_eq!(refused("-Cdebuginfo=0"), Ok(()));
+        assert_eq!(refuse_lacking(&processor, None), Ok(()));
+        let refusal = refused("-Ctarget-feature=+avx2").expect_err("the robot has no AVX");
+        assert!(refusal.message.contains("avx, avx2"), "{refusal:?}");
     }
 
     #[test]
