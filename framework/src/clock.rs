@@ -43,6 +43,14 @@ impl Clock {
         matches!(self.0, Source::Stepped { .. })
     }
 
+    /// What tells virtual time from that of other robots, as long as it exists; clones have the same.
+    pub(crate) fn identity(&self) -> Option<usize> {
+        match &self.0 {
+            Source::Wall { .. } => None,
+            Source::Stepped { now } => Some(Arc::as_ptr(now).addr()),
+        }
+    }
+
     /// Time since the start of the run.
     #[inline]
     pub fn now(&self) -> Timestamp {

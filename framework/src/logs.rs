@@ -3,8 +3,13 @@
 //! Nodes say them with the macros of the crate `tracing`. A message knows the instance and the cycle that its thread is in, and
 //! the module that says it: for a node that is its path in the manifest. It goes into a queue that a server empties; where
 //! the queue is full it is left out and counted, so that no thread waits.
+//! Of several robots that live in lockstep each one's sinks get what is said while it lives; what is said between, as by
+//! the world that they share, all get.
 //!
 //! Without a sink nothing is collected, and a message costs one load.
+
+#[cfg(test)]
+mod tests;
 
 use std::cell::Cell;
 use std::collections::BTreeMap;
@@ -37,6 +42,19 @@ static SINKS: RwLock<Vec<Weak<Sink>>> = RwLock::new(Vec::new());
 
 thread_local! {
     static PLACE: Cell<Option<Place>> = const { Cell::new(None) };
+    /// Which robot lives on this thread, by its clock.
+    static ROBOT: Cell<Option<usize>> = const { Cell::new(None) };
+}
+
+/// Until it is dropped, what its thread says is one robot's.
+pub(crate) struct Within {
+    before: Option<usize>,
+}
+
+impl Drop for Within {
+    fn drop(&mut self) {
+        ROBOT.set(self.before);
+    }
 }
 
 /// What a thread is in.
@@ -167,6 +185,12 @@ impl Sink {
         level <= self.rules().of(module, place)
     }
 
+    /// Whether what that robot says is for this one. A wall clock is the only one in its process.
+    fn is_of(&self, robot: Option<usize>) -> bool {
+        let identities = self.clock.identity().zip(robot);
+        identities.is_none_or(|(own, robot)| own == robot)
+    }
+
     fn keep(&self, record: Record) {
         if self.records.push(record).is_err() {
             self.left_out.fetch_add(1, Ordering::Relaxed);
@@ -203,6 +227,14 @@ pub fn is_within(module: &str, outer: &str) -> bool {
     rest.is_some_and(|rest| rest.is_empty() || rest.starts_with("::"))
 }
 
+/// What this thread says is of the robot with this clock.
+#[must_use]
+pub(crate) fn within(clock: &Clock) -> Within {
+    Within {
+        before: ROBOT.replace(clock.identity()),
+    }
+}
+
 /// From now on the thread is in this cycle.
 #[inline]
 pub(crate) fn enter(instance: &'static str, cycle: u64) {
@@ -226,11 +258,11 @@ fn hand_out(
     module: &'static str,
     make: impl FnOnce() -> (String, Map<String, Value>),
 ) {
-    let place = PLACE.get();
+    let (place, robot) = (PLACE.get(), ROBOT.get());
     let sinks = SINKS.read().unwrap_or_else(PoisonError::into_inner);
     let sinks = sinks.iter().filter_map(Weak::upgrade);
     let wanting: Vec<_> = sinks
-        .filter(|sink| sink.wants(level, module, place))
+        .filter(|sink| sink.is_of(robot) && sink.wants(level, module, place))
         .collect();
     if wanting.is_empty() {
         return;
@@ -350,104 +382,4 @@ fn cut(mut text: String) -> String {
         text.push('…');
     }
     text
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn rules(others: &[(&str, Option<&str>, Level)]) -> Arc<Sink> {
-        let sink = Sink::new(Clock::stepped());
-        for (instance, module, level) in others {
-            sink.set_level(Some((instance, *module)), *level);
-        }
-        sink
-    }
-
-    fn place(instance: &'static str) -> Option<Place> {
-        Some(Place { instance, cycle: 1 })
-    }
-
-    #[test]
-    fn the_rule_that_says_most_holds() {
-        let sink = rules(&[
-            ("Control", None, Level::WARN),
-            ("Control", Some("walk::step"), Level::TRACE),
-        ]);
-        for (level, module, instance, expected) in [
-            (Level::INFO, "walk", "Control", false),
-            (Level::WARN, "walk", "Control", true),
-            (Level::TRACE, "walk::step", "Control", true),
-            (Level::TRACE, "walk::step::foot", "Control", true),
-            (Level::TRACE, "walk::steps", "Control", false),
-            (Level::INFO, "walk", "Vision", true),
-            (Level::DEBUG, "walk::step", "Vision", false),
-        ] {
-            let wanted = sink.wants(level, module, place(instance));
-            assert_eq!(wanted, expected, "{level} {module} {instance}");
-        }
-        assert!(!sink.wants(Level::DEBUG, "anything", None));
-        sink.set_level(None, Level::DEBUG);
-        assert!(sink.wants(Level::DEBUG, "walk", place("Control")));
-    }
-
-    #[test]
-    fn a_module_says_so_many_messages_in_a_second() {
-        let mut rates = Rates::default();
-        let record = |module, milliseconds: u64| Record {
-            time: Timestamp::from_nanos(milliseconds * 1_000_000),
-            level: Level::INFO,
-            module,
-            instance: None,
-            cycle: None,
-            message: String::new(),
-            fields: Map::new(),
-        };
-        let mut is_allowed =
-            |module, milliseconds| rates.is_allowed(&record(module, milliseconds), 2);
-        assert!(is_allowed("walk", 0) && is_allowed("walk", 998));
-        assert!(!is_allowed("walk", 999));
-        assert!(is_allowed("see", 999) && is_allowed("walk", 1000));
-    }
-
-    #[test]
-    fn a_message_knows_where_it_was_said_and_what_with() {
-        let sink = Sink::new(Clock::stepped());
-        let said = std::thread::spawn(|| {
-            enter("Test", 7);
-            tracing::warn!(target: "test::said", depth = 3, name = "x", "it {} deep", "is");
-            tracing::debug!(target: "test::said", "nobody wants it");
-        });
-        said.join().expect("it only says something");
-        let records: Vec<_> = std::iter::from_fn(|| sink.take())
-            .filter(|record| record.module == "test::said")
-            .collect();
-        let [record] = &records[..] else {
-            panic!("one message: {records:?}")
-        };
-        assert_eq!((record.instance, record.cycle), (Some("Test"), Some(7)));
-        assert_eq!(
-            (record.level, record.message.as_str()),
-            (Level::WARN, "it is deep")
-        );
-        assert_eq!(
-            Value::from(record.fields.clone()),
-            serde_json::json!({ "depth": 3, "name": "x" })
-        );
-    }
-
-    #[test]
-    fn what_finds_no_place_is_counted_and_long_texts_are_cut() {
-        let sink = Sink::new(Clock::stepped());
-        let long = "ä".repeat(LONGEST);
-        for _ in 0..WAITING + 5 {
-            record(Level::ERROR, "test::full", format_args!("{long}"));
-        }
-        assert!(sink.left_out() >= 5);
-        assert_eq!(sink.left_out(), 0);
-        assert!(
-            sink.take()
-                .is_some_and(|record| record.message.len() <= LONGEST + 3)
-        );
-    }
 }

@@ -19,6 +19,7 @@ use super::{Observer, SafeState};
 use crate::cycler::{Finished, Instance, InstanceDescription, Restarted, Waited};
 use crate::error::{Error, Result};
 use crate::hardware::{Event, Hardware};
+use crate::logs;
 use crate::rearm::Rearm;
 use crate::robot::Robot;
 use crate::time::Timestamp;
@@ -275,6 +276,7 @@ impl<'robot, P> Lockstep<'robot, P> {
         if self.stopped {
             return Ok(None);
         }
+        let _within = logs::within(&self.robot.clock);
         self.look_ahead()?;
         let tracks = self.tracks.iter().enumerate().filter_map(|(index, track)| {
             let (at, deed) = match track.state {
@@ -342,6 +344,7 @@ impl<'robot, P> Lockstep<'robot, P> {
 
     fn carry_out(&mut self, at: Timestamp, deed: Deed, index: usize) -> Result<Stepped> {
         self.robot.clock.advance_to(at);
+        let _within = logs::within(&self.robot.clock);
         self.safe_state.rearm_if_wanted(&self.rearm);
         let step = match deed {
             Deed::Finish => self.finish(at, index),

@@ -7,6 +7,7 @@ use std::time::Duration;
 
 use framework::cycler::Counts;
 use framework::driver::observer::Observer;
+use framework::logs::Sink;
 use framework::{Digest, Instance, Lockstep, Result, Timestamp, Together};
 
 use crate::body::{Plan, Setting, robot};
@@ -36,6 +37,15 @@ impl Observer for Noting<'_> {
         if !noted.contains(&thread) {
             noted.push(thread);
         }
+    }
+}
+
+/// Says whose cycle begins.
+struct Saying(usize);
+
+impl Observer for Saying {
+    fn begun(&mut self, _: &mut dyn Instance) {
+        tracing::warn!(target: "together", robot = self.0, "a cycle begins");
     }
 }
 
@@ -163,4 +173,32 @@ fn the_robot_that_fails_is_named_and_ends_the_run_for_all() {
         },
         one
     );
+}
+
+#[test]
+fn each_robot_hears_itself_on_whatever_thread_it_lives() {
+    for threads in [1, 2] {
+        let events = || (0..20).map(|one| (one * 12, "Legs"));
+        let hardwares = [(); 2].map(|()| ScriptedHardware::lockstep(events()));
+        let setting = Setting::default();
+        let mut robots =
+            (hardwares.iter().map(|hardware| robot(hardware, &setting))).collect::<Vec<_>>();
+        let sinks = hardwares
+            .each_ref()
+            .map(|hardware| Sink::new(hardware.clock.clone()));
+        let locksteps = robots.iter_mut().zip(&hardwares).zip(0..);
+        let locksteps = locksteps.map(|((robot, hardware), number)| {
+            let lockstep = Lockstep::new(robot, hardware.as_ref());
+            lockstep.observed(move |_| Some(Box::new(Saying(number))))
+        });
+        let mut together = Together::new(locksteps.collect(), threads);
+        together
+            .run_until(millis(500), |_, _| {})
+            .expect("nothing fails");
+        for (sink, robot) in sinks.iter().zip(0..) {
+            let said = std::iter::from_fn(|| sink.take()).filter(|said| said.module == "together");
+            let whose: Vec<_> = said.map(|said| said.fields["robot"].as_u64()).collect();
+            assert_eq!(whose, [Some(robot); 20], "{threads} threads");
+        }
+    }
 }
