@@ -27,6 +27,13 @@ pub(super) fn run<H: Hardware + 'static, P: ParameterData>(
     create: &mut impl FnMut(&Arc<H>, Start<P>) -> Result<Robot<P>>,
     serve: Serve,
 ) -> Result<u8> {
+    if let Record::Into(path) = &options.record {
+        let path = path.display();
+        return Err(Error::new(format!(
+            "--record {path}: a scenario may be played several times and names its recordings itself: say `--record on`, \
+             and with `--run-folder DIR` where they shall lie"
+        )));
+    }
     // Nobody watches unless somebody says where: most scenarios are played to be judged.
     let listening = options
         .listening(target)
@@ -49,7 +56,12 @@ pub(super) fn run<H: Hardware + 'static, P: ParameterData>(
             tell(format_args!("{}", played.headline()));
         }
         runs.push(played);
+        if stop.is_requested() {
+            break;
+        }
     }
+    // Who ends it early has not seen the others pass.
+    let asked = options.repeat.unwrap_or(1);
     let passes = runs.iter().filter(|run| run.passed).count();
     #[expect(
         clippy::cast_precision_loss,
@@ -57,7 +69,7 @@ pub(super) fn run<H: Hardware + 'static, P: ParameterData>(
         clippy::cast_sign_loss,
         reason = "seeds are few"
     )]
-    let needed = (stage.scenario.passes * runs.len() as f64 - 1e-9).ceil() as usize;
+    let needed = (stage.scenario.passes * asked as f64 - 1e-9).ceil() as usize;
     let outcome = Outcome {
         version: 1,
         scenario: file.to_owned(),
@@ -108,7 +120,8 @@ impl Stage<'_> {
         let played = self.play_once(seed, record_always, create)?;
         // What clients did would not come again.
         let was_watched = self.audience.is_some();
-        if played.passed || record_always || record_never || was_watched {
+        let is_enough = record_always || record_never || was_watched || self.stop.is_requested();
+        if played.passed || is_enough {
             return Ok(played);
         }
         let recorded = self.play_once(seed, true, create)?;

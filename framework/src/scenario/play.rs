@@ -50,10 +50,11 @@ const STRETCH: Duration = Duration::from_secs(1);
 /// The same where clients watch, in whose time it goes.
 const WATCHED_STRETCH: Duration = Duration::from_millis(12);
 
-/// Lets the robots live through it. One that stops is told of; the others go on.
+/// Lets the robots live through it. One that stops is told of; the others go on. Where somebody ends the run, that is told as well,
+/// and what was seen until then: it may have taken long.
 ///
 /// # Errors
-/// Where the hardware does not understand an event, or somebody ends the run.
+/// Where the hardware does not understand an event.
 pub(crate) fn play<H: Hardware + 'static, P: Send>(
     scenario: &Scenario,
     seed: u64,
@@ -89,18 +90,25 @@ pub(crate) fn play<H: Hardware + 'static, P: Send>(
             stopped: None,
         }));
     }
-    let (lasted, verdicts) = together(&actors, manner.threads, |ensemble| {
-        live_through(scenario, seed, &hardwares, ensemble, manner)?;
+    let (lasted, is_ended, verdicts) = together(&actors, manner.threads, |ensemble| {
+        let lived = live_through(scenario, seed, &hardwares, ensemble, manner);
+        let is_ended = manner.stop.is_requested() && lived.as_ref().is_err_and(Error::is_stopped);
+        if !is_ended {
+            lived?;
+        }
         let now = |actor: &Actor<'_, P>| actor.lockstep.robot().clock.now();
         let lasted = ensemble.all().map(|actor| now(&actor)).max();
         let verdicts = ensemble
             .all()
             .map(|mut actor| actor.judge.take().map(Judge::verdicts).unwrap_or_default());
-        Ok::<_, Error>((lasted, in_order(scenario, verdicts.collect())))
+        let lasted = lasted.map_or(0.0, |now| (now - Timestamp::ZERO).as_secs_f64());
+        Ok::<_, Error>((lasted, is_ended, in_order(scenario, verdicts.collect())))
     })?;
     drop(served);
     let mut digests = Vec::new();
-    let mut stopped = Vec::new();
+    let ended =
+        || format!("somebody ended it after {lasted:.1} s, what is told was seen until then");
+    let mut stopped: Vec<_> = is_ended.then(ended).into_iter().collect();
     for (number, actor) in (1..).zip(actors) {
         let actor = actor.into_inner().unwrap_or_else(PoisonError::into_inner);
         digests.extend(actor.digest.map(|digest| digest.to_string()));
@@ -113,7 +121,6 @@ pub(crate) fn play<H: Hardware + 'static, P: Send>(
     }
     let instances = casts.iter().flat_map(|cast| &cast.robot.instances);
     let failures = instances.map(|instance| instance.report().counts.failures);
-    let lasted = lasted.map_or(0.0, |now| (now - Timestamp::ZERO).as_secs_f64());
     Ok(Played {
         seed,
         passed: stopped.is_empty() && verdicts.iter().all(|verdict| verdict.passed),

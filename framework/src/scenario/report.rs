@@ -12,9 +12,9 @@ use super::judge::Verdict;
 pub struct Played {
     /// What was drawn from it.
     pub seed: u64,
-    /// Whether every assertion was so, and the robot did not stop by itself.
+    /// Whether every assertion was so, and nothing stopped before the end.
     pub passed: bool,
-    /// Why a robot stopped before the end.
+    /// Why a robot, or all of it, stopped before the end.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stopped: Option<String>,
     /// Calls of nodes that failed.
@@ -82,7 +82,7 @@ impl fmt::Display for Played {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(formatter, "  {}", self.headline())?;
         if let Some(why) = &self.stopped {
-            writeln!(formatter, "    FAILED  the robot stopped: {why}")?;
+            writeln!(formatter, "    FAILED  it stopped: {why}")?;
         }
         if self.failures > 0 {
             writeln!(formatter, "    {} calls of nodes failed", self.failures)?;

@@ -11,6 +11,7 @@ use std::time::{Duration, Instant};
 use framework::launch;
 use framework::testing::TARGET;
 use framework::{OnFailure, Start};
+use serde_json::Value;
 use signal_hook::consts::SIGHUP;
 use signal_hook::low_level::raise;
 
@@ -46,6 +47,42 @@ fn launch(arguments: &[&str], setting: &Setting) -> ! {
     std::process::exit(status.into())
 }
 
+/// Years of a scenario, until somebody presses Ctrl-C in the middle of its first second; the outcome goes to standard error.
+fn interrupt_scenario() -> ! {
+    let directory = tempfile::tempdir().expect("a temporary directory");
+    let write = |name: &str, text: &str| {
+        let path = directory.path().join(name);
+        std::fs::write(&path, text).expect("can be written");
+        OsString::from(path)
+    };
+    write("default.toml", "gain = 1\n[hardware.simulated]\nstep = 1\n");
+    let scenario = "ends = 1e9
+[[event]]
+at = 0.5
+interrupt = true
+[[assertion]]
+what = 'what was so is told'
+value = 'truth.events'
+above = 49
+before = 0.6
+[[assertion]]
+what = 'what was not yet so has failed'
+value = 'truth.events'
+above = 1000
+before = 1e9
+";
+    let scenario = write("scenario.toml", scenario);
+    let mut all = ["--parameters".into(), directory.path().into()].to_vec();
+    all.extend(["--scenario".into(), scenario]);
+    all.extend(["--repeat", "3", "--format", "json"].map(OsString::from));
+    let create = |hardware: &Arc<ScriptedHardware>, _: Start<Parameters>| {
+        Ok(robot(hardware, &Setting::default()))
+    };
+    let status = launch::run(TARGET, all, &mut io::stderr(), create, launch::nobody);
+    drop(directory);
+    std::process::exit(status.into())
+}
+
 #[test]
 fn a_process_of_this_test_is_the_run_it_was_told_to_be() {
     let failing = |on_failure, acts: &[Act]| Setting {
@@ -68,6 +105,7 @@ fn a_process_of_this_test_is_the_run_it_was_told_to_be() {
             });
             launch(&["--for", "10s"], &Setting::default())
         }
+        Ok("interrupted in a scenario") => interrupt_scenario(),
         Ok("failing") => {
             let setting = failing(OnFailure::Stop, &[Act::Fail]);
             launch(&["--format", "json"], &setting)
@@ -144,6 +182,26 @@ fn a_robot_whose_terminal_is_gone_stops_in_order() {
     let (status, errors) = end_of("hung up", Stdio::piped());
     assert_eq!(status.code(), Some(0), "{status}: {errors}");
     assert!(errors.contains("simulated ran for 0."), "{errors}");
+}
+
+#[test]
+fn a_scenario_that_somebody_ends_tells_what_was_seen_until_then() {
+    let (status, errors) = end_of("interrupted in a scenario", Stdio::piped());
+    assert_eq!(status.code(), Some(130), "{status}: {errors}");
+    let outcome = errors.lines().last().unwrap_or_default();
+    let outcome: Value = serde_json::from_str(outcome).expect(&errors);
+    assert_eq!(
+        (&outcome["passed"], &outcome["needed"]),
+        (&false.into(), &3.into())
+    );
+    let runs = outcome["runs"].as_array().expect("one was begun");
+    assert_eq!(runs.len(), 1, "no further seed: {outcome:#}");
+    let stopped = runs[0]["stopped"].as_str().unwrap_or_default();
+    assert!(stopped.starts_with("somebody ended it after "), "{stopped}");
+    assert!(runs[0]["recordings"].is_null(), "{outcome:#}");
+    let [told, failed] = [0, 1].map(|index| &runs[0]["assertions"][index]);
+    assert_eq!((&told["passed"], &told["seen"]), (&true.into(), &50.into()));
+    assert_eq!(failed["passed"], false);
 }
 
 #[test]

@@ -244,6 +244,10 @@ impl Hardware for ScriptedHardware {
     }
 
     fn disturb(&self, deed: &toml::Table) -> Result<()> {
+        if deed.contains_key("interrupt") {
+            signal_hook::low_level::raise(signal_hook::consts::SIGINT)?;
+            return Ok(());
+        }
         let jump = deed.get("jump").and_then(toml::Value::as_integer);
         let jump = jump.ok_or_else(|| Error::new("expected `jump = NUMBER`"))?;
         self.happened
