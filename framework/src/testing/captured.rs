@@ -14,6 +14,9 @@ use crate::replay::{Command, first_difference, listen, noted};
 use crate::temporal::PerceptionInput;
 use crate::time::{CycleTime, Timestamp};
 
+/// Of the files that are read here, as `hulkgen capture` writes them. A file of version 1 says nothing of the state after the call.
+const VERSION: u64 = 2;
+
 /// The file of one call.
 #[derive(Clone, Debug)]
 pub struct Captured {
@@ -45,12 +48,11 @@ impl Captured {
     /// A file with this text; from here on commands to hardware that [`commanded!`](crate::commanded) is told of are noted.
     ///
     /// # Panics
-    /// If it is no such file.
+    /// If it is no such file, or one of another version.
     pub fn new(text: &str) -> Self {
         listen();
-        let all = serde_json::from_str(text);
         Self {
-            all: all.unwrap_or_else(|error| panic!("the captured file is damaged: {error}")),
+            all: load(text).unwrap_or_else(|why| panic!("{why}")),
         }
     }
 
@@ -213,6 +215,22 @@ impl Captured {
     }
 }
 
+/// What a file of this version says, or why nothing can be read from it.
+fn load(text: &str) -> Result<Value, String> {
+    let all: Value = serde_json::from_str(text)
+        .map_err(|error| format!("the captured file is damaged: {error}"))?;
+    match &all["version"] {
+        version if version.as_u64() == Some(VERSION) => Ok(all),
+        Value::Null => {
+            Err("the file has no `version`: `hulkgen capture` did not write it".to_owned())
+        }
+        version => Err(format!(
+            "the captured file has version {version}, and {VERSION} is read here: \
+             capture the cycle again with the `hulkgen` of this framework"
+        )),
+    }
+}
+
 /// Compares a value with its recorded bits.
 fn assert_same(what: &str, recorded: &Value, value: &impl Serialize) {
     let bits = digest(value).unwrap_or_else(|error| panic!("{what}: {error}"));
@@ -315,4 +333,25 @@ fn read<T: DeserializeOwned>(value: &Value, what: &str) -> T {
     T::deserialize(value).unwrap_or_else(|error| {
         panic!("`{what}` was captured with another type ({error}): capture the cycle again")
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::load;
+
+    #[test]
+    fn files_of_other_versions_are_refused() {
+        assert!(load(r#"{ "version": 2 }"#).is_ok());
+        for (text, why) in [
+            (r#"{ "version": 1 }"#, "has version 1, and 2 is read here"),
+            (r#"{ "version": 3 }"#, "has version 3, and 2 is read here"),
+            (r#"{ "version": "2" }"#, r#"has version "2""#),
+            ("{}", "has no `version`"),
+            ("[2]", "has no `version`"),
+            ("{", "is damaged"),
+        ] {
+            let refused = load(text).expect_err(text);
+            assert!(refused.contains(why), "{refused}");
+        }
+    }
 }

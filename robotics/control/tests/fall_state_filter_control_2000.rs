@@ -31,4 +31,5 @@ fn fall_state_filter_computes_cycle_2000_of_control_again() {
         .cycle(context)
         .expect("it did not fail when it was recorded");
     captured.assert_output("fall_state", &outputs.fall_state.value);
+    captured.assert_state(&node);
 }

@@ -28,4 +28,5 @@ fn odometry_computes_cycle_2000_of_control_again() {
         .cycle(context)
         .expect("it did not fail when it was recorded");
     captured.assert_output("odometry", &outputs.odometry.value);
+    captured.assert_state(&node);
 }

@@ -26,4 +26,5 @@ fn walking_engine_computes_cycle_2000_of_control_again() {
         .cycle(context)
         .expect("it did not fail when it was recorded");
     captured.assert_output("walk_commands", &outputs.walk_commands.value);
+    captured.assert_state(&node);
 }
