@@ -144,3 +144,45 @@ fn covariance(position: Matrix2<f32>, parameters: &BallFilterParameters) -> Matr
     covariance.fixed_view_mut::<2, 2>(0, 0).copy_from(&position);
     covariance
 }
+
+#[cfg(test)]
+mod tests {
+    use framework::testing::ParameterFile;
+    use proptest::prelude::*;
+
+    use super::super::noise;
+    use super::*;
+
+    /// After how many seconds a ball is seen where, seen from the start: it jumps, which is a kick or another ball.
+    fn sightings() -> impl Strategy<Value = Vec<(f32, [f32; 2])>> {
+        let seen = (0.0_f32..1.0, prop::array::uniform2(-9.0_f32..9.0));
+        prop::collection::vec(seen, 1..300)
+    }
+
+    proptest! {
+        #[test]
+        fn the_covariance_stays_symmetric_and_positive_definite(sightings in sightings()) {
+            let file = ParameterFile::new(include_str!("../../../parameters/default.toml"));
+            let parameters: BallFilterParameters = file.get("ball_filter");
+            let mut ball: Option<Hypothesis> = None;
+            for (elapsed, [x, y]) in sightings {
+                let position = Point2::new(x, y);
+                let sighting = Sighting {
+                    position,
+                    noise: noise(position.coords, &parameters),
+                    seen_at: Timestamp::ZERO,
+                };
+                let ball = ball.get_or_insert_with(|| Hypothesis::seen_first(&sighting, &parameters));
+                ball.predict(elapsed, &parameters);
+                let predicted = ball.covariance;
+                ball.learn(&sighting, &parameters);
+                prop_assert!(ball.is_finite());
+                for covariance in [predicted, ball.covariance] {
+                    let asymmetry = (covariance - covariance.transpose()).abs().max();
+                    prop_assert!(asymmetry <= 1e-6 * covariance.max(), "{}", covariance);
+                    prop_assert!(covariance.cholesky().is_some(), "{}", covariance);
+                }
+            }
+        }
+    }
+}
