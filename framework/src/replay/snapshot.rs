@@ -8,7 +8,7 @@ use crate::digest::Digest;
 use crate::error::{Error, Result};
 use crate::guarded::State;
 
-/// Version of what [`snapshot`] gives.
+/// Version of what [`snapshot`] gives; that of version 1 said nothing of the state after the call.
 pub const SNAPSHOT_VERSION: u32 = 2;
 
 /// Which call of a node.

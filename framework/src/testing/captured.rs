@@ -10,12 +10,9 @@ use crate::buffer::Latest;
 use crate::history::HistoricInput;
 use crate::procedure::{Answerer, Call, procedure};
 use crate::recorded::digest;
-use crate::replay::{Command, first_difference, listen, noted};
+use crate::replay::{Command, SNAPSHOT_VERSION, first_difference, listen, noted};
 use crate::temporal::PerceptionInput;
 use crate::time::{CycleTime, Timestamp};
-
-/// Of the files that are read here, as `hulkgen capture` writes them. A file of version 1 says nothing of the state after the call.
-const VERSION: u64 = 2;
 
 /// The file of one call.
 #[derive(Clone, Debug)]
@@ -220,12 +217,12 @@ fn load(text: &str) -> Result<Value, String> {
     let all: Value = serde_json::from_str(text)
         .map_err(|error| format!("the captured file is damaged: {error}"))?;
     match &all["version"] {
-        version if version.as_u64() == Some(VERSION) => Ok(all),
+        version if version.as_u64() == Some(SNAPSHOT_VERSION.into()) => Ok(all),
         Value::Null => {
             Err("the file has no `version`: `hulkgen capture` did not write it".to_owned())
         }
         version => Err(format!(
-            "the captured file has version {version}, and {VERSION} is read here: \
+            "the captured file has version {version}, and {SNAPSHOT_VERSION} is read here: \
              capture the cycle again with the `hulkgen` of this framework"
         )),
     }
