@@ -61,7 +61,11 @@ pub(super) fn unbalanced(text: &str) -> Option<Unbalanced> {
                     return Some(Unbalanced::Closed(at..at + 1));
                 };
                 if closing(last.bracket) != bytes[at] {
-                    return Some(Unbalanced::Opened(last.at..last.at + 1, Some(at..at + 1)));
+                    let has_begun = open.iter().any(|one| closing(one.bracket) == bytes[at]);
+                    return Some(match has_begun {
+                        true => Unbalanced::Opened(last.at..last.at + 1, Some(at..at + 1)),
+                        false => Unbalanced::Closed(at..at + 1),
+                    });
                 }
                 let (indentation, is_first) = indentation(text, at);
                 if is_first && indentation < last.indentation {

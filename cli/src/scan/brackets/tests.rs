@@ -57,6 +57,10 @@ fn the_bracket_is_told_and_not_the_end_of_the_file() {
     let open = "impl A {\n    fn a() {\n        b();\n\n    fn c() {\n        d();\n    }\n}\n";
     assert_eq!(told(open), "not closed: line 2");
     assert_eq!(told("fn a() {\n    b(1;\n}\n"), "not closed: line 2");
+    for extra in ["b(1));", "b 1);", "b[1]];"] {
+        let text = format!("fn a() {{\n    {extra}\n}}\n");
+        assert_eq!(told(&text), "closes nothing: line 2", "{extra}");
+    }
     assert_eq!(told("fn a() {\n    /* b\n}\n"), "endless comment: line 2");
     assert_eq!(told("fn a() {\n    b(\"c);\n}\n"), "endless text: line 2");
     let more = "fn a() {\n    b(\"c);\n    d(\"e\");\n    f(\"g\");\n}\n";
