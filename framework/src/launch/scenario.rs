@@ -11,6 +11,7 @@ use crate::clock::Clock;
 use crate::data::ParameterData;
 use crate::error::{Error, Result};
 use crate::hardware::{Hardware, HardwareContext};
+use crate::logs;
 use crate::recorded::Recording;
 use crate::report::tell;
 use crate::robot::{Robot, Start};
@@ -127,6 +128,8 @@ impl Stage<'_> {
         let recorded = self.play_once(seed, true, create)?;
         Ok(Played {
             recordings: recorded.recordings,
+            // The same, or that somebody ended the recording.
+            stopped: recorded.stopped,
             ..played
         })
     }
@@ -168,6 +171,7 @@ impl Stage<'_> {
     ) -> Result<Cast<H, P>> {
         // One that stops ends nothing but itself.
         let (clock, stop) = (Clock::stepped(), Stop::new());
+        let _within = logs::within(&clock);
         let mut layers = layers(self.target, self.options);
         // Later ones win: what somebody says on the command line stands behind.
         let own = self.scenario.robots.get(robot);
