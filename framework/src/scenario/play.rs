@@ -107,7 +107,7 @@ pub(crate) fn play<H: Hardware + 'static, P: Send>(
     drop(served);
     let mut digests = Vec::new();
     let ended =
-        || format!("somebody ended it after {lasted:.1} s, what is told was seen until then");
+        || format!("somebody ended it after {lasted:.1} s; what follows was seen until then");
     let mut stopped: Vec<_> = is_ended.then(ended).into_iter().collect();
     for (number, actor) in (1..).zip(actors) {
         let actor = actor.into_inner().unwrap_or_else(PoisonError::into_inner);

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use serde::Serialize;
 
 use super::judge::Verdict;
+use crate::report::plural;
 
 /// One run with one seed.
 #[derive(Clone, Debug, Serialize)]
@@ -82,10 +83,11 @@ impl fmt::Display for Played {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(formatter, "  {}", self.headline())?;
         if let Some(why) = &self.stopped {
-            writeln!(formatter, "    FAILED  it stopped: {why}")?;
+            writeln!(formatter, "    FAILED  stopped early: {why}")?;
         }
         if self.failures > 0 {
-            writeln!(formatter, "    {} calls of nodes failed", self.failures)?;
+            let calls = plural(self.failures, "call");
+            writeln!(formatter, "    {calls} of nodes failed")?;
         }
         for (robot, digest) in (1..).zip(&self.digests) {
             writeln!(formatter, "    digest of robot {robot}: {digest}")?;
