@@ -38,10 +38,12 @@ pub(in crate::commands) fn param(terminal: &Terminal, param: &Param) -> Result<O
             };
             match running.format {
                 TextOrJson::Text => {
-                    let known = unstored(&mut connection)?;
-                    for path in waiting(&changes, &known.creation_only) {
+                    // What is done is done, also where the robot cannot be asked any more.
+                    let known = unstored(&mut connection);
+                    let creation_only = known.map(|known| known.creation_only);
+                    for path in waiting(&changes, &creation_only.unwrap_or_default()) {
                         terminal.note(&format!(
-                            "`{path}` is read only when nodes are created: what runs does not see the change\n"
+                            "`{path}` is read only when nodes are created: store it and start the robot again\n"
                         ));
                     }
                     written(&changes, version)
