@@ -132,9 +132,15 @@ impl Git<'_> {
     /// An error about the revision, with what is missing before that; git's own words are in the language of its user.
     fn explained(&self, mut error: RevisionError) -> RevisionError {
         if let RevisionError::Unreadable { missing, .. } = &mut error {
-            if self.ask(&["rev-parse", "--git-dir"]).is_err() {
+            let root = self.root.canonicalize_utf8();
+            let root = root.unwrap_or_else(|_| self.root.to_owned());
+            let mut above = root.ancestors();
+            // Where there is one, git may refuse it, and says why.
+            if !above.any(|folder| folder.join(".git").exists()) {
                 *missing = Missing::Repository;
-            } else if self.ask(&["rev-parse", "--verify", "HEAD"]).is_err() {
+            } else if self.ask(&["rev-parse", "--git-dir"]).is_ok()
+                && self.ask(&["rev-parse", "--verify", "HEAD"]).is_err()
+            {
                 *missing = Missing::Commits;
             }
         }
