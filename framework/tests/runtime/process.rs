@@ -16,6 +16,7 @@ use signal_hook::consts::SIGHUP;
 use signal_hook::low_level::raise;
 
 use crate::body::{Parameters, Plan, Setting, robot};
+use crate::scenario::written;
 use crate::scripted::{Act, Script, ScriptedHardware};
 
 /// Tells a process of this test which of the runs below it is.
@@ -49,13 +50,6 @@ fn launch(arguments: &[&str], setting: &Setting) -> ! {
 
 /// Years of a scenario, until somebody presses Ctrl-C in the middle of its first second; the outcome goes to standard error.
 fn interrupt_scenario() -> ! {
-    let directory = tempfile::tempdir().expect("a temporary directory");
-    let write = |name: &str, text: &str| {
-        let path = directory.path().join(name);
-        std::fs::write(&path, text).expect("can be written");
-        OsString::from(path)
-    };
-    write("default.toml", "gain = 1\n[hardware.simulated]\nstep = 1\n");
     let scenario = "ends = 1e9
 [[event]]
 at = 0.5
@@ -71,10 +65,8 @@ value = 'truth.events'
 above = 1000
 before = 1e9
 ";
-    let scenario = write("scenario.toml", scenario);
-    let mut all = ["--parameters".into(), directory.path().into()].to_vec();
-    all.extend(["--scenario".into(), scenario]);
-    all.extend(["--repeat", "3", "--format", "json"].map(OsString::from));
+    let (directory, mut all) = written(scenario);
+    all.extend(["--repeat", "3"].map(OsString::from));
     let create = |hardware: &Arc<ScriptedHardware>, _: Start<Parameters>| {
         Ok(robot(hardware, &Setting::default()))
     };

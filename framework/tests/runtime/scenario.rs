@@ -7,12 +7,13 @@ use framework::launch;
 use framework::testing::TARGET;
 use framework::{Result, Robot, Start};
 use serde_json::Value;
+use tempfile::TempDir;
 
 use crate::body::{Parameters, Setting, robot};
 use crate::scripted::ScriptedHardware;
 
-/// Status and outcome of a scenario of one second, in which `Legs` has data every 10 ms and the world counts the events.
-fn play(scenario: &str, arguments: &[&str]) -> (u8, Value) {
+/// A scenario in a folder of its own, and what a robot's program is told to play it and answer in JSON.
+pub(crate) fn written(scenario: &str) -> (TempDir, Vec<OsString>) {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let write = |name: &str, text: &str| {
         let path = folder.path().join(name);
@@ -20,22 +21,24 @@ fn play(scenario: &str, arguments: &[&str]) -> (u8, Value) {
         OsString::from(path)
     };
     write("default.toml", "gain = 1\n[hardware.simulated]\nstep = 1\n");
-    let scenario = write("scenario.toml", &format!("ends = 1.0\n{scenario}"));
-    let mut all = vec![
+    let arguments = [
         "--parameters".into(),
         folder.path().into(),
         "--scenario".into(),
-        scenario,
+        write("scenario.toml", scenario),
         // Where what does not pass is recorded.
         "--run-folder".into(),
         folder.path().join("run").into_os_string(),
+        "--format".into(),
+        "json".into(),
     ];
-    all.extend(
-        ["--format", "json"]
-            .iter()
-            .chain(arguments)
-            .map(OsString::from),
-    );
+    (folder, arguments.to_vec())
+}
+
+/// Status and outcome of a scenario of one second, in which `Legs` has data every 10 ms and the world counts the events.
+fn play(scenario: &str, arguments: &[&str]) -> (u8, Value) {
+    let (_folder, mut all) = written(&format!("ends = 1.0\n{scenario}"));
+    all.extend(arguments.iter().map(OsString::from));
     let create =
         |hardware: &Arc<ScriptedHardware>, start: Start<Parameters>| -> Result<Robot<Parameters>> {
             assert_eq!(
