@@ -19,8 +19,6 @@ mod removal;
 mod rename;
 mod uses;
 
-use std::collections::BTreeSet;
-
 use camino::Utf8PathBuf;
 
 use crate::diagnostics::{listed, nearest};
@@ -76,16 +74,10 @@ fn own_member<'w>(
         // In a workspace of many crates most have no nodes, and are of no help.
         let nodes = robot.cyclers.iter().flat_map(|cycler| &cycler.nodes);
         let crates = nodes.filter_map(|node| node.path.split("::").next());
-        let list = format!(
-            "the robot's nodes stand in {}",
-            listed(crates.collect::<BTreeSet<_>>())
-        );
+        let list = format!("the robot's nodes stand in {}", listed(crates));
         let names = own().map(|member| member.library.as_str());
         let message = format!("no crate of the workspace is called `{library}`");
-        Refusal::wrong_usage(message).help(match nearest(library, names) {
-            Some(near) => format!("did you mean `{near}`? {list}"),
-            None => list,
-        })
+        corrected(&message, nearest(library, names), list)
     })
 }
 
@@ -97,7 +89,12 @@ fn unknown<'a, N: IntoIterator<Item = &'a str>>(
     introduction: &str,
 ) -> Refusal {
     let list = format!("{introduction} {}", listed(names()));
-    Refusal::wrong_usage(message).help(match nearest(wrong, names()) {
+    corrected(message, nearest(wrong, names()), list)
+}
+
+/// Something that means nothing, with the nearest that does and a list of all.
+fn corrected(message: &str, near: Option<&str>, list: String) -> Refusal {
+    Refusal::wrong_usage(message).help(match near {
         Some(near) => format!("did you mean `{near}`? {list}"),
         None => list,
     })
