@@ -1,6 +1,7 @@
 //! The simulated NAO with the wall clock.
 
 use std::collections::BTreeSet;
+use std::net::UdpSocket;
 use std::time::{Duration, Instant};
 
 use framework::{Clock, Hardware as _, HardwareContext, Stop};
@@ -25,15 +26,22 @@ fn create(stop: &Stop) -> Hardware {
 
 /// With these settings of `[hardware.simulated]`.
 fn create_with(stop: &Stop, table: &str) -> Hardware {
+    try_to_create(stop, &[], table).unwrap()
+}
+
+fn try_to_create(stop: &Stop, options: &[&str], table: &str) -> framework::Result<Hardware> {
     Hardware::new(HardwareContext {
         // The machine may be slow, and nobody looks at the body.
-        options: vec!["--physics".to_owned(), "kinematic".to_owned()],
+        options: ["--physics", "kinematic"]
+            .iter()
+            .chain(options)
+            .map(|&option| option.to_owned())
+            .collect(),
         table: table.parse().unwrap(),
         run_folder: std::env::temp_dir(),
         clock: Clock::wall(),
         stop: stop.clone(),
     })
-    .unwrap()
 }
 
 /// Asks until it is so; whether it was in time.
@@ -60,6 +68,21 @@ fn sensors_are_sampled_every_12_ms_of_the_world() {
         assert_eq!(time.as_nanos() % 12_000_000, 0, "{time}");
     }
     assert!(times.is_sorted());
+}
+
+#[test]
+fn a_port_in_use_is_named_with_its_setting_and_the_way_out() {
+    let taken = UdpSocket::bind("127.0.0.1:0").unwrap();
+    let port = taken.local_addr().unwrap().port();
+    for key in ["control_port", "return_port", "team_port", "mate_port"] {
+        let table = format!("network.{key} = {port}");
+        let create = |options: &[&str]| try_to_create(&Stop::new(), options, &table);
+        let message = create(&[]).err().unwrap().to_string();
+        for part in [&format!("UDP port {port}"), key, "--free-ports"] {
+            assert!(message.contains(part), "{message}");
+        }
+        assert!(create(&["--free-ports"]).is_ok());
+    }
 }
 
 #[test]

@@ -27,6 +27,11 @@ impl Settings {
         let mut settings: Self = context.parameters()?;
         settings.apply(&context.options)?;
         settings.take_part();
+        // Lockstep is there to be repeated, beside others of its kind, too: nobody but this robot's world speaks to it,
+        // unless its scenario opens it to a network.
+        if context.clock.is_stepped() && settings.network.address.is_loopback() {
+            settings.network.free_ports();
+        }
         settings.check()?;
         Ok(settings)
     }
