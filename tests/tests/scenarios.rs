@@ -100,6 +100,7 @@ fn some_are_played() {
         ("kick_right", 1),
         ("goal", 1),
         ("penalised_by_the_referee", 1),
+        ("removed_while_it_gets_up", 1),
     ] {
         let outcome = play(name, seeds);
         assert_eq!(outcome["passed"], true, "{outcome:#}");

@@ -97,4 +97,12 @@ pub enum Disturbance {
         /// Of its ground frame in the field frame: x and y in m, heading in rad.
         pose: [f64; 3],
     },
+    /// Keeps a robot upright at a place, its lower foot on the floor and its joints as they are; for as long as this comes
+    /// again and again.
+    Hold {
+        /// Its place among the robots.
+        robot: usize,
+        /// Of its ground frame in the field frame: x and y in m, heading in rad.
+        pose: [f64; 3],
+    },
 }

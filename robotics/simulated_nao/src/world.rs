@@ -172,6 +172,7 @@ impl World {
                 .map(|(body, inhabitant)| inhabitant.push(body, self.stepped))
                 .collect();
             self.physics.step(&commands);
+            self.hold();
             for (body, inhabitant) in self.physics.bodies().iter().zip(&mut self.inhabitants) {
                 inhabitant.inertial.measure(body);
             }
@@ -225,7 +226,7 @@ impl World {
     /// Does to the world what no motor does.
     pub(crate) fn disturb(&mut self, disturbance: &Disturbance) {
         self.physics.disturb(disturbance);
-        if let Disturbance::Kidnap { robot, .. } = disturbance
+        if let Disturbance::Kidnap { robot, .. } | Disturbance::Hold { robot, .. } = disturbance
             && let Some(inhabitant) = self.inhabitants.get_mut(*robot)
         {
             inhabitant.way.carry(&self.physics.bodies()[*robot]);

@@ -95,6 +95,17 @@ impl Body {
         left
     }
 
+    /// A robot that is held upright, whatever its legs do; the lower foot just touches the floor.
+    pub(super) fn held(start: &Start) -> Self {
+        let [x, y, heading] = start.pose;
+        let poses = forward_kinematics(&start.joints);
+        let upright = Self::from_poses(start.joints, &poses, Isometry3::identity());
+        let lowest = upright.lowest(Side::Left).min(upright.lowest(Side::Right));
+        let mut torso_to_field = planar(x, y, heading) * upright.ground_to_field().inverse();
+        torso_to_field.translation.z -= lowest;
+        Self::from_poses(start.joints, &poses, torso_to_field)
+    }
+
     /// The ground frame in the field frame: on the floor midway between the soles, x along the
     /// heading of the torso.
     pub fn ground_to_field(&self) -> Isometry3<f64> {

@@ -157,6 +157,13 @@ impl Physics for Dynamic {
                     self.place(robot, &joints, &torso_to_field);
                 }
             }
+            Disturbance::Hold { robot, pose } => {
+                if let Some(body) = self.bodies.get(robot) {
+                    let joints = body.joints;
+                    let torso_to_field = Body::held(&Start { joints, pose }).torso_to_field;
+                    self.place(robot, &joints, &torso_to_field);
+                }
+            }
         }
     }
 }

@@ -92,7 +92,8 @@ impl Physics for Kinematic {
                     ball.position = position;
                 }
             }
-            Disturbance::Kidnap { robot, pose } => {
+            // Here everybody stands.
+            Disturbance::Kidnap { robot, pose } | Disturbance::Hold { robot, pose } => {
                 if let Some(body) = self.bodies.get_mut(robot) {
                     let joints = body.joints;
                     *body = Body::standing(&Start { joints, pose });

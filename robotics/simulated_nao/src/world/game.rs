@@ -15,10 +15,24 @@ use crate::simulation::TICK;
 /// Before a whistle sounds, s: longer than anybody is ahead of the world, so that nobody misses its beginning.
 const BREATH: f64 = 0.05;
 
+/// How long whoever carries a robot holds it upright where it will stand, s: by then the referee's computer has told it that it
+/// is penalised, twice a second, and it has gone into the pose in which it waits.
+const HELD: f64 = 4.0;
+
 /// A game that is played.
 pub(super) struct Game {
     referee: Referee,
     settings: GameSettings,
+    held: Vec<Held>,
+}
+
+/// A robot in somebody's hands.
+struct Held {
+    robot: usize,
+    /// x and y in m, heading in rad.
+    pose: [f64; 3],
+    /// When it is let go, s.
+    until: f64,
 }
 
 impl Game {
@@ -27,6 +41,7 @@ impl Game {
         settings.play.map(|play| Self {
             referee: Referee::new(play),
             settings: settings.clone(),
+            held: Vec::new(),
         })
     }
 }
@@ -44,6 +59,24 @@ impl World {
             .as_mut()
             .map(|game| game.referee.look(now, ball, &players));
         self.obey(now, rulings.unwrap_or_default());
+    }
+
+    /// Keeps robots upright and where they are held; their joints move as they please. After every step, so that they feel
+    /// the hands that bear them.
+    pub(super) fn hold(&mut self) {
+        let Some(game) = &mut self.game else {
+            return;
+        };
+        let now = (self.stepped - Timestamp::ZERO).as_secs_f64();
+        game.held.retain(|held| now < held.until);
+        let held: Vec<_> = game
+            .held
+            .iter()
+            .map(|held| (held.robot, held.pose))
+            .collect();
+        for (robot, pose) in held {
+            self.disturb(&Disturbance::Hold { robot, pose });
+        }
     }
 
     /// Somebody takes a robot out; whether there is a game.
@@ -107,6 +140,18 @@ impl World {
             .collect()
     }
 
+    fn carry(&mut self, now: f64, robot: usize, pose: [f64; 3]) {
+        self.disturb(&Disturbance::Hold { robot, pose });
+        if let Some(game) = &mut self.game {
+            game.held.retain(|held| held.robot != robot);
+            game.held.push(Held {
+                robot,
+                pose,
+                until: now + HELD,
+            });
+        }
+    }
+
     fn obey(&mut self, now: f64, rulings: Vec<Ruling>) {
         for ruling in rulings {
             match ruling {
@@ -115,7 +160,7 @@ impl World {
                     position: Point3::new(x, y, f64::from(BALL_RADIUS)),
                     velocity: Vector3::zeros(),
                 }),
-                Ruling::Carry(robot, pose) => self.disturb(&Disturbance::Kidnap { robot, pose }),
+                Ruling::Carry(robot, pose) => self.carry(now, robot, pose),
             }
         }
     }
