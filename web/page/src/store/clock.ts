@@ -1,7 +1,7 @@
 // Owns how far the clocks of two robots are apart: each program counts from its own start.
 import { expect } from "../connection/socket";
 import type { Robot } from "./robot";
-import { Signal } from "./signal";
+import { Signal, type Readable } from "./signal";
 
 /** Robots of one world go on by turns: so far apart their clocks are one. In seconds. */
 const SLACK = 0.1;
@@ -12,20 +12,47 @@ const QUESTIONS = 3;
 /** Between two values, in seconds. */
 type Range = [number, number];
 
-export class Alignment {
-  /** Seconds from the times of `other` to those of `own`; null: not known of the connections that there are now. */
-  readonly shift = new Signal<number | null>(null);
+/** Seconds from the times of `other` to those of `own`; null: not known of the connections that there are now. Measured while somebody watches. */
+export class Alignment implements Readable<number | null> {
+  private readonly shift = new Signal<number | null>(null);
   /** Kept as long as it may be right, so that curves have no steps. */
   private last = 0;
   private turn = 0;
+  private watchers = 0;
+  /** Whatever holds this and both robots: none of it stays when nobody watches, so that robots that went are released. */
+  private stops: (() => void)[] = [];
 
   constructor(
     private readonly own: Pick<Robot, "ask" | "welcome">,
     private readonly other: Pick<Robot, "ask" | "welcome">,
-  ) {
-    // Either may have been started anew.
-    own.welcome.watch(() => void this.measure());
-    other.welcome.watch(() => void this.measure());
+  ) {}
+
+  get value(): number | null {
+    return this.shift.value;
+  }
+
+  watch(listener: (value: number | null) => void): () => void {
+    if (this.watchers++ === 0) {
+      // Either may have been started anew.
+      const robots = [this.own, this.other];
+      this.stops = robots.map((robot) => robot.welcome.watch(() => void this.measure()));
+    }
+    const stop = this.shift.watch(listener);
+    let isOver = false;
+    return () => {
+      if (isOver) return;
+      isOver = true;
+      stop();
+      if (--this.watchers === 0) this.rest();
+    };
+  }
+
+  private rest(): void {
+    for (const stop of this.stops) stop();
+    this.stops = [];
+    // What is still being measured is of now, and nobody knows what comes until somebody watches again.
+    this.turn++;
+    this.shift.set(null);
   }
 
   private async measure(): Promise<void> {

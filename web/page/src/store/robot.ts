@@ -77,7 +77,7 @@ export class Robot {
   shiftFrom(other: Robot): Readable<number | null> {
     const alignment = this.alignments.get(other) ?? new Alignment(this, other);
     this.alignments.set(other, alignment);
-    return alignment.shift;
+    return alignment;
   }
 
   ask(ask: Ask): Promise<Good> {

@@ -19,7 +19,8 @@ class Played {
   }
 
   signal(name, value) {
-    const signal = { value, watch: (listener) => (this.listeners[name].push(listener), listener(signal.value), () => undefined) };
+    const stop = (listener) => (this.listeners[name] = this.listeners[name].filter((one) => one !== listener));
+    const signal = { value, watch: (listener) => (this.listeners[name].push(listener), listener(signal.value), () => stop(listener)) };
     return signal;
   }
 
@@ -29,7 +30,7 @@ class Played {
   }
 
   shiftFrom(other) {
-    return new Alignment(this, other).shift;
+    return (this.alignment ??= new Alignment(this, other));
   }
 
   async ask() {
@@ -130,6 +131,30 @@ test("a robot that goes away leaves its curve as it was, and comes back behind a
   other.tell(1, 2);
   assert.deepEqual(curve.series.values, [50, 51, null, 2]);
   near(curve.series.times[3], 61);
+});
+
+test("clocks are held together as long as somebody draws a curve that needs it", async () => {
+  const [own, other] = [new Played(100), new Played(40)];
+  const draw = () => new Curve({ path: "a", robot: "x:1" }, known(1, other), own, () => undefined, () => undefined);
+  const held = () => [own, other].map(({ listeners }) => listeners.welcome.length);
+  const curves = [draw(), draw()];
+  await answered();
+  curves[0].close();
+  curves[0].close();
+  assert.deepEqual(held(), [1, 1], "the other curve still needs it");
+  other.clock = 30;
+  other.set("welcome", {});
+  await answered();
+  other.tell(2, 6);
+  near(curves[1].series.times[0], 72);
+  curves[1].close();
+  assert.deepEqual(held(), [0, 0], "a robot that is no peer any more can be forgotten");
+  other.clock = 20;
+  const next = draw();
+  assert(!next.isThere, "what was known is of another time");
+  await answered();
+  other.tell(2, 6);
+  near(next.series.times[0], 82);
 });
 
 test("a restart of the panel's robot ends what belongs to the run before", async () => {
