@@ -35,6 +35,7 @@ pub mod diagnostics;
 pub mod digest;
 pub mod drift;
 pub mod graph;
+pub mod interrupt;
 pub mod late;
 pub mod manifest;
 pub mod model;

@@ -5,14 +5,14 @@ use std::thread;
 
 use clap::Parser as _;
 use hulkgen::arguments::Arguments;
-use hulkgen::{commands, outcome};
+use hulkgen::{commands, interrupt, outcome};
 
 /// Bytes; syntax is read by functions that call themselves, as deep as `scan` permits. Only what is used is taken.
 const STACK: usize = 256 << 20;
 
 fn main() -> ExitCode {
     outcome::report_bugs();
-    outcome::end_at_interrupt();
+    interrupt::end_hulkgen();
     let arguments = Arguments::parse();
     let commands = thread::Builder::new()
         .stack_size(STACK)

@@ -11,13 +11,8 @@
 
 use std::panic::PanicHookInfo;
 use std::process::ExitCode;
-use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
 
-use signal_hook::consts::SIGINT;
-
-/// The status after Ctrl-C, as shells expect it.
-const INTERRUPTED: i32 = 130;
+use crate::interrupt;
 
 /// How a command ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,6 +25,8 @@ pub enum Outcome {
     WrongUsage,
     /// The generated crate is not what would be written now.
     Drift,
+    /// By Ctrl-C, after the program that hulkgen had started ended for it, too.
+    Interrupted,
 }
 
 /// Why a command could not be done, for a person.
@@ -76,6 +73,7 @@ impl From<Outcome> for ExitCode {
             Outcome::Bad => Self::from(1),
             Outcome::WrongUsage => Self::from(2),
             Outcome::Drift => Self::from(3),
+            Outcome::Interrupted => Self::from(interrupt::STATUS),
         }
     }
 }
@@ -87,13 +85,6 @@ pub fn report_bugs() {
         // A closed stderr must not panic within the panic.
         let _ = std::io::stderr().write_all(bug_report(panic).as_bytes());
     }));
-}
-
-/// From now on Ctrl-C ends hulkgen with status 130; a robot that `run` started handles it itself.
-pub fn end_at_interrupt() {
-    let always = Arc::new(AtomicBool::new(true));
-    // Without the handler Ctrl-C still ends hulkgen, only with another status.
-    let _ = signal_hook::flag::register_conditional_shutdown(SIGINT, INTERRUPTED, always);
 }
 
 fn bug_report(panic: &PanicHookInfo<'_>) -> String {

@@ -12,7 +12,8 @@ use super::{Build, TextOrJson};
 /// The hardware of the target has to have the tool `vision`, as that of the simulated NAO has.
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "\
-Exit status: 0 every image was looked at, 1 one cannot be read or the robot cannot be built, 2 wrong usage.
+Exit status: 0 every image was looked at, 1 one cannot be read or the robot cannot be built, 2 wrong usage,
+             130 Ctrl-C.
 
 Examples:
   hulkgen vision photograph.png --camera-pose 0.5,0.3 --instance VisionTop

@@ -4,7 +4,7 @@ mod program;
 
 use camino::{Utf8Path, Utf8PathBuf};
 
-pub(super) use program::{absolute, become_robot};
+pub(super) use program::{absolute, become_robot, end_of_robot};
 
 use super::cargo::{OWN_PROFILE, Request};
 use super::session::Session;

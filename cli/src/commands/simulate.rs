@@ -1,14 +1,14 @@
 //! `simulate`: generate, build, and let the robot's program play scenarios, one after the other.
 
 use std::ffi::OsString;
-use std::process::Command;
 
 use camino::Utf8Path;
 
 use super::Failure;
-use super::run::{Wanted, absolute, build};
+use super::run::{Wanted, absolute, build, end_of_robot};
 use super::session::Session;
 use crate::arguments::{Simulate, TextOrJson};
+use crate::interrupt::Ended;
 use crate::outcome::{Outcome, Refusal};
 
 pub(super) fn run(session: &mut Session<'_>, simulate: &Simulate) -> Result<Outcome, Failure> {
@@ -26,16 +26,12 @@ pub(super) fn run(session: &mut Session<'_>, simulate: &Simulate) -> Result<Outc
     };
     let mut outcome = Outcome::Good;
     for scenario in &simulate.scenarios {
-        let status = Command::new(&executable)
-            .args(arguments(simulate, scenario)?)
-            .current_dir(session.workspace.root())
-            .status()
-            .map_err(|error| Refusal::bad(format!("cannot start `{executable}`: {error}")))?;
-        match status.code() {
-            Some(0) => {}
-            // Ctrl-C is meant for all of them, and ends hulkgen itself as well.
-            Some(130) => return Ok(Outcome::Bad),
-            _ => outcome = Outcome::Bad,
+        let arguments = arguments(simulate, scenario)?;
+        match end_of_robot(&executable, &arguments, session.workspace.root())? {
+            Ended::ByItself(Some(0)) => {}
+            // Ctrl-C is meant for all of them.
+            Ended::ByInterrupt => return Ok(Outcome::Interrupted),
+            Ended::ByItself(_) => outcome = Outcome::Bad,
         }
     }
     Ok(outcome)

@@ -1,12 +1,12 @@
 //! `vision`: generate, build, and let the tool `vision` of the robot's hardware look at images.
 
 use std::ffi::OsString;
-use std::process::Command;
 
 use super::Failure;
-use super::run::{Wanted, absolute, build};
+use super::run::{Wanted, absolute, build, end_of_robot};
 use super::session::Session;
 use crate::arguments::{TextOrJson, Vision};
+use crate::interrupt::Ended;
 use crate::outcome::{Outcome, Refusal};
 
 pub(super) fn run(session: &mut Session<'_>, vision: &Vision) -> Result<Outcome, Failure> {
@@ -22,15 +22,13 @@ pub(super) fn run(session: &mut Session<'_>, vision: &Vision) -> Result<Outcome,
     let Some(executable) = build(session, &wanted)? else {
         return Ok(Outcome::Bad);
     };
-    let status = Command::new(&executable)
-        .args(arguments(vision)?)
-        .current_dir(session.workspace.root())
-        .status()
-        .map_err(|error| Refusal::bad(format!("cannot start `{executable}`: {error}")))?;
-    Ok(match status.code() {
-        Some(0) => Outcome::Good,
-        Some(2) => Outcome::WrongUsage,
-        _ => Outcome::Bad,
+    let arguments = arguments(vision)?;
+    let ended = end_of_robot(&executable, &arguments, session.workspace.root())?;
+    Ok(match ended {
+        Ended::ByItself(Some(0)) => Outcome::Good,
+        Ended::ByItself(Some(2)) => Outcome::WrongUsage,
+        Ended::ByItself(_) => Outcome::Bad,
+        Ended::ByInterrupt => Outcome::Interrupted,
     })
 }
 

@@ -1,9 +1,10 @@
 //! The built `hulkgen`: what it prints where, and how it ends.
 
 mod cache;
+mod interrupt;
 mod robot;
 
-use std::process::{Command, Stdio};
+use std::process::Stdio;
 
 use clap::CommandFactory as _;
 use hulkgen::arguments::Arguments;
@@ -473,27 +474,4 @@ fn a_failed_build_ends_with_1() {
         "{}",
         ended.stderr
     );
-}
-
-#[test]
-fn ctrl_c_reaches_the_program_and_its_status_is_ours() {
-    let robot = Robot::tiny();
-    let cargo = fake_cargo(&robot, SAYS_BUILT);
-    let script = "trap 'exit 130' INT\necho started\nwhile true; do sleep 0.05; done";
-    fake_program(&robot, script);
-    let mut child = robot
-        .command("run real")
-        .env("CARGO", cargo)
-        .stdout(Stdio::piped())
-        .stderr(Stdio::null())
-        .spawn()
-        .expect("hulkgen was built");
-    let mut line = String::new();
-    let mut stdout = std::io::BufReader::new(child.stdout.take().expect("it is piped"));
-    std::io::BufRead::read_line(&mut stdout, &mut line).expect("the program says something");
-    assert_eq!(line, "started\n");
-    let process = child.id().to_string();
-    let sent = Command::new("kill").args(["-INT", &process]).status();
-    assert!(sent.expect("there is a kill").success());
-    assert_eq!(child.wait().expect("it ends").code(), Some(130));
 }

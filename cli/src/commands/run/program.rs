@@ -1,6 +1,7 @@
-//! The robot's program in place of hulkgen.
+//! The robot's program, in place of hulkgen or while hulkgen waits.
 
 use std::ffi::OsString;
+use std::io;
 use std::os::unix::process::CommandExt as _;
 use std::path::PathBuf;
 use std::process::Command;
@@ -8,6 +9,7 @@ use std::process::Command;
 use camino::Utf8Path;
 
 use crate::arguments::{Run, TextOrJson};
+use crate::interrupt::{self, Ended};
 use crate::outcome::Refusal;
 
 /// Replaces this process, so that signals, exit status and terminal are the robot's own, as
@@ -18,10 +20,27 @@ pub(in crate::commands) fn become_robot(
     arguments: &[OsString],
     root: &Utf8Path,
 ) -> Refusal {
-    let error = Command::new(executable)
-        .args(arguments)
-        .current_dir(root)
-        .exec();
+    let error = command(executable, arguments, root).exec();
+    cannot_start(executable, &error)
+}
+
+/// Runs it to its end in the workspace root; Ctrl-C is left to it.
+pub(in crate::commands) fn end_of_robot(
+    executable: &Utf8Path,
+    arguments: &[OsString],
+    root: &Utf8Path,
+) -> Result<Ended, Refusal> {
+    interrupt::wait_for(|| command(executable, arguments, root).status())
+        .map_err(|error| cannot_start(executable, &error))
+}
+
+fn command(executable: &Utf8Path, arguments: &[OsString], root: &Utf8Path) -> Command {
+    let mut command = Command::new(executable);
+    command.args(arguments).current_dir(root);
+    command
+}
+
+fn cannot_start(executable: &Utf8Path, error: &io::Error) -> Refusal {
     Refusal::bad(format!("cannot start `{executable}`: {error}"))
 }
 
