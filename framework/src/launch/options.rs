@@ -209,6 +209,13 @@ pub(super) fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Com
         }
     }
     options.is_replay = options.replay.is_asked(!options.settings.is_empty())?;
+    if let (Some(_), Record::Into(path)) = (&options.scenario, &options.record) {
+        let path = path.display();
+        return Err(Error::new(format!(
+            "--record {path}: a scenario may be played several times and names its recordings itself: say `--record on`, \
+             and with `--run-folder DIR` where they shall lie"
+        )));
+    }
     Ok(Command::Run(Box::new(options)))
 }
 
@@ -336,7 +343,7 @@ mod tests {
             "--run-folder",
             "there",
             "--record",
-            "tape",
+            "on",
             "--record-output",
             "Control.main_outputs.steps",
             "--recording-budget",
@@ -373,7 +380,7 @@ mod tests {
                 ("c".to_owned(), "x=y".to_owned()),
             ],
             run_folder: "there".into(),
-            record: Record::Into("tape".into()),
+            record: Record::On,
             record_outputs: vec!["Control.main_outputs.steps".to_owned()],
             recording_budget: Some(3 << 20),
             is_replay: true,
@@ -397,6 +404,8 @@ mod tests {
             hardware: vec!["--for".to_owned(), "lamp".to_owned()],
         };
         assert_eq!(options.expect("all options are valid"), expected);
+        let named = parsed(&["--record=tape"]).expect("no scenario is played");
+        assert_eq!(named.record, Record::Into("tape".into()));
     }
 
     #[test]
@@ -469,6 +478,7 @@ mod tests {
             &["--set", "a=1", "--carry"],
             &["--replay=old", "--verify", "--tolerance=-1"],
             &["--recording-budget", "2"],
+            &["--scenario=s.toml", "--record=tape"],
         ] {
             assert!(parsed(wrong).is_err(), "{wrong:?}");
         }

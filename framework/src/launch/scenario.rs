@@ -28,13 +28,6 @@ pub(super) fn run<H: Hardware + 'static, P: ParameterData>(
     create: &mut impl FnMut(&Arc<H>, Start<P>) -> Result<Robot<P>>,
     serve: Serve,
 ) -> Result<u8> {
-    if let Record::Into(path) = &options.record {
-        let path = path.display();
-        return Err(Error::new(format!(
-            "--record {path}: a scenario may be played several times and names its recordings itself: say `--record on`, \
-             and with `--run-folder DIR` where they shall lie"
-        )));
-    }
     // Nobody watches unless somebody says where: most scenarios are played to be judged.
     let listening = options
         .listening(target)

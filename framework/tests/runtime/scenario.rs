@@ -225,7 +225,7 @@ fn every_seed_is_a_run_and_enough_of_them_must_pass() {
 #[test]
 fn a_scenario_names_its_recordings_itself() {
     let scenario = assertion("value = 'truth.events'\nabove = 0");
-    assert_eq!(play(&scenario, &["--record", "tape"]), (1, Value::Null));
+    assert_eq!(play(&scenario, &["--record", "tape"]), (2, Value::Null));
     let (status, outcome) = play(&scenario, &["--record", "on"]);
     let recordings = &outcome["runs"][0]["recordings"];
     assert_eq!((status, recordings.as_array().map(Vec::len)), (0, Some(1)));
