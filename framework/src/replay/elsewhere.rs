@@ -1,4 +1,5 @@
-//! Another build of the robot, asked line by line: a program that was started with `--replay FILE --answer`.
+//! Another build of the robot, asked line by line: a program that was started with `--replay FILE --answer`, and with
+//! `--carry` where its cycles are to go on with what the one before them left.
 //!
 //! ```text
 //! asked:     {"play":{"instance":"Control","position":7}}     {"value":{"instance":"Control","output":"speed"}}
@@ -55,18 +56,21 @@ pub struct Elsewhere {
     /// `None` while it is being dropped.
     questions: Option<ChildStdin>,
     answers: BufReader<ChildStdout>,
+    /// The option of this one's that the other build has to know.
+    option: &'static str,
 }
 
 impl Elsewhere {
-    /// Starts the program for a recording.
+    /// Starts the program for a recording. With `carry` its cycles go on with what the one before them left.
     ///
     /// # Errors
     /// If it cannot be started.
-    pub fn start(program: &Path, recording: &Path) -> Result<Self> {
+    pub fn start(program: &Path, recording: &Path, carry: bool) -> Result<Self> {
         let mut child = Command::new(program)
             .arg("--replay")
             .arg(recording)
             .arg("--answer")
+            .args(carry.then_some("--carry"))
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             // What it has to say of options that it does not know is no help here.
@@ -82,6 +86,11 @@ impl Elsewhere {
             child,
             questions: Some(questions),
             answers: BufReader::new(answers),
+            option: if carry {
+                "--against … --carry"
+            } else {
+                "--against"
+            },
         })
     }
 
@@ -93,9 +102,10 @@ impl Elsewhere {
         });
         let line = asked.unwrap_or_default();
         serde_json::from_str(&line).map_err(|_| {
-            Error::new(
-                "the other build does not answer: it is older than `--against`, or it cannot read the recording",
-            )
+            let option = self.option;
+            Error::new(format!(
+                "the other build does not answer: it is older than `{option}`, or it cannot read the recording"
+            ))
         })
     }
 
