@@ -4,6 +4,7 @@
 //! Invariant: tools are pinned and checked by digest; a folder of tools that is not whole is not used.
 
 mod elf;
+mod flags;
 mod processor;
 mod requirements;
 mod tools;
@@ -12,6 +13,7 @@ mod verdict;
 use camino::Utf8Path;
 
 pub use elf::{Elf, Version};
+pub use flags::{ENCODED, Flags};
 pub use processor::Processor;
 pub use tools::Tools;
 pub use verdict::{Wanted, objections};

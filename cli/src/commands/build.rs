@@ -1,7 +1,5 @@
 //! `build`: generate, build for the target's machine, and tell whether the program would start there.
 
-use std::ffi::{OsStr, OsString};
-
 use camino::Utf8PathBuf;
 use serde_json::json;
 
@@ -12,7 +10,7 @@ use super::run::{absolute, choose_target, profile};
 use super::session::Session;
 use crate::arguments::{self, TextOrJson};
 use crate::cache::user_folder;
-use crate::cross::{self, Elf, Processor, Tools, Wanted};
+use crate::cross::{self, Elf, Flags, Processor, Tools, Wanted};
 use crate::outcome::{Outcome, Refusal};
 use crate::resolve::robot::Target;
 
@@ -38,15 +36,17 @@ pub(super) fn run(
     if session.diagnostics.has_errors() {
         return Ok(Outcome::Bad);
     }
-    let own_flags = std::env::var_os("RUSTFLAGS");
-    if let Some(cpu) = &target.cpu {
+    let flags = target.cpu.as_deref().map(|cpu| {
         let processor = Processor {
             folder: session.workspace.root(),
             triple: wanted.as_ref().map(|wanted| wanted.triple.as_str()),
             cpu,
         };
-        refuse_lacking(&processor, own_flags.as_deref())?;
-    }
+        let own = Flags::of(&processor.compiled_for()?, |name| std::env::var(name).ok());
+        refuse_lacking(&processor, &own)?;
+        Ok::<_, Refusal>(own.encoded(cpu))
+    });
+    let flags = flags.transpose()?;
     generate::write(session, &understood)?;
     let profile = profile(build.build.profile.as_deref(), target).unwrap_or(OWN_PROFILE);
     let target_dir = build
@@ -60,8 +60,8 @@ pub(super) fn run(
         let tools = Tools::bring(user_folder(), |what| session.terminal.note(what))?;
         request.cross(&tools, triple);
     }
-    if let Some(cpu) = &target.cpu {
-        request.set("RUSTFLAGS", flags(own_flags, cpu));
+    if let Some(flags) = flags {
+        request.set(cross::ENCODED, flags.into());
     }
     // What is left out of the program is not sent to the robot either; panics keep file and line.
     let strip = profile.replace('-', "_").to_uppercase();
@@ -113,26 +113,16 @@ fn wanted_of(triple: &str) -> Result<Wanted, Refusal> {
 }
 
 /// Nothing is built with flags of the environment that let the program use what the processor lacks.
-fn refuse_lacking(processor: &Processor<'_>, own: Option<&OsStr>) -> Result<(), Refusal> {
-    let own = own.map(OsStr::to_string_lossy).unwrap_or_default();
-    let features = processor.lacks(&own)?;
+fn refuse_lacking(processor: &Processor<'_>, own: &Flags) -> Result<(), Refusal> {
+    let features = processor.lacks(&own.words)?;
     if features.is_empty() {
         return Ok(());
     }
-    let (names, cpu) = (features.join(", "), processor.cpu);
-    let message = format!("RUSTFLAGS lets the program use {names}, which `{cpu}` lacks");
-    Err(Refusal::bad(message)
-        .help("take it out of RUSTFLAGS, or name a newer processor as the target's `cpu`"))
-}
-
-/// rustc's flags of the environment, and the target's processor.
-fn flags(own: Option<OsString>, cpu: &str) -> OsString {
-    let mut flags = own.unwrap_or_default();
-    if !flags.is_empty() {
-        flags.push(" ");
-    }
-    flags.push(format!("-Ctarget-cpu={cpu}"));
-    flags
+    let (names, cpu, variable) = (features.join(", "), processor.cpu, &own.variable);
+    let message = format!("{variable} lets the program use {names}, which `{cpu}` lacks");
+    Err(Refusal::bad(message).help(format!(
+        "take it out of {variable}, or name a newer processor as the target's `cpu`"
+    )))
 }
 
 impl Program<'_> {
@@ -174,27 +164,24 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_processor_joins_the_flags_of_the_environment() {
-        assert_eq!(flags(None, "silvermont"), "-Ctarget-cpu=silvermont");
-        let own = Some("-Cdebuginfo=0".into());
-        assert_eq!(
-            flags(own, "x86-64-v2"),
-            "-Cdebuginfo=0 -Ctarget-cpu=x86-64-v2"
-        );
-    }
-
-    #[test]
     fn flags_that_the_processor_cannot_keep_are_refused() {
         let processor = Processor {
             folder: camino::Utf8Path::new("."),
             triple: Some("x86_64-unknown-linux-gnu"),
             cpu: "silvermont",
         };
-        let refused = |flags: &str| refuse_lacking(&processor, Some(flags.as_ref()));
+        let refused = |flag: &str| {
+            let own = Flags {
+                variable: "RUSTFLAGS".to_owned(),
+                words: vec![flag.to_owned()],
+            };
+            refuse_lacking(&processor, &own)
+        };
         assert_eq!(refused("-Cdebuginfo=0"), Ok(()));
-        assert_eq!(refuse_lacking(&processor, None), Ok(()));
+        assert_eq!(refuse_lacking(&processor, &Flags::default()), Ok(()));
         let refusal = refused("-Ctarget-feature=+avx2").expect_err("the robot has no AVX");
-        assert!(refusal.message.contains("avx, avx2"), "{refusal:?}");
+        let message = "RUSTFLAGS lets the program use avx, avx2, which `silvermont` lacks";
+        assert_eq!(refusal.message, message);
     }
 
     #[test]

@@ -26,25 +26,45 @@ impl Processor<'_> {
     ///
     /// # Errors
     /// If rustc cannot be asked, or understands neither the triple nor the flags.
-    pub fn lacks(&self, flags: &str) -> Result<Vec<String>, Refusal> {
-        let flags: Vec<&str> = flags.split_whitespace().collect();
+    pub fn lacks(&self, flags: &[String]) -> Result<Vec<String>, Refusal> {
         if flags.is_empty() {
             return Ok(Vec::new());
         }
         let there = self.features(&[])?;
-        let used = self.features(&flags)?;
+        let used = self.features(flags)?;
         Ok(used.difference(&there).cloned().collect())
     }
 
-    fn features(&self, flags: &[&str]) -> Result<BTreeSet<String>, Refusal> {
+    /// The triple that rustc compiles for.
+    ///
+    /// # Errors
+    /// If rustc cannot be asked.
+    pub fn compiled_for(&self) -> Result<String, Refusal> {
+        match self.triple {
+            Some(triple) => Ok(triple.to_owned()),
+            None => Ok(self.ask("host-tuple", &[])?.trim().to_owned()),
+        }
+    }
+
+    fn features(&self, flags: &[String]) -> Result<BTreeSet<String>, Refusal> {
+        let mut all = flags.to_vec();
+        all.push(format!("-Ctarget-cpu={}", self.cpu));
+        if let Some(triple) = self.triple {
+            all.extend(["--target", triple].map(str::to_owned));
+        }
+        let said = self.ask("cfg", &all)?;
+        let feature = |line: &str| {
+            let name = line.strip_prefix("target_feature=\"")?.strip_suffix('"')?;
+            Some(name.to_owned())
+        };
+        Ok(said.lines().filter_map(feature).collect())
+    }
+
+    fn ask(&self, what: &str, flags: &[String]) -> Result<String, Refusal> {
         let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
         let mut command = Command::new(rustc);
         command.current_dir(self.folder);
-        command.args(["--print", "cfg"]).args(flags);
-        command.arg(format!("-Ctarget-cpu={}", self.cpu));
-        if let Some(triple) = self.triple {
-            command.args(["--target", triple]);
-        }
+        command.args(["--print", what]).args(flags);
         let answer = command.output().map_err(|error| {
             Refusal::bad(format!(
                 "cannot ask rustc what `{}` can do: {error}",
@@ -60,12 +80,7 @@ impl Processor<'_> {
                 self.cpu
             )));
         }
-        let said = String::from_utf8_lossy(&answer.stdout);
-        let feature = |line: &str| {
-            let name = line.strip_prefix("target_feature=\"")?.strip_suffix('"')?;
-            Some(name.to_owned())
-        };
-        Ok(said.lines().filter_map(feature).collect())
+        Ok(String::from_utf8_lossy(&answer.stdout).into_owned())
     }
 }
 
@@ -83,22 +98,26 @@ mod tests {
         }
     }
 
+    fn words(flags: &[&str]) -> Vec<String> {
+        flags.iter().map(|flag| (*flag).to_owned()).collect()
+    }
+
     #[test]
     fn what_a_processor_lacks_is_named() {
-        let lacks = |flags| nao().lacks(flags).expect("rustc understands it");
-        assert!(lacks("").is_empty());
-        assert!(lacks("-Copt-level=1 -Ctarget-feature=+sse4.2").is_empty());
+        let lacks = |flags: &[&str]| nao().lacks(&words(flags)).expect("rustc understands it");
+        assert!(lacks(&[]).is_empty());
+        assert!(lacks(&["-Copt-level=1", "-Ctarget-feature=+sse4.2"]).is_empty());
         assert_eq!(
-            lacks("-Copt-level=1 -Ctarget-feature=+avx2"),
+            lacks(&["-Copt-level=1", "-Ctarget-feature=+avx2"]),
             ["avx", "avx2"]
         );
         // The target's own word comes behind it and counts.
-        assert!(lacks("-Ctarget-cpu=haswell").is_empty());
+        assert!(lacks(&["-Ctarget-cpu=haswell"]).is_empty());
         let newer = Processor {
             cpu: "x86-64-v3",
             ..nao()
         };
-        let lacks = newer.lacks("-Ctarget-feature=+avx2");
+        let lacks = newer.lacks(&words(&["-Ctarget-feature=+avx2"]));
         assert!(lacks.expect("rustc understands it").is_empty());
     }
 
@@ -108,7 +127,8 @@ mod tests {
             triple: Some("z80-unknown-cpm"),
             ..nao()
         };
-        let refusal = nowhere.lacks("-Copt-level=1").expect_err("nobody has it");
+        let refusal = nowhere.lacks(&words(&["-Copt-level=1"]));
+        let refusal = refusal.expect_err("nobody has it");
         assert!(refusal.message.contains("z80-unknown-cpm"), "{refusal:?}");
     }
 }

@@ -1,5 +1,6 @@
 //! The built `hulkgen`: what it prints where, and how it ends.
 
+mod build;
 mod cache;
 mod interrupt;
 mod robot;
