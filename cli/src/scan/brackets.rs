@@ -13,8 +13,9 @@ pub(super) enum Unbalanced {
     Closed(Range<usize>),
     /// A bracket that nothing closes; the second place is that of another kind that came first.
     Opened(Range<usize>, Option<Range<usize>>),
-    /// A text or comment that goes on to the end of the file.
-    Endless(Range<usize>, &'static str),
+    /// A text or comment that goes on to the end of the file; the second place is that of a text over lines in front of it
+    /// whose own end it may be that is missing.
+    Endless(Range<usize>, &'static str, Option<Range<usize>>),
 }
 
 /// A bracket that is still open.
@@ -32,20 +33,23 @@ pub(super) fn unbalanced(text: &str) -> Option<Unbalanced> {
     let mut open: Vec<Open> = Vec::new();
     // A bracket whose supposed end stands farther left than its line: more likely than any other the one that is not closed.
     let mut suspect: Option<usize> = None;
-    // Where one text lacks its end, the next one's beginning is taken for it: the first that goes over lines.
-    let mut long: Option<usize> = None;
+    let mut texts: Vec<Range<usize>> = Vec::new();
     let mut at = 0;
     while at < bytes.len() {
         let next = match behind(text, at) {
             Ok(next) => next,
             Err(what) => {
-                let at = long.filter(|_| what == TEXT).unwrap_or(at);
-                return Some(Unbalanced::Endless(at..at + 1, what));
+                let (at, other) = match what {
+                    TEXT => endless(text, &texts, at),
+                    _ => (at, None),
+                };
+                let other = other.map(|other| other..other + 1);
+                return Some(Unbalanced::Endless(at..at + 1, what, other));
             }
         };
         if next > at {
-            if bytes[at] == b'"' && text[at..next].contains('\n') {
-                long.get_or_insert(at);
+            if bytes[at] == b'"' {
+                texts.push(at..next);
             }
             at = next;
             continue;
@@ -79,6 +83,25 @@ pub(super) fn unbalanced(text: &str) -> Option<Unbalanced> {
     let last = open.last()?.at;
     let at = suspect.unwrap_or(last);
     Some(Unbalanced::Opened(at..at + 1, None))
+}
+
+/// Which text lacks its end, where the one that begins here goes on to the end of the file; and which other one it may be.
+///
+/// Where one lacks its end, the next one's beginning is taken for it, and from then on code between two texts for a text.
+fn endless(text: &str, texts: &[Range<usize>], at: usize) -> (usize, Option<usize>) {
+    // What stands behind a text in code; few texts that go over lines begin so.
+    let is_code = |start: &usize| {
+        let inside = text[start + 1..].trim_start_matches(' ');
+        inside.starts_with([')', ']', '}', ',', ';', '.', '?']) || inside.starts_with("=>")
+    };
+    let is_long = |one: &&Range<usize>| text[one.start..one.end].contains('\n');
+    let mut long = texts.iter().filter(is_long).map(|one| one.start);
+    let Some(code) = long.clone().chain([at]).find(is_code) else {
+        return (at, long.next());
+    };
+    let mut before = texts.iter().map(|one| one.start);
+    let last = before.rfind(|start| *start < code && !is_code(start));
+    (last.unwrap_or(code), None)
 }
 
 fn closing(bracket: u8) -> u8 {
@@ -194,12 +217,21 @@ impl Unbalanced {
                     &text[at.clone()]
                 ))
             }
-            Self::Endless(at, what) => error(format!("this {what} has no end"))
-                .at(file, at.clone(), "begins here")
+            Self::Endless(at, what, other) => {
+                let error = error(format!("this {what} has no end"));
+                let error = error.at(file, at.clone(), "begins here");
+                match other {
+                    Some(other) => {
+                        let may_be = "or this one, which goes over lines, has none";
+                        error.at(file, other.clone(), may_be)
+                    }
+                    None => error,
+                }
                 .help(match *what {
                     "comment" => "write `*/` where it ends",
                     _ => "write `\"` where it ends",
-                }),
+                })
+            }
         }
     }
 }

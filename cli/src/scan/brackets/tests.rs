@@ -20,7 +20,13 @@ fn told(text: &str) -> String {
     match unbalanced(text).expect("something is wrong") {
         Unbalanced::Closed(at) => format!("closes nothing: line {}", line(text, at.start)),
         Unbalanced::Opened(at, _) => format!("not closed: line {}", line(text, at.start)),
-        Unbalanced::Endless(at, what) => format!("endless {what}: line {}", line(text, at.start)),
+        Unbalanced::Endless(at, what, None) => {
+            format!("endless {what}: line {}", line(text, at.start))
+        }
+        Unbalanced::Endless(at, what, Some(other)) => {
+            let [at, other] = [at, other].map(|place| line(text, place.start));
+            format!("endless {what}: line {at} or {other}")
+        }
     }
 }
 
@@ -65,4 +71,29 @@ fn the_bracket_is_told_and_not_the_end_of_the_file() {
     assert_eq!(told("fn a() {\n    b(\"c);\n}\n"), "endless text: line 2");
     let more = "fn a() {\n    b(\"c);\n    d(\"e\");\n    f(\"g\");\n}\n";
     assert_eq!(told(more), "endless text: line 2");
+}
+
+#[test]
+fn a_text_over_lines_is_not_blamed_for_a_later_one() {
+    let long = "fn a() {\n    b(\"c\n        d\");\n";
+    for (rest, expected) in [
+        // Nobody can know: `;` may well be the end of a text.
+        ("    let e = \"f;\n}\n", "line 4 or 2"),
+        ("    e(\"f);\n    g(\"h\");\n}\n", "line 4"),
+        (
+            "    e(\"f);\n    g(\"h\", \"i\");\n    j(\"k\");\n}\n",
+            "line 4",
+        ),
+        ("    e(\"f\", \"g, \"h\");\n    i(\"j\");\n}\n", "line 4"),
+        (
+            "    e(\"f);\n    g(\"h\n    i\");\n    j(\"k\");\n}\n",
+            "line 4",
+        ),
+    ] {
+        let text = format!("{long}{rest}");
+        assert_eq!(told(&text), format!("endless text: {expected}"), "{text}");
+    }
+    // The one over lines itself.
+    let text = "fn a() {\n    b(\"c\n        d);\n    e(\"f\");\n    g(\"h\");\n}\n";
+    assert_eq!(told(text), "endless text: line 2");
 }
