@@ -4,6 +4,7 @@ use std::ffi::OsString;
 use std::sync::Arc;
 
 use framework::launch;
+use framework::logs::Sink;
 use framework::testing::TARGET;
 use framework::{Result, Robot, Start};
 use serde_json::Value;
@@ -292,6 +293,27 @@ fn several_robots_live_in_one_world_and_one_that_crashes_leaves_the_others() {
     let one = played("1");
     assert_eq!(one.0.as_array().map(Vec::len), Some(2));
     assert_eq!(played("2"), one);
+}
+
+#[test]
+fn what_a_robot_says_while_it_is_created_is_its_own() {
+    let it = assertion("value = 'truth.events'\nabove = 0\nat_end = true");
+    let (_folder, mut all) = written(&format!("ends = 0.1\n{it}[[robot]]\n[[robot]]\n"));
+    all.extend(["--record", "off"].map(OsString::from));
+    let mut sinks = Vec::new();
+    let create = |hardware: &Arc<ScriptedHardware>, start: Start<Parameters>| {
+        sinks.push(Sink::new(start.clock.clone()));
+        tracing::warn!(target: "created", robot = sinks.len(), "is there");
+        Ok(robot(hardware, &Setting::default()))
+    };
+    let status = launch::run(TARGET, all, &mut Vec::new(), create, launch::nobody);
+    assert_eq!(status, 0);
+    let heard = sinks.iter().map(|sink| {
+        let said = std::iter::from_fn(|| sink.take()).filter(|said| said.module == "created");
+        let robots = said.map(|said| said.fields["robot"].as_u64());
+        robots.flatten().collect::<Vec<_>>()
+    });
+    assert_eq!(heard.collect::<Vec<_>>(), [[1], [2]]);
 }
 
 #[test]
