@@ -40,8 +40,8 @@ Exit status: 0 done and good, 1 the answer is bad, 2 wrong usage, 3 drift (gener
 Data goes to stdout, everything else to stderr.
 
 Begin with:
-  hulkgen new my_robot          # a robot that runs; or, in the folder of one:
-  hulkgen run                   # generate, build, run until Ctrl-C
+  hulkgen new my_robot          # write a robot that runs
+  hulkgen run                   # in the robot's folder: generate, build, run until Ctrl-C
   hulkgen doctor                # what this machine lacks
   hulkgen run --help            # examples and exit status of a command",
     arg_required_else_help = true
