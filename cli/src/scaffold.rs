@@ -74,10 +74,15 @@ fn own_member<'w>(
         // In a workspace of many crates most have no nodes, and are of no help.
         let nodes = robot.cyclers.iter().flat_map(|cycler| &cycler.nodes);
         let crates = nodes.filter_map(|node| node.path.split("::").next());
-        let list = format!("the robot's nodes stand in {}", listed(crates));
-        let names = own().map(|member| member.library.as_str());
+        let mut crates = crates.peekable();
+        let names = || own().map(|member| member.library.as_str());
+        let list = if crates.peek().is_some() {
+            format!("the robot's nodes stand in {}", listed(crates))
+        } else {
+            format!("the workspace has {}", listed(names()))
+        };
         let message = format!("no crate of the workspace is called `{library}`");
-        corrected(&message, nearest(library, names), list)
+        corrected(&message, nearest(library, names()), list)
     })
 }
 

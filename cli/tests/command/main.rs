@@ -389,6 +389,19 @@ fn colour_only_where_it_is_asked_for() {
 }
 
 #[test]
+fn where_no_node_is_yet_the_crates_are_named_that_one_may_stand_in() {
+    let robot = Robot::tiny();
+    let manifest = robot.read("hulk.toml");
+    let (head, rest) = manifest.split_once("[[cycler]]").expect("it has one");
+    let (_, targets) = rest.split_once("[[target]]").expect("it has two");
+    robot.write("hulk.toml", &format!("{head}[[target]]{targets}"));
+    robot.write("parameters/default.toml", "");
+    let ended = robot.run("add-cycler Control --kind real-time --setup-node thinking::clock");
+    let said = ended.expect(2).stderr;
+    assert!(said.contains("the workspace has `nodes`\n"), "{said}");
+}
+
+#[test]
 fn a_reader_that_goes_away_is_no_bug() {
     let robot = Robot::tiny();
     let mut child = robot
