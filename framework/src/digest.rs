@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use hulkgen_mcap::Fnv;
 use serde::Serialize;
 use serde::ser::{
     self, SerializeMap, SerializeSeq, SerializeStruct, SerializeStructVariant, SerializeTuple,
@@ -11,21 +12,12 @@ use serde::ser::{
 use crate::cycler::Instance;
 
 /// FNV-1a over serialised values, bit for bit: unlike in text, every NaN is itself.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub struct Digest(u64);
+#[derive(Clone, Copy, Default, PartialEq, Eq)]
+pub struct Digest(Fnv);
 
 /// Why a value cannot be part of a digest: its own `Serialize` failed.
 #[derive(Debug)]
 pub struct DigestError(String);
-
-const OFFSET: u64 = 0xcbf2_9ce4_8422_2325;
-const PRIME: u64 = 0x0000_0100_0000_01b3;
-
-impl Default for Digest {
-    fn default() -> Self {
-        Self(OFFSET)
-    }
-}
 
 impl Digest {
     /// The digest of nothing.
@@ -35,7 +27,7 @@ impl Digest {
 
     /// What was added so far, as a number.
     pub fn value(self) -> u64 {
-        self.0
+        self.0.value()
     }
 
     /// Adds one value.
@@ -56,9 +48,7 @@ impl Digest {
     }
 
     fn bytes(&mut self, bytes: &[u8]) {
-        for byte in bytes {
-            self.0 = (self.0 ^ u64::from(*byte)).wrapping_mul(PRIME);
-        }
+        self.0.add(bytes);
     }
 
     /// Lengths and variants, so that neighbours cannot exchange parts.
@@ -75,7 +65,7 @@ impl fmt::Debug for Digest {
 
 impl fmt::Display for Digest {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(formatter, "{:016x}", self.0)
+        write!(formatter, "{:016x}", self.value())
     }
 }
 

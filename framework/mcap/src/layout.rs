@@ -13,6 +13,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use crate::file::Attachment;
+use crate::fnv::Fnv;
 
 pub use difference::first_difference;
 pub use read::{Unreadable, Values};
@@ -163,10 +164,6 @@ impl Layout {
     /// FNV-1a (64 bit) of all that it says, so that two of them can be compared by a number.
     pub fn digest(parts: &[Part]) -> u64 {
         let text = serde_json::to_string(parts).unwrap_or_default();
-        let bytes = text.bytes();
-        // http://www.isthe.com/chongo/tech/comp/fnv: basis and prime of 64 bits.
-        bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
-            (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
-        })
+        Fnv::of(text.as_bytes())
     }
 }

@@ -6,6 +6,7 @@
 //! Invariant: nothing here needs the types of a robot; what a robot wrote tells its [`Layout`] beside it.
 
 mod file;
+mod fnv;
 mod format;
 mod index;
 pub mod layout;
@@ -15,6 +16,7 @@ mod recover;
 mod ring;
 
 pub use file::{Attachment, Channel, ChannelId, Description, Metadata, Schema, Writer};
+pub use fnv::Fnv;
 pub use format::{MESSAGE_HEAD, RECORD_HEAD, opcode};
 pub use layout::Layout;
 pub use open::{ChunkPlace, Contents, RecordingFile};
