@@ -21,6 +21,7 @@ pub use export::{Export, Exported, export};
 pub use images::Images;
 pub use info::{Info, InstanceInfo, PartInfo, info};
 pub use list::{Run, list};
+pub(crate) use values::part;
 pub use values::{Found, Selection, Span, cat};
 
 /// Encodings of the channels that a robot's recording has; all others are JSON or nothing that hulkgen knows.

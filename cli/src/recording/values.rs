@@ -369,8 +369,10 @@ fn select(source: &Source, value: Value, selection: &Selection) -> Vec<Found> {
     parts
 }
 
-fn part<'value>(value: &'value Value, path: &str) -> Option<&'value Value> {
-    path.split('.').try_fold(value, |value, name| match value {
+/// The part of a value at a path, whose names may be positions in lists; without a name all of it.
+pub(crate) fn part<'value>(value: &'value Value, path: &str) -> Option<&'value Value> {
+    let mut names = path.split('.').filter(|name| !name.is_empty());
+    names.try_fold(value, |value, name| match value {
         Value::Array(items) => items.get(position(name)?),
         value => value.get(name),
     })
@@ -395,15 +397,18 @@ mod tests {
     use super::part;
 
     #[test]
-    fn axes_lead_into_lists() {
-        let value = json!({"position": [1.5, 2.5], "orientation": [0.0, 0.1, 0.2, 0.9]});
+    fn names_positions_and_axes_lead_on() {
+        let value = json!({"position": [1.5, 2.5], "orientation": [0.0, 0.1, 0.2, 0.9], "gains": [{ "p": 3.5 }]});
         for (path, expected) in [
             ("position.x", 1.5),
             ("position.1", 2.5),
             ("orientation.w", 0.9),
+            ("gains.0.p", 3.5),
         ] {
             assert_eq!(part(&value, path), Some(&json!(expected)), "{path}");
         }
         assert_eq!(part(&value, "position.z"), None);
+        assert_eq!(part(&value, "gains.1.p"), None);
+        assert_eq!(part(&value, ""), Some(&value));
     }
 }

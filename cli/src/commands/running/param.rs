@@ -8,6 +8,7 @@ use super::text;
 use crate::arguments::{Param, ParamCommand, TextOrJson};
 use crate::commands::terminal::Terminal;
 use crate::outcome::{Outcome, Refusal};
+use crate::recording::part;
 
 /// Parameters do not lie deeper in each other.
 const WHOLE: u8 = 32;
@@ -186,7 +187,8 @@ fn list<'a>(
         };
         Listed {
             path,
-            value: part(&reading.value, rest.trim_start_matches('.')),
+            // What is not there is null.
+            value: part(&reading.value, rest.trim_start_matches('.')).unwrap_or(&Value::Null),
             provenance: &leaf.provenance,
             entry: entries
                 .iter()
@@ -195,19 +197,6 @@ fn list<'a>(
         }
     };
     reading.leaves.iter().map(listed).collect()
-}
-
-/// The part of a value at a path; what is not there is null.
-fn part<'a>(value: &'a Value, path: &str) -> &'a Value {
-    let steps = path.split('.').filter(|name| !name.is_empty());
-    steps.fold(value, |value, name| match value {
-        Value::Array(items) => name
-            .parse()
-            .ok()
-            .and_then(|index: usize| items.get(index))
-            .unwrap_or(&Value::Null),
-        value => value.get(name).unwrap_or(&Value::Null),
-    })
 }
 
 impl Listed<'_> {
@@ -307,7 +296,7 @@ fn store(
 mod tests {
     use serde_json::json;
 
-    use super::{parse, part, show_unstored, waiting, without_root, written};
+    use super::{parse, show_unstored, waiting, without_root, written};
     use crate::arguments::TextOrJson;
 
     #[test]
@@ -371,13 +360,5 @@ mod tests {
         assert_eq!(without_root("parameters"), "");
         assert_eq!(without_root("parameters.walk"), "walk");
         assert_eq!(without_root("parametersets.walk"), "parametersets.walk");
-    }
-
-    #[test]
-    fn parts_are_found_by_name_and_index() {
-        let value = json!({ "gains": [{ "p": 1 }] });
-        assert_eq!(part(&value, "gains.0.p"), &json!(1));
-        assert_eq!(part(&value, ""), &value);
-        assert_eq!(part(&value, "gains.1.p"), &json!(null));
     }
 }

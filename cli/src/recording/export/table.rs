@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::recording::values::Found;
+use crate::recording::values::{Found, part};
 
 /// Lists of more values stand in one cell.
 const LONGEST: usize = 16;
@@ -57,14 +57,7 @@ fn collect(value: &Value, path: &str, columns: &mut Vec<String>) {
 }
 
 fn cell(value: &Value, column: &str) -> String {
-    let mut part = Some(value);
-    for name in column.split('.').filter(|name| !name.is_empty()) {
-        part = part.and_then(|part| match part {
-            Value::Array(items) => items.get(name.parse::<usize>().ok()?),
-            part => part.get(name),
-        });
-    }
-    match part {
+    match part(value, column) {
         None | Some(Value::Null) => String::new(),
         Some(Value::String(text)) => quoted(text),
         Some(other) => quoted(&other.to_string()),
