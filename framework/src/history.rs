@@ -167,16 +167,26 @@ impl<'c, V: Copy> HistoricInput<'c, V> {
         if timestamp >= self.now {
             return Some(self.value);
         }
-        let (mut low, mut high) = (0, self.past.len());
+        // Mostly not long ago: from the newest back in steps that double, so that what is older is not even looked at.
+        let (mut high, mut step) = (self.past.len(), 1);
+        let (mut low, mut found) = loop {
+            let index = high.checked_sub(1)?.saturating_sub(step - 1);
+            let (time, value) = self.past.value(index);
+            if time <= timestamp {
+                break (index + 1, value);
+            }
+            (high, step) = (index, step * 2);
+        };
         while low < high {
             let middle = low.midpoint(high);
-            if self.past.value(middle).0 <= timestamp {
-                low = middle + 1;
+            let (time, value) = self.past.value(middle);
+            if time <= timestamp {
+                (low, found) = (middle + 1, value);
             } else {
                 high = middle;
             }
         }
-        Some(self.past.value(low.checked_sub(1)?).1)
+        Some(found)
     }
 
     /// All values with the timestamps of their cycles, oldest first, this cycle's last.

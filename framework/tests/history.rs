@@ -66,6 +66,20 @@ fn get_finds_the_value_at_or_last_before_a_time() {
 }
 
 #[test]
+fn get_finds_as_much_of_a_long_past_as_of_a_short_one() {
+    for length in 0..70 {
+        let history = history(1000, (1..=length).map(|step| 10 * step));
+        let past = history.project(|value| *value);
+        let now = 10 * (length + 1);
+        let input = HistoricInput::new(&past, time(now), now);
+        for nanos in 0..now {
+            let last = nanos / 10 * 10;
+            assert_eq!(input.get(time(nanos)), (last > 0).then_some(last));
+        }
+    }
+}
+
+#[test]
 fn an_optional_part_of_the_output_is_seen_as_such() {
     let mut history = History::new(Duration::from_nanos(100));
     history.push(time(1), &Some(String::from("a")));
