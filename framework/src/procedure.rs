@@ -8,6 +8,7 @@
 use std::any::type_name;
 use std::fmt;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{
     Receiver, RecvTimeoutError, SyncSender, TryRecvError, TrySendError, sync_channel,
 };
@@ -25,23 +26,31 @@ const WAITING_CALLS: usize = 64;
 /// Connects clients with the node that answers.
 pub fn procedure<Request, Response>() -> (Caller<Request, Response>, Answerer<Request, Response>) {
     let (sender, receiver) = sync_channel(WAITING_CALLS);
+    let sent = Arc::new(AtomicU64::new(0));
     let answerer = Answerer {
+        sent: sent.clone(),
+        received: 0,
         receiver,
         taken: None,
         asked: None,
     };
-    (Caller { sender }, answerer)
+    (Caller { sender, sent }, answerer)
 }
 
 /// The clients' end of a procedure.
 #[derive(Debug)]
 pub struct Caller<Request, Response> {
     sender: SyncSender<Asked<Request, Response>>,
+    /// How many calls all callers have put into the channel.
+    sent: Arc<AtomicU64>,
 }
 
 /// The instance's end of a procedure.
 #[derive(Debug)]
 pub struct Answerer<Request, Response> {
+    /// Mostly nobody calls: then this is all that a cycle looks at, and not the channel.
+    sent: Arc<AtomicU64>,
+    received: u64,
     receiver: Receiver<Asked<Request, Response>>,
     taken: Option<Asked<Request, Response>>,
     /// In a replay and in tests: what becomes of the call that [`Answerer::ask`] made.
@@ -100,7 +109,10 @@ impl<Request, Response> Caller<Request, Response> {
     pub fn call(&self, request: Request) -> Pending<Response> {
         let (answers, receiver) = sync_channel(1);
         match self.sender.try_send(Asked { request, answers }) {
-            Ok(()) => {}
+            Ok(()) => {
+                // Release: who sees it finds the call in the channel.
+                self.sent.fetch_add(1, Ordering::Release);
+            }
             Err(TrySendError::Full(asked)) => asked.finish(refuse("too many calls are waiting")),
             Err(TrySendError::Disconnected(asked)) => asked.finish(refuse("the robot has stopped")),
         }
@@ -112,6 +124,7 @@ impl<Request, Response> Clone for Caller<Request, Response> {
     fn clone(&self) -> Self {
         Self {
             sender: self.sender.clone(),
+            sent: self.sent.clone(),
         }
     }
 }
@@ -140,8 +153,10 @@ impl<Request, Response> Answerer<Request, Response> {
     /// Takes the next call for this cycle; neither blocks nor allocates.
     #[inline]
     pub fn take(&mut self) {
-        if self.taken.is_none() {
+        // Acquire: with the number come the calls.
+        if self.taken.is_none() && self.sent.load(Ordering::Acquire) != self.received {
             self.taken = self.receiver.try_recv().ok();
+            self.received += u64::from(self.taken.is_some());
         }
     }
 
