@@ -45,11 +45,25 @@ thread_local! {
     static LAPS: RefCell<Vec<Lap>> = const { RefCell::new(Vec::new()) };
 }
 
+/// The calls of nodes in a cycle that is timed. Noted as they begin, added up when nobody waits for the cycle any more.
+#[derive(Debug, Default)]
+pub(crate) struct Laps {
+    laps: Vec<Lap>,
+    /// Where the last one ended, until they are told.
+    ends: Option<Mark>,
+}
+
 /// Where a node begins, in a cycle that is timed; it ends where the next one begins.
 #[derive(Clone, Copy, Debug)]
 struct Lap {
     node: &'static str,
-    begins: Ticks,
+    begins: Mark,
+}
+
+/// A moment of one thread.
+#[derive(Clone, Copy, Debug)]
+struct Mark {
+    at: Ticks,
     /// How long the thread had been blocked by then.
     blocked: Duration,
     /// How often it had allocated by then.
@@ -120,41 +134,58 @@ pub(crate) fn is_timed(cycle: u64) -> bool {
 /// A node begins, and the one before ends: one look at the counter.
 #[inline]
 pub(crate) fn start_lap(node: &'static str) {
-    let lap = Lap {
-        node,
-        begins: Ticks::now(),
-        blocked: Tally::peek().blocked,
-        allocations: allocations_so_far(),
-    };
-    LAPS.with_borrow_mut(|laps| laps.push(lap));
+    let begins = Mark::now();
+    LAPS.with_borrow_mut(|laps| laps.push(Lap { node, begins }));
 }
 
-/// Ends the last lap, and tells what each node took; the last one first.
-pub(crate) fn end_laps(mut tell: impl FnMut(&'static str, Took)) {
-    let (mut ends, mut blocked) = (Ticks::now(), Tally::peek().blocked);
-    let mut allocations = allocations_so_far();
-    LAPS.with_borrow_mut(|laps| {
-        for lap in laps.iter().rev() {
-            let blocked_in_lap = blocked.saturating_sub(lap.blocked);
-            let took = Took {
-                time: ends.since(lap.begins).saturating_sub(blocked_in_lap),
-                begins: lap.begins,
-                ends,
-                allocations: allocations - lap.allocations,
-            };
-            tell(lap.node, took);
-            (ends, blocked, allocations) = (lap.begins, lap.blocked, lap.allocations);
+impl Mark {
+    #[inline]
+    fn now() -> Self {
+        Self {
+            at: Ticks::now(),
+            blocked: Tally::peek().blocked,
+            allocations: allocations_so_far(),
         }
-        laps.clear();
-    });
+    }
 }
 
-/// Forgets what a cycle left that was given up, and makes room for so many nodes: none of them is to be blamed for it.
-pub(crate) fn prepare_laps(nodes: usize) {
-    LAPS.with_borrow_mut(|laps| {
-        laps.clear();
-        laps.reserve(nodes);
-    });
+impl Laps {
+    /// Forgets what a cycle left that was given up, and makes room for so many nodes: none of them is to be blamed for it.
+    pub(crate) fn prepare(&mut self, nodes: usize) {
+        let make_room = |laps: &mut Vec<Lap>| {
+            laps.clear();
+            laps.reserve(nodes);
+        };
+        self.ends = None;
+        make_room(&mut self.laps);
+        LAPS.with_borrow_mut(make_room);
+    }
+
+    /// Ends the last lap, and takes all of this thread.
+    #[inline]
+    pub(crate) fn end(&mut self) {
+        self.ends = Some(Mark::now());
+        self.laps.clear();
+        LAPS.with_borrow_mut(|laps| std::mem::swap(laps, &mut self.laps));
+    }
+
+    /// What each node took, once; the last one first.
+    pub(crate) fn tell(&mut self, mut tell: impl FnMut(&'static str, Took)) {
+        let Some(mut ends) = self.ends.take() else {
+            return;
+        };
+        for Lap { node, begins } in self.laps.drain(..).rev() {
+            let blocked = ends.blocked.saturating_sub(begins.blocked);
+            let took = Took {
+                time: ends.at.since(begins.at).saturating_sub(blocked),
+                begins: begins.at,
+                ends: ends.at,
+                allocations: ends.allocations - begins.allocations,
+            };
+            tell(node, took);
+            ends = begins;
+        }
+    }
 }
 
 impl Tally {

@@ -54,7 +54,7 @@ impl<B: Body> Cycler<B> {
         self.writer.abandon();
         self.counters.abandoned.add(1);
         self.counters.end();
-        self.stopwatch.discard();
+        self.stopwatch.discard(self.cycle.number);
         let body = &mut self.body;
         let abandoned = contain(self.description.name, || {
             body.abandon();

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use crate::clock::Clock;
 use crate::report::{Allocations, CycleAllocations, Durations, NodeReport};
-use crate::timing::{self, Histogram, SpanWriter, Tally, Ticks};
+use crate::timing::{self, Histogram, Laps, SpanWriter, Tally, Ticks};
 
 /// Measures the cycles that are timed, and all if there is a deadline.
 #[derive(Debug)]
@@ -25,6 +25,8 @@ pub(super) struct Stopwatch {
     allocations_in_nodes: u64,
     /// Of each node, in manifest order.
     nodes: Vec<OfNode>,
+    /// Of the nodes that ran, until they are counted.
+    laps: Laps,
     /// The cycle after an overrun is timed, so that there is somebody to blame.
     overran: bool,
     durations: Durations,
@@ -76,6 +78,7 @@ impl Stopwatch {
                     allocations: Allocations::default(),
                 })
                 .collect(),
+            laps: Laps::default(),
             overran: false,
             durations: Durations::default(),
             allocations: CycleAllocations::default(),
@@ -97,7 +100,7 @@ impl Stopwatch {
     }
 
     pub(super) fn start_waiting(&mut self) {
-        timing::prepare_laps(self.nodes.len());
+        self.laps.prepare(self.nodes.len());
         if let Some(spans) = &mut self.spans {
             spans.start();
         }
@@ -107,8 +110,9 @@ impl Stopwatch {
     #[inline]
     pub(super) fn end_waiting(&mut self, cycle: u64, tally: &Tally) {
         if self.waiting.since.is_some() {
-            self.end_laps(cycle);
+            self.laps.end();
             self.waiting.pause();
+            self.count_laps(cycle);
             self.blocked += tally.blocked;
         }
     }
@@ -131,19 +135,22 @@ impl Stopwatch {
     #[inline]
     pub(super) fn end_running(&mut self, cycle: u64, timed: bool, tally: &Tally) {
         if timed {
-            self.end_laps(cycle);
+            self.laps.end();
             self.blocked_in_cycle = tally.blocked;
         }
         if self.stepped && self.cycle.since.is_some() {
             self.ran = Some(Ticks::now());
             self.cycle.pause();
+            // Who asks before `finish` finds them counted.
+            self.count_laps(cycle);
         }
     }
 
+    /// Touches memory of every node that nothing else does, several microseconds of it at the pace of a body.
     #[cold]
-    fn end_laps(&mut self, cycle: u64) {
+    fn count_laps(&mut self, cycle: u64) {
         let mut before = self.nodes.len();
-        timing::end_laps(|node, took| {
+        self.laps.tell(|node, took| {
             // Mostly nodes run in manifest order.
             let expected = before.wrapping_sub(1);
             let is_node = |place: &usize| {
@@ -191,10 +198,12 @@ impl Stopwatch {
         let (waited, _) = self.waiting.take();
         let blocked = std::mem::take(&mut self.blocked);
         if timed {
+            let ended = self.ran.take().unwrap_or_else(Ticks::now);
+            // The cycle is published and over: nobody waits for this.
+            self.count_laps(cycle);
             let elsewhere = self.in_nodes + self.blocked_in_cycle;
             if let (Some(spans), Some(began)) = (&mut self.spans, self.began.take()) {
-                let ends = self.ran.take().unwrap_or_else(Ticks::now);
-                spans.write(None, cycle, began, ends);
+                spans.write(None, cycle, began, ended);
             }
             self.durations.cycle.record(took);
             self.durations
@@ -213,7 +222,9 @@ impl Stopwatch {
         self.overran
     }
 
-    pub(super) fn discard(&mut self) {
+    /// The cycle was given up: of what it took, that of its nodes alone counts.
+    pub(super) fn discard(&mut self, cycle: u64) {
+        self.count_laps(cycle);
         self.waiting.take();
         self.cycle.take();
         self.blocked = Duration::ZERO;
@@ -274,5 +285,94 @@ impl Lap {
         self.pause();
         let spent = std::mem::take(&mut self.spent);
         (spent, std::mem::take(&mut self.allocations))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::timing::Spans;
+
+    const WORK: Duration = Duration::from_millis(2);
+
+    /// How often the node was timed.
+    fn count(stopwatch: &Stopwatch, node: &str) -> u64 {
+        let mut nodes = stopwatch.nodes.iter();
+        let found = nodes.find(|there| there.node == node);
+        found.map_or(0, |there| there.times.count())
+    }
+
+    /// Three cycles of a setup node and two others; the nodes of their spans.
+    fn turn(
+        clock: Clock,
+        mut ran: impl FnMut(&Stopwatch, u64),
+        mut end: impl FnMut(&mut Stopwatch, u64),
+    ) -> (Stopwatch, Vec<Option<&'static str>>) {
+        let nodes = ["setup", "first", "second"];
+        let mut stopwatch = Stopwatch::new(&clock, None, nodes.into_iter());
+        let spans = Spans::new();
+        stopwatch.trace(SpanWriter::new(spans.clone(), clock));
+        for cycle in 1..=3 {
+            stopwatch.start_waiting();
+            timing::start_lap("setup");
+            stopwatch.end_waiting(cycle, &Tally::take());
+            assert_eq!(count(&stopwatch, "setup"), cycle);
+            stopwatch.begin(true, Duration::ZERO);
+            for node in ["first", "second"] {
+                timing::start_lap(node);
+                std::thread::sleep(WORK);
+            }
+            stopwatch.end_running(cycle, true, &Tally::take());
+            ran(&stopwatch, cycle);
+            end(&mut stopwatch, cycle);
+            assert_eq!(
+                ["first", "second"].map(|node| count(&stopwatch, node)),
+                [cycle; 2]
+            );
+        }
+        let spans = std::iter::from_fn(|| spans.take());
+        let nodes = spans.map(|span| span.node).collect();
+        (stopwatch, nodes)
+    }
+
+    fn finish(stopwatch: &mut Stopwatch, cycle: u64) {
+        stopwatch.resume();
+        assert!(!stopwatch.finish(cycle, true), "there is no deadline");
+    }
+
+    #[test]
+    fn nodes_are_counted_after_their_cycle() {
+        let not_yet = |stopwatch: &Stopwatch, cycle| {
+            assert_eq!(count(stopwatch, "first"), cycle - 1);
+        };
+        let (stopwatch, spans) = turn(Clock::wall(), not_yet, finish);
+        assert_eq!(
+            spans,
+            [Some("setup"), Some("second"), Some("first"), None].repeat(3)
+        );
+        let Durations {
+            cycle, framework, ..
+        } = stopwatch.durations();
+        assert_eq!((cycle.count(), framework.count()), (3, 3));
+        assert!(cycle.longest() >= 2 * WORK);
+        let outside = cycle.longest().saturating_sub(framework.longest());
+        assert!(outside >= WORK, "the nodes are not the framework's");
+    }
+
+    #[test]
+    fn on_a_stepped_clock_nodes_are_counted_when_they_ran() {
+        let counted = |stopwatch: &Stopwatch, cycle| assert_eq!(count(stopwatch, "first"), cycle);
+        let (stopwatch, _) = turn(Clock::stepped(), counted, finish);
+        assert_eq!(stopwatch.durations().framework.count(), 3);
+    }
+
+    #[test]
+    fn nodes_of_a_cycle_that_is_given_up_are_counted() {
+        let (stopwatch, spans) = turn(Clock::wall(), |_, _| (), Stopwatch::discard);
+        assert_eq!(
+            spans,
+            [Some("setup"), Some("second"), Some("first")].repeat(3)
+        );
+        assert_eq!(stopwatch.durations().cycle.count(), 0);
     }
 }
