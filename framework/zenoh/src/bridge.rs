@@ -262,7 +262,7 @@ impl<'keys> Bridge<'keys> {
                     refuse(&query, "the robot has this key no longer");
                     return Ok(());
                 };
-                match asked(&edge, &query) {
+                match asked(&edge, &query, |time| self.robot.since_start(time)) {
                     Ok(ask) => {
                         let is_write = matches!(ask, Ask::Write { .. });
                         let id = self.robot.send(ask)?;
@@ -330,6 +330,7 @@ impl<'keys> Bridge<'keys> {
             Asker::Query(index, query) => match good {
                 Good::Called(value) => self.keys.answer(index, &query, &value),
                 Good::Value(read) => self.keys.answer(index, &query, &read.value),
+                Good::Done {} => self.keys.answer(index, &query, &Value::Null),
                 _ => refuse(&query, "the robot answers something else"),
             },
             Asker::Written(index, query) => match self.path_of(index) {
@@ -359,8 +360,8 @@ impl Asker {
     }
 }
 
-/// What a query of a key means.
-fn asked(edge: &Edge, query: &Query) -> Result<Ask> {
+/// What a query of a key means; `of_robot` gives the robot's time for one since 1970.
+fn asked(edge: &Edge, query: &Query, of_robot: impl Fn(u64) -> Option<u64>) -> Result<Ask> {
     let payload = query.payload();
     if payload.is_some_and(|payload| payload.len() > LONGEST) {
         return Err(format!("a payload has at most {LONGEST} bytes"));
@@ -374,6 +375,7 @@ fn asked(edge: &Edge, query: &Query) -> Result<Ask> {
             argument: argument.unwrap_or(Value::Null),
             timeout: None,
         }),
+        (Kind::Remote, _, said) => feed::ask(&path, said.unwrap_or(Value::Null), of_robot),
         (_, Some(Direction::Out), Some(_)) => Err(format!(
             "`{path}` goes out alone: write `direction = \"both\"` at its `[[bridge]]`"
         )),

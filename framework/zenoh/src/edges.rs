@@ -59,7 +59,7 @@ impl Edge {
 
     /// Whether the key answers queries: outputs are published alone.
     pub(crate) fn answers(&self) -> bool {
-        matches!(self.kind, Kind::Parameter | Kind::Procedure)
+        matches!(self.kind, Kind::Parameter | Kind::Procedure | Kind::Remote)
     }
 }
 

@@ -1,26 +1,10 @@
-//! What another machine says about the cycles that it runs for the robot.
-//!
-//! ```text
-//! { "announce": { "time": 1795405533000000000 } }
-//! { "complete": { "time": 1795405533000000000, "outputs": { "balls": [] } } }
-//! { "abandon": { "time": 1795405533000000000 } }
-//! ```
-//! Times are nanoseconds since 1970: two machines have no other clock in common.
+//! What another machine says about the cycles that it runs for the robot becomes what is asked of the robot.
 
+use hulkgen_zenoh::Said;
 use protocol::Ask;
-use serde::Deserialize;
 use serde_json::Value;
 
 use crate::Result;
-
-/// One sample under the key of an instance.
-#[derive(Clone, Debug, Deserialize, PartialEq)]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
-enum Said {
-    Announce { time: u64 },
-    Complete { time: u64, outputs: Value },
-    Abandon { time: u64 },
-}
 
 /// What to ask of the robot; `of_robot` gives the robot's time for one since 1970.
 ///

@@ -24,7 +24,7 @@ pub(crate) const LONGEST: usize = 1 << 20;
 pub(crate) enum Wish {
     /// A value of a parameter, or what became of a cycle of another machine.
     Put(usize, Vec<u8>),
-    /// A call of a procedure, or a parameter to be read or written.
+    /// A call of a procedure, a parameter to be read or written, or what became of a cycle of another machine.
     Query(usize, Query),
 }
 
@@ -52,20 +52,8 @@ impl Keys {
     /// # Errors
     /// If an endpoint is none, or cannot be listened at.
     pub(crate) fn open(options: &Options) -> Result<Self> {
-        let mut config = zenoh::Config::default();
-        let list = |endpoints: &[String]| serde_json::to_string(endpoints).expect("texts are JSON");
-        for (key, value) in [
-            ("mode", "\"peer\"".to_owned()),
-            ("connect/endpoints", list(&options.connect)),
-            // A robot is looked for by hand: a bridge that finds others by itself finds those of the next field.
-            ("scouting/multicast/enabled", "false".to_owned()),
-            ("listen/endpoints", list(&options.listen)),
-        ] {
-            let set = config.insert_json5(key, &value);
-            set.map_err(|error| format!("{key} = {value}: {error}"))?;
-        }
-        let session = zenoh::open(config).wait();
-        let session = session.map_err(|error| format!("Zenoh cannot be opened: {error}"))?;
+        let session = hulkgen_zenoh::open(&options.connect, &options.listen);
+        let session = session.map_err(|error| error.to_string())?;
         let (sender, wishes) = sync_channel(WISHES);
         Ok(Self {
             session,

@@ -1,6 +1,8 @@
 //! The zoo, the bridge, and a machine that knows Zenoh and CDR alone: each a process of its own, on one machine and behind a
 //! network that loses and delays.
 
+mod feeder;
+
 use std::io::{BufRead as _, BufReader, Write as _};
 use std::net::{SocketAddr, TcpListener, TcpStream};
 use std::path::{Path, PathBuf};
@@ -27,13 +29,14 @@ fn skip(test: &str, what: &str) {
     println!("SKIPPED {test}: {what}");
 }
 
-/// Programs of the zoo and of the outpost, where python has what the clients import; else what is missing.
+/// Programs of the zoo and of the outpost.
 struct Parts {
     zoo: PathBuf,
     outpost: PathBuf,
 }
 
-fn parts() -> Result<Parts, &'static str> {
+/// Or what is missing.
+fn robots() -> Result<Parts, &'static str> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let given = std::env::var_os("HULKGEN_ROBOT").map(PathBuf::from);
     let zoo = given.unwrap_or_else(|| root.join("target/debug/loud"));
@@ -43,13 +46,18 @@ fn parts() -> Result<Parts, &'static str> {
             "`cargo build -p zoo_runtime -p outpost_runtime` in the repository, or HULKGEN_ROBOT",
         );
     }
+    Ok(Parts { zoo, outpost })
+}
+
+/// As [`robots`], where python has what the clients import.
+fn parts() -> Result<Parts, &'static str> {
     let mut python = Command::new("python3");
     let python = python.args(["-c", "import pycdr2, zenoh"]);
     let python = python.stderr(Stdio::null()).status();
     if !python.is_ok_and(|status| status.success()) {
         return Err("python3 -m pip install eclipse-zenoh pycdr2");
     }
-    Ok(Parts { zoo, outpost })
+    robots()
 }
 
 fn free_address() -> SocketAddr {
@@ -351,7 +359,10 @@ fn ships_are_in_order_behind_a_network_that_loses_and_delays() {
     let missing = at_both_ends(
         "lookouts",
         |parts| parts.outpost,
-        |far, zenoh_at| far.look_out(zenoh_at),
+        |far, zenoh_at| {
+            far.look_out(zenoh_at);
+            feeder::example(far, zenoh_at);
+        },
     );
     if let Some(what) = missing {
         skip(
