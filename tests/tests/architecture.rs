@@ -9,6 +9,7 @@ use syn::visit::Visit;
 /// Folders with code written by hand.
 const HAND_WRITTEN: &[&str] = &[
     "cli",
+    "docs/examples/rover/base",
     "docs/examples/rover/nodes",
     "docs/examples/rover/simulation",
     "docs/examples/sprinkler/garden",
