@@ -188,7 +188,7 @@ impl Judge {
                 .unwrap_or(&Value::Null);
             wanted += count(one, "wanted");
             frames += count(again, "frames");
-            let missing = ["dropped", "failed", "lost"].map(|key| count(one, key));
+            let missing = ["dropped", "failed", "lost", "overwritten"].map(|key| count(one, key));
             let missing: u64 = missing.iter().sum();
             let is_counted = count(again, "frames") + missing == count(one, "wanted");
             let is_equal = count(again, "verified") + count(again, "unfinished")

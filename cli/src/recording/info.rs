@@ -51,6 +51,8 @@ pub struct InstanceInfo {
     pub frames: u64,
     /// Cycles that were not recorded although wanted.
     pub dropped: u64,
+    /// Cycles that were recorded and left to younger ones when the file had its budget.
+    pub overwritten: u64,
     /// Digest of the types of its frames.
     pub types: String,
     /// Of a frame on average, with its head.
@@ -183,6 +185,7 @@ fn instances(contents: &Contents, channels: &BTreeMap<u16, Counted<'_>>) -> Vec<
             record: said("record", instance).unwrap_or_default(),
             frames: counted.frames,
             dropped: count("dropped") + count("failed") + count("lost"),
+            overwritten: count("overwritten"),
             types: counted.types.to_owned(),
             bytes_per_cycle: per_cycle(counted.bytes, counted.frames),
             parts: counted.parts_info(),

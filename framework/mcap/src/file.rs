@@ -240,6 +240,11 @@ impl Writer {
         self.ring.add(&mut self.file, index)
     }
 
+    /// How many chunks the file has; what the ring closed over does not count.
+    pub fn kept_chunks(&self) -> usize {
+        self.ring.len()
+    }
+
     /// Writes what finds everything again; the file is whole afterwards.
     pub fn finish(mut self) -> io::Result<()> {
         self.close_chunk()?;

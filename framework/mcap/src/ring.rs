@@ -33,6 +33,11 @@ impl Ring {
         self.gone
     }
 
+    /// How many chunks the file has.
+    pub(crate) fn len(&self) -> usize {
+        self.chunks.len()
+    }
+
     pub(crate) fn chunks(&self) -> impl Iterator<Item = &ChunkIndex> {
         self.chunks.iter()
     }

@@ -1,8 +1,9 @@
 //! The thread that owns the file.
 
+use std::collections::VecDeque;
 use std::io;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
@@ -102,7 +103,8 @@ impl Recorder {
             counts: counts.clone(),
             is_ending: is_ending.clone(),
             last: last.clone(),
-            open: Vec::new(),
+            open: Frames::new(),
+            kept: VecDeque::new(),
             rewrites,
             rewritten: Vec::new(),
             since: Instant::now(),
@@ -166,6 +168,9 @@ impl Drop for Recorder {
     }
 }
 
+/// How many frames of which track, by its place.
+type Frames = Vec<(usize, u64)>;
+
 struct Thread {
     writer: Writer,
     pool: Arc<Pool>,
@@ -174,7 +179,9 @@ struct Thread {
     is_ending: Arc<AtomicBool>,
     last: Arc<Mutex<Vec<Metadata>>>,
     /// Tracks and frames in the chunk that is open.
-    open: Vec<(usize, u64)>,
+    open: Frames,
+    /// Those of the chunks that the file has, oldest first.
+    kept: VecDeque<Frames>,
     rewrites: Rewrites,
     /// The messages of a block that became others.
     rewritten: Vec<u8>,
@@ -230,13 +237,25 @@ impl Thread {
     /// A disk that takes no chunk now may take the next one.
     fn close_chunk(&mut self) {
         let open = std::mem::take(&mut self.open);
-        if let Err(error) = self.writer.close_chunk() {
-            for (track, frames) in open {
-                if let Some((_, counts)) = self.counts.get(track) {
-                    counts.lost.fetch_add(frames, Ordering::Relaxed);
-                }
+        match self.writer.close_chunk() {
+            Ok(()) if open.is_empty() => {}
+            Ok(()) => self.kept.push_back(open),
+            Err(error) => {
+                self.count(&open, |counts| &counts.lost);
+                self.error.get_or_insert(error);
             }
-            self.error.get_or_insert(error);
+        }
+        while self.kept.len() > self.writer.kept_chunks() {
+            let gone = self.kept.pop_front().unwrap_or_default();
+            self.count(&gone, |counts| &counts.overwritten);
+        }
+    }
+
+    fn count(&self, frames: &Frames, as_what: impl Fn(&Counts) -> &AtomicU64) {
+        for (track, frames) in frames {
+            if let Some((_, counts)) = self.counts.get(*track) {
+                as_what(counts).fetch_add(*frames, Ordering::Relaxed);
+            }
         }
     }
 
@@ -255,6 +274,7 @@ impl Thread {
             entry("dropped", counts.dropped());
             entry("failed", counts.failed());
             entry("lost", counts.lost());
+            entry("overwritten", counts.overwritten());
         }
         let end = Metadata {
             name: "end".to_owned(),

@@ -15,6 +15,7 @@ pub struct Counts {
     pub(crate) dropped: AtomicU64,
     pub(crate) failed: AtomicU64,
     pub(crate) lost: AtomicU64,
+    pub(crate) overwritten: AtomicU64,
 }
 
 impl Counts {
@@ -38,7 +39,12 @@ impl Counts {
         self.lost.load(Ordering::Relaxed)
     }
 
-    /// Whether every frame is in the file, as far as is known now.
+    /// Recorded frames that the ring has closed over.
+    pub fn overwritten(&self) -> u64 {
+        self.overwritten.load(Ordering::Relaxed)
+    }
+
+    /// Whether every frame is in the file, or was until the ring closed over it, as far as is known now.
     pub fn is_complete(&self) -> bool {
         self.dropped() + self.failed() + self.lost() == 0
     }

@@ -26,6 +26,8 @@ pub struct InstanceRecorded {
     pub failed: u64,
     /// The disk did not take them.
     pub lost: u64,
+    /// They were recorded, and left to younger ones when the file had its budget.
+    pub overwritten: u64,
 }
 
 impl RecordingReport {
@@ -48,6 +50,7 @@ impl RecordingReport {
                 "dropped": one.dropped,
                 "failed": one.failed,
                 "lost": one.lost,
+                "overwritten": one.overwritten,
             })
         });
         instances.collect()
@@ -67,6 +70,10 @@ impl fmt::Display for RecordingReport {
                 (one.dropped, "dropped"),
                 (one.failed, "not encoded"),
                 (one.lost, "not taken by the disk"),
+                (
+                    one.overwritten,
+                    "left to younger ones: `--recording-budget`",
+                ),
             ];
             for (count, what) in counts.into_iter().filter(|(count, _)| *count > 0) {
                 writeln!(

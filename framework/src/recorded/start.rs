@@ -166,6 +166,7 @@ impl Recording {
                 dropped: counts.dropped(),
                 failed: counts.failed(),
                 lost: counts.lost(),
+                overwritten: counts.overwritten(),
             })
             .collect()
     }
@@ -185,9 +186,10 @@ impl Recording {
         };
         let counts = self.shared_counts();
         let ended = self.recorder.end_with(vec![wanted]);
-        // What the disk did not take is known when all was written.
+        // What the disk did not take, and what had to go for it, is known when all was written.
         for (one, counts) in instances.iter_mut().zip(counts) {
             one.lost = counts.lost();
+            one.overwritten = counts.overwritten();
         }
         RecordingReport { ended, instances }
     }

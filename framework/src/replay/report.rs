@@ -151,6 +151,7 @@ impl Verification {
                 "wanted": one.wanted,
                 "frames": one.frames,
                 "dropped": one.dropped,
+                "overwritten": one.overwritten,
                 "verified": one.verified,
                 "diverged": one.diverged,
                 "outputs": one.outputs,
@@ -254,6 +255,7 @@ impl fmt::Display for Remarks<'_> {
             remarks.push(one.record.clone());
         }
         for (count, what) in [
+            (one.overwritten, "older ones overwritten"),
             (one.diverged, "diverged"),
             (one.within, "outputs within the tolerance"),
             (

@@ -54,6 +54,8 @@ pub struct InstanceVerified {
     pub frames: u64,
     /// Not recorded, for whatever reason, although wanted.
     pub dropped: u64,
+    /// Recorded, and left to younger ones when the file had its budget.
+    pub overwritten: u64,
     /// Recomputed with the same digests.
     pub verified: u64,
     pub diverged: u64,
@@ -300,6 +302,7 @@ fn described(recording: &Recording, instance: &str) -> InstanceVerified {
         record: said("record", instance).unwrap_or_default(),
         wanted: said("wanted", instance).and_then(|count| count.parse().ok()),
         dropped: count("dropped") + count("failed") + count("lost"),
+        overwritten: count("overwritten"),
         ..InstanceVerified::default()
     }
 }

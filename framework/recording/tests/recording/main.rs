@@ -247,6 +247,10 @@ fn a_budget_makes_a_ring() {
     let first = *found.first().expect("the newest are there");
     assert!(first > 0);
     assert_eq!(found, Vec::from_iter(first..60_000));
+    let end = &recording.metadata("end").expect("it ended").entries;
+    let overwritten = end.iter().find(|(key, _)| key.ends_with(".overwritten"));
+    let (_, overwritten) = overwritten.expect("it is counted");
+    assert_eq!(*overwritten, first.to_string());
     let file = std::fs::metadata(&path).expect("it was written");
     let on_disk = file.blocks() * 512;
     assert!(
