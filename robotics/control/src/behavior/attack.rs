@@ -42,7 +42,7 @@ pub(super) fn attack(view: &View<'_>, ball: Point2<f32>) -> Decision {
         false => heading,
     };
     let places = &view.parameters.places;
-    let aim = wrapped(places.aim(on_field, easy, attack.post_margin) - heading);
+    let aim = wrapped(places.aim(on_field, easy, attack) - heading);
     let stance = Stance::new(ball, aim);
     let may_kick = places.distance_to_goal(on_field) <= attack.kick_range;
     let mut decision = match choose(&stance, ball, may_kick, view.memory.activity, attack) {

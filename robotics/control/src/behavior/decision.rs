@@ -167,6 +167,7 @@ impl View<'_> {
             near,
             ..self.parameters.walk
         };
+        let target = &self.out_of_goals(target);
         let obstacles = self.world.obstacles.iter().map(|obstacle| Circle {
             middle: obstacle.position,
             radius: obstacle.radius + walk.clearance,
@@ -182,5 +183,15 @@ impl View<'_> {
         decision.plan.target = Some(*target);
         decision.plan.way_point = step.map(|_| way_point);
         decision
+    }
+
+    /// The same pose of the ground frame, or before the goal line where it lies in a goal.
+    fn out_of_goals(&self, target: &Isometry2<f32>) -> Isometry2<f32> {
+        let Some(ground_to_field) = self.world.ground_to_field else {
+            return *target;
+        };
+        let place = ground_to_field * Point2::from(target.translation.vector);
+        let place = ground_to_field.inverse() * self.parameters.places.out_of_goals(place);
+        Isometry2::from_parts(place.into(), target.rotation)
     }
 }

@@ -168,6 +168,9 @@ pub struct PlaceParameters {
     /// What is farther from the centre mark has been kicked off.
     #[reflect(unit = "m", range = 0.0..)]
     pub kicked_off: f32,
+    /// So far before a goal line the robot stays between the posts: behind it the net holds its feet.
+    #[reflect(unit = "m", range = 0.0..)]
+    pub before_goal: f32,
     /// So far outside of a line that must not be crossed the robot stays.
     #[reflect(unit = "m", range = 0.0..)]
     pub margin: f32,

@@ -1,11 +1,13 @@
 //! Owns where robots stand and where the ball shall go, in the field frame: the opponents' goal lies at positive x.
 
+use std::f32::consts::FRAC_PI_2;
+
 use framework::math;
 use nalgebra::{Isometry2, Point2, Vector2};
 use types::behavior::Role;
 use types::game::{KickingTeam, SetPlay};
 
-use super::parameters::{KeeperParameters, PlaceParameters};
+use super::parameters::{AttackParameters, KeeperParameters, PlaceParameters};
 
 impl PlaceParameters {
     /// The middle of the own goal, m.
@@ -107,8 +109,14 @@ impl PlaceParameters {
     }
 
     /// The direction in which a ball gets into the opponents' goal; the nearest such direction to one that would be easy, rad.
-    pub(super) fn aim(&self, ball: Point2<f32>, easy: f32, post_margin: f32) -> f32 {
-        let post = (self.post - post_margin).max(0.0);
+    ///
+    /// A ball on the own goal line is played along it: whoever got behind it would stand in the net.
+    pub(super) fn aim(&self, ball: Point2<f32>, easy: f32, attack: &AttackParameters) -> f32 {
+        let behind = Point2::new(ball.x - attack.behind, ball.y);
+        if ball.x < 0.0 && self.out_of_goals(behind) != behind {
+            return FRAC_PI_2.copysign(ball.y);
+        }
+        let post = (self.post - attack.post_margin).max(0.0);
         let to = |y: f32| math::atan2(y - ball.y, self.goal_line - ball.x);
         let (right, left) = (to(-post), to(post));
         if ball.x < self.goal_line && left - right > NARROW {
@@ -125,6 +133,15 @@ impl PlaceParameters {
     pub(super) fn distance_to_goal(&self, ball: Point2<f32>) -> f32 {
         let beside = (ball.y.abs() - self.post).max(0.0);
         math::hypot(beside, self.goal_line - ball.x)
+    }
+
+    /// Before the goal line where it lies between the posts and behind, or beside them.
+    pub(super) fn out_of_goals(&self, place: Point2<f32>) -> Point2<f32> {
+        let most = self.goal_line - self.before_goal;
+        match place.y.abs() < self.post + self.before_goal {
+            true => Point2::new(place.x.clamp(-most, most), place.y),
+            false => place,
+        }
     }
 
     fn on_the_field(&self, place: Point2<f32>) -> Point2<f32> {
@@ -148,7 +165,7 @@ pub(super) fn wrapped(angle: f32) -> f32 {
 
 #[cfg(test)]
 mod tests {
-    use std::f32::consts::{FRAC_PI_2, PI};
+    use std::f32::consts::PI;
 
     use super::*;
     use crate::behavior::tests::parameters;
@@ -233,8 +250,10 @@ mod tests {
 
     #[test]
     fn the_aim_is_the_easiest_direction_into_the_goal() {
-        let places = parameters().places;
-        let aim = |x: f32, y: f32, easy: f32| places.aim(Point2::new(x, y), easy, 0.2);
+        let parameters = parameters();
+        let places = parameters.places;
+        let aim =
+            |x: f32, y: f32, easy: f32| places.aim(Point2::new(x, y), easy, &parameters.attack);
         // Straight ahead gets there.
         assert!((aim(3.0, 0.3, 0.0)).abs() < 1e-6);
         // Whoever heads elsewhere aims at what is in from the nearer post.
@@ -249,5 +268,23 @@ mod tests {
             assert!(math::cos(aim) < 0.0 && math::sin(aim) * y < 0.0, "{aim}");
         }
         assert!(aim(-4.0, 0.0, PI).abs() < 0.1);
+        // On the own goal line it goes away along it, and beside the goal as everywhere.
+        assert_eq!(aim(-4.4, 0.2, 0.0), FRAC_PI_2);
+        assert_eq!(aim(-4.4, -0.2, 0.0), -FRAC_PI_2);
+        assert!(aim(-4.4, 1.5, 0.0).abs() < 0.5);
+    }
+
+    #[test]
+    fn goals_are_not_walked_into() {
+        let places = parameters().places;
+        for (x, y, expected) in [
+            (-4.7, 0.3, -4.4),
+            (4.6, -0.75, 4.4),
+            (-4.3, 0.0, -4.3),
+            (-4.7, 1.2, -4.7),
+        ] {
+            let moved = places.out_of_goals(Point2::new(x, y));
+            assert_eq!(moved, Point2::new(expected, y));
+        }
     }
 }
