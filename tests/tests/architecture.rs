@@ -376,7 +376,7 @@ fn unsafe_code_stands_only_where_the_workspace_says_and_runs_under_the_sanitizer
         let is_sanitized = match path.strip_prefix("robotics/") {
             Some(rest) => {
                 let (name, _) = rest.split_once('/').expect("it is in a crate");
-                script.contains(&format!(" robotics/{name}/src/lib.rs"))
+                script.contains(&format!("/robotics/{name}/src/lib.rs"))
             }
             None => {
                 let (_, file) = path.rsplit_once('/').expect("it is in a folder");

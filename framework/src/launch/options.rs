@@ -404,8 +404,6 @@ mod tests {
             hardware: vec!["--for".to_owned(), "lamp".to_owned()],
         };
         assert_eq!(options.expect("all options are valid"), expected);
-        let named = parsed(&["--record=tape"]).expect("no scenario is played");
-        assert_eq!(named.record, Record::Into("tape".into()));
     }
 
     #[test]
