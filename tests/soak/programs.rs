@@ -18,6 +18,9 @@ use crate::clients::connect;
 /// A busy machine may take so long to start something.
 const PATIENCE: Duration = Duration::from_secs(60);
 
+/// Less than two minutes take: old frames have to go, and to be counted.
+const BUDGET: &str = "128MiB";
+
 /// All of them are recorded, in whatever state the robot is.
 const STATES: &str = r#"recording_switch.states=["Unstiff","Initial","Standby","Ready","Set","Playing","Penalized","Finished"]"#;
 
@@ -141,6 +144,7 @@ impl Robot {
         command
             .arg("--record")
             .arg(&recording)
+            .args(["--recording-budget", BUDGET])
             .args(["--set", STATES]);
         command
             .args(["--", "--free-ports", "--simulator"])
