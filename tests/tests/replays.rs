@@ -100,9 +100,15 @@ impl Recorded {
         for words in [
             "init --quiet",
             "add --all",
-            "commit --quiet --message first",
+            "-c user.name=a -c user.email=a@b commit --quiet --message first",
         ] {
-            robot.git(words);
+            let mut git = Command::new("git");
+            let output = git
+                .args(words.split(' '))
+                .current_dir(robot.path())
+                .output();
+            let output = output.expect("git made this checkout");
+            assert!(output.status.success(), "{}", text(&output));
         }
         robot.hulkgen(
             &["run", "--for", "1s", "--headless", "--record", "tape.mcap"],
@@ -113,16 +119,6 @@ impl Recorded {
 
     fn path(&self) -> PathBuf {
         self.folder.path().join("robot")
-    }
-
-    #[track_caller]
-    fn git(&self, words: &str) {
-        let mut git = Command::new("git");
-        git.args(["-c", "user.name=a", "-c", "user.email=a@b"])
-            .args(words.split(' '))
-            .current_dir(self.path());
-        let output = git.output().expect("git made this checkout");
-        assert!(output.status.success(), "{}", text(&output));
     }
 
     /// With what it compiles where everything of this repository is compiled; gives standard output and error.
@@ -305,32 +301,6 @@ fn a_recording_says_what_would_have_been() {
     let unknown = ["replay", "tape.mcap", "--against", "nowhere"];
     let (_, said) = robot.hulkgen(&unknown, 2);
     assert!(said.contains("name a commit, branch or tag"), "{said}");
-}
-
-#[test]
-fn two_builds_go_on_with_what_each_of_them_left() {
-    let robot = Recorded::new();
-    let against = |words: &[&str]| robot.replay(&[&["--against", "HEAD"], words].concat());
-    // What it leaves behind is other, and nothing that it writes in the same cycle.
-    robot.edit(
-        "        Ok(MainOutputs {",
-        "        self.obstacle = Some(Obstacle { distance: -1.0 });\n        Ok(MainOutputs {",
-    );
-    let alone = against(&[]);
-    assert_eq!(changes(&alone), [[""; 3]; 0], "{alone}");
-    let carried = against(&["--carry"]);
-    let expected = [["nodes::control::speed_choice", "wheel_speed", "Control"]];
-    assert_eq!(changes(&carried), expected, "{carried}");
-    let instances = carried["instances"].as_array().expect("a list").iter();
-    let control = instances.filter(|one| one["instance"] == "Control");
-    let cycles: u64 = control.filter_map(|one| one["carried"].as_u64()).sum();
-    assert!(cycles > 10, "{carried}");
-    let notes = carried["notes"].to_string();
-    assert!(notes.contains("one before them left"), "{carried}");
-    // The other build carries its own states, too: now it leaves the same.
-    robot.git("commit --quiet --all --message second");
-    let same = against(&["--carry"]);
-    assert_eq!(changes(&same), [[""; 3]; 0], "{same}");
 }
 
 #[test]

@@ -20,8 +20,7 @@ Examples:
   hulkgen replay recording.mcap --node ball_filter               # only what this node needs, and its outputs
   hulkgen replay recording.mcap --set ball_filter.gate=0.3       # which outputs change, and where first
   hulkgen replay recording.mcap --set ball_filter.gate=0.3 --carry       # what that does over many cycles
-  hulkgen replay recording.mcap --against main                   # what another revision computes otherwise
-  hulkgen replay recording.mcap --against main --carry           # from the first cycle on, each with its own states")]
+  hulkgen replay recording.mcap --against main                   # what another revision computes otherwise")]
 pub struct Replay {
     /// The recording
     pub file: Utf8PathBuf,
@@ -29,14 +28,13 @@ pub struct Replay {
     #[arg(long, conflicts_with_all = ["set", "against"])]
     pub verify: bool,
     /// Compare with what other parameters give, for example `walk.speed=0.2`; may be repeated
-    #[arg(long, value_name = "PATH=VALUE", group = "other")]
+    #[arg(long, value_name = "PATH=VALUE", conflicts_with = "against")]
     pub set: Vec<String>,
-    /// Let cycles under the other parameters, or of both builds, go on with the states that the cycle before left, in place
-    /// of recorded ones
-    #[arg(long, requires = "other")]
+    /// Let cycles under the other parameters go on with the states that the cycle before left, in place of recorded ones
+    #[arg(long, requires = "set")]
     pub carry: bool,
     /// Compare with what another git revision of the robot gives; it is built from a copy in the user's cache folder
-    #[arg(long, value_name = "REV", group = "other")]
+    #[arg(long, value_name = "REV")]
     pub against: Option<String>,
     /// Run only what this node needs, and compare its outputs alone: its path, or the end of it
     #[arg(long, value_name = "NAME")]

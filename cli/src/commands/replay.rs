@@ -126,7 +126,6 @@ mod tests {
             ),
             ("/a --node walk", "--replay /a --node walk"),
             ("/a --against main", "--replay /a"),
-            ("/a --against main --carry", "--replay /a --carry"),
             ("/a", "--replay /a"),
         ] {
             let line = format!("hulkgen replay {line}");
@@ -141,8 +140,6 @@ mod tests {
             "/a --verify --against main",
             "/a --set b=1 --against main",
             "/a --set b=1 --tolerance 1",
-            "/a --carry",
-            "/a --verify --carry",
             "/a --tolerance 1",
         ] {
             assert_eq!(passed_on(&format!("hulkgen replay {line}")), None, "{line}");

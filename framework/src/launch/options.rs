@@ -140,7 +140,7 @@ Usage: {name} [OPTIONS] [-- HARDWARE OPTIONS]
   --node NAME         with --replay: only what this node needs, and its outputs
   --replay FILE --set PATH=VALUE
                       what would change under other parameters
-  --carry             with --set or --against: cycles go on with the states that the one before them left
+  --carry             with --set: cycles go on with the states that the one before them left
   --replay FILE --against PROGRAM [--against-name NAME]
                       what another build of the robot computes otherwise
   --replay FILE --answer
@@ -407,16 +407,6 @@ mod tests {
     }
 
     #[test]
-    fn other_parameters_and_other_builds_carry_their_states_on() {
-        for words in [&["--set", "a=1"][..], &["--against=other"], &["--answer"]] {
-            let mut all = vec!["--replay=old", "--carry"];
-            all.extend(words);
-            let options = parsed(&all).expect("it is right usage");
-            assert!(options.is_replay && options.replay.carry, "{words:?}");
-        }
-    }
-
-    #[test]
     fn durations_need_a_number_and_a_unit() {
         assert_eq!(duration("2m").expect("valid"), Duration::from_secs(120));
         assert_eq!(
@@ -484,7 +474,6 @@ mod tests {
             &["--replay=old", "--against=other", "--tolerance=1e-6"],
             &["--replay=old", "--verify", "--carry"],
             &["--set", "a=1", "--carry"],
-            &["--against=other", "--carry"],
             &["--replay=old", "--verify", "--tolerance=-1"],
             &["--recording-budget", "2"],
             &["--scenario=s.toml", "--record=tape"],

@@ -26,7 +26,7 @@ pub(super) struct Replaying {
     pub(super) file: PathBuf,
     /// Whether it gives the same bits.
     pub(super) verify: bool,
-    /// Whether cycles under other parameters, or of two builds, go on with what the one before them left behind.
+    /// Whether cycles under other parameters go on with what the one before them left behind.
     pub(super) carry: bool,
     /// What one node needs instead of everything.
     pub(super) node: Option<String>,
@@ -96,9 +96,8 @@ impl Replaying {
                 "--capture NODE, --instance NAME and --at CYCLE go together",
             ));
         }
-        let carries = (is_asked && changes) || self.against.is_some() || self.answer;
-        if self.carry && !carries {
-            return Err(Error::new("--carry is for --set and --against"));
+        if self.carry && !(is_asked && changes) {
+            return Err(Error::new("--carry is for --set"));
         }
         let options = !deeds.is_empty() || self.node.is_some();
         if options && !is_asked {
@@ -183,9 +182,6 @@ fn replayed<P: ParameterData>(
     if replay.answer {
         let values = value_channels(recording)?;
         let mut players = Players::new(recording, &values, target.replayables)?;
-        if replay.carry {
-            players = players.carrying(target.graph)?;
-        }
         answer(&mut players, std::io::stdin().lock(), output)?;
         return Ok(true);
     }
@@ -265,14 +261,8 @@ fn against(
     if let Some(needed) = needed {
         here = here.only(needed);
     }
-    if replay.carry {
-        here = here.carrying(target.graph)?;
-    }
-    let mut there = Elsewhere::start(program, &replay.file, replay.carry)?;
+    let mut there = Elsewhere::start(program, &replay.file)?;
     let mut comparison = compare(&mut there, &mut here, needed)?;
-    if replay.carry {
-        carried(&mut comparison);
-    }
     let name = replay.against_name.clone();
     let name = name.unwrap_or_else(|| program.display().to_string());
     comparison.names = (name, "this build".to_owned());
@@ -311,24 +301,21 @@ fn under<P: ParameterData>(
         .map(|(path, value)| format!("{path}={value}"))
         .collect();
     comparison.names = ("as recorded".to_owned(), settings.join(" "));
-    if carry {
-        carried(&mut comparison);
-    } else {
-        let note = "each cycle begins with the states that were recorded: --carry says what a change does over many cycles";
-        comparison.notes.push(note.to_owned());
-    }
+    let note = match carry {
+        false => {
+            "each cycle begins with the states that were recorded: --carry says what a change does over many cycles"
+        }
+        true => {
+            // All nodes ran.
+            comparison.recomputed.clear();
+            "cycles go on with the states that the one before them left: sensors, other instances and clients are as they were recorded"
+        }
+    };
+    comparison.notes.push(note.to_owned());
     for path in unread {
         comparison.notes.push(format!(
             "`{path}` is read in `new` alone, which a replay does not call: it changes nothing here"
         ));
     }
     Ok(comparison)
-}
-
-/// Says of a comparison what its cycles began with.
-fn carried(comparison: &mut Comparison) {
-    // All nodes ran.
-    comparison.recomputed.clear();
-    let note = "cycles go on with the states that the one before them left: sensors, other instances and clients are as they were recorded";
-    comparison.notes.push(note.to_owned());
 }

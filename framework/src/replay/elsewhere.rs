@@ -1,5 +1,4 @@
-//! Another build of the robot, asked line by line: a program that was started with `--replay FILE --answer`, and with
-//! `--carry` where its cycles are to go on with what the one before them left.
+//! Another build of the robot, asked line by line: a program that was started with `--replay FILE --answer`.
 //!
 //! ```text
 //! asked:     {"play":{"instance":"Control","position":7}}     {"value":{"instance":"Control","output":"speed"}}
@@ -56,21 +55,18 @@ pub struct Elsewhere {
     /// `None` while it is being dropped.
     questions: Option<ChildStdin>,
     answers: BufReader<ChildStdout>,
-    /// The option of this one's that the other build has to know.
-    option: &'static str,
 }
 
 impl Elsewhere {
-    /// Starts the program for a recording. With `carry` its cycles go on with what the one before them left.
+    /// Starts the program for a recording.
     ///
     /// # Errors
     /// If it cannot be started.
-    pub fn start(program: &Path, recording: &Path, carry: bool) -> Result<Self> {
+    pub fn start(program: &Path, recording: &Path) -> Result<Self> {
         let mut child = Command::new(program)
             .arg("--replay")
             .arg(recording)
             .arg("--answer")
-            .args(carry.then_some("--carry"))
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             // What it has to say of options that it does not know is no help here.
@@ -86,11 +82,6 @@ impl Elsewhere {
             child,
             questions: Some(questions),
             answers: BufReader::new(answers),
-            option: if carry {
-                "--against … --carry"
-            } else {
-                "--against"
-            },
         })
     }
 
@@ -102,10 +93,9 @@ impl Elsewhere {
         });
         let line = asked.unwrap_or_default();
         serde_json::from_str(&line).map_err(|_| {
-            let option = self.option;
-            Error::new(format!(
-                "the other build does not answer: it is older than `{option}`, or it cannot read the recording"
-            ))
+            Error::new(
+                "the other build does not answer: it is older than `--against`, or it cannot read the recording",
+            )
         })
     }
 
