@@ -160,7 +160,11 @@ pub(crate) fn record(path: &Utf8Path, with_end: bool) {
         }
     }
     if with_end {
-        let entries = [("state", "COMPLETE"), ("Control.dropped", "3")];
+        let entries = [
+            ("state", "COMPLETE"),
+            ("Control.dropped", "3"),
+            ("Control.overwritten", "5"),
+        ];
         writer
             .write_metadata(&metadata("end", &entries))
             .expect("there is room");

@@ -233,6 +233,19 @@ mod tests {
     }
 
     #[test]
+    fn a_ball_on_the_own_goal_line_is_played_along_it() {
+        // From a metre before the own goal, the ball between its posts.
+        let scene = Scene::at(-3.5, 0.3, std::f32::consts::PI).with_ball(0.95, 0.0);
+        let decision = scene.view(|view| attack(view, Point2::new(0.95, 0.0)));
+        assert_eq!(decision.activity, Activity::WalkBehindBall);
+        let ground_to_field = scene.world.ground_to_field.unwrap();
+        let target = decision.plan.target.unwrap().translation.vector;
+        let target = ground_to_field * Point2::from(target);
+        // Beside it towards the middle, not behind it in the net.
+        assert!(target.x > -4.46 && target.y < 0.2, "{target}");
+    }
+
+    #[test]
     fn without_a_pose_it_walks_to_the_ball_and_stops_there() {
         let mut scene = Scene::at(0.0, 0.0, 0.0).with_ball(1.0, 0.3);
         scene.world.ground_to_field = None;

@@ -195,3 +195,23 @@ impl View<'_> {
         Isometry2::from_parts(place.into(), target.rotation)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::behavior::tests::Scene;
+
+    #[test]
+    fn nobody_is_sent_into_a_goal() {
+        let scene = Scene::at(-3.5, 0.5, 0.0);
+        for (place, expected) in [([-4.8, 0.2], [-4.4, 0.2]), ([-4.0, 1.0], [-4.0, 1.0])] {
+            let pose = Isometry2::translation(place[0], place[1]);
+            let decision =
+                scene.view(|view| view.go_to(&pose, Activity::WalkToPlace, Activity::WaitInReady));
+            let ground_to_field = scene.world.ground_to_field.unwrap();
+            let target = decision.plan.target.unwrap().translation.vector;
+            let target = ground_to_field * Point2::from(target);
+            assert!((target - Point2::from(expected)).norm() < 1e-5, "{target}");
+        }
+    }
+}

@@ -95,6 +95,15 @@ impl Dynamic {
             *body = Body::new(*joints, *torso_to_field);
         }
     }
+
+    /// Puts a robot at a pose, its joints as they are, as high as `at` says.
+    fn put(&mut self, robot: usize, pose: [f64; 3], at: fn(&Start) -> Body) {
+        if let Some(body) = self.bodies.get(robot) {
+            let joints = body.joints;
+            let torso_to_field = at(&Start { joints, pose }).torso_to_field;
+            self.place(robot, &joints, &torso_to_field);
+        }
+    }
 }
 
 /// The engine as it is set up here, with nothing in it but gravity.
@@ -150,20 +159,8 @@ impl Physics for Dynamic {
                     ball.place(&mut self.world, &position, &velocity);
                 }
             }
-            Disturbance::Kidnap { robot, pose } => {
-                if let Some(body) = self.bodies.get(robot) {
-                    let joints = body.joints;
-                    let torso_to_field = Body::standing(&Start { joints, pose }).torso_to_field;
-                    self.place(robot, &joints, &torso_to_field);
-                }
-            }
-            Disturbance::Hold { robot, pose } => {
-                if let Some(body) = self.bodies.get(robot) {
-                    let joints = body.joints;
-                    let torso_to_field = Body::held(&Start { joints, pose }).torso_to_field;
-                    self.place(robot, &joints, &torso_to_field);
-                }
-            }
+            Disturbance::Kidnap { robot, pose } => self.put(robot, pose, Body::standing),
+            Disturbance::Hold { robot, pose } => self.put(robot, pose, Body::held),
         }
     }
 }

@@ -143,17 +143,7 @@ impl Connection {
                 Ok(0) => return "closed the connection".to_owned(),
                 Ok(_) if bytes.ends_with(b"\n") => {
                     heard = Instant::now();
-                    match line::read(&bytes) {
-                        Some(line) => {
-                            refused = 0;
-                            self.lines.fetch_add(1, Ordering::Relaxed);
-                            self.inbox.put(self.clock.now(), line);
-                        }
-                        None => {
-                            refused += 1;
-                            self.refused.fetch_add(1, Ordering::Relaxed);
-                        }
-                    }
+                    refused = if self.take(&bytes) { 0 } else { refused + 1 };
                     bytes.clear();
                     if refused == REFUSED_IN_A_ROW {
                         return "says what no controller says".to_owned();
@@ -172,6 +162,21 @@ impl Connection {
             }
         }
         "was left".to_owned()
+    }
+
+    /// One line; whether it made sense.
+    fn take(&self, bytes: &[u8]) -> bool {
+        let line = line::read(bytes);
+        let makes_sense = line.is_some();
+        let counter = match makes_sense {
+            true => &self.lines,
+            false => &self.refused,
+        };
+        counter.fetch_add(1, Ordering::Relaxed);
+        if let Some(line) = line {
+            self.inbox.put(self.clock.now(), line);
+        }
+        makes_sense
     }
 
     /// Sends a command unless nobody may; what does not go through is lost, and the next is newer.
