@@ -4,7 +4,7 @@ mod chaos;
 pub mod lockstep;
 pub mod observer;
 pub mod safe_state;
-mod split_mix;
+pub(crate) mod split_mix;
 pub mod threads;
 
 pub use lockstep::{Lockstep, Paused, Together};

@@ -31,7 +31,7 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use crate::cycler::{Cycler, Finished, Instance};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::recorded::{self, Head, Loading, Recorded, Stored, Taken, Types, digest};
 
 pub use carry::Setup;
@@ -73,12 +73,6 @@ pub trait Replay {
 
     /// What the loaded cycle has taken beside inputs; once it ran, its answers.
     fn taken(&self) -> Taken;
-
-    /// After a cycle: what a next one would find, as the content of a frame.
-    ///
-    /// # Errors
-    /// If a value cannot be serialised.
-    fn left_behind(&mut self) -> Result<Vec<u8>>;
 
     /// The instance.
     fn instance(&self) -> &dyn Instance;
@@ -144,11 +138,6 @@ where
 
     fn taken(&self) -> Taken {
         recorded::taken(self.cycler.body())
-    }
-
-    fn left_behind(&mut self) -> Result<Vec<u8>> {
-        let left = self.cycler.left_behind();
-        left.map_err(|error| Error::new(error.to_string()))
     }
 
     fn instance(&self) -> &dyn Instance {

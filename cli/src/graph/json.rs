@@ -1,6 +1,6 @@
 //! The graph as JSON, and the hash by which recordings and clients recognise it.
 
-use hulkgen_mcap::Fnv;
+use hulkgen_mcap::fnv;
 use serde_json::{Map, Value};
 
 use super::Graph;
@@ -69,7 +69,7 @@ pub fn hash(graph: &Graph) -> String {
     let mut value = serde_json::to_value(graph).expect("a graph has only string keys");
     remove_key(&mut value, "hash");
     remove_key(&mut value, "line");
-    format!("{:016x}", Fnv::of(value.to_string().as_bytes()))
+    format!("{:016x}", fnv(value.to_string().as_bytes()))
 }
 
 fn remove_key(value: &mut Value, key: &str) {

@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use crate::file::Attachment;
-use crate::fnv::Fnv;
+use crate::fnv::fnv;
 
 pub use difference::first_difference;
 pub use read::{Unreadable, Values};
@@ -164,6 +164,6 @@ impl Layout {
     /// FNV-1a (64 bit) of all that it says, so that two of them can be compared by a number.
     pub fn digest(parts: &[Part]) -> u64 {
         let text = serde_json::to_string(parts).unwrap_or_default();
-        Fnv::of(text.as_bytes())
+        fnv(text.as_bytes())
     }
 }

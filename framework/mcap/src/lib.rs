@@ -16,7 +16,7 @@ mod recover;
 mod ring;
 
 pub use file::{Attachment, Channel, ChannelId, Description, Metadata, Schema, Writer};
-pub use fnv::Fnv;
+pub use fnv::fnv;
 pub use format::{MESSAGE_HEAD, RECORD_HEAD, opcode};
 pub use layout::Layout;
 pub use open::{ChunkPlace, Contents, RecordingFile};

@@ -8,8 +8,10 @@ use hulkgen_mcap::{ChannelId, MESSAGE_HEAD, RECORD_HEAD, opcode};
 /// Whole frames of one instance, each some messages, as they will stand in a chunk.
 #[derive(Debug)]
 pub(crate) struct Block {
-    bytes: Vec<u8>,
-    /// Of the frame that is not whole yet.
+    bytes: Box<[u8]>,
+    /// Where the messages end.
+    length: usize,
+    /// Where whole frames end.
     frame: usize,
     /// How many frames are whole.
     pub(crate) frames: u64,
@@ -26,15 +28,17 @@ pub struct Full;
 /// The data of one message, being written; never longer than there is room.
 #[derive(Debug)]
 pub struct Writing<'block> {
-    bytes: &'block mut Vec<u8>,
-    limit: usize,
+    bytes: &'block mut [u8],
+    length: usize,
     is_full: bool,
 }
 
 impl Block {
-    pub(crate) fn with_capacity(bytes: usize) -> Self {
+    /// The memory is written, so that the system gives it now.
+    pub(crate) fn of_bytes(bytes: usize) -> Self {
         Self {
-            bytes: Vec::with_capacity(bytes),
+            bytes: vec![u8::MAX; bytes].into(),
+            length: 0,
             frame: 0,
             frames: 0,
             track: 0,
@@ -52,17 +56,16 @@ impl Block {
     }
 
     pub(crate) fn clear(&mut self) {
-        self.bytes.clear();
-        (self.frame, self.frames, self.times) = (0, 0, None);
+        (self.length, self.frame, self.frames, self.times) = (0, 0, 0, None);
     }
 
     /// Forgets the frame that is not whole.
     pub(crate) fn roll_back(&mut self) {
-        self.bytes.truncate(self.frame);
+        self.length = self.frame;
     }
 
     pub(crate) fn end_frame(&mut self, time: u64) {
-        self.frame = self.bytes.len();
+        self.frame = self.length;
         self.frames += 1;
         let (first, last) = self.times.unwrap_or((time, time));
         self.times = Some((first.min(time), last.max(time)));
@@ -75,67 +78,78 @@ impl Block {
         keep: usize,
         write: impl FnOnce(&mut Writing<'_>) -> Result<(), E>,
     ) -> Result<Result<(), E>, Full> {
-        let start = self.bytes.len();
-        let limit = self.bytes.capacity().saturating_sub(keep);
-        if start + RECORD_HEAD + MESSAGE_HEAD > limit {
+        let limit = self.bytes.len().saturating_sub(keep);
+        let free = self.bytes.get_mut(self.length..limit).unwrap_or_default();
+        let Some((head, data)) = free.split_at_mut_checked(RECORD_HEAD + MESSAGE_HEAD) else {
             return Err(Full);
-        }
-        self.bytes.push(opcode::MESSAGE);
-        self.bytes.extend(0_u64.to_le_bytes());
-        self.bytes.extend(channel.number().to_le_bytes());
-        self.bytes.extend(sequence.to_le_bytes());
-        self.bytes.extend(time.to_le_bytes());
-        self.bytes.extend(time.to_le_bytes());
-        let mut writing = Writing {
-            bytes: &mut self.bytes,
-            limit,
-            is_full: false,
         };
+        let mut writing = Writing::new(data);
         let written = write(&mut writing);
         if writing.is_full {
-            self.bytes.truncate(start);
             return Err(Full);
         }
-        if written.is_err() {
-            self.bytes.truncate(start);
-            return Ok(written);
+        if written.is_ok() {
+            let length = writing.length;
+            let mut head = Writing::new(head);
+            head.put(&[opcode::MESSAGE])?;
+            head.put(&((MESSAGE_HEAD + length) as u64).to_le_bytes())?;
+            head.put(&channel.number().to_le_bytes())?;
+            head.put(&sequence.to_le_bytes())?;
+            head.put(&time.to_le_bytes())?;
+            head.put(&time.to_le_bytes())?;
+            self.length += RECORD_HEAD + MESSAGE_HEAD + length;
         }
-        let length = (self.bytes.len() - start - RECORD_HEAD) as u64;
-        self.bytes[start + 1..start + RECORD_HEAD].copy_from_slice(&length.to_le_bytes());
-        Ok(Ok(()))
+        Ok(written)
     }
 }
 
 impl<'block> Writing<'block> {
-    /// Into memory that grows, for whoever wants the bytes alone.
-    pub fn growing(bytes: &'block mut Vec<u8>) -> Self {
+    /// From the beginning of this memory on.
+    pub fn new(bytes: &'block mut [u8]) -> Self {
         Self {
             bytes,
-            limit: usize::MAX,
+            length: 0,
             is_full: false,
         }
+    }
+
+    /// How many bytes were written.
+    pub fn length(&self) -> usize {
+        self.length
     }
 
     /// Appends, unless there is no room: then nothing more is written, and the message is not.
     #[inline]
     pub fn put(&mut self, bytes: &[u8]) -> Result<(), Full> {
-        if self.is_full || self.bytes.len() + bytes.len() > self.limit {
-            self.is_full = true;
-            return Err(Full);
-        }
-        self.bytes.extend_from_slice(bytes);
-        Ok(())
-    }
-
-    /// How many bytes the message has so far, beside those before it in the block.
-    pub fn position(&self) -> usize {
-        self.bytes.len()
-    }
-
-    /// Replaces what was written at a [`position`](Self::position) before.
-    pub fn replace(&mut self, position: usize, bytes: &[u8]) {
-        if let Some(place) = self.bytes.get_mut(position..position + bytes.len()) {
+        self.fill(|free| {
+            let place = free.get_mut(..bytes.len())?;
             place.copy_from_slice(bytes);
+            Some(bytes.len())
+        })
+    }
+
+    /// Lets `write` append into what is free. It tells how many bytes it has written from the beginning; `None`, or more than
+    /// there are, where there is no room for all of them: then the message is not.
+    ///
+    /// # Errors
+    /// If there is no room, or there was none for something before.
+    #[inline]
+    pub fn fill(&mut self, write: impl FnOnce(&mut [u8]) -> Option<usize>) -> Result<(), Full> {
+        let free = self.bytes.get_mut(self.length..).unwrap_or_default();
+        let free_bytes = free.len();
+        let written = match self.is_full {
+            true => None,
+            false => write(free).filter(|written| *written <= free_bytes),
+        };
+        match written {
+            Some(written) => {
+                self.length += written;
+                Ok(())
+            }
+            None => {
+                self.is_full = true;
+                Err(Full)
+            }
         }
     }
 }

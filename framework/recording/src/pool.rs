@@ -20,7 +20,7 @@ impl Pool {
             full: ArrayQueue::new(blocks),
         };
         for _ in 0..blocks {
-            pool.give_back(Block::with_capacity(bytes));
+            pool.give_back(Block::of_bytes(bytes));
         }
         pool
     }

@@ -7,7 +7,7 @@ use super::{Counters, Cycle, InstanceDescription, Reference};
 use crate::digest::DigestError;
 use crate::error::Result;
 use crate::guarded::State;
-use crate::recorded::{Capture, Forms, SaveError, Types, Visit};
+use crate::recorded::{Capture, Forms, SaveError, Saving, Types, Visit};
 use crate::reflect::Reflect;
 use crate::report::InstanceReport;
 use crate::subscriptions::Subscriptions;
@@ -79,6 +79,16 @@ pub trait Instance: Send {
     /// # Errors
     /// If there is no room, or a value cannot be serialised.
     fn save(&mut self, capture: &mut Capture<'_, '_>) -> Result<(), SaveError>;
+
+    /// Saves what stands in the frame itself, behind its head: of histories what came since that time, `None` for all of it.
+    ///
+    /// # Errors
+    /// As [`Instance::save`].
+    fn save_alone(
+        &mut self,
+        since: Option<Timestamp>,
+        out: &mut Saving<'_, '_>,
+    ) -> Result<(), SaveError>;
 
     /// The types of what [`Instance::save`] writes.
     fn types(&self) -> Types;

@@ -18,7 +18,7 @@ use crate::digest::DigestError;
 use crate::error::{Error, Result};
 use crate::guarded::{OnFailure, State, contain};
 use crate::logs;
-use crate::recorded::{self, Capture, Forms, Head, Recorded, SaveError, Types, Visit};
+use crate::recorded::{self, Capture, Forms, Head, Recorded, SaveError, Saving, Types, Visit};
 use crate::reflect::Reflect;
 use crate::report::{InstanceReport, NodeReport, SlotsReport};
 use crate::subscriptions::Subscriptions;
@@ -445,25 +445,25 @@ impl<B: Recorded> Instance for Cycler<B> {
     }
 
     fn save(&mut self, capture: &mut Capture<'_, '_>) -> Result<(), SaveError> {
-        let Self {
-            body,
-            writer,
-            cycle,
-            phase,
-            ..
-        } = self;
-        body.values(&mut capture.values(cycle.time.start))?;
+        let cycle = self.cycle;
+        self.body.values(&mut capture.values(cycle.time.start))?;
         let head = Head {
             number: cycle.number,
             start: cycle.time.start,
             since_last: cycle.time.since_last,
-            restarted: phase.restarted(),
+            restarted: self.phase.restarted(),
             whole: false,
         };
-        let (current, previous) = writer.slots();
-        capture.frame(head, |since, out| {
-            body.save(Slots { current, previous }, since, out)
-        })
+        capture.frame(head, |since, out| self.save_alone(since, out))
+    }
+
+    fn save_alone(
+        &mut self,
+        since: Option<Timestamp>,
+        out: &mut Saving<'_, '_>,
+    ) -> Result<(), SaveError> {
+        let (current, previous) = self.writer.slots();
+        self.body.save(Slots { current, previous }, since, out)
     }
 
     fn types(&self) -> Types {

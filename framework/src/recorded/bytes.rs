@@ -3,7 +3,7 @@
 use std::fmt;
 
 use hulkgen_recording::{Full, Writing};
-use postcard::ser_flavors::Flavor;
+use postcard::ser_flavors::{Flavor, Slice};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
@@ -38,15 +38,24 @@ impl<'a, 'block> Saving<'a, 'block> {
 
     /// Appends a value.
     pub fn put<T: Serialize + ?Sized>(&mut self, value: &T) -> Result<(), SaveError> {
-        let mut serializer = postcard::Serializer {
-            output: Into(self.writing),
-        };
-        value
-            .serialize(&mut serializer)
-            .map_err(|error| match error {
-                postcard::Error::SerializeBufferFull => SaveError::Full,
-                other => SaveError::Value(other.to_string()),
-            })
+        let mut failure = None;
+        let filled = self.writing.fill(|free| {
+            let mut serializer = postcard::Serializer {
+                output: Room::new(free),
+            };
+            let serialized = value.serialize(&mut serializer);
+            // Whatever the value makes of a refusal.
+            let length = serializer.output.finalize().ok()?;
+            match serialized {
+                Ok(()) => Some(length),
+                Err(error) => {
+                    failure = Some(SaveError::Value(error.to_string()));
+                    Some(0)
+                }
+            }
+        });
+        filled?;
+        failure.map_or(Ok(()), Err)
     }
 }
 
@@ -78,26 +87,46 @@ impl<'frame> Loading<'frame> {
     }
 }
 
-/// What postcard writes into.
-struct Into<'a, 'block>(&'a mut Writing<'block>);
+/// What postcard writes into: once something had no room, nothing more has, and it has no end.
+struct Room<'free> {
+    free: Slice<'free>,
+    is_full: bool,
+}
 
-impl Flavor for Into<'_, '_> {
-    type Output = ();
+impl<'free> Room<'free> {
+    fn new(free: &'free mut [u8]) -> Self {
+        Self {
+            free: Slice::new(free),
+            is_full: false,
+        }
+    }
+
+    #[cold]
+    fn refuse(&mut self) -> postcard::Error {
+        (self.free, self.is_full) = (Slice::new(&mut []), true);
+        postcard::Error::SerializeBufferFull
+    }
+}
+
+impl Flavor for Room<'_> {
+    /// How many bytes were written.
+    type Output = usize;
 
     #[inline]
     fn try_push(&mut self, byte: u8) -> postcard::Result<()> {
-        self.try_extend(&[byte])
+        self.free.try_push(byte).map_err(|_| self.refuse())
     }
 
     #[inline]
     fn try_extend(&mut self, bytes: &[u8]) -> postcard::Result<()> {
-        self.0
-            .put(bytes)
-            .map_err(|Full| postcard::Error::SerializeBufferFull)
+        self.free.try_extend(bytes).map_err(|_| self.refuse())
     }
 
-    fn finalize(self) -> postcard::Result<()> {
-        Ok(())
+    fn finalize(self) -> postcard::Result<usize> {
+        match self.is_full {
+            true => Err(postcard::Error::SerializeBufferFull),
+            false => Ok(self.free.finalize()?.len()),
+        }
     }
 }
 
@@ -117,3 +146,47 @@ impl fmt::Display for SaveError {
 }
 
 impl std::error::Error for SaveError {}
+
+#[cfg(test)]
+mod tests {
+    use serde::Serializer;
+    use serde::ser::SerializeTuple as _;
+
+    use super::*;
+
+    /// As types do that are written as text.
+    struct Shown;
+
+    impl Serialize for Shown {
+        fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+            serializer.collect_str("eight be")
+        }
+    }
+
+    /// Takes no refusal for an answer.
+    struct Stubborn;
+
+    impl Serialize for Stubborn {
+        fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+            let mut tuple = serializer.serialize_tuple(2)?;
+            let _ = tuple.serialize_element(&[0_u8; 16]);
+            tuple.serialize_element(&1_u8)?;
+            tuple.end()
+        }
+    }
+
+    fn put(value: impl Serialize, room: usize) -> (Result<(), SaveError>, usize) {
+        let mut bytes = vec![0; room];
+        let mut writing = Writing::new(&mut bytes);
+        let put = Saving::new(&mut writing).put(&value);
+        (put, writing.length())
+    }
+
+    #[test]
+    fn what_has_no_room_is_told_as_that_however_the_value_writes_itself() {
+        assert_eq!(put(Shown, 9), (Ok(()), 9));
+        assert_eq!(put(Shown, 8), (Err(SaveError::Full), 0));
+        assert_eq!(put(Stubborn, 17), (Ok(()), 17));
+        assert_eq!(put(Stubborn, 8), (Err(SaveError::Full), 0));
+    }
+}

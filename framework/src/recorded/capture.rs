@@ -19,7 +19,7 @@ use crate::error::{Error, Result};
 use crate::time::Timestamp;
 
 /// Version of all that [`Capture`] writes; a reader of another version says so.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 
 /// What [`Values::parameters`] are listed under among the instances.
 pub const PARAMETERS: &str = "parameters";

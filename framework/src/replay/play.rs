@@ -3,12 +3,18 @@
 use std::collections::BTreeMap;
 
 use hulkgen_mcap::layout::Part;
-use hulkgen_recording::Recording;
+use hulkgen_recording::{Recording, Writing};
 
 use super::carry::composed;
 use super::{Needed, OtherParameters, Ran, Replay, Replayable, Setup, types};
+use crate::cycler::Instance;
 use crate::error::{Error, Result};
-use crate::recorded::{BEGUN, FINISHED, FRAMES, Head, Loading, Stored, VALUES, VERSION};
+use crate::recorded::{
+    BEGUN, FINISHED, FRAMES, Head, Loading, SaveError, Saving, Stored, VALUES, VERSION,
+};
+
+/// For what the first cycle leaves behind, in bytes; twice as many until it has room.
+const ROOM: usize = 1 << 10;
 
 /// All instances of a recording that this robot can replay.
 pub struct Players<'r> {
@@ -43,6 +49,8 @@ struct Carrying {
     parts: Vec<Part>,
     /// By the last cycle that ran, for the frame at this position.
     left: Option<(usize, Vec<u8>)>,
+    /// So many bytes had room for it.
+    room: usize,
     /// Cycles that went on so.
     cycles: u64,
 }
@@ -188,6 +196,7 @@ impl<'r> Players<'r> {
                 setup: Setup::of(player.instance, graph)?,
                 parts: (player.replayable.types)().parts,
                 left: None,
+                room: ROOM,
                 cycles: 0,
             });
         }
@@ -282,7 +291,10 @@ impl<'r> Player<'r> {
         let ran = replay.run(self.nodes.as_deref());
         if let Some(carrying) = &mut self.carrying {
             carrying.left = match ran {
-                Ran::Finished => Some((position + 1, replay.left_behind()?)),
+                Ran::Finished => {
+                    let left = left_behind(replay.instance_mut(), &mut carrying.room)?;
+                    Some((position + 1, left))
+                }
                 // Nobody knows what it would have left.
                 Ran::NeedsHardware | Ran::Failed(_) => None,
             };
@@ -400,5 +412,22 @@ impl<'r> Player<'r> {
     /// The instance, once a frame was loaded.
     pub fn replay(&self) -> Option<&dyn Replay> {
         self.replay.as_deref()
+    }
+}
+
+/// What a next cycle would find, as the content of a frame that needs none before it.
+fn left_behind(instance: &mut dyn Instance, room: &mut usize) -> Result<Vec<u8>> {
+    loop {
+        let mut bytes = vec![0; *room];
+        let mut writing = Writing::new(&mut bytes);
+        match instance.save_alone(None, &mut Saving::new(&mut writing)) {
+            Err(SaveError::Full) => *room *= 2,
+            saved => {
+                saved.map_err(|error| Error::new(error.to_string()))?;
+                let length = writing.length();
+                bytes.truncate(length);
+                return Ok(bytes);
+            }
+        }
     }
 }

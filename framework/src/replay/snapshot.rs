@@ -9,7 +9,7 @@ use crate::error::{Error, Result};
 use crate::guarded::State;
 
 /// Version of what [`snapshot`] gives; that of version 1 said nothing of the state after the call.
-pub const SNAPSHOT_VERSION: u32 = 2;
+pub const SNAPSHOT_VERSION: u32 = 3;
 
 /// Which call of a node.
 #[derive(Clone, Copy, Debug)]

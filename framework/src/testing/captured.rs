@@ -231,14 +231,15 @@ fn load(text: &str) -> Result<Value, String> {
 /// Compares a value with its recorded bits.
 fn assert_same(what: &str, recorded: &Value, value: &impl Serialize) {
     let bits = digest(value).unwrap_or_else(|error| panic!("{what}: {error}"));
-    if recorded["digest"] == format!("{bits:016x}") {
+    let bits = format!("{bits:016x}");
+    if recorded["digest"] == bits {
         return;
     }
     let now = serde_json::to_value(value).unwrap_or_default();
     let path = first_difference(&recorded["value"], &now);
     panic!(
-        "{what} is not what was recorded, first in `{path}`\n  recorded: {}\n  now:      {now}",
-        recorded["value"]
+        "{what} is not what was recorded, first in `{path}`\n  recorded: {} {}\n  now:      \"{bits}\" {now}",
+        recorded["digest"], recorded["value"]
     );
 }
 
@@ -338,11 +339,11 @@ mod tests {
 
     #[test]
     fn files_of_other_versions_are_refused() {
-        assert!(load(r#"{ "version": 2 }"#).is_ok());
+        assert!(load(r#"{ "version": 3 }"#).is_ok());
         for (text, why) in [
-            (r#"{ "version": 1 }"#, "has version 1, and 2 is read here"),
-            (r#"{ "version": 3 }"#, "has version 3, and 2 is read here"),
-            (r#"{ "version": "2" }"#, r#"has version "2""#),
+            (r#"{ "version": 1 }"#, "has version 1, and 3 is read here"),
+            (r#"{ "version": 2 }"#, "has version 2, and 3 is read here"),
+            (r#"{ "version": "3" }"#, r#"has version "3""#),
             ("{}", "has no `version`"),
             ("[2]", "has no `version`"),
             ("{", "is damaged"),

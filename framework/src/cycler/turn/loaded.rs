@@ -1,12 +1,10 @@
 //! A cycle that was recorded, about to run again.
 
-use hulkgen_recording::Writing;
-
 use super::{Cycler, Phase};
-use crate::cycler::{Cycle, Instance, Slots};
+use crate::cycler::{Cycle, Instance};
 use crate::error::{Error, Result};
 use crate::guarded::only;
-use crate::recorded::{Head, Loaded, Loading, Recorded, SaveError, Saving, Stored};
+use crate::recorded::{Head, Loaded, Loading, Recorded, Stored};
 use crate::time::CycleTime;
 
 impl<B: Recorded> Cycler<B> {
@@ -60,20 +58,6 @@ impl<B: Recorded> Cycler<B> {
         if self.failure.as_ref().is_some_and(Error::is_stopped) {
             self.failure = None;
         }
-    }
-
-    /// What a next cycle would find, as the content of a frame behind its head that needs no frame before it.
-    ///
-    /// # Errors
-    /// If a value cannot be serialised.
-    pub(crate) fn left_behind(&mut self) -> Result<Vec<u8>, SaveError> {
-        let mut bytes = Vec::new();
-        let mut writing = Writing::growing(&mut bytes);
-        let (current, previous) = self.writer.slots();
-        let slots = Slots { current, previous };
-        self.body
-            .save(slots, None, &mut Saving::new(&mut writing))?;
-        Ok(bytes)
     }
 
     /// Why the cycle that ran will not be published.

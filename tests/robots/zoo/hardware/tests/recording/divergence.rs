@@ -5,12 +5,13 @@ use std::sync::Arc;
 use framework::cycler::{Counters, Reference};
 use framework::digest::DigestError;
 use framework::driver::Observer;
-use framework::recorded::{Capture, Forms, SaveError, Settings, Types, Visit};
+use framework::recorded::{Capture, Forms, SaveError, Saving, Settings, Types, Visit};
 use framework::reflect::Reflect;
 use framework::report::InstanceReport;
 use framework::tap::{Reports, Tap};
 use framework::{
-    Cycle, Finished, Instance, InstanceDescription, Restarted, Result, State, Subscriptions, Waited,
+    Cycle, Finished, Instance, InstanceDescription, Restarted, Result, State, Subscriptions,
+    Timestamp, Waited,
 };
 
 use super::{Tape, on, record_in_lockstep};
@@ -255,6 +256,14 @@ impl Instance for Flipped {
     }
 
     fn save(&mut self, _: &mut Capture<'_, '_>) -> std::result::Result<(), SaveError> {
+        Ok(())
+    }
+
+    fn save_alone(
+        &mut self,
+        _: Option<Timestamp>,
+        _: &mut Saving<'_, '_>,
+    ) -> std::result::Result<(), SaveError> {
         Ok(())
     }
 }
