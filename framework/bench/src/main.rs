@@ -14,6 +14,7 @@ mod floor;
 mod measure;
 mod mix;
 mod parts;
+mod recorded;
 mod report;
 mod threads;
 mod trivial;

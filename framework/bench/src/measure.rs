@@ -54,9 +54,7 @@ impl<'a> Row<'a> {
         let started = Instant::now();
         let mut times = 1;
         loop {
-            let sample = Instant::now();
-            (self.run)(times);
-            let took = sample.elapsed();
+            let took = (self.run)(times);
             if started.elapsed() > WARM_UP && took * 2 > SAMPLE {
                 return times;
             }

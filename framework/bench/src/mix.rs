@@ -5,11 +5,12 @@ use std::rc::Rc;
 use std::time::{Duration, Instant};
 
 use framework::timing::{self, Timing};
-use framework::{CycleTime, Instance, Result, Timestamp};
+use framework::{CycleTime, Instance, Result, Robot, Timestamp};
 use mix_runtime::parameters::Parameters;
 use mix_runtime::runtime;
 
 use crate::measure::Row;
+use crate::recorded::Recorder;
 use crate::report::{Limit, Report, Section};
 use crate::turn::{robot, take, turn};
 
@@ -35,7 +36,8 @@ const WATCHED: [&str; 4] = [
 
 /// The robot `mix`, and what turns it.
 pub(crate) struct Mix {
-    robot: framework::Robot<Parameters>,
+    robot: Robot<Parameters>,
+    recorder: Option<Recorder>,
     pub(crate) control: Box<dyn Instance>,
     pub(crate) producers: Vec<(Box<dyn Instance>, u64)>,
     cycle: u64,
@@ -43,15 +45,29 @@ pub(crate) struct Mix {
 
 impl Mix {
     pub(crate) fn new() -> Result<Self> {
-        let mut robot = robot(runtime::create, PARAMETERS)?;
+        Ok(Self::of(robot(runtime::create, PARAMETERS)?))
+    }
+
+    /// With a recording of every cycle of `Control`.
+    fn recorded() -> Result<Self> {
+        let robot = robot(runtime::create, PARAMETERS)?;
+        let recorder = Some(Recorder::of(&robot, "Control")?);
+        Ok(Self {
+            recorder,
+            ..Self::of(robot)
+        })
+    }
+
+    fn of(mut robot: Robot<Parameters>) -> Self {
         let control = take(&mut robot, "Control");
         let producers = EVERY.map(|(name, every)| (take(&mut robot, name), every));
-        Ok(Self {
+        Self {
             robot,
+            recorder: None,
             control,
             producers: producers.into(),
             cycle: 0,
-        })
+        }
     }
 
     fn watch(&mut self) -> Result<()> {
@@ -71,7 +87,10 @@ impl Mix {
             }
         }
         let started = Instant::now();
-        turn(self.control.as_mut());
+        match &mut self.recorder {
+            Some(recorder) => recorder.turn(self.control.as_mut()),
+            None => turn(self.control.as_mut()),
+        }
         started.elapsed()
     }
 }
@@ -144,7 +163,11 @@ fn ours(name: &'static str, mix: &Rc<RefCell<Mix>>, timing: Timing) -> Row<'stat
     Row::timed(name, move |times| {
         timing::set(timing);
         let mut mix = mix.borrow_mut();
-        sum(times, || mix.cycle())
+        let took = sum(times, || mix.cycle());
+        if let Some(recorder) = &mix.recorder {
+            recorder.rest();
+        }
+        took
     })
 }
 
@@ -155,12 +178,14 @@ pub(crate) fn rows() -> Result<Vec<Row<'static>>> {
     let mut watched = Mix::new()?;
     watched.watch()?;
     let watched = Rc::new(RefCell::new(watched));
+    let recorded = Rc::new(RefCell::new(Mix::recorded()?));
     Ok(vec![
         Row::timed("mix: HAND", move |times| sum(times, || hand.cycle())),
         ours("mix: ours", &mix, Timing::Off),
         ours("mix: ours, timing sampled", &mix, Timing::Sampled),
         ours("mix: ours, timing on", &mix, Timing::Complete),
         ours("mix: ours, four watched", &watched, Timing::Off),
+        ours("mix: ours, recorded", &recorded, Timing::Off),
     ])
 }
 
@@ -171,7 +196,7 @@ pub(crate) fn section(report: &Report) -> Section {
     Section {
         title: "The mix of a real body's cycler, with news from four producers",
         unit: ("F", floor),
-        rows: report.rows_until("mix: HAND", "mix: ours, four watched"),
+        rows: report.rows_until("mix: HAND", "mix: ours, recorded"),
         limits: vec![
             Limit::new(
                 "overhead over HAND",
@@ -188,6 +213,12 @@ pub(crate) fn section(report: &Report) -> Section {
             Limit::new(
                 "allocations over HAND's",
                 report.allocations("mix: ours") - report.allocations("mix: HAND"),
+                0.0,
+                "",
+            ),
+            Limit::new(
+                "allocations of a recording",
+                report.allocations("mix: ours, recorded") - report.allocations("mix: ours"),
                 0.0,
                 "",
             ),

@@ -81,12 +81,12 @@ pub(crate) fn section(report: &Report) -> Section {
 
 /// What is asked at a robot's pace.
 pub(crate) fn section_of_pace(report: &Report) -> Section {
-    let [hand, ours, slow] =
-        ["83 Hz: HAND, p50", "83 Hz: ours, p50", "83 Hz: ours, p99"].map(|name| report.nanos(name));
+    let names = ["HAND, p50", "ours, p50", "ours, p99", "ours, recorded, p50"];
+    let [hand, ours, slow, recorded] = names.map(|name| report.nanos(&format!("83 Hz: {name}")));
     Section {
         title: "83 Hz, five threads, cold caches",
         unit: ("HAND", hand),
-        rows: report.rows_until("83 Hz: HAND, p50", "83 Hz: ours, p99"),
+        rows: report.rows_until("83 Hz: HAND, p50", "83 Hz: ours, recorded, p99"),
         limits: vec![
             Limit::new(
                 "overhead over HAND, p50",
@@ -95,6 +95,7 @@ pub(crate) fn section_of_pace(report: &Report) -> Section {
                 "HAND",
             ),
             Limit::new("p99 over own p50", slow / ours, 2.0, "x"),
+            Limit::new("a recording, p50", (recorded - ours) / hand, 0.2, "HAND"),
         ],
     }
 }

@@ -5,6 +5,7 @@ use framework::{CycleTime, Result};
 
 use crate::floor::Floor;
 use crate::measure::{Row, timed};
+use crate::recorded::Recorder;
 use crate::report::{Limit, Report, Section};
 use crate::turn::{robot, take, turn};
 
@@ -49,6 +50,20 @@ variant!(called, trivial_nodes_called, trivial_runtime_called);
 variant!(inlined, trivial_nodes_inlined, trivial_runtime_inlined);
 variant!(plain, trivial_nodes, trivial_runtime);
 
+/// With a recording of every cycle.
+fn recorded(name: &'static str) -> Result<Row<'static>> {
+    let mut robot = robot(trivial_runtime_called::runtime::create, PARAMETERS)?;
+    let mut recorder = Recorder::of(&robot, "Control")?;
+    let mut control = take(&mut robot, "Control");
+    Ok(Row::timed(name, move |times| {
+        let _robot = &robot;
+        timing::set(Timing::Off);
+        let took = timed(times, || recorder.turn(control.as_mut()));
+        recorder.rest();
+        took
+    }))
+}
+
 /// The rows, in the order of the table.
 pub(crate) fn rows() -> Result<Vec<Row<'static>>> {
     let mut floor = Floor::new();
@@ -56,6 +71,7 @@ pub(crate) fn rows() -> Result<Vec<Row<'static>>> {
         Row::new("F", move || floor.cycle()),
         called::by_hand("HAND, called")?,
         called::ours("ours, called", Timing::Off)?,
+        recorded("ours, called, recorded")?,
         inlined::by_hand("HAND, inlined")?,
         inlined::ours("ours, inlined", Timing::Off)?,
         inlined::ours("ours, inlined, timing sampled", Timing::Sampled)?,

@@ -15,12 +15,14 @@ use mix_at_83_hz_runtime::runtime;
 use super::{become_real_time, quantiles};
 use crate::measure::Measured;
 use crate::mix::{ByHand, EVERY, PARAMETERS};
+use crate::recorded::Recorder;
 use crate::turn::{robot, take, turn};
 
 const PERIOD: Duration = Duration::from_millis(12);
 /// By hand so long after ours.
 const LATER: Duration = Duration::from_millis(4);
-const CYCLES: u32 = 1000;
+/// Every other cycle of ours is recorded.
+const CYCLES: u32 = 2000;
 /// Until history reaches as far back as it ever will.
 const WARM_UP: u32 = 100;
 /// More than a core's own caches hold.
@@ -29,16 +31,17 @@ const MEMORY: usize = 8 << 20;
 pub(super) fn measure() -> Result<Vec<Measured>> {
     timing::set(Timing::Off);
     let mut robot = robot(runtime::create, PARAMETERS)?;
+    let mut recorder = Recorder::of(&robot, "Control")?;
     let mut control = take(&mut robot, "Control");
     let producers = EVERY.map(|(name, every)| (take(&mut robot, name), every));
     let mut hand = ByHand::new()?;
     let done = AtomicBool::new(false);
-    let (mut by_hand, mut ours) = thread::scope(|scope| {
+    let [mut by_hand, mut ours, mut recorded] = thread::scope(|scope| {
         for (mut producer, every) in producers {
             let done = &done;
             scope.spawn(move || produce(producer.as_mut(), PERIOD * every as u32, done));
         }
-        let control = scope.spawn(|| turn_control(control.as_mut(), &mut hand));
+        let control = scope.spawn(|| turn_control(control.as_mut(), &mut recorder, &mut hand));
         let measured = control.join();
         done.store(true, Ordering::Relaxed);
         measured.expect("no cycle panics")
@@ -47,6 +50,10 @@ pub(super) fn measure() -> Result<Vec<Measured>> {
     measured.extend(quantiles(
         ["83 Hz: ours, p50", "83 Hz: ours, p99"],
         &mut ours,
+    ));
+    measured.extend(quantiles(
+        ["83 Hz: ours, recorded, p50", "83 Hz: ours, recorded, p99"],
+        &mut recorded,
     ));
     Ok(measured)
 }
@@ -60,28 +67,42 @@ fn produce(instance: &mut dyn Instance, period: Duration, done: &AtomicBool) {
     }
 }
 
-/// What each cycle took: by hand, and ours.
-fn turn_control(control: &mut dyn Instance, hand: &mut ByHand) -> (Vec<f64>, Vec<f64>) {
+/// What each cycle took: by hand, ours, and ours recorded.
+fn turn_control(
+    control: &mut dyn Instance,
+    recorder: &mut Recorder,
+    hand: &mut ByHand,
+) -> [Vec<f64>; 3] {
     become_real_time();
-    let (mut by_hand, mut ours) = (Vec::new(), Vec::new());
+    let (mut by_hand, mut ours, mut recorded) = (Vec::new(), Vec::new(), Vec::new());
     let mut memory = vec![0_u8; MEMORY];
     let mut due = Instant::now();
     for cycle in 0..CYCLES {
         due += PERIOD;
         sleep_until(due);
         let started = Instant::now();
-        turn(control);
+        let is_recorded = cycle % 2 == 1;
+        match is_recorded {
+            true => recorder.turn(control),
+            false => turn(control),
+        }
         let took = started.elapsed();
         walk(&mut memory);
         sleep_until(due + LATER);
         let took_by_hand = hand.cycle();
         walk(&mut memory);
         if cycle >= WARM_UP {
-            ours.push(took.as_nanos() as f64);
+            let row = if is_recorded {
+                &mut recorded
+            } else {
+                &mut ours
+            };
+            row.push(took.as_nanos() as f64);
             by_hand.push(took_by_hand.as_nanos() as f64);
         }
     }
-    (by_hand, ours)
+    recorder.rest();
+    [by_hand, ours, recorded]
 }
 
 fn sleep_until(due: Instant) {

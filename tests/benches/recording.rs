@@ -1,0 +1,222 @@
+//! What a recording costs Control of the simulated NAO, beside postcard writing the same bytes into a slice: both of the same
+//! cycles in turns, medians.
+//!
+//! `cargo bench -p hulkgen-tests --bench recording`
+
+use std::hint::black_box;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+use framework::driver::{Lockstep, Observer};
+use framework::recorded::{About, Recording, Saving, Settings};
+use framework::{CountingAllocator, Instance, InstanceDescription, Record, Timestamp};
+use hulkgen_recording::Writing;
+use support::nao::Nao;
+
+#[global_allocator]
+static ALLOCATOR: CountingAllocator = CountingAllocator;
+
+/// Of the robot's time.
+const LENGTH: Duration = Duration::from_secs(60);
+/// More than any frame of Control takes, in bytes.
+const SLICE: usize = 1 << 20;
+/// As much as the recording has: it comes back to the same memory when that is in no cache.
+const MEMORY: usize = 64 << 20;
+/// Until the robot stands and its nodes have the memory that they need.
+const WARM_UP: u64 = 200;
+
+/// A frame also has what came from other instances, which postcard does not write here: alone nothing comes.
+const ROBOTS: [(&str, &[(&str, &str)]); 2] = [
+    (
+        "without cameras and microphones",
+        &[
+            ("hardware.simulated.cameras", "false"),
+            ("hardware.simulated.microphones", "false"),
+        ],
+    ),
+    ("with all senses", &[]),
+];
+
+/// Of each cycle.
+#[derive(Default)]
+struct Measured {
+    bytes: Vec<f64>,
+    again: Vec<f64>,
+    fresh: Vec<f64>,
+    frame: Vec<f64>,
+    digests: Vec<f64>,
+    allocations: u64,
+}
+
+/// The recording of Control, measured.
+struct Timed {
+    observer: Box<dyn Observer>,
+    memory: Vec<u8>,
+    /// Where the next fresh slice begins.
+    place: usize,
+    /// When the cycle before started: histories are saved since.
+    since: Option<Timestamp>,
+    measured: Arc<Mutex<Measured>>,
+}
+
+impl Timed {
+    fn new(observer: Box<dyn Observer>, measured: &Arc<Mutex<Measured>>) -> Self {
+        Self {
+            observer,
+            memory: vec![1; MEMORY],
+            place: SLICE,
+            since: None,
+            measured: measured.clone(),
+        }
+    }
+
+    /// How many bytes postcard writes, and how long it takes; into the same slice as ever or into the next one.
+    fn write(&mut self, instance: &mut dyn Instance, is_fresh: bool) -> (usize, f64) {
+        let place = if is_fresh { self.place } else { 0 };
+        let mut writing = Writing::new(&mut self.memory[place..place + SLICE]);
+        let started = Instant::now();
+        let saved = instance.save_alone(self.since, &mut Saving::new(&mut writing));
+        let took = nanos(started);
+        saved.expect("the slice is longer than any frame");
+        let length = writing.length();
+        if is_fresh {
+            let next = self.place + length;
+            self.place = if next + SLICE > MEMORY { SLICE } else { next };
+        }
+        black_box(&mut self.memory);
+        (length, took)
+    }
+
+    /// How long the recording takes, and how often it allocates.
+    fn record(&mut self, instance: &mut dyn Instance) -> (f64, u64) {
+        let before = allocations();
+        let started = Instant::now();
+        self.observer.begun(instance);
+        let took = nanos(started);
+        (took, allocations() - before)
+    }
+}
+
+impl Observer for Timed {
+    fn begun(&mut self, instance: &mut dyn Instance) {
+        let cycle = instance.cycle();
+        // Whoever comes later has the values in the caches: they take turns.
+        let mut rows = [None; 3];
+        let (mut bytes, mut allocations) = (0, 0);
+        for turn in 0..rows.len() {
+            let row = (turn + cycle.number as usize) % rows.len();
+            rows[row] = Some(match row {
+                0 | 1 => {
+                    let (length, took) = self.write(instance, row == 1);
+                    bytes = length;
+                    took
+                }
+                _ => {
+                    let (took, allocated) = self.record(instance);
+                    allocations = allocated;
+                    took
+                }
+            });
+        }
+        self.since = Some(cycle.time.start);
+        if cycle.number > WARM_UP {
+            let mut measured = lock(&self.measured);
+            measured.bytes.push(bytes as f64);
+            measured.allocations += allocations;
+            let [again, fresh, frame] = rows.map(Option::unwrap_or_default);
+            measured.again.push(again);
+            measured.fresh.push(fresh);
+            measured.frame.push(frame);
+        }
+    }
+
+    fn finished(&mut self, instance: &dyn Instance) {
+        let before = allocations();
+        let started = Instant::now();
+        self.observer.finished(instance);
+        let (took, allocated) = (nanos(started), allocations() - before);
+        if instance.cycle().number > WARM_UP {
+            let mut measured = lock(&self.measured);
+            measured.allocations += allocated;
+            measured.digests.push(took);
+        }
+    }
+}
+
+fn allocations() -> u64 {
+    CountingAllocator::of_this_thread().expect("it is installed")
+}
+
+fn nanos(since: Instant) -> f64 {
+    since.elapsed().as_nanos() as f64
+}
+
+fn lock(measured: &Mutex<Measured>) -> MutexGuard<'_, Measured> {
+    measured.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+fn quantile(values: &mut [f64], share: f64) -> f64 {
+    values.sort_by(f64::total_cmp);
+    let last = values.len().saturating_sub(1);
+    values[(last as f64 * share).round() as usize]
+}
+
+/// The robot with these settings, for a minute.
+fn measure(settings: &[(&str, &str)]) -> Measured {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("run.mcap");
+    let mut nao = Nao::dynamic(&[], settings);
+    let record = |one: &InstanceDescription| match one.name {
+        "Control" => Record::On,
+        _ => Record::Off,
+    };
+    let (about, sizes) = (About::default(), Settings::default());
+    let recording = Recording::start_with(&path, &nao.robot, about, sizes, record);
+    let mut recording = recording.expect("the folder is empty");
+    let measured = Arc::<Mutex<Measured>>::default();
+    let hardware = nao.hardware.clone();
+    let mut lockstep = Lockstep::new(&mut nao.robot, &*hardware).observed(|instance| {
+        Some(Box::new(Timed::new(
+            recording.observer(instance)?,
+            &measured,
+        )))
+    });
+    let end = Timestamp::from_nanos(LENGTH.as_nanos() as u64);
+    lockstep.run_until(end, |_| {}).expect("the robot goes on");
+    drop(lockstep);
+    let report = recording.end();
+    assert_eq!(report.state(), "COMPLETE", "every cycle is recorded");
+    std::mem::take(&mut *lock(&measured))
+}
+
+fn main() {
+    for (title, settings) in ROBOTS {
+        let mut measured = measure(settings);
+        println!("{title}: {} cycles of Control, ns", measured.bytes.len());
+        let [slice, fresh, frame, _] = print(&mut measured);
+        for (name, other) in [("the slice", slice), ("fresh memory", fresh)] {
+            println!("a frame beside {name:<13} {:>9.2}", frame / other);
+        }
+    }
+}
+
+/// Gives the medians.
+fn print(measured: &mut Measured) -> [f64; 4] {
+    println!("{:<28} {:>9} {:>8}", "", "p50", "p99");
+    let rows = [
+        ("postcard into a slice", &mut measured.again),
+        ("postcard into fresh memory", &mut measured.fresh),
+        ("a frame of the recording", &mut measured.frame),
+        ("digests of main outputs", &mut measured.digests),
+    ];
+    let medians = rows.map(|(name, values)| {
+        let [median, slow] = [0.5, 0.99].map(|share| quantile(values, share));
+        println!("{name:<28} {median:>9.0} {slow:>8.0}");
+        median
+    });
+    let bytes = quantile(&mut measured.bytes, 0.5);
+    println!("{:<28} {bytes:>9.0}", "bytes in the slice");
+    let allocations = measured.allocations;
+    println!("{:<28} {allocations:>9}", "allocations");
+    medians
+}
