@@ -179,7 +179,7 @@ pub fn capture(
 /// The file that the test reads.
 fn data(writing: &Writing<'_>, Capture { node, snapshot, .. }: Capture<'_>) -> String {
     let data = json!({
-        "version": 2,
+        "version": snapshot["version"],
         "node": node.path,
         "instance": snapshot["instance"],
         "cycle": snapshot["cycle"],
