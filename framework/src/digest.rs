@@ -9,7 +9,7 @@ use serde::ser::{
 };
 
 use crate::cycler::Instance;
-use crate::driver::split_mix::{STEP, mixed};
+use crate::split_mix::{STEP, mixed};
 
 /// Of serialised values, bit for bit: unlike in text, every NaN is itself.
 ///

@@ -4,11 +4,9 @@ mod chaos;
 pub mod lockstep;
 pub mod observer;
 pub mod safe_state;
-pub(crate) mod split_mix;
 pub mod threads;
 
 pub use lockstep::{Lockstep, Paused, Together};
 pub use observer::Observer;
 pub use safe_state::SafeState;
-pub(crate) use split_mix::SplitMix;
 pub use threads::Threads;

@@ -61,6 +61,7 @@ pub mod report;
 pub mod robot;
 pub mod scenario;
 pub mod scheduling;
+mod split_mix;
 pub mod stop;
 pub mod stub;
 pub mod subscriptions;

@@ -5,8 +5,8 @@
 
 use std::time::Duration;
 
-use super::SplitMix;
 use crate::cycler::{InstanceDescription, Kind};
+use crate::split_mix::SplitMix;
 
 /// How much later than its data an instance of a perception cycler begins at most: what a busy computer takes to wake a thread.
 const PERCEPTION_WAKES_WITHIN: Duration = Duration::from_millis(2);

@@ -1,7 +1,7 @@
 //! Numbers of the world that a seed changes.
 
-use crate::driver::SplitMix;
 use crate::error::{Error, Result};
+use crate::split_mix::SplitMix;
 
 /// Draws changes from a seed.
 pub(super) struct Draw(SplitMix);
