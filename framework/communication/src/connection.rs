@@ -1,5 +1,6 @@
 //! One client's WebSocket, from its first message to its end.
 
+use std::future::ready;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -14,6 +15,9 @@ use crate::server::Shared;
 /// A client is asked for a sign of life so many times before it counts as gone.
 const PINGS: u32 = 3;
 
+/// What is sent before the client is listened to again: it may want less.
+const AT_ONCE: usize = 64 << 10;
+
 /// Serves one client until it leaves, says what it may not, or is silent for too long.
 pub(crate) async fn talk(mut socket: WebSocket, shared: Arc<Shared>) {
     let (client, news) = shared.hub().connect();
@@ -27,7 +31,7 @@ pub(crate) async fn talk(mut socket: WebSocket, shared: Arc<Shared>) {
     let mut heard = Instant::now();
     let mut ending = shared.ending.subscribe();
     let mut why = None;
-    while send_all(&mut socket, client, &shared).await {
+    while let Some(is_more) = send_some(&mut socket, client, &shared).await {
         let may_ask = shared.hub().may_ask(client);
         tokio::select! {
             received = socket.recv(), if may_ask => {
@@ -45,6 +49,7 @@ pub(crate) async fn talk(mut socket: WebSocket, shared: Arc<Shared>) {
                     break;
                 }
             }
+            () = ready(()), if is_more => {}
             () = news.notified() => {}
             _ = ending.changed() => {
                 why = Some((close_code::AWAY, "the robot ends"));
@@ -93,26 +98,33 @@ fn receive(message: Message, client: ClientId, shared: &Shared) -> bool {
     }
 }
 
-/// Sends everything that waits for the client; whether it takes it.
-async fn send_all(socket: &mut WebSocket, client: ClientId, shared: &Shared) -> bool {
-    let mut is_empty = true;
-    loop {
+/// Sends what waits for the client, and says whether more may wait; `None`: it does not take it.
+async fn send_some(socket: &mut WebSocket, client: ClientId, shared: &Shared) -> Option<bool> {
+    let mut bytes = 0;
+    let mut is_more = true;
+    while is_more && bytes < AT_ONCE {
         let next = shared.hub().next(client);
-        match next {
-            Some(message) => {
-                is_empty = false;
-                // Many in one piece: a system call for each would be most of the work.
-                let fed = timeout(shared.limits.taking, socket.feed(message)).await;
-                if !matches!(fed, Ok(Ok(()))) {
-                    return false;
-                }
-            }
-            None if is_empty => return true,
-            None => {
-                let flushed = timeout(shared.limits.taking, socket.flush()).await;
-                return matches!(flushed, Ok(Ok(())));
-            }
+        is_more = next.is_some();
+        if let Some(message) = next {
+            // Short ones take their frame and their turn, too.
+            bytes += message_bytes(&message) + 64;
+            // Many in one piece: a system call for each would be most of the work.
+            let fed = timeout(shared.limits.taking, socket.feed(message)).await;
+            fed.ok()?.ok()?;
         }
+    }
+    if bytes > 0 {
+        let flushed = timeout(shared.limits.taking, socket.flush()).await;
+        flushed.ok()?.ok()?;
+    }
+    Some(is_more)
+}
+
+fn message_bytes(message: &Message) -> usize {
+    match message {
+        Message::Text(text) => text.len(),
+        Message::Binary(bytes) | Message::Ping(bytes) | Message::Pong(bytes) => bytes.len(),
+        Message::Close(_) => 0,
     }
 }
 

@@ -9,16 +9,13 @@ use axum::extract::ws::Message as Frame;
 use framework::link::Link;
 use framework::procedure::PendingAny;
 use framework::report::InstanceReport;
-use framework::timing::{self, Timing};
-use protocol::{
-    Answer, Failure, Good, Level, Message, Outcome, ParametersChanged, Refusal, Welcome,
-};
+use protocol::{Answer, Failure, Good, Level, Message, Outcome, Refusal, Welcome};
 
+use crate::closely::Closely;
 use crate::connection::News;
 use crate::limits::Limits;
 use crate::logs::Logs;
 use crate::outbox::{Content, Outbox};
-use crate::parameters;
 use crate::press::Press;
 use crate::requests::{self, Feeder};
 use crate::sources::{Rate, Source};
@@ -30,9 +27,6 @@ const FILES_EVERY: Duration = Duration::from_millis(500);
 
 /// A request that is done with the next cycle waits for it so long.
 pub(crate) const PATIENCE: Duration = Duration::from_secs(2);
-
-/// Whoever asked for timings listens so long: every cycle is timed meanwhile.
-const LISTENING: Duration = Duration::from_secs(10);
 
 /// Instances tell what they did within this time, or did not run meanwhile.
 const REPORTING: Duration = Duration::from_millis(500);
@@ -71,8 +65,7 @@ pub(crate) struct Hub {
     traces: Traces,
     press: Press,
     files_looked_at: Instant,
-    /// When timings were asked for last, and what was timed before.
-    timed: Option<(Instant, Timing)>,
+    closely: Closely,
     next_client: u64,
 }
 
@@ -98,6 +91,8 @@ pub(crate) enum Subscription {
     Parameters {
         path: String,
         rate: Rate,
+        /// It was too early to tell the last change.
+        is_behind: bool,
     },
 }
 
@@ -144,7 +139,7 @@ impl Hub {
             feeders: BTreeMap::new(),
             waiting: Vec::new(),
             files_looked_at: Instant::now(),
-            timed: None,
+            closely: Closely::default(),
             next_client: 0,
         }
     }
@@ -279,34 +274,10 @@ impl Hub {
         }
         self.look_at_logs();
         self.look_after_waiting();
-        if let Some((asked, before)) = self.timed
-            && asked.elapsed() > LISTENING
-        {
-            timing::set(before);
-            self.timed = None;
-        }
+        self.closely.stop_when_over();
         self.look_at_files();
-        !self.waiting.is_empty() || self.sources.iter().any(Source::is_open)
-    }
-
-    /// The parameters are not what they were: tells everybody.
-    pub(crate) fn parameters_changed(&mut self) {
-        let version = self.link.parameters.version().0;
-        let time = self.link.clock.now().as_nanos();
-        let changed = Message::ParametersChanged(ParametersChanged { version });
-        for client in self.clients.values_mut() {
-            client.outbox.say(&changed);
-            client.news.notify_one();
-            for (number, subscription) in &mut client.subscriptions {
-                let Subscription::Parameters { path, rate } = subscription else {
-                    continue;
-                };
-                if rate.is_due(time) {
-                    let content = parameters::update(&self.link.parameters, path, time);
-                    client.outbox.update(*number, content, &self.limits);
-                }
-            }
-        }
+        let is_behind = self.tell_parameters();
+        is_behind || !self.waiting.is_empty() || self.sources.iter().any(Source::is_open)
     }
 
     /// Ends a subscription that its client does not have any more.
@@ -320,7 +291,7 @@ impl Hub {
 
     /// Asks all instances what they did.
     pub(crate) fn ask_for_reports(&mut self) -> WaitingFor {
-        self.look_closely();
+        self.closely.look();
         for (instance, report) in self.link.instances.iter().zip(&mut self.reports) {
             instance.reports.ask(report.take());
         }
@@ -329,17 +300,8 @@ impl Hub {
 
     /// The last seconds as a trace.
     pub(crate) fn trace(&mut self, time: Duration) -> serde_json::Value {
-        self.look_closely();
+        self.closely.look();
         self.traces.describe(&self.link, time, self.limits.spans)
-    }
-
-    /// Every cycle is timed, for a while.
-    fn look_closely(&mut self) {
-        let before = self
-            .timed
-            .map_or_else(timing::current, |(_, before)| before);
-        self.timed = Some((Instant::now(), before));
-        timing::set(Timing::Complete);
     }
 
     /// When a request that waits has to be answered at the latest.

@@ -22,6 +22,7 @@ pub mod limits;
 pub mod server;
 
 mod catalogue;
+mod closely;
 mod connection;
 mod doorman;
 mod hub;

@@ -3,10 +3,57 @@
 use std::sync::Arc;
 
 use framework::parameters::{self, Live, Refusals};
-use protocol::{Failure, Leaf, Provenance, Reading, Refusal, Stored, Unstored, UnstoredChange};
+use protocol::{
+    Failure, Leaf, Message, ParametersChanged, Provenance, Reading, Refusal, Stored, Unstored,
+    UnstoredChange,
+};
 
-use crate::hub::Fail;
+use crate::hub::{Fail, Hub, Subscription};
 use crate::outbox::Content;
+
+impl Hub {
+    /// The parameters are not what they were: tells everybody.
+    pub(crate) fn parameters_changed(&mut self) {
+        let version = self.link.parameters.version().0;
+        let changed = Message::ParametersChanged(ParametersChanged { version });
+        for client in self.clients.values_mut() {
+            client.outbox.say(&changed);
+            client.news.notify_one();
+            for subscription in client.subscriptions.values_mut() {
+                if let Subscription::Parameters { is_behind, .. } = subscription {
+                    *is_behind = true;
+                }
+            }
+        }
+        self.tell_parameters();
+    }
+
+    /// Tells the newest values to whoever has older ones and wants them by now; whether some want them later.
+    pub(crate) fn tell_parameters(&mut self) -> bool {
+        let time = self.link.clock.now().as_nanos();
+        let mut some_later = false;
+        for client in self.clients.values_mut() {
+            for (number, subscription) in &mut client.subscriptions {
+                let Subscription::Parameters {
+                    path,
+                    rate,
+                    is_behind: is_behind @ true,
+                } = subscription
+                else {
+                    continue;
+                };
+                *is_behind = !rate.is_due(time);
+                some_later |= *is_behind;
+                if !*is_behind {
+                    let content = update(&self.link.parameters, path, time);
+                    client.outbox.update(*number, content, &self.limits);
+                    client.news.notify_one();
+                }
+            }
+        }
+        some_later
+    }
+}
 
 /// The value of a subscription, in which everything lies that a path names.
 pub(crate) fn update(live: &Live, path: &str, time: u64) -> Content {

@@ -306,6 +306,8 @@ impl Hub {
             self.link.rearm.request();
             return Ok(Some(Good::Called(Json::Null)));
         }
+        // Before it is called: who is refused moves nothing.
+        self.check_may_wait(client)?;
         let procedure = catalogue::procedure(self, path).map_err(Failure::new)?;
         let mut argument = <dyn erased_serde::Deserializer<'_>>::erase(argument);
         let pending = procedure
@@ -370,14 +372,8 @@ impl Hub {
         kind: WaitingFor,
         timeout: Option<Duration>,
     ) -> Answered {
-        let most = self.limits.waiting;
-        let client = self.clients.get_mut(&id).ok_or_else(gone)?;
-        if client.waiting >= most {
-            return Err(Failure::new(format!(
-                "{most} requests of this client wait already, which is the most"
-            )));
-        }
-        client.waiting += 1;
+        self.check_may_wait(id)?;
+        self.clients.get_mut(&id).ok_or_else(gone)?.waiting += 1;
         let until = timeout.map_or_else(|| Self::patience(&kind), |it| Instant::now() + it);
         self.waiting.push(Waiting {
             client: id,
@@ -386,6 +382,17 @@ impl Hub {
             kind,
         });
         Ok(None)
+    }
+
+    fn check_may_wait(&self, id: ClientId) -> Result<(), Failure> {
+        let most = self.limits.waiting;
+        let client = self.clients.get(&id).ok_or_else(gone)?;
+        if client.waiting >= most {
+            return Err(Failure::new(format!(
+                "{most} requests of this client wait already, which is the most"
+            )));
+        }
+        Ok(())
     }
 
     /// The output that a path names, and what follows behind its name.

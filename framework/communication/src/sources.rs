@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use framework::reflect::{Path, Reflect, ResolvedPath, Shape, binary};
 use framework::{OutputKind, Tap, Tapped};
@@ -54,6 +54,8 @@ pub(crate) struct Rate {
     period: u64,
     /// `None` before the first value, which is always due.
     due: Option<u64>,
+    /// The time of the last value that was sent, and when that was.
+    sent: Option<(u64, Instant)>,
 }
 
 impl Rate {
@@ -69,15 +71,23 @@ impl Rate {
             )]
             period: period as u64,
             due: None,
+            sent: None,
         }
     }
 
     /// Whether a value of this time is to be sent.
+    ///
+    /// In a replay time also goes back, or stands still between the steps of somebody who looks closely.
     pub(crate) fn is_due(&mut self, time: u64) -> bool {
-        let due = self.due.unwrap_or(time);
+        let period = Duration::from_nanos(self.period);
+        let is_restart = self
+            .sent
+            .is_some_and(|(last, at)| time < last || at.elapsed() > period.saturating_mul(2));
+        let due = self.due.filter(|_| !is_restart).unwrap_or(time);
         if time < due {
             return false;
         }
+        self.sent = Some((time, Instant::now()));
         // In step where it can be, so that 83 Hz at a rate of 40 gives 40 and not 27; but never in less than half the period.
         let in_step = due.saturating_add(self.period);
         let next = if in_step > time {
@@ -361,6 +371,8 @@ pub(crate) fn resolve(shape: &Shape, below: &str) -> Result<ResolvedPath, String
 
 #[cfg(test)]
 mod tests {
+    use std::time::Duration;
+
     use super::Rate;
 
     fn sent(rate: Option<f64>, period: u64) -> usize {
@@ -378,6 +390,18 @@ mod tests {
             .filter(|time| rate.is_due(time * 1_000_000))
             .collect();
         assert_eq!(sent, [48, 98, 148, 240, 268]);
+    }
+
+    #[test]
+    fn a_replay_that_goes_back_or_in_small_steps_is_seen() {
+        let mut rate = Rate::new(Some(50.0));
+        let millis = |rate: &mut Rate, time: u64| rate.is_due(time * 1_000_000);
+        assert!(millis(&mut rate, 100_000));
+        assert!(millis(&mut rate, 5_000), "somebody went back");
+        assert!(!millis(&mut rate, 5_001));
+        assert!(millis(&mut rate, 5_020));
+        std::thread::sleep(Duration::from_millis(41));
+        assert!(millis(&mut rate, 5_021), "somebody takes steps");
     }
 
     #[test]

@@ -45,6 +45,7 @@ impl Hub {
             subscription = Subscription::Parameters {
                 path: path.to_owned(),
                 rate,
+                is_behind: false,
             };
         } else {
             let (source, below) = self.find(path)?;

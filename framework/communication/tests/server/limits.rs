@@ -362,3 +362,19 @@ fn updates_that_nobody_takes_are_lost_and_told() {
     );
     assert_eq!(lost(unlimited()), 0);
 }
+
+#[test]
+fn a_call_that_is_refused_moves_nothing() {
+    let zoo = zoo(Limits {
+        waiting: 0,
+        ..Limits::default()
+    });
+    let mut client = zoo.client();
+    let call = json!({ "path": "Control.procedures.walk", "argument": { "speed": 0.75 } });
+    let refused = client.error(json!({ "call": call }));
+    assert!(refused.contains("wait already"), "{refused}");
+    let speed = client.subscribe("Control.main_outputs.speed");
+    for _ in 0..10 {
+        assert_eq!(client.update(speed)["value"], json!(0.0));
+    }
+}

@@ -268,3 +268,56 @@ fn a_server_that_ends_leaves_the_robot_alone() {
     assert_eq!(close.code, CloseCode::Away);
     assert_eq!(close.reason, "the robot ends");
 }
+
+#[test]
+fn of_parameters_that_change_too_often_the_last_value_comes() {
+    let zoo = Zoo::new();
+    let (mut one, mut other) = (zoo.client(), zoo.client());
+    let asked = json!({ "subscribe": { "path": "parameters.walking_speed", "rate": 4 } });
+    let speed = one.ok(asked)["subscribed"]["subscription"].clone();
+    let speed = speed.as_u64().expect("a number") as u32;
+    assert_eq!(one.update(speed)["value"], json!(0.2));
+    for value in [0.3, 0.4, 0.5] {
+        let changes = json!([{ "path": "walking_speed", "value": value }]);
+        other.ok(json!({ "write": { "changes": changes } }));
+    }
+    // A period is 250 ms; behind the answer there is nothing more to come.
+    std::thread::sleep(std::time::Duration::from_secs(1));
+    one.ok(json!({ "parameters": {} }));
+    let mut updates = one
+        .waiting
+        .iter()
+        .filter_map(|message| message.get("update"));
+    assert_eq!(
+        updates.next_back().expect("it changed")["value"],
+        json!(0.5)
+    );
+}
+
+/// Reads slower than updates come, so that some wait for ever.
+#[test]
+fn a_client_that_reads_slowly_is_heard() {
+    let zoo = Zoo::new();
+    let mut client = zoo.client();
+    let image = json!({ "width": 300_000, "height": 1, "data": vec![1_u8; 300_000] });
+    let path = "VisionTop.main_outputs.image";
+    client.ok(json!({ "inject": { "path": path, "value": image } }));
+    for _ in 0..16 {
+        client.ask_later(&json!({ "subscribe": { "path": path, "encoding": "binary" } }));
+    }
+    let read = |client: &mut crate::zoo::Client| {
+        std::thread::sleep(std::time::Duration::from_millis(20));
+        client.receive()
+    };
+    let mut updates = 0;
+    while updates < 60 {
+        updates += usize::from(read(&mut client).get("bytes").is_some());
+    }
+    let asked = client.ask_later(&json!({ "parameters": {} }));
+    for _ in 0..400 {
+        if read(&mut client)["answer"]["id"] == json!(asked) {
+            return;
+        }
+    }
+    panic!("the robot does not hear who has updates waiting");
+}
