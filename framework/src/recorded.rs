@@ -27,7 +27,7 @@ pub use capture::{Capture, Head, PARAMETERS, Stored, VERSION, Values};
 pub use hulkgen_recording::{Counts, Settings};
 pub use inputs::{Foreign, Found};
 pub use output::Forms;
-pub use report::{InstanceRecorded, RecordingReport};
+pub use report::{InstanceRecorded, Missing, RecordingReport};
 pub use start::{About, Recording};
 pub(crate) use start::{FRAMES, TYPES, VALUES};
 pub(crate) use types::taken;

@@ -163,9 +163,13 @@ impl Writer {
     }
 
     fn append(&mut self, bytes: &[u8]) -> io::Result<()> {
-        // What a failed write left behind is overwritten.
         self.file.seek(SeekFrom::Start(self.position))?;
-        self.file.write_all(bytes)?;
+        if let Err(error) = self.file.write_all(bytes) {
+            // What comes next may be shorter than the part that a full disk took; and whatever stands behind the end, no
+            // reader finds the end.
+            let _ = self.file.set_len(self.position);
+            return Err(error);
+        }
         self.position += bytes.len() as u64;
         Ok(())
     }

@@ -11,6 +11,21 @@ pub struct RecordingReport {
     pub ended: Ended,
     /// In manifest order.
     pub instances: Vec<InstanceRecorded>,
+    /// Values of outputs, and log messages, that are missing.
+    pub missing: Vec<Missing>,
+}
+
+/// What the file should have beside frames, and has not.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Missing {
+    /// `INSTANCE.outputs`, or `logs`.
+    pub of: String,
+    /// There was no room for them, or they are larger than a block.
+    pub dropped: u64,
+    /// They could not be encoded.
+    pub failed: u64,
+    /// The disk did not take them.
+    pub lost: u64,
 }
 
 /// What became of the cycles of one instance.
@@ -53,7 +68,15 @@ impl RecordingReport {
                 "overwritten": one.overwritten,
             })
         });
-        instances.collect()
+        let missing = self.missing.iter().map(|one| {
+            json!({
+                "instance": one.of,
+                "dropped": one.dropped,
+                "failed": one.failed,
+                "lost": one.lost,
+            })
+        });
+        instances.chain(missing).collect()
     }
 }
 
@@ -82,6 +105,18 @@ impl fmt::Display for RecordingReport {
                     one.instance, one.wanted
                 )?;
             }
+        }
+        for one in &self.missing {
+            let Missing {
+                of,
+                dropped,
+                failed,
+                lost,
+            } = one;
+            writeln!(
+                formatter,
+                "{of}: {dropped} dropped (larger than a block, or none was free), {failed} not encoded, {lost} not taken by the disk"
+            )?;
         }
         Ok(())
     }

@@ -13,7 +13,7 @@ use hulkgen_recording::{
 use super::logs::{self, LOGS, LogRecorder};
 use super::output::{self, OutputChannels};
 use super::recorder::{Condition, CycleObserver, CycleRecorder, Wanted};
-use super::{InstanceRecorded, PARAMETERS, RecordingReport, Types, VERSION};
+use super::{InstanceRecorded, Missing, PARAMETERS, RecordingReport, Types, VERSION};
 use crate::cycler::{Instance, InstanceDescription, Record};
 use crate::driver::Observer;
 use crate::error::{Error, Result};
@@ -185,13 +185,28 @@ impl Recording {
                 .collect(),
         };
         let counts = self.shared_counts();
+        let others = self.recorder.counts().skip(instances.len());
+        let others: Vec<_> = others
+            .map(|(of, counts)| (of.to_owned(), counts.clone()))
+            .collect();
         let ended = self.recorder.end_with(vec![wanted]);
         // What the disk did not take, and what had to go for it, is known when all was written.
         for (one, counts) in instances.iter_mut().zip(counts) {
             one.lost = counts.lost();
             one.overwritten = counts.overwritten();
         }
-        RecordingReport { ended, instances }
+        let others = others.into_iter().map(|(of, counts)| Missing {
+            of,
+            dropped: counts.dropped(),
+            failed: counts.failed(),
+            lost: counts.lost(),
+        });
+        let missing = others.filter(|one| one.dropped + one.failed + one.lost > 0);
+        RecordingReport {
+            ended,
+            instances,
+            missing: missing.collect(),
+        }
     }
 }
 

@@ -332,4 +332,6 @@ fn a_full_disk_stops_nobody_and_is_told() {
     let found = cycles(&recording);
     // What came last may be small enough for what is left.
     assert!(found.len() > 1000 && found.starts_with(&[0, 1, 2]) && found.is_sorted());
+    let length = std::fs::metadata(&path).expect("it is there").len();
+    assert!(length < 256 * 512, "half a chunk stands behind the end");
 }

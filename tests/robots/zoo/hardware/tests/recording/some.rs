@@ -1,9 +1,9 @@
 //! Recordings that do not have everything: the rest is recomputed all the same.
 
-use framework::Record;
-use framework::recorded::Settings;
+use framework::recorded::{About, Recording, Settings};
+use framework::{Clock, Lockstep, Record, Timestamp};
 
-use super::{SMALL, Tape, as_it_is, on, record_in_lockstep};
+use super::{SMALL, Tape, Zoo, as_it_is, on, record_in_lockstep};
 
 #[test]
 fn an_instance_that_is_off_is_not_missed_and_not_needed() {
@@ -129,4 +129,36 @@ fn an_instance_without_a_single_frame_was_not_verified() {
     assert!(!verification.is_good());
     let text = verification.to_string();
     assert!(text.contains("nothing verified"), "{text}");
+}
+
+#[test]
+fn values_that_are_missing_beside_frames_are_named() {
+    let tape = Tape::new();
+    let mut zoo = Zoo::new(Clock::stepped());
+    let about = About {
+        outputs: vec!["Control.main_outputs.pose".to_owned()],
+        ..About::default()
+    };
+    let settings = Settings {
+        block_bytes: 40,
+        ..SMALL
+    };
+    let off = |_: &framework::InstanceDescription| Record::Off;
+    let recording = Recording::start_with(&tape.path, &zoo.robot, about, settings, off);
+    let mut recording = recording.expect("the folder is empty");
+    let hardware = zoo.hardware.clone();
+    let mut lockstep =
+        Lockstep::new(&mut zoo.robot, &*hardware).observed(|instance| recording.observer(instance));
+    lockstep
+        .run_until(Timestamp::from_nanos(500_000_000), |_| {})
+        .expect("the zoo goes on");
+    drop(lockstep);
+    let report = recording.end();
+    assert_eq!(report.state(), "INCOMPLETE");
+    assert_eq!(report.missing[0].of, "Control.outputs");
+    assert!(report.missing[0].dropped >= 30, "{report}");
+    assert!(
+        report.to_string().contains("larger than a block"),
+        "{report}"
+    );
 }
