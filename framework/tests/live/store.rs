@@ -168,3 +168,24 @@ fn a_link_stays_a_link() {
     assert_eq!(robot.text("shared.toml"), "# shared\nsteps = 8\n");
     assert!(robot.path("body.b1.toml").is_symlink());
 }
+
+#[test]
+fn what_somebody_edits_meanwhile_is_found() {
+    for (file, text) in [
+        ("home/body.b1.toml", "[lamp]\nbrightness = 3\n".to_owned()),
+        (
+            "default.toml",
+            DEFAULT.replace("brightness = 7", "brightness = 3"),
+        ),
+    ] {
+        let mut robot = Robot::new(&[]);
+        robot.write(file, &text);
+        let live = &robot.live;
+        live.change(&[("steps", json!(9))]).expect("valid");
+        live.store("default", &["steps"]).expect("it can be stored");
+        assert_eq!(robot.seen().lamp.brightness, 7, "{file}");
+        let polled = robot.live.poll().expect("somebody edited a file");
+        polled.expect("it is right");
+        assert_eq!(robot.seen().lamp.brightness, 3, "{file}");
+    }
+}

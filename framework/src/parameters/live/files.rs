@@ -39,6 +39,17 @@ impl Files {
         Ok(is_new)
     }
 
+    /// The robot has written this text itself, in place of `before`; what others wrote since the last look is still to be
+    /// found.
+    pub(super) fn wrote(&mut self, path: &Path, before: &str, text: &str) {
+        let known = self.seen.iter_mut().find(|(file, _)| file == path);
+        if let Some((_, seen)) = known
+            && seen.as_deref().unwrap_or_default() == before.as_bytes()
+        {
+            *seen = Some(text.into());
+        }
+    }
+
     /// As they are now.
     pub(super) fn load(&self) -> Result<Parameters> {
         self.layers.load()

@@ -73,7 +73,7 @@ impl State {
         self.values.load(&after).map_err(whole)?;
         self.values.discard();
         write(&file, &text).map_err(whole)?;
-        files.look().map_err(whole)?;
+        files.wrote(&file, &before, &text);
         let warnings = paths
             .iter()
             .flat_map(|path| shadows(&after, &file, path))
