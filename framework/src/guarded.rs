@@ -202,6 +202,13 @@ impl<N> Guarded<N> {
         }
     }
 
+    /// Clients replaced these outputs of the cycle, or none: what is not the node's own is not held when it fails.
+    pub fn replaced(&mut self, outputs: &[bool]) {
+        if outputs.contains(&true) {
+            self.ledger.good_at = None;
+        }
+    }
+
     /// Counts that the node is not called because a required input is absent.
     #[inline]
     pub fn skip(&mut self) {

@@ -69,12 +69,14 @@ impl<T> Default for Injection<T> {
 }
 
 impl<T: Clone> Injection<T> {
-    /// Puts the client's value, if there is one, in place of `output`; heap capacity of `output` is kept.
+    /// Puts the client's value, if there is one, in place of `output`, and tells whether it did; heap capacity of `output` is
+    /// kept.
     #[inline]
-    pub fn replace(&self, output: &mut T) {
+    pub fn replace(&self, output: &mut T) -> bool {
         if let Self(Some(value)) = self {
             output.clone_from(value);
         }
+        self.0.is_some()
     }
 }
 

@@ -1,6 +1,6 @@
 //! One function for each node: its step in a cycle, and how it is created.
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
 use super::context::{quote_before, quote_context};
@@ -50,7 +50,11 @@ pub(super) fn quote_step(cycler: &CyclerModel, node: &NodeModel) -> TokenStream 
             }
         }
     };
-    let injections = step.injects.then(|| quote_injections(&step.outputs));
+    let holds = matches!(step.failure, Failure::Holds);
+    let injections = step.injects.then(|| match holds {
+        true => quote_injections_to_held(&name, &step.outputs),
+        false => quote_injections(&step.outputs),
+    });
     quote! {
         #about
         #[inline(always)]
@@ -106,15 +110,32 @@ pub(super) fn quote_injections(outputs: &[StepOutput]) -> TokenStream {
     if outputs.is_empty() {
         return quote!();
     }
-    let replace = outputs.iter().map(|output| {
-        let (home, name) = (ident(output.home()), ident(&output.name));
-        quote!(injections.#name.replace(&mut frame.#home.#name);)
-    });
+    let replace = outputs.iter().map(quote_replace);
     quote! {
         if let Some(injections) = frame.injections {
-            #(#replace)*
+            #(#replace;)*
         }
     }
+}
+
+/// The same for a node whose last good outputs are repeated when it fails: clients' values are none of them.
+fn quote_injections_to_held(node: &Ident, outputs: &[StepOutput]) -> TokenStream {
+    if outputs.is_empty() {
+        return quote!();
+    }
+    let replace = outputs.iter().map(quote_replace);
+    quote! {
+        if let Some(injections) = frame.injections {
+            let replaced = [#(#replace),*];
+            self.#node.replaced(&replaced);
+        }
+    }
+}
+
+/// Tells whether the output was replaced.
+fn quote_replace(output: &StepOutput) -> TokenStream {
+    let (home, name) = (ident(output.home()), ident(&output.name));
+    quote!(injections.#name.replace(&mut frame.#home.#name))
 }
 
 /// An output that is absent before the first cycle of its instance.

@@ -165,6 +165,33 @@ fn what_a_client_injects_stands_until_it_is_released() {
 }
 
 #[test]
+fn what_a_client_injected_is_not_held_when_the_node_fails() {
+    let mut zoo = Zoo::new();
+    let injected = json!({ "loudness": 0.75 });
+    let mut said = Vec::new();
+    for millis in (5..600).step_by(5) {
+        zoo.run(f64::from(millis) / 1000.0, |instance| {
+            if instance.description().name == "Hearing" {
+                said.push(output(instance, "whistle"));
+            }
+        });
+        let access = zoo.robot.access("Hearing").expect("it is an instance");
+        let mut value = <dyn erased_serde::Deserializer>::erase(&injected);
+        match said.len() {
+            20 => access.injector.inject("whistle", &mut value),
+            24 => access.injector.release("whistle").or(Ok(())),
+            _ => Ok(()),
+        }
+        .expect("the value fits");
+    }
+    assert_eq!(said[23], injected);
+    assert_ne!(
+        said[24], injected,
+        "the 25th cycle is too loud for the node"
+    );
+}
+
+#[test]
 fn additional_outputs_are_there_while_somebody_listens() {
     let mut zoo = Zoo::new();
     assert!(

@@ -183,8 +183,11 @@ impl Nodes {
             }
         }
         if let Some(injections) = frame.injections {
-            injections.plan.replace(&mut frame.own.plan);
-            injections.speed.replace(&mut frame.own.speed);
+            let replaced = [
+                injections.plan.replace(&mut frame.own.plan),
+                injections.speed.replace(&mut frame.own.speed),
+            ];
+            self.gait.replaced(&replaced);
         }
         Ok(())
     }
@@ -291,8 +294,11 @@ impl Nodes {
             }
         }
         if let Some(injections) = frame.injections {
-            injections.target.replace(&mut frame.own.target);
-            injections.report.replace(&mut frame.own.report);
+            let replaced = [
+                injections.target.replace(&mut frame.own.target),
+                injections.report.replace(&mut frame.own.report),
+            ];
+            self.spot_filter.replaced(&replaced);
         }
         Ok(())
     }

@@ -101,7 +101,8 @@ impl Nodes {
             }
         }
         if let Some(injections) = frame.injections {
-            injections.whistle.replace(&mut frame.shared.whistle);
+            let replaced = [injections.whistle.replace(&mut frame.shared.whistle)];
+            self.whistle.replaced(&replaced);
         }
         Ok(())
     }
