@@ -32,6 +32,8 @@ command -v rsync >/dev/null && echo "rsync yes"
 cd "$folder/current" 2>/dev/null || exit 0
 echo "current $(basename "$(readlink "$folder/current")")"
 sha256sum -c {SUMS} 2>/dev/null | sed -n 's/^\(.*\): FAILED.*$/changed \1/p'
+known=$(sed 's/^[^ ]*  //' {SUMS})
+find . -type f ! -name {SUMS} | grep -vxF -e "$known" | sed 's/^/changed /'
 "#
     )
 }
@@ -51,11 +53,11 @@ cd "$folder" || exit 1
 rm -rf "versions/$version" && mv versions/.incoming "versions/$version" || exit 1
 old=$(readlink current)
 point current "versions/$version" || exit 1
-if [ -n "$old" ]; then point previous "$old"; fi
 if ! start; then
   if [ -n "$old" ]; then point current "$old"; start; fi
   exit 3
 fi
+if [ -n "$old" ]; then point previous "$old"; fi
 ls -1 versions | sort -r | tail -n +{} | while read -r one; do
   case "$(readlink current) $(readlink previous)" in *"versions/$one"*) ;; *) rm -rf "versions/$one" ;; esac
 done

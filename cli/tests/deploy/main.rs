@@ -173,6 +173,14 @@ fn what_cannot_run_there_is_refused_before_the_switch() {
         "`parameters/default.toml` was changed on the robot",
         field.deploy("a"),
     );
+    // So would a layer that came with them.
+    field.write("disk/current/parameters/default.toml", "speed = 1\n");
+    field.write("disk/current/parameters/head.P1.toml", "speed = 3\n");
+    refused(
+        &field,
+        "`parameters/head.P1.toml` was changed on the robot",
+        field.deploy("a"),
+    );
     std::thread::sleep(std::time::Duration::from_millis(1100));
     assert_eq!(field.deploy("a --discard-changes").0, 0);
     assert_eq!(
@@ -188,6 +196,9 @@ fn a_version_that_does_not_start_gives_way_to_the_one_before() {
         return;
     };
     assert_eq!(field.deploy("a").0, 0);
+    let oldest = field.current().expect("there is a version");
+    std::thread::sleep(std::time::Duration::from_millis(1100));
+    assert_eq!(field.deploy("a").0, 0);
     let old = field.current().expect("there is a version");
     std::thread::sleep(std::time::Duration::from_millis(1100));
     field.write("robot/motions/broken", "");
@@ -200,6 +211,9 @@ fn a_version_that_does_not_start_gives_way_to_the_one_before() {
             .read("systemctl.log")
             .ends_with(&format!("restart lamp.service {old}\n"))
     );
+    // Who takes that back gets the one before it.
+    assert_eq!(field.hulkgen("deploy a --rollback").0, 0);
+    assert_eq!(field.current(), Some(oldest));
 }
 
 #[test]
