@@ -625,6 +625,13 @@ fn a_rename_follows_every_kind_of_reader_and_the_manifest() {
             let text = text.replace("kind = \"perception\"", elsewhere);
             let instance = "{ name = \"Bottom\", record = { while = \"Control.is_sure\" } }";
             let text = text.replace("\"Bottom\"", instance);
+            let bridge = |path| format!("[[bridge]]\npath = \"{path}\"\nkey = \"{path}\"\n");
+            let bridges = [
+                "Control.main_outputs.is_sure",
+                "VisionTop.main_outputs.seen",
+            ]
+            .map(bridge);
+            let text = format!("{text}\n{}", bridges.concat());
             (path, text.replace("kind = \"real-time\"", recorded))
         }
         "nodes/src/filter.rs" => {
@@ -656,6 +663,7 @@ fn a_rename_follows_every_kind_of_reader_and_the_manifest() {
         manifest.matches("while = \"Control.is_certain\" }").count(),
         2
     );
+    assert!(manifest.contains("path = \"Control.main_outputs.is_certain\"\n"));
     let changes = rename("Control", "estimate", "guess");
     assert!(
         changed(&changes, "nodes/src/filter.rs").contains("before: PreviousInput<f32, \"guess\">")
@@ -675,6 +683,8 @@ fn a_rename_follows_every_kind_of_reader_and_the_manifest() {
         changed(&changes, "nodes/src/filter.rs")
             .contains("seen: PerceptionInput<Vec<f32>, \"Vision\", \"found\">")
     );
+    let manifest = changed(&changes, "hulk.toml");
+    assert!(manifest.contains("path = \"VisionTop.main_outputs.found\"\n"));
     let changes = rename("Control", "raw", "pace");
     assert!(
         changed(&changes, "nodes/src/filter.rs").contains("past: HistoricInput<f32, \"pace\">")

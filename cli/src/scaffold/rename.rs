@@ -33,6 +33,9 @@ pub struct Renamed {
     pub unclear: Vec<(Utf8PathBuf, usize)>,
 }
 
+/// Between an instance and an output in the paths of clients.
+const MAIN_OUTPUTS: &str = ".main_outputs.";
+
 /// New texts by file and place.
 type Edits = BTreeMap<Utf8PathBuf, BTreeMap<(usize, usize), String>>;
 
@@ -72,7 +75,7 @@ pub fn rename_output(
     }
     let unclear = rename_field(workspace, &sources, producer, rename, &mut edits)?;
     let mut changes = apply(workspace, edits)?;
-    changes.extend(renamed_conditions(workspace, robot, &affected, rename)?);
+    changes.extend(renamed_in_manifest(workspace, robot, &affected, rename)?);
     Ok(Renamed { changes, unclear })
 }
 
@@ -266,8 +269,8 @@ fn apply(workspace: &Workspace, edits: Edits) -> Result<Changes, Refusal> {
     Ok(changes)
 }
 
-/// `record = { while = "…" }` of every cycler and instance that names the output.
-fn renamed_conditions(
+/// `record = { while = "…" }` of every cycler and instance that names the output, and every `[[bridge]]`.
+fn renamed_in_manifest(
     workspace: &Workspace,
     robot: &Robot,
     affected: &[usize],
@@ -275,6 +278,15 @@ fn renamed_conditions(
 ) -> Result<Option<(Utf8PathBuf, Option<String>)>, Refusal> {
     let mut manifest = read_manifest(workspace)?;
     let mut changed = false;
+    let is_of = |instance: &str| {
+        affected.iter().any(|cycler| {
+            let mut instances = robot.cyclers[*cycler].instances.iter();
+            instances.any(|one| one.name == instance)
+        })
+    };
+    for bridge in document::tables(manifest.as_table_mut(), "bridge") {
+        changed |= rename_bridge(bridge, rename, is_of);
+    }
     for (index, cycler) in robot.cyclers.iter().enumerate() {
         let Some(table) = document::cycler(&mut manifest, &cycler.name) else {
             continue;
@@ -282,10 +294,7 @@ fn renamed_conditions(
         // An instance in front says whose output it is, else it is the own one.
         let is_meant = |instance: Option<&str>| match instance {
             None => affected.contains(&index),
-            Some(instance) => affected.iter().any(|cycler| {
-                let mut instances = robot.cyclers[*cycler].instances.iter();
-                instances.any(|one| one.name == instance)
-            }),
+            Some(instance) => is_of(instance),
         };
         changed |= rename_condition(table, rename, is_meant);
         for instance in document::tables(table, "instances") {
@@ -296,6 +305,34 @@ fn renamed_conditions(
         true => manifest_change(workspace, &manifest).map(Some),
         false => Ok(None),
     }
+}
+
+fn rename_bridge(
+    bridge: &mut dyn TableLike,
+    rename: &Rename<'_>,
+    is_of: impl Fn(&str) -> bool,
+) -> bool {
+    let Some(value) = bridge.get_mut("path").and_then(Item::as_value_mut) else {
+        return false;
+    };
+    let written = value.as_str().unwrap_or_default();
+    let renamed = written
+        .split_once(MAIN_OUTPUTS)
+        .filter(|(instance, _)| is_of(instance))
+        .and_then(|(instance, path)| {
+            let rest = behind_name(path, rename.old)?;
+            Some(format!("{instance}{MAIN_OUTPUTS}{}{rest}", rename.new))
+        });
+    if let Some(renamed) = &renamed {
+        document::replace(value, renamed);
+    }
+    renamed.is_some()
+}
+
+/// What follows in a path behind the output's name, if that is its first one.
+fn behind_name<'p>(path: &'p str, name: &str) -> Option<&'p str> {
+    let rest = path.strip_prefix(name)?;
+    (rest.is_empty() || rest.starts_with('.')).then_some(rest)
 }
 
 fn rename_condition(
@@ -310,9 +347,7 @@ fn rename_condition(
     };
     let written = value.as_str().unwrap_or_default().to_owned();
     let (instance, path) = instance_in_front(&written);
-    let rest = path
-        .strip_prefix(rename.old)
-        .filter(|rest| rest.is_empty() || rest.starts_with('.'));
+    let rest = behind_name(path, rename.old);
     let Some(rest) = rest.filter(|_| is_meant(instance)) else {
         return false;
     };
