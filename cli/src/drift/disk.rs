@@ -56,15 +56,21 @@ pub fn write_file(path: &Utf8Path, text: &str) -> Result<(), DriftError> {
 
 /// As [`write_file`], also for what is no text.
 pub(super) fn write_bytes(path: &Utf8Path, content: &[u8]) -> Result<(), DriftError> {
-    let folder = path.parent().unwrap_or(Utf8Path::new("."));
+    // A link stays one: what it leads to is replaced.
+    let place = path.canonicalize_utf8().unwrap_or_else(|_| path.to_owned());
+    let folder = place.parent().unwrap_or(Utf8Path::new("."));
     fs::create_dir_all(folder).map_err(|source| failed("create", folder, source))?;
     let write = || -> io::Result<()> {
+        let known = fs::metadata(&place).map(|known| known.permissions());
         // Beside the file, so that it can be moved there in one step.
         let mut file = tempfile::Builder::new()
             .permissions(permissions())
             .tempfile_in(folder)?;
         file.write_all(content)?;
-        file.persist(path).map_err(|error| error.error)?;
+        if let Ok(known) = known {
+            file.as_file().set_permissions(known)?;
+        }
+        file.persist(&place).map_err(|error| error.error)?;
         Ok(())
     };
     write().map_err(|source| failed("write", path, source))

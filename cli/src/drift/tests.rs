@@ -78,6 +78,24 @@ fn an_unchanged_file_is_not_touched() {
 }
 
 #[test]
+fn links_and_permissions_stay() {
+    use std::os::unix::fs::{PermissionsExt as _, symlink};
+    let folder = Folder::with(&[("shared/hulk.toml", "old\n"), ("own.rs", "old\n")]);
+    let path = |name: &str| folder.root().join(name);
+    symlink("shared/hulk.toml", path("hulk.toml")).expect("the folder is ours");
+    let own = std::fs::Permissions::from_mode(0o600);
+    std::fs::set_permissions(path("own.rs"), own).expect("it is ours");
+    for name in ["hulk.toml", "own.rs"] {
+        super::write_file(&path(name), "new\n").expect("it can be written");
+    }
+    assert!(path("hulk.toml").is_symlink());
+    let read = |name: &str| std::fs::read_to_string(path(name)).expect("it is there");
+    assert_eq!(read("shared/hulk.toml"), "new\n");
+    let kept = std::fs::metadata(path("own.rs")).expect("it is there");
+    assert_eq!(kept.permissions().mode() & 0o777, 0o600);
+}
+
+#[test]
 fn the_diff_shows_changes_and_names_the_rest() {
     let folder = Folder::with(&[
         ("generated/Cargo.toml", HEADER),

@@ -68,11 +68,17 @@ fn remove(document: &mut DocumentMut, path: &[String]) {
     };
     let removed = table_at(document, above).and_then(|table| table.remove(name));
     if let Some(Item::Table(table)) = removed
-        && let Some((heading, _)) = comments_above(&table).rsplit_once("\n\n")
+        && let Some(heading) = heading(comments_above(&table))
         && heading.contains('#')
     {
         keep(document, table.position(), heading);
     }
+}
+
+/// What stands above the last empty line.
+fn heading(comments: &str) -> Option<&str> {
+    let ends = ["\n\n", "\r\n\r\n"].map(|empty| comments.rfind(empty));
+    ends.into_iter().flatten().max().map(|end| &comments[..end])
 }
 
 fn table_at<'d>(document: &'d mut DocumentMut, path: &[String]) -> Option<&'d mut dyn TableLike> {
@@ -129,5 +135,14 @@ mod tests {
             remove(&mut parsed, &["a".to_owned(), "x".to_owned()]);
             assert_eq!(parsed.to_string(), expected);
         }
+    }
+
+    #[test]
+    fn headings_stay_whatever_ends_the_lines() {
+        let text = "# Heading.\n\n# About a.\n[a]\nx = 1\n".replace('\n', "\r\n");
+        let mut parsed = document::parse("a.toml".into(), &text).expect("it is TOML");
+        remove(&mut parsed, &["a".to_owned(), "x".to_owned()]);
+        let left = document::written(&parsed, &text);
+        assert_eq!(left, "# Heading.\r\n");
     }
 }
