@@ -98,7 +98,7 @@ spelled! {
 spelled! {
     /// Name of a target: `simulated`.
     TargetName, "name of a target",
-    "write it in lower case, beginning with a letter; digits, `-` and `_` may follow",
+    "write it in lower case, beginning with a letter; digits, `-` and `_` may follow; cargo keeps `build`, `deps`, `examples` and `incremental` for itself",
     "^[a-z][a-z0-9_-]*$", is_target_name
 }
 spelled! {
@@ -208,8 +208,12 @@ fn is_suffix(text: &str) -> bool {
         && text.chars().all(|letter| letter.is_ascii_alphanumeric())
 }
 
+/// Folders of cargo's own, for which it refuses programs of these names.
+const CARGOS_FOLDERS: &[&str] = &["build", "deps", "examples", "incremental"];
+
 fn is_target_name(text: &str) -> bool {
-    text.starts_with(|first: char| first.is_ascii_lowercase())
+    !CARGOS_FOLDERS.contains(&text)
+        && text.starts_with(|first: char| first.is_ascii_lowercase())
         && text.chars().all(|letter| {
             letter.is_ascii_lowercase() || letter.is_ascii_digit() || matches!(letter, '-' | '_')
         })

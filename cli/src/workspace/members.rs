@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use camino::{Utf8Path, Utf8PathBuf};
+use camino::{Utf8Component, Utf8Path, Utf8PathBuf};
 
 use super::{Workspace, glob};
 
@@ -66,11 +66,12 @@ impl Members {
             return members;
         };
         let mut folders: Vec<Utf8PathBuf> = Vec::new();
+        let mut excluded = Vec::new();
         if root.contains_key("package") {
             folders.push(Utf8PathBuf::new());
         }
         if let Some(table) = root.get("workspace").and_then(toml::Value::as_table) {
-            let excluded = patterns(workspace, table, "exclude", &way);
+            excluded = patterns(workspace, table, "exclude", &way);
             folders.extend(patterns(workspace, table, "members", &way));
             folders.retain(|folder| !excluded.contains(folder));
             members.shared = dependencies(table, "dependencies");
@@ -82,10 +83,20 @@ impl Members {
                 .collect();
             members.inherited.sort();
         }
-        for folder in folders {
-            let folder = relative(&own, &normalized(&folder));
+        // Behind them come those that they depend on by a path, as cargo has it.
+        let mut next = 0;
+        while let Some(of_cargo) = folders.get(next).map(|folder| normalized(folder)) {
+            next += 1;
+            let folder = relative(&own, &of_cargo);
             members.folders.push(folder.clone());
-            members.add(workspace, folder);
+            for neighbour in members.add(workspace, folder, &of_cargo) {
+                let is_new = folders.iter().all(|known| normalized(known) != neighbour);
+                let is_package = || workspace.is_file(&way.join(&neighbour).join("Cargo.toml"));
+                let is_excluded = excluded.iter().any(|folder| neighbour.starts_with(folder));
+                if is_new && !is_excluded && is_package() {
+                    folders.push(neighbour);
+                }
+            }
         }
         members.name_shared_libraries(&own);
         members.own = own;
@@ -174,13 +185,26 @@ impl Members {
         }
     }
 
-    fn add(&mut self, workspace: &Workspace, folder: Utf8PathBuf) {
+    /// Answers with the folders that the package depends on, relative to cargo's root as its own is then.
+    fn add(
+        &mut self,
+        workspace: &Workspace,
+        folder: Utf8PathBuf,
+        of_cargo: &Utf8Path,
+    ) -> Vec<Utf8PathBuf> {
         let Some(package) = self.parse(workspace, &folder.join("Cargo.toml")) else {
-            return;
+            return Vec::new();
         };
+        let needed = dependencies(&package, "dependencies").into_iter();
+        let needed = needed.filter_map(|(name, entry)| match entry.workspace {
+            true => within(Utf8Path::new(""), self.shared.get(&name)?.path.as_deref()?),
+            false => within(of_cargo, entry.path.as_deref()?),
+        });
+        let needed = needed.collect();
         if let Some(member) = Member::new(workspace, folder, &package) {
             self.libraries.insert(member.library.clone(), member);
         }
+        needed
     }
 
     /// A shared dependency on a member is known by the member's library name unless the root renames it.
@@ -309,6 +333,21 @@ pub(crate) fn relative(from: &Utf8Path, to: &Utf8Path) -> Utf8PathBuf {
     } else {
         way
     }
+}
+
+/// Where a way from a folder ends; `None` where that is not below the root.
+fn within(folder: &Utf8Path, way: &str) -> Option<Utf8PathBuf> {
+    let way = folder.join(way);
+    let mut parts: Vec<&str> = Vec::new();
+    for part in way.components() {
+        match part {
+            Utf8Component::CurDir => {}
+            Utf8Component::ParentDir => _ = parts.pop()?,
+            Utf8Component::Normal(part) => parts.push(part),
+            Utf8Component::RootDir | Utf8Component::Prefix(_) => return None,
+        }
+    }
+    Some(parts.iter().collect())
 }
 
 /// The empty way as Cargo.toml writes it.

@@ -70,6 +70,47 @@ fn members_are_found_by_the_name_of_their_library() {
 }
 
 #[test]
+fn what_a_member_depends_on_by_a_path_is_a_member() {
+    let depends =
+        |name: &str, on: &str| format!("[package]\nname = \"{name}\"\n[dependencies]\n{on}");
+    let eyes = depends(
+        "eyes",
+        "types = { path = \"../types\" }\nlegs = { workspace = true }\n\
+         far = { path = \"../../../far\" }\nold = { path = \"../old\" }\ngone = { path = \"../gone\" }",
+    );
+    let types = depends(
+        "types",
+        "math = { path = \"math\" }\neyes = { path = \"../eyes\" }",
+    );
+    let workspace = workspace(&[
+        (
+            "Cargo.toml",
+            "[workspace]\nmembers = [\"robotics/eyes\"]\nexclude = [\"robotics/old\"]\n\
+             [workspace.dependencies]\nlegs = { path = \"robotics/legs\" }",
+        ),
+        ("robotics/eyes/Cargo.toml", &eyes),
+        ("robotics/eyes/src/lib.rs", ""),
+        ("robotics/types/Cargo.toml", &types),
+        ("robotics/types/src/lib.rs", ""),
+        ("robotics/types/math/Cargo.toml", &depends("math", "")),
+        ("robotics/types/math/src/lib.rs", ""),
+        ("robotics/legs/Cargo.toml", &depends("legs", "")),
+        ("robotics/legs/src/lib.rs", ""),
+        ("robotics/old/Cargo.toml", &depends("old", "")),
+        ("robotics/old/src/lib.rs", ""),
+        ("far/Cargo.toml", &depends("far", "")),
+        ("far/src/lib.rs", ""),
+    ]);
+    let members = workspace.members();
+    let names: Vec<&str> = members
+        .libraries()
+        .map(|one| one.library.as_str())
+        .collect();
+    assert_eq!(names, ["eyes", "legs", "math", "types"]);
+    assert_eq!(members.broken, []);
+}
+
+#[test]
 fn a_dependency_comes_from_the_root_then_a_member_then_a_user() {
     let workspace = workspace(&[
         ROOT,
