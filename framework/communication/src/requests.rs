@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 
 pub(crate) use feed::Feeder;
 use framework::OutputKind;
+use framework::reflect::ResolvedPath;
 use protocol::{Ask, Change, Failure, Good, Level, Request, Value};
 use serde_json::Value as Json;
 
@@ -74,6 +75,7 @@ fn answer(hub: &mut Hub, client: ClientId, request: Request) -> Answered {
         Ask::Authenticate { token } => hub.authenticate(client, &token),
         Ask::Paths { below, depth } => hub.paths(&below, depth),
         Ask::Schema { path } => hub.schema(&path),
+        Ask::Layout { path } => hub.layout(&path),
         Ask::Read { path } => hub.read(client, id, &path),
         Ask::Subscribe {
             path,
@@ -138,6 +140,7 @@ fn writes(ask: &Ask) -> bool {
         Ask::Authenticate { .. }
         | Ask::Paths { .. }
         | Ask::Schema { .. }
+        | Ask::Layout { .. }
         | Ask::Read { .. }
         | Ask::Subscribe { .. }
         | Ask::Unsubscribe { .. }
@@ -202,6 +205,19 @@ impl Hub {
     }
 
     fn schema(&self, path: &str) -> Answered {
+        let part = self.part(path)?;
+        Ok(Some(Good::Schema(part.shape().json_schema())))
+    }
+
+    fn layout(&self, path: &str) -> Answered {
+        let part = self.part(path)?;
+        let layout = serde_json::to_value(part.shape().layout());
+        let layout = layout.map_err(|error| Failure::new(format!("`{path}`: {error}")))?;
+        Ok(Some(Good::Layout(layout)))
+    }
+
+    /// What a path leads to by its types.
+    fn part(&self, path: &str) -> Result<ResolvedPath, Failure> {
         self.check_path(path)?;
         let shape = match below_parameters(path) {
             Some(path) => resolve(self.link.parameters.shape(), path),
@@ -213,8 +229,7 @@ impl Hub {
                 }
             },
         };
-        let part = shape.map_err(|message| Failure::new(format!("`{path}`: {message}")))?;
-        Ok(Some(Good::Schema(part.shape().json_schema())))
+        shape.map_err(|message| Failure::new(format!("`{path}`: {message}")))
     }
 
     fn read(&mut self, client: ClientId, request: u32, path: &str) -> Answered {

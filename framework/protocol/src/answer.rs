@@ -35,6 +35,8 @@ pub enum Good {
     Paths(Vec<Entry>),
     /// To `schema`: a JSON schema.
     Schema(serde_json::Value),
+    /// To `layout`: as in the answer to `subscribe`.
+    Layout(serde_json::Value),
     /// To `read`.
     Value(Value),
     /// To `subscribe`.

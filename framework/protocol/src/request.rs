@@ -40,6 +40,11 @@ pub enum Ask {
         /// An output, a part of one, or parameters.
         path: String,
     },
+    /// How values at a path are laid out as bytes, as docs/protocol/binary.md says. Answer: `layout`.
+    Layout {
+        /// An output, a part of one, parameters, or what a procedure is asked or answers.
+        path: String,
+    },
     /// The newest value at a path; of an output that nobody subscribed, that of the next cycle. Answer: `value`.
     Read {
         /// An output, a part of one, or parameters.

@@ -37,6 +37,11 @@ export type Ask = {
     path: string;
   };
 } | {
+  layout: {
+    /** An output, a part of one, parameters, or what a procedure is asked or answers. */
+    path: string;
+  };
+} | {
   read: {
     /** An output, a part of one, or parameters. */
     path: string;
@@ -215,6 +220,8 @@ export type Good = {
   paths: Array<Entry>;
 } | {
   schema: Json;
+} | {
+  layout: Json;
 } | {
   value: Value;
 } | {

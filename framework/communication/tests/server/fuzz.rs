@@ -46,6 +46,7 @@ fn corpus() -> Vec<String> {
         json!({ "authenticate": { "token": "secret" } }),
         json!({ "paths": { "below": "Control.main_outputs", "depth": 3 } }),
         json!({ "schema": { "path": cycles } }),
+        json!({ "layout": { "path": cycles } }),
         json!({ "read": { "path": "Control.main_outputs.pose" } }),
         json!({ "subscribe": { "path": cycles, "rate": 0.5, "encoding": "binary" } }),
         json!({ "subscribe": { "path": image, "rate": 0.5, "encoding": { "jpeg": { "quality": 50 } } } }),

@@ -78,7 +78,7 @@ fn long_paths(address: SocketAddr) {
             "a.".repeat(1 << 19),
             ".".repeat(1 << 20),
         ] {
-            for ask in ["read", "subscribe", "schema"] {
+            for ask in ["read", "subscribe", "schema", "layout"] {
                 client.send(&json!({ "id": 1, "ask": { ask: { "path": path } } }).to_string());
                 let _ = client.try_receive();
             }

@@ -138,6 +138,33 @@ fn procedures_tell_what_they_are_asked_and_answer() {
 }
 
 #[test]
+fn layouts_of_everything_are_told() {
+    let zoo = Zoo::new();
+    let mut client = zoo.client();
+    let subscribe = json!({ "path": "Control.main_outputs.pose", "encoding": "binary" });
+    let subscribed = client.ok(json!({ "subscribe": subscribe }));
+    let mut layout =
+        |path: &str| client.ok(json!({ "layout": { "path": path } }))["layout"].clone();
+    assert_eq!(
+        layout("Control.main_outputs.pose"),
+        subscribed["subscribed"]["layout"]
+    );
+    let float = json!({ "kind": "float", "bits": 32 });
+    assert_eq!(layout("parameters.gait.period"), json!({ "root": float }));
+    let request = layout("Control.procedures.walk.request");
+    assert_eq!(
+        request["root"]["fields"],
+        json!([{ "name": "speed", "layout": float }])
+    );
+    assert_eq!(
+        layout("Control.procedures.stop.request"),
+        json!({ "root": { "kind": "unit" } })
+    );
+    let error = client.error(json!({ "layout": { "path": "Control.main_outputs.pos" } }));
+    assert!(error.contains("pose"), "{error}");
+}
+
+#[test]
 fn values_are_read_once() {
     let zoo = Zoo::new();
     let mut client = zoo.client();
