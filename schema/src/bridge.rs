@@ -44,6 +44,6 @@ pub enum BridgeEncoding {
     /// As text that every client reads.
     #[default]
     Json,
-    /// As ROS 2 writes it: little-endian CDR, for outputs alone.
+    /// As ROS 2 writes it: little-endian CDR; not for remote instances.
     Cdr,
 }

@@ -183,7 +183,7 @@ fn what_cannot_be_said_of_it_is_told() {
             "key = \"outpost/north\"\n",
             "key = \"outpost/north\"\nencoding = \"cdr\"\n",
             "invalid-bridge",
-            "only outputs have a form in CDR",
+            "cycles of `LookoutNorth` are told as JSON",
         ),
         (
             "kind = \"real-time\"\n",

@@ -31,6 +31,8 @@ struct Found {
     kind: BridgeKind,
     /// Unknown to hulkgen: `None`.
     data: Option<Resolved>,
+    /// What a procedure is asked and answers, where hulkgen knows it.
+    messages: Vec<Resolved>,
     /// The text of the type, also where its parts are not known.
     text: Option<String>,
 }
@@ -129,17 +131,24 @@ fn check(scene: &Scene<'_>, bridge: &manifest::Bridge, found: &Found) -> Result<
         }
     }
     if declared.encoding == BridgeEncoding::Cdr {
-        if !is_output {
+        if found.kind == BridgeKind::Remote {
             return refuse(
-                format!("`{path}` is no output, and only outputs have a form in CDR"),
+                format!("cycles of `{path}` are told as JSON, and have no form in CDR"),
                 "write `encoding = \"json\"`, or none",
             );
         }
-        let without = (found.data.as_ref()).and_then(|data| without_cdr(data, scene.sources));
+        let mut carried = found.data.iter().chain(&found.messages);
+        let without = carried.find_map(|data| without_cdr(data, scene.sources));
         if let Some(part) = without {
+            let help = match found.kind {
+                BridgeKind::Procedure => "write `encoding = \"json\"`",
+                _ => {
+                    "write `encoding = \"json\"`, or name a part of it that consists of numbers, texts, lists and structs"
+                }
+            };
             return refuse(
                 format!("`{path}` has no form in CDR because of `{part}`"),
-                "write `encoding = \"json\"`, or name a part of it that consists of numbers, texts, lists and structs",
+                help,
             );
         }
     }
@@ -151,6 +160,7 @@ fn find(scene: &Scene<'_>, path: &str) -> Result<Found, Refused> {
         return Ok(Found {
             kind: BridgeKind::Procedure,
             data: None,
+            messages: Vec::new(),
             text: None,
         });
     }
@@ -192,7 +202,7 @@ fn find(scene: &Scene<'_>, path: &str) -> Result<Found, Refused> {
             let declared = additional(scene, cycler, first);
             below(scene, path, &names, &declared, BridgeKind::AdditionalOutput)
         }
-        "procedures" => procedure(cycler, &names.join(".")),
+        "procedures" => procedure(scene, cycler, &names.join(".")),
         _ => Err(Refused {
             message: format!("`{path}` names no output and no procedure of `{first}`"),
             help: suggestion(group, GROUPS, "behind the instance stands one of"),
@@ -206,6 +216,7 @@ fn remote(path: &str, instance: &str, group: Option<&str>) -> Result<Found, Refu
         None => Ok(Found {
             kind: BridgeKind::Remote,
             data: None,
+            messages: Vec::new(),
             text: None,
         }),
         Some(_) => Err(Refused {
@@ -231,6 +242,7 @@ fn below(
         kind,
         text: data.as_ref().map(|data| data.text.clone()),
         data,
+        messages: Vec::new(),
     };
     let Some(named) = known.iter().find(starts).filter(|_| !names.is_empty()) else {
         let paths: Vec<String> = known.iter().map(|one| one.segments.join(".")).collect();
@@ -268,19 +280,24 @@ fn below(
     Ok(found(Some(data)))
 }
 
-fn procedure(cycler: &SceneCycler<'_>, name: &str) -> Result<Found, Refused> {
+fn procedure(scene: &Scene<'_>, cycler: &SceneCycler<'_>, name: &str) -> Result<Found, Refused> {
     let mut known = Vec::new();
-    for field in fields(cycler).map(|(_, field)| field) {
-        if let CycleField::Procedure(procedure) = field {
-            known.push(procedure.name.text.as_str());
+    for (source, field) in fields(cycler) {
+        let CycleField::Procedure(procedure) = field else {
+            continue;
+        };
+        if procedure.name.text == name {
+            let types = [&procedure.request, &procedure.response];
+            let library = &scene.sources.library;
+            let messages = types.map(|data| library.resolve(&source.module, data));
+            return Ok(Found {
+                kind: BridgeKind::Procedure,
+                data: None,
+                messages: messages.into(),
+                text: None,
+            });
         }
-    }
-    if known.contains(&name) {
-        return Ok(Found {
-            kind: BridgeKind::Procedure,
-            data: None,
-            text: None,
-        });
+        known.push(procedure.name.text.as_str());
     }
     let of = cycler.declared.name();
     Err(Refused {

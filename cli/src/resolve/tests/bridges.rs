@@ -14,7 +14,9 @@ fn bridged(bridges: &[&str]) -> Fixture {
     let cycle = "hardware: HardwareInterface,
         limits: Parameter<Limits, \"gait.limits\">,
         seen: AdditionalOutput<u8, \"seen.$cycler_instance.count\">,
-        walk: Procedure<f32, bool, \"walk\">,";
+        by_letter: Parameter<char, \"by_letter\">,
+        walk: Procedure<f32, bool, \"walk\">,
+        spell: Procedure<char, bool, \"spell\">,";
     let outputs = "limits: MainOutput<Limits>, side: MainOutput<Option<Side>>,
         big: MainOutput<Vec<u128>>, by_name: MainOutput<std::collections::BTreeMap<String, f32>>,";
     let node = Node {
@@ -23,7 +25,10 @@ fn bridged(bridges: &[&str]) -> Fixture {
         ..ACTS
     };
     let mut fixture = fixture.node("a", node);
-    fixture.add("parameters/default.toml", "[gait.limits]\nlow = 1.0\n");
+    fixture.add(
+        "parameters/default.toml",
+        "by_letter = \"a\"\n[gait.limits]\nlow = 1.0\n",
+    );
     fixture
 }
 
@@ -34,10 +39,10 @@ fn everything_that_clients_can_name_can_be_bridged() {
         "path = \"Control.main_outputs.limits.high\"\nkey = \"a/c\"",
         "path = \"Control.main_outputs.side\"\nkey = \"a/d\"\nencoding = \"cdr\"",
         "path = \"Control.additional_outputs.seen.control.count\"\nkey = \"a/e\"",
-        "path = \"Control.procedures.walk\"\nkey = \"a/f\"",
+        "path = \"Control.procedures.walk\"\nkey = \"a/f\"\nencoding = \"cdr\"",
         "path = \"framework.procedures.rearm\"\nkey = \"a/g\"",
         "path = \"parameters.gait\"\nkey = \"a/h\"",
-        "path = \"parameters.gait.limits.low\"\nkey = \"a/i\"\ndirection = \"both\"",
+        "path = \"parameters.gait.limits.low\"\nkey = \"a/i\"\ndirection = \"both\"\nencoding = \"cdr\"",
     ])
     .robot();
     let kinds: Vec<BridgeKind> = robot.bridges.iter().map(|bridge| bridge.kind).collect();
@@ -127,8 +132,13 @@ fn what_cannot_be_bridged_is_told_with_the_nearest_name() {
             "above 0",
         ),
         (
-            "path = \"parameters.gait\"\nencoding = \"cdr\"",
-            "only outputs have a form in CDR",
+            "path = \"parameters.by_letter\"\nencoding = \"cdr\"",
+            "has no form in CDR because of `char`",
+            "name a part of it",
+        ),
+        (
+            "path = \"Control.procedures.spell\"\nencoding = \"cdr\"",
+            "has no form in CDR because of `char`",
             "write `encoding = \"json\"`",
         ),
         (
