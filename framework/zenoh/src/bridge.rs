@@ -1,18 +1,22 @@
 //! Both sides together: what the robot says is published, what others wish is asked of the robot.
 
 use std::collections::BTreeMap;
-use std::time::{Duration, Instant};
+use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use client::{Heard, Robot};
-use protocol::{Answer, Ask, Change, Good, Message, Outcome};
+use protocol::{Answer, Ask, Good, Message, Outcome};
 use serde_json::{Value, json};
 use zenoh::query::Query;
 
 use crate::Result;
-use crate::cdr::{self, Layout};
-use crate::edges::{self, Direction, Edge, Encoding, Kind};
+use crate::asks;
+use crate::cdr;
+use crate::edges::{self, Edge, Encoding, Kind};
 use crate::feed;
-use crate::keys::{Keys, LONGEST, Wish, refuse};
+use crate::forms::Form;
+use crate::keys::{Keys, Wish, refuse};
+use crate::layout::Layout;
+use crate::ros2;
 
 /// Answers that are awaited of the robot at a time; it has a limit of its own for those that take long.
 const AWAITED: usize = 64;
@@ -20,32 +24,20 @@ const AWAITED: usize = 64;
 /// An answer that takes longer comes no more; a robot lets calls wait for 5 s.
 const PATIENCE: Duration = Duration::from_secs(10);
 
-/// Lists and objects within each other: a robot refuses deeper requests without saying which it refuses.
-const DEEPEST: usize = 48;
-
-/// The word before the paths of parameters, which changes do without.
-const PARAMETERS: &str = "parameters.";
-
 /// A robot whose outputs, parameters and procedures have keys.
 pub(crate) struct Bridge<'keys> {
     robot: Robot,
     keys: &'keys mut Keys,
-    /// By the robot's number.
-    subscriptions: BTreeMap<u32, Subscription>,
+    /// Places in the list of edges, by the robot's number.
+    subscriptions: BTreeMap<u32, usize>,
+    /// Of edges with CDR, by place in the list of edges.
+    forms: BTreeMap<usize, Form>,
     /// Of parameters, by place in the list of edges.
     told: BTreeMap<usize, Told>,
     /// By number of the request.
     awaited: BTreeMap<u32, Awaited>,
     /// How often what came in was refused, by path.
     refused: BTreeMap<String, u64>,
-}
-
-/// Values of an edge.
-struct Subscription {
-    /// Place in the list of edges.
-    edge: usize,
-    /// Of binary values.
-    layout: Option<Layout>,
 }
 
 /// What was published of a parameter: the robot tells each with every change of any.
@@ -83,44 +75,59 @@ impl<'keys> Bridge<'keys> {
             eprintln!("warning: {message}");
             Vec::new()
         });
-        keys.declare(edges)?;
+        keys.declare(edges, &robot.welcome.robot)?;
         let mut bridge = Self {
             robot,
             keys,
             subscriptions: BTreeMap::new(),
+            forms: BTreeMap::new(),
             told: BTreeMap::new(),
             awaited: BTreeMap::new(),
             refused: BTreeMap::new(),
         };
         for index in 0..bridge.keys.edges().len() {
             let edge = bridge.keys.edges()[index].clone();
-            if edge.goes_out()
-                && let Err(message) = bridge.subscribe(index, &edge)
-            {
+            if let Err(message) = bridge.prepare(index, &edge) {
                 eprintln!("warning: `{}`: {message}", edge.path);
             }
         }
         Ok(bridge)
     }
 
-    fn subscribe(&mut self, edge: usize, wanted: &Edge) -> Result<()> {
+    fn prepare(&mut self, index: usize, edge: &Edge) -> Result<()> {
+        let is_output = matches!(edge.kind, Kind::MainOutput | Kind::AdditionalOutput);
+        if edge.encoding == Encoding::Cdr && !is_output {
+            let form = Form::ask(&mut self.robot, edge)?;
+            self.forms.insert(index, form);
+        }
+        if edge.goes_out() {
+            self.subscribe(index, edge, is_output)?;
+        }
+        let form = self.forms.get(&index);
+        match form.and_then(|form| ros2::interface::objection(edge, form)) {
+            Some(objection) if self.keys.objects_first(index) => Err(objection),
+            _ => Ok(()),
+        }
+    }
+
+    /// Of outputs the robot has bytes, of parameters JSON alone.
+    fn subscribe(&mut self, index: usize, edge: &Edge, is_output: bool) -> Result<()> {
         let asked = Ask::Subscribe {
-            path: wanted.path.clone(),
-            rate: wanted.rate,
-            encoding: match wanted.encoding {
-                Encoding::Json => protocol::Encoding::Json,
-                Encoding::Cdr => protocol::Encoding::Binary,
+            path: edge.path.clone(),
+            rate: edge.rate,
+            encoding: match edge.encoding {
+                Encoding::Cdr if is_output => protocol::Encoding::Binary,
+                _ => protocol::Encoding::Json,
             },
         };
         let Good::Subscribed(subscribed) = self.robot.ask(asked)? else {
             return Err("the robot subscribes nobody".to_owned());
         };
-        let layout = subscribed.layout.map(Layout::read).transpose();
-        match layout {
+        match subscribed.layout.map(Layout::read).transpose() {
             Ok(layout) => {
-                let subscription = Subscription { edge, layout };
-                self.subscriptions
-                    .insert(subscribed.subscription, subscription);
+                let form = layout.map(|layout| (index, Form::Value(layout)));
+                self.forms.extend(form);
+                self.subscriptions.insert(subscribed.subscription, index);
                 Ok(())
             }
             Err(message) => {
@@ -151,27 +158,19 @@ impl<'keys> Bridge<'keys> {
         }
         match self.robot.hear()? {
             Some(Heard::Message(Message::Update(update))) => {
-                let attachment = json!({ "cycle": update.cycle, "time": update.time });
-                if let Some(one) = self.subscriptions.get(&update.subscription) {
-                    let edge = one.edge;
-                    let (value, attachment) = (update.value.to_string(), attachment.to_string());
-                    self.publish(edge, value.into(), attachment.into());
+                if let Some(edge) = self.subscriptions.get(&update.subscription).copied() {
+                    let value = self.written(edge, &update.value);
+                    let attachment = self.beside(edge, update.cycle, update.time);
+                    self.publish(edge, value, attachment);
                 }
             }
             Some(Heard::Frame(frame)) if !frame.value.is_empty() => {
-                let subscription = self.subscriptions.get(&frame.subscription);
-                if let Some(Subscription {
-                    edge,
-                    layout: Some(layout),
-                }) = subscription
+                if let Some(edge) = self.subscriptions.get(&frame.subscription).copied()
+                    && let Some(form) = self.forms.get(&edge)
                 {
-                    let edge = *edge;
-                    let time = self.robot.since_1970(frame.time);
-                    let attachment = cdr::attachment(frame.cycle, time, self.keys.id());
-                    match layout.to_cdr(&frame.value) {
-                        Ok(value) => self.publish(edge, value, attachment),
-                        Err(message) => eprintln!("warning: {message}"),
-                    }
+                    let value = form.output().to_cdr(&frame.value).map(Some);
+                    let attachment = self.beside(edge, frame.cycle, frame.time);
+                    self.publish(edge, value, attachment);
                 }
             }
             Some(Heard::Message(Message::Answer(answer))) => self.hand_on(answer)?,
@@ -206,10 +205,37 @@ impl<'keys> Bridge<'keys> {
         }
     }
 
-    fn publish(&mut self, edge: usize, value: Vec<u8>, attachment: Vec<u8>) {
-        if self.is_news(edge, &value)
-            && let Err(message) = self.keys.publish(edge, value, attachment)
-        {
+    /// A value in the form of its edge; `None`: it is not there, and CDR has no form for that.
+    fn written(&self, edge: usize, value: &Value) -> Result<Option<Vec<u8>>> {
+        let encoding = self.keys.edges().get(edge).map(|edge| edge.encoding);
+        match (encoding, self.forms.get(&edge)) {
+            (Some(Encoding::Cdr), Some(form)) => form.output().json_to_cdr(value),
+            (Some(Encoding::Cdr), None) => Ok(None),
+            _ => Ok(Some(value.to_string().into_bytes())),
+        }
+    }
+
+    /// What stands beside a value of this cycle.
+    fn beside(&self, edge: usize, cycle: u64, time: u64) -> Vec<u8> {
+        let encoding = self.keys.edges().get(edge).map(|edge| edge.encoding);
+        if encoding == Some(Encoding::Cdr) {
+            cdr::attachment(cycle, self.robot.since_1970(time), self.keys.id(edge))
+        } else {
+            json!({ "cycle": cycle, "time": time })
+                .to_string()
+                .into_bytes()
+        }
+    }
+
+    fn publish(&mut self, edge: usize, value: Result<Option<Vec<u8>>>, attachment: Vec<u8>) {
+        let published = match value {
+            Ok(Some(value)) if self.is_news(edge, &value) => {
+                self.keys.publish(edge, value, attachment)
+            }
+            Ok(_) => Ok(()),
+            Err(message) => Err(message),
+        };
+        if let Err(message) = published {
             eprintln!("warning: {message}");
         }
     }
@@ -231,7 +257,9 @@ impl<'keys> Bridge<'keys> {
     /// Whether the robot has this value already, as far as it told.
     fn has(&self, edge: usize, value: &Value) -> bool {
         let told = self.told.get(&edge).filter(|told| told.is_current);
-        told.is_some_and(|told| told.value == value.to_string().as_bytes())
+        told.is_some_and(
+            |told| matches!(self.written(edge, value), Ok(Some(it)) if it == told.value),
+        )
     }
 
     /// What was told is not to be relied on until the robot tells anew.
@@ -262,7 +290,9 @@ impl<'keys> Bridge<'keys> {
                     refuse(&query, "the robot has this key no longer");
                     return Ok(());
                 };
-                match asked(&edge, &query, |time| self.robot.since_start(time)) {
+                let form = self.forms.get(&index);
+                let since_start = |time| self.robot.since_start(time);
+                match asks::of_query(&edge, form, &query, since_start) {
                     Ok(ask) => {
                         let is_write = matches!(ask, Ask::Write { .. });
                         let id = self.robot.send(ask)?;
@@ -283,7 +313,7 @@ impl<'keys> Bridge<'keys> {
 
     /// What a sample of a key means; `None`: the robot has that value already.
     fn put(&mut self, index: usize, edge: &Edge, bytes: &[u8]) -> Result<Option<Ask>> {
-        let value = read_json(bytes)?;
+        let value = asks::read(edge, self.forms.get(&index), bytes)?;
         if edge.kind == Kind::Remote {
             return feed::ask(&edge.path, value, |time| self.robot.since_start(time)).map(Some);
         }
@@ -291,7 +321,7 @@ impl<'keys> Bridge<'keys> {
             return Ok(None);
         }
         self.will_write(index);
-        Ok(Some(write(&edge.path, value)))
+        Ok(Some(asks::write(&edge.path, value)))
     }
 
     /// Who put a value cannot be told, so it is told here: the 1st, 2nd, 4th, … time of each path.
@@ -305,6 +335,27 @@ impl<'keys> Bridge<'keys> {
 
     fn path_of(&self, index: usize) -> Option<String> {
         self.keys.edges().get(index).map(|edge| edge.path.clone())
+    }
+
+    /// In the form of the edge; ROS 2 finds the answer to a request by what stood beside that.
+    fn answer(&self, index: usize, query: &Query, value: &Value, cycle: u64) {
+        let asked = query.attachment().map(|beside| beside.to_bytes());
+        let asked = asked.and_then(|beside| cdr::Beside::read(&beside));
+        match self.written(index, value) {
+            Ok(Some(value)) => {
+                let since = SystemTime::now().duration_since(UNIX_EPOCH);
+                let now = since.map_or(0, |since| since.as_nanos());
+                let now = u64::try_from(now).unwrap_or_default();
+                let (number, id) = match asked {
+                    Some(cdr::Beside { number, id }) => (number, id),
+                    None => (cycle, self.keys.id(index)),
+                };
+                let attachment = cdr::attachment(number, now, id);
+                self.keys.answer(index, query, value, attachment);
+            }
+            Ok(None) => refuse(query, "there is no such value now"),
+            Err(message) => refuse(query, &message),
+        }
     }
 
     /// The robot's answer to who waits for it.
@@ -328,9 +379,9 @@ impl<'keys> Bridge<'keys> {
         match awaited.asker {
             Asker::Put(..) => {}
             Asker::Query(index, query) => match good {
-                Good::Called(value) => self.keys.answer(index, &query, &value),
-                Good::Value(read) => self.keys.answer(index, &query, &read.value),
-                Good::Done {} => self.keys.answer(index, &query, &Value::Null),
+                Good::Called(value) => self.answer(index, &query, &value, 0),
+                Good::Value(read) => self.answer(index, &query, &read.value, read.cycle),
+                Good::Done {} => self.answer(index, &query, &Value::Null, 0),
                 _ => refuse(&query, "the robot answers something else"),
             },
             Asker::Written(index, query) => match self.path_of(index) {
@@ -356,76 +407,6 @@ impl Asker {
         match self {
             Self::Query(_, query) | Self::Written(_, query) => refuse(&query, reason),
             Self::Put(_, path) => eprintln!("warning: `{path}`: {reason}"),
-        }
-    }
-}
-
-/// What a query of a key means; `of_robot` gives the robot's time for one since 1970.
-fn asked(edge: &Edge, query: &Query, of_robot: impl Fn(u64) -> Option<u64>) -> Result<Ask> {
-    let payload = query.payload();
-    if payload.is_some_and(|payload| payload.len() > LONGEST) {
-        return Err(format!("a payload has at most {LONGEST} bytes"));
-    }
-    let argument = payload.map(|payload| read_json(&payload.to_bytes()));
-    let argument = argument.transpose()?;
-    let path = edge.path.clone();
-    match (edge.kind, edge.direction, argument) {
-        (Kind::Procedure, _, argument) => Ok(Ask::Call {
-            path,
-            argument: argument.unwrap_or(Value::Null),
-            timeout: None,
-        }),
-        (Kind::Remote, _, said) => feed::ask(&path, said.unwrap_or(Value::Null), of_robot),
-        (_, Some(Direction::Out), Some(_)) => Err(format!(
-            "`{path}` goes out alone: write `direction = \"both\"` at its `[[bridge]]`"
-        )),
-        (_, _, Some(value)) => Ok(write(&path, value)),
-        (_, _, None) => Ok(Ask::Read { path }),
-    }
-}
-
-fn write(path: &str, value: Value) -> Ask {
-    let path = path.strip_prefix(PARAMETERS).unwrap_or(path).to_owned();
-    Ask::Write {
-        changes: vec![Change { path, value }],
-    }
-}
-
-fn read_json(bytes: &[u8]) -> Result<Value> {
-    let value = serde_json::from_slice(bytes);
-    let value = value.map_err(|error| format!("the payload is no JSON: {error}"))?;
-    match depth(&value) {
-        depth if depth > DEEPEST => Err(format!(
-            "lists and objects of the payload nest {depth} deep: send at most {DEEPEST}"
-        )),
-        _ => Ok(value),
-    }
-}
-
-/// Lists and objects within each other at the deepest place; the reader's own limit bounds it.
-fn depth(value: &Value) -> usize {
-    match value {
-        Value::Array(items) => 1 + items.iter().map(depth).max().unwrap_or(0),
-        Value::Object(entries) => 1 + entries.values().map(depth).max().unwrap_or(0),
-        _ => 0,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{DEEPEST, read_json};
-
-    #[test]
-    fn what_nests_deeper_than_a_robot_reads_is_refused() {
-        for (open, close) in [("[", "]"), (r#"{"a":"#, "}")] {
-            let nested = |depth| format!("{}1{}", open.repeat(depth), close.repeat(depth));
-            assert!(read_json(nested(DEEPEST).as_bytes()).is_ok());
-            for depth in [DEEPEST + 1, 61, 127] {
-                let refused = read_json(nested(depth).as_bytes()).expect_err("it is too deep");
-                assert!(refused.contains(&format!("nest {depth} deep")), "{refused}");
-            }
-            let refused = read_json(nested(5000).as_bytes()).expect_err("nobody reads that");
-            assert!(refused.contains("no JSON"), "{refused}");
         }
     }
 }

@@ -7,12 +7,18 @@
 //! ```
 //! Invariant: neither side waits for the other. Who is away is waited for, and what comes meanwhile is refused.
 
+mod asks;
 mod bridge;
 mod cdr;
 mod edges;
 mod feed;
+mod forms;
 mod keys;
+mod layout;
 mod options;
+#[cfg(test)]
+mod random;
+mod ros2;
 
 use std::process::ExitCode;
 use std::thread::sleep;
@@ -46,8 +52,12 @@ fn main() -> ExitCode {
     }
 }
 
-/// For ever: robots come and go.
+/// For ever: robots come and go. Messages are written once.
 fn run(options: &Options) -> Result<()> {
+    if let Some(folder) = &options.messages {
+        let mut robot = Robot::connect(&options.host, options.token.as_deref())?;
+        return ros2::export::export(&mut robot, folder);
+    }
     let mut keys = Keys::open(options)?;
     let mut said = String::new();
     loop {

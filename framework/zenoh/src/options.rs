@@ -1,5 +1,7 @@
 //! The command line.
 
+use std::path::PathBuf;
+
 use lexopt::prelude::{Long, Short, ValueExt as _};
 
 use crate::Result;
@@ -12,6 +14,7 @@ Maps what `[[bridge]]` of a robot's manifest names to keys of Zenoh.
   --connect ENDPOINT   of Zenoh, for example tcp/192.168.1.5:7447; may stand several times
   --listen ENDPOINT    where Zenoh finds the bridge, for example tcp/127.0.0.1:7447; may stand several times
   --prefix PREFIX      stands before every key, for example the robot's name: PREFIX/KEY
+  --messages FOLDER    write packages of ROS 2 for what is mapped as CDR, print the keys with the right hashes, and end
   --help";
 
 /// What the command line says.
@@ -22,6 +25,8 @@ pub(crate) struct Options {
     pub(crate) listen: Vec<String>,
     /// Ends with `/`, or is empty.
     pub(crate) prefix: String,
+    /// Where packages of ROS 2 are wanted instead of a bridge.
+    pub(crate) messages: Option<PathBuf>,
 }
 
 /// `None`: somebody wants help.
@@ -35,6 +40,7 @@ pub(crate) fn read() -> Result<Option<Options>> {
         connect: Vec::new(),
         listen: Vec::new(),
         prefix: String::new(),
+        messages: None,
     };
     let mut arguments = lexopt::Parser::from_env();
     let wrong = |error: lexopt::Error| format!("{error}; see --help");
@@ -54,10 +60,11 @@ pub(crate) fn read() -> Result<Option<Options>> {
             "connect" => options.connect.push(value(&mut arguments)?),
             "listen" => options.listen.push(value(&mut arguments)?),
             "prefix" => options.prefix = format!("{}/", value(&mut arguments)?),
+            "messages" => options.messages = Some(value(&mut arguments)?.into()),
             _ => return Err(format!("invalid option '--{name}'; see --help")),
         }
     }
-    if options.connect.is_empty() && options.listen.is_empty() {
+    if options.messages.is_none() && options.connect.is_empty() && options.listen.is_empty() {
         return Err(
             "nobody says where Zenoh is: give `--connect ENDPOINT` or `--listen ENDPOINT`; see --help"
                 .to_owned(),
