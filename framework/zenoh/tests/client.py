@@ -15,7 +15,7 @@ from pycdr2.types import float32, sequence
 
 from elsewhere import PATIENCE, TOO_LONG, connected, until
 
-CDR_POSE = "0/pose/zoo_interfaces::msg::dds_::Pose_/RIHS01_" + 64 * "0"
+CDR_POSE = "0/pose/zoo_interfaces::msg::dds_::Pose_/RIHS01_108fca19f7ddc277ebcdac53b06adc40f9f3b79d3ec561a55dbb5a5626bda426"
 
 
 @dataclass

@@ -2,6 +2,7 @@
 //! network that loses and delays.
 
 mod feeder;
+mod ros;
 
 use std::io::{BufRead as _, BufReader, Write as _};
 use std::net::{SocketAddr, TcpListener, TcpStream};
@@ -51,13 +52,17 @@ fn robots() -> Result<Parts, &'static str> {
 
 /// As [`robots`], where python has what the clients import.
 fn parts() -> Result<Parts, &'static str> {
-    let mut python = Command::new("python3");
-    let python = python.args(["-c", "import pycdr2, zenoh"]);
-    let python = python.stderr(Stdio::null()).status();
-    if !python.is_ok_and(|status| status.success()) {
+    if !python_has("pycdr2, zenoh") {
         return Err("python3 -m pip install eclipse-zenoh pycdr2");
     }
     robots()
+}
+
+fn python_has(modules: &str) -> bool {
+    let mut python = Command::new("python3");
+    let python = python.args(["-c", &format!("import {modules}")]);
+    let python = python.stderr(Stdio::null()).status();
+    python.is_ok_and(|status| status.success())
 }
 
 fn free_address() -> SocketAddr {
