@@ -10,6 +10,7 @@ mod on_the_ground;
 mod parameters;
 mod places;
 mod play;
+mod stuck;
 mod walk_to;
 mod way;
 
@@ -23,10 +24,11 @@ use types::world_state::WorldState;
 use self::decision::{Decision, Memory, View};
 use self::on_the_ground::on_the_ground;
 pub use self::parameters::{
-    AttackParameters, BehaviorParameters, KeeperParameters, PlaceParameters, SearchParameters,
-    WalkParameters,
+    AttackParameters, BehaviorParameters, KeeperParameters, PlaceParameters, RecoveryParameters,
+    SearchParameters, WalkParameters,
 };
 use self::play::{get_ready, play};
+use self::stuck::step_away;
 
 /// What was decided before.
 #[derive(Debug, Deserialize, Serialize)]
@@ -68,7 +70,8 @@ impl Behavior {
     /// What the state of the game allows, unless the robot falls or lies.
     pub fn cycle(&mut self, mut context: CycleContext) -> Result<MainOutputs> {
         let now = context.cycle_time.start;
-        self.memory.notice(context.world_state, now);
+        self.memory
+            .notice(context.world_state, context.parameters, now);
         let view = View {
             world: context.world_state,
             parameters: context.parameters,
@@ -105,11 +108,21 @@ fn decide(view: &View<'_>) -> Decision {
             BodyMotion::Stand,
             HeadMotion::LookAround,
         ),
+        PrimaryState::Ready | PrimaryState::Playing if view.memory.progress.backs_off() => {
+            back_off(view)
+        }
         PrimaryState::Ready => get_ready(view),
         PrimaryState::Set => still(Activity::WaitForWhistle, BodyMotion::Stand, view.head()),
         PrimaryState::Playing => play(view),
         PrimaryState::Finished => still(Activity::AfterGame, BodyMotion::Stand, HeadMotion::Ahead),
     }
+}
+
+/// Whatever holds the robot, from elsewhere it finds another way.
+fn back_off(view: &View<'_>) -> Decision {
+    let BehaviorParameters { recovery, walk, .. } = view.parameters;
+    let step = step_away(&view.world.obstacles, recovery, walk);
+    Decision::walk(Activity::BackOff, step, view.head())
 }
 
 /// A client drives a robot that stands, walks or kicks by its own decision, and no other.

@@ -72,6 +72,8 @@ pub enum Activity {
     GuardGoal,
     /// Steps into the way of a ball that rolls to the goal.
     Block,
+    /// Walks away from where it got nowhere.
+    BackOff,
 }
 
 /// Where the behaviour wants to get, for those who want to see it; ground frame, m and rad.

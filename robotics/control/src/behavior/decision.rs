@@ -9,6 +9,7 @@ use types::motion::{BodyMotion, HeadMotion, MotionCommand, Step};
 use types::world_state::WorldState;
 
 use super::parameters::{BehaviorParameters, WalkParameters};
+use super::stuck::Progress;
 use super::walk_to::step_to;
 use super::way::{Circle, first_way_point};
 
@@ -31,6 +32,7 @@ pub(super) struct Memory {
     pub(super) ball_known_at: Timestamp,
     pub(super) is_walking: bool,
     pub(super) activity: Activity,
+    pub(super) progress: Progress,
 }
 
 /// Everything that is decided on.
@@ -64,7 +66,12 @@ impl Decision {
 
 impl Memory {
     /// Before anything is decided.
-    pub(super) fn notice(&mut self, world: &WorldState, now: Timestamp) {
+    pub(super) fn notice(
+        &mut self,
+        world: &WorldState,
+        parameters: &BehaviorParameters,
+        now: Timestamp,
+    ) {
         let is_playing = world.primary_state == PrimaryState::Playing;
         if world.primary_state != self.state {
             self.kick_off_at = (is_playing && self.state == PrimaryState::Set).then_some(now);
@@ -72,6 +79,18 @@ impl Memory {
         }
         if world.ball.is_some() || !is_playing {
             self.ball_known_at = now;
+        }
+        let ground_to_field = world.ground_to_field.as_ref();
+        self.progress
+            .notice(ground_to_field, self.moves(), &parameters.recovery, now);
+    }
+
+    /// Whether the robot wanted to get anywhere by its own decision, also where it waits until a place becomes free.
+    fn moves(&self) -> bool {
+        match self.activity {
+            Activity::FollowClient => false,
+            Activity::Kick | Activity::WalkBehindBall => true,
+            _ => self.is_walking,
         }
     }
 

@@ -17,6 +17,8 @@ pub struct BehaviorParameters {
     pub places: PlaceParameters,
     /// How to guard the goal.
     pub keeper: KeeperParameters,
+    /// When to give up where the robot gets nowhere.
+    pub recovery: RecoveryParameters,
 }
 
 /// How to get to a place.
@@ -198,4 +200,25 @@ pub struct KeeperParameters {
     /// A ball that passes nearer is hit anyway.
     #[reflect(unit = "m", range = 0.0..)]
     pub covered: f32,
+}
+
+/// When to give up where the robot gets nowhere.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct RecoveryParameters {
+    /// So long a robot may walk or kick and get nowhere before it backs off.
+    #[reflect(unit = "s", range = 0.0..)]
+    pub after: f32,
+    /// So long it then walks away.
+    #[reflect(unit = "s", range = 0.0..)]
+    pub duration: f32,
+    /// Who has got farther has got somewhere.
+    #[reflect(unit = "m", range = 0.0..)]
+    pub distance: f32,
+    /// Likewise, who has turned further.
+    #[reflect(unit = "rad", range = 0.0..)]
+    pub turned: f32,
+    /// What is nearer it walks away from; where nothing is, it walks back.
+    #[reflect(unit = "m", range = 0.0..)]
+    pub near: f32,
 }

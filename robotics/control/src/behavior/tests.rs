@@ -31,7 +31,7 @@ impl Scene {
         };
         let now = cycle_time(100_000, 12).start;
         let mut memory = Memory::default();
-        memory.notice(&world, now);
+        memory.notice(&world, &parameters(), now);
         Self {
             world,
             parameters: parameters(),
@@ -61,8 +61,8 @@ impl Scene {
             primary_state: PrimaryState::Set,
             ..WorldState::default()
         };
-        self.memory.notice(&set, at);
-        self.memory.notice(&self.world, at);
+        self.memory.notice(&set, &self.parameters, at);
+        self.memory.notice(&self.world, &self.parameters, at);
     }
 
     /// The ball was known so many seconds ago.
@@ -249,4 +249,35 @@ fn whoever_falls_protects_itself_and_whoever_lies_gets_up_where_it_plays() {
         assert_eq!(decided(state, lies), stays, "{state:?}");
     }
     assert_eq!(decided(Unstiff, falls).0, BodyMotion::Unstiff);
+}
+
+#[test]
+fn a_robot_that_gets_nowhere_backs_off_and_begins_anew() {
+    let world_state = WorldState {
+        primary_state: PrimaryState::Playing,
+        ball: ball(1.5, -0.2),
+        ground_to_field: Some(Isometry2::translation(-2.0, 0.0)),
+        ..WorldState::default()
+    };
+    let mut node = Behavior::new(CreationContext {}).unwrap();
+    let mut activities = Vec::new();
+    for cycle in 0..2000 {
+        let mut plan = AdditionalProbe::unsubscribed();
+        let context = CycleContext {
+            world_state: &world_state,
+            client_wish: None,
+            cycle_time: cycle_time(1000 + 12 * cycle, 12),
+            parameters: &parameters(),
+            plan: plan.output(),
+        };
+        let outputs = node.cycle(context).unwrap();
+        let step = outputs.motion_command.value.step;
+        let activity = outputs.activity.value;
+        assert_eq!(activity == Activity::BackOff, step.forward < 0.0);
+        if activities.last() != Some(&activity) {
+            activities.push(activity);
+        }
+    }
+    let (walks, backs_off) = (Activity::WalkBehindBall, Activity::BackOff);
+    assert_eq!(activities, [walks, backs_off, walks, backs_off, walks]);
 }
