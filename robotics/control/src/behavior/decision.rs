@@ -187,13 +187,7 @@ impl View<'_> {
             ..self.parameters.walk
         };
         let target = &self.out_of_goals(target);
-        let obstacles = self.world.obstacles.iter().map(|obstacle| Circle {
-            middle: obstacle.position,
-            radius: obstacle.radius + walk.clearance,
-        });
-        let place = Point2::from(target.translation.vector);
-        let turning = walk.forward / walk.turn.max(f32::EPSILON);
-        let way_point = first_way_point(place, obstacles.chain(more), turning);
+        let way_point = self.way_point(target.translation.vector.into(), more);
         let step = step_to(target, way_point, self.memory.is_walking, &walk);
         let mut decision = match step {
             Some(step) => Decision::walk(on_the_way, step, self.head()),
@@ -204,8 +198,32 @@ impl View<'_> {
         decision
     }
 
+    /// Where it goes first on its way to a place, around what stands there and never through a goal.
+    fn way_point(&self, place: Point2<f32>, more: Option<Circle>) -> Point2<f32> {
+        let (walk, places) = (&self.parameters.walk, &self.parameters.places);
+        let obstacles = self.world.obstacles.iter().map(|obstacle| Circle {
+            middle: obstacle.position,
+            radius: obstacle.radius + walk.clearance,
+        });
+        let turning = walk.forward / walk.turn.max(f32::EPSILON);
+        let circles = obstacles.chain(more);
+        let Some(ground_to_field) = self.world.ground_to_field else {
+            return first_way_point(place, circles, turning, |_| false);
+        };
+        let field_to_ground = ground_to_field.inverse();
+        if let Some(out) = places.way_out_of_goal(ground_to_field.translation.vector.into()) {
+            return field_to_ground * out;
+        }
+        let posts = places.posts(walk.clearance).map(|post| Circle {
+            middle: field_to_ground * post.middle,
+            ..post
+        });
+        let is_closed = |point| places.is_closed(ground_to_field * point);
+        first_way_point(place, circles.chain(posts), turning, is_closed)
+    }
+
     /// The same pose of the ground frame, or before the goal line where it lies in a goal.
-    fn out_of_goals(&self, target: &Isometry2<f32>) -> Isometry2<f32> {
+    pub(super) fn out_of_goals(&self, target: &Isometry2<f32>) -> Isometry2<f32> {
         let Some(ground_to_field) = self.world.ground_to_field else {
             return *target;
         };
@@ -223,7 +241,7 @@ mod tests {
     #[test]
     fn nobody_is_sent_into_a_goal() {
         let scene = Scene::at(-3.5, 0.5, 0.0);
-        for (place, expected) in [([-4.8, 0.2], [-4.4, 0.2]), ([-4.0, 1.0], [-4.0, 1.0])] {
+        for (place, expected) in [([-4.8, 0.2], [-4.5, 0.2]), ([-4.0, 1.0], [-4.0, 1.0])] {
             let pose = Isometry2::translation(place[0], place[1]);
             let decision =
                 scene.view(|view| view.go_to(&pose, Activity::WalkToPlace, Activity::WaitInReady));
@@ -232,5 +250,27 @@ mod tests {
             let target = ground_to_field * Point2::from(target);
             assert!((target - Point2::from(expected)).norm() < 1e-5, "{target}");
         }
+    }
+
+    #[test]
+    fn ways_lead_around_goals_and_not_off_the_carpet() {
+        let pose = Isometry2::translation(-4.4, 1.2);
+        // From before the goal to beside it.
+        let scene = Scene::at(-4.45, 0.4, 1.5);
+        let way_point = scene.way_point_to(&pose);
+        assert!(way_point.x > -4.35, "{way_point}");
+        // Out of it through its mouth.
+        let scene = Scene::at(-4.8, 0.6, 1.5);
+        let way_point = scene.way_point_to(&pose);
+        assert!(way_point.x > -4.3 && way_point.y < 0.5, "{way_point}");
+        // Past somebody near the touch line on the inner side, though that is longer.
+        let mut scene = Scene::at(-1.0, 3.4, 0.0);
+        scene.world.obstacles.push(types::obstacles::Obstacle {
+            position: Point2::new(1.0, -0.05),
+            radius: 0.2,
+            ..types::obstacles::Obstacle::default()
+        });
+        let way_point = scene.way_point_to(&Isometry2::translation(1.0, 3.4));
+        assert!(way_point.y < 3.1, "{way_point}");
     }
 }

@@ -80,6 +80,9 @@ pub struct AttackParameters {
     /// The step of a robot that pushes the ball.
     #[reflect(unit = "m", range = 0.0..)]
     pub push: f32,
+    /// A ball on the own goal line is pushed along it, and so far into the field, past the post.
+    #[reflect(unit = "rad", range = 0.0..)]
+    pub along_line: f32,
     /// So far from the posts the aim stays.
     #[reflect(unit = "m", range = 0.0..)]
     pub post_margin: f32,
@@ -170,9 +173,18 @@ pub struct PlaceParameters {
     /// What is farther from the centre mark has been kicked off.
     #[reflect(unit = "m", range = 0.0..)]
     pub kicked_off: f32,
-    /// So far before a goal line the robot stays between the posts: behind it the net holds its feet.
+    /// Of a post.
+    #[reflect(unit = "m", range = 0.0..)]
+    pub post_radius: f32,
+    /// So far before a goal line the robot stays near the posts: behind it the net holds its feet.
     #[reflect(unit = "m", range = 0.0..)]
     pub before_goal: f32,
+    /// So far beside a goal, and so far from a post between both, there is room for a robot.
+    #[reflect(unit = "m", range = 0.0..)]
+    pub beside_goal: f32,
+    /// So far outside of the lines a way may lead: there the carpet ends.
+    #[reflect(unit = "m", range = 0.0..)]
+    pub off_the_field: f32,
     /// So far outside of a line that must not be crossed the robot stays.
     #[reflect(unit = "m", range = 0.0..)]
     pub margin: f32,

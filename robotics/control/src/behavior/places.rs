@@ -8,6 +8,7 @@ use types::behavior::Role;
 use types::game::{KickingTeam, SetPlay};
 
 use super::parameters::{AttackParameters, KeeperParameters, PlaceParameters};
+use super::way::Circle;
 
 impl PlaceParameters {
     /// The middle of the own goal, m.
@@ -110,12 +111,29 @@ impl PlaceParameters {
 
     /// The direction in which a ball gets into the opponents' goal; the nearest such direction to one that would be easy, rad.
     ///
-    /// A ball on the own goal line is played along it: whoever got behind it would stand in the net.
+    /// A ball on the own goal line is played along it and past the post: whoever got behind it would stand in the net.
+    /// Beside the goal it is played from where there is room beside the net.
     pub(super) fn aim(&self, ball: Point2<f32>, easy: f32, attack: &AttackParameters) -> f32 {
-        let behind = Point2::new(ball.x - attack.behind, ball.y);
-        if ball.x < 0.0 && self.out_of_goals(behind) != behind {
-            return FRAC_PI_2.copysign(ball.y);
+        if ball.x - attack.behind >= self.before_goal - self.goal_line {
+            return self.aim_at_goal(ball, easy, attack);
         }
+        if ball.y.abs() < self.post + 2.0 * self.post_radius {
+            // In the middle the side to which the robot has turned stays: the ball lies to its left and right in turns.
+            let facing = math::sin(easy);
+            let is_in_the_middle = ball.y.abs() < self.post / 3.0;
+            let side = match is_in_the_middle && facing.abs() > ASIDE {
+                true => facing,
+                false => ball.y,
+            };
+            return (FRAC_PI_2 - attack.along_line).copysign(side);
+        }
+        let side = 1.0_f32.copysign(ball.y);
+        let room = (ball.y.abs() - self.post - self.beside_goal) / attack.behind;
+        let most = math::asin(room.clamp(-1.0, 1.0));
+        side * (side * self.aim_at_goal(ball, easy, attack)).min(most)
+    }
+
+    fn aim_at_goal(&self, ball: Point2<f32>, easy: f32, attack: &AttackParameters) -> f32 {
         let post = (self.post - attack.post_margin).max(0.0);
         let to = |y: f32| math::atan2(y - ball.y, self.goal_line - ball.x);
         let (right, left) = (to(-post), to(post));
@@ -135,13 +153,40 @@ impl PlaceParameters {
         math::hypot(beside, self.goal_line - ball.x)
     }
 
-    /// Before the goal line where it lies between the posts and behind, or beside them.
+    /// On the goal line where it lies in the middle of a goal, before it where it lies near the posts.
     pub(super) fn out_of_goals(&self, place: Point2<f32>) -> Point2<f32> {
-        let most = self.goal_line - self.before_goal;
+        let has_room = place.y.abs() < self.post - self.beside_goal;
+        let most = self.goal_line - if has_room { 0.0 } else { self.before_goal };
         match place.y.abs() < self.post + self.before_goal {
             true => Point2::new(place.x.clamp(-most, most), place.y),
             false => place,
         }
+    }
+
+    /// In the middle of its mouth, where it lies in a goal: no other way leads out.
+    pub(super) fn way_out_of_goal(&self, place: Point2<f32>) -> Option<Point2<f32>> {
+        let depth = place.x.abs() - self.goal_line;
+        let is_inside = depth > self.before_goal && place.y.abs() < self.post;
+        let room = (self.post - self.beside_goal).max(0.0);
+        let mouth = self.goal_line - self.beside_goal;
+        is_inside.then(|| Point2::new(mouth.copysign(place.x), place.y.clamp(-room, room)))
+    }
+
+    /// Where no way leads through: a goal, and what is far outside of the lines.
+    pub(super) fn is_closed(&self, place: Point2<f32>) -> bool {
+        let (x, y) = (place.x.abs(), place.y.abs());
+        let is_in_goal = x > self.goal_line && y < self.post + 2.0 * self.post_radius;
+        let far = self.off_the_field;
+        is_in_goal || x > self.goal_line + far || y > self.touch_line + far
+    }
+
+    /// What the middle of a robot that passes so far from them stays out of: the posts.
+    pub(super) fn posts(&self, clearance: f32) -> [Circle; 4] {
+        let y = self.post + self.post_radius;
+        [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]].map(|[goal, side]| Circle {
+            middle: Point2::new(goal * self.goal_line, side * y),
+            radius: self.post_radius + clearance,
+        })
     }
 
     fn on_the_field(&self, place: Point2<f32>) -> Point2<f32> {
@@ -155,6 +200,8 @@ impl PlaceParameters {
     }
 }
 
+/// Who faces less to one side, as the sine says, has not turned to it.
+const ASIDE: f32 = 0.2;
 /// A goal that opens less, rad, is not aimed at.
 const NARROW: f32 = 0.15;
 
@@ -268,9 +315,34 @@ mod tests {
             assert!(math::cos(aim) < 0.0 && math::sin(aim) * y < 0.0, "{aim}");
         }
         assert!(aim(-4.0, 0.0, PI).abs() < 0.1);
-        // On the own goal line it goes away along it, and beside the goal as everywhere.
-        assert_eq!(aim(-4.4, 0.2, 0.0), FRAC_PI_2);
-        assert_eq!(aim(-4.4, -0.2, 0.0), -FRAC_PI_2);
+    }
+
+    #[test]
+    fn a_ball_on_the_own_goal_line_goes_past_the_post_and_keeps_its_side() {
+        let parameters = parameters();
+        let aim = |x: f32, y: f32, easy: f32| {
+            let places = parameters.places;
+            places.aim(Point2::new(x, y), easy, &parameters.attack)
+        };
+        for (y, easy, is_left) in [
+            (0.2, 0.0, true),
+            (-0.2, 0.0, false),
+            (0.7, -1.0, true),
+            // In the middle where the robot has turned to.
+            (0.01, -1.2, false),
+            (-0.01, -1.2, false),
+            (-0.01, 1.2, true),
+        ] {
+            let aim = aim(-4.45, y, easy);
+            assert_eq!(aim > 0.0, is_left, "{y} {easy}: {aim}");
+            // So far that it does not roll into the post.
+            assert!((1.2..1.3).contains(&aim.abs()), "{aim}");
+        }
+        // Beside the goal from where there is room beside the net, and further away as everywhere.
+        for y in [0.86_f32, 0.95, 1.02, -0.9] {
+            let behind = y - parameters.attack.behind * math::sin(aim(-4.4, y, 0.0));
+            assert!((behind.abs() - 1.05).abs() < 0.01, "{y}: {behind}");
+        }
         assert!(aim(-4.4, 1.5, 0.0).abs() < 0.5);
     }
 
@@ -278,7 +350,8 @@ mod tests {
     fn goals_are_not_walked_into() {
         let places = parameters().places;
         for (x, y, expected) in [
-            (-4.7, 0.3, -4.4),
+            (-4.7, 0.3, -4.5),
+            (-4.7, 0.6, -4.4),
             (4.6, -0.75, 4.4),
             (-4.3, 0.0, -4.3),
             (-4.7, 1.2, -4.7),
@@ -286,5 +359,25 @@ mod tests {
             let moved = places.out_of_goals(Point2::new(x, y));
             assert_eq!(moved, Point2::new(expected, y));
         }
+    }
+
+    #[test]
+    fn no_way_leads_through_a_goal_or_off_the_carpet() {
+        let places = parameters().places;
+        for (x, y, is_closed) in [
+            (4.6, 0.7, true),
+            (-4.9, -0.8, true),
+            (-4.9, 1.1, false),
+            (4.4, 0.7, false),
+            (0.0, 3.3, false),
+            (0.0, -3.7, true),
+            (5.1, 2.0, true),
+        ] {
+            assert_eq!(places.is_closed(Point2::new(x, y)), is_closed, "{x} {y}");
+        }
+        let out = places.way_out_of_goal(Point2::new(-4.8, 0.7)).unwrap();
+        assert!(out.x > -4.3 && out.y < 0.5, "{out}");
+        assert_eq!(places.way_out_of_goal(Point2::new(-4.8, 0.9)), None);
+        assert_eq!(places.way_out_of_goal(Point2::new(-4.5, 0.0)), None);
     }
 }

@@ -70,6 +70,13 @@ impl Scene {
         self.memory.ball_known_at = cycle_time(100_000 - (seconds * 1000.0) as u64, 12).start;
     }
 
+    /// Where it goes first on its way to a pose, on the field, m.
+    pub(super) fn way_point_to(&self, pose: &Isometry2<f32>) -> Point2<f32> {
+        let (walk, wait) = (Activity::WalkToPlace, Activity::WaitInReady);
+        let decision = self.view(|view| view.go_to(pose, walk, wait));
+        self.world.ground_to_field.unwrap() * decision.plan.way_point.unwrap()
+    }
+
     pub(super) fn view(&self, decide: impl Fn(&View<'_>) -> Decision) -> Decision {
         decide(&View {
             world: &self.world,

@@ -7,7 +7,7 @@ use nalgebra::{Isometry2, Point2, Vector2};
 const DETOURS: usize = 3;
 /// A way point lies so much farther from a circle's middle than its edge, so that the next way is free of it.
 const BEYOND: f32 = 1.05;
-/// As much longer, m, counts a way through a point that another obstacle takes: longer than any field.
+/// As much longer, m, counts a way through a point that another obstacle takes, or that is closed: longer than any field.
 const TOLL: f32 = 20.0;
 
 /// What the middle of the robot must stay out of, in the ground frame.
@@ -23,17 +23,18 @@ pub(super) struct Circle {
 ///
 /// A circle in which the robot or the point lies does not count, but the robot leaves one before it goes through its middle.
 /// To turn by 1 rad counts as `turning` m of way: of two sides that are nearly as long the robot keeps the one that it has
-/// turned to, also where the circle moves.
+/// turned to, also where the circle moves. No way leads through a point that is closed while there is another one.
 pub(super) fn first_way_point(
     target: Point2<f32>,
     circles: impl Iterator<Item = Circle> + Clone,
     turning: f32,
+    is_closed: impl Fn(Point2<f32>) -> bool,
 ) -> Point2<f32> {
     let start = Start {
         place: Point2::origin(),
         turning,
     };
-    detour(start, target, &circles, DETOURS).0
+    detour(start, target, &circles, &is_closed, DETOURS).0
 }
 
 /// Where a way begins.
@@ -52,6 +53,7 @@ fn detour(
     }: Start,
     target: Point2<f32>,
     circles: &(impl Iterator<Item = Circle> + Clone),
+    is_closed: &impl Fn(Point2<f32>) -> bool,
     detours: usize,
 ) -> (Point2<f32>, f32) {
     let straight = (target, (target - start).norm());
@@ -68,11 +70,15 @@ fn detour(
             place: way_point,
             turning: 0.0,
         };
-        let (_, rest) = detour(next, target, circles, detours - 1);
+        let (_, rest) = detour(next, target, circles, is_closed, detours - 1);
         let is_taken = circles
             .clone()
             .any(|circle| (way_point - circle.middle).norm() < circle.radius);
-        let toll = if is_taken { TOLL } else { 0.0 };
+        let toll = if is_taken || is_closed(way_point) {
+            TOLL
+        } else {
+            0.0
+        };
         let way = way_point - start;
         let turned = math::atan2(way.y, way.x).abs() * turning;
         (way_point, way.norm() + rest + toll + turned)
@@ -117,7 +123,7 @@ mod tests {
             middle: Point2::new(x, y),
             radius,
         });
-        first_way_point(Point2::from(target), circles, 0.16)
+        first_way_point(Point2::from(target), circles, 0.16, |_| false)
     }
 
     #[test]
@@ -159,6 +165,20 @@ mod tests {
                 let around = turn.inverse() * around;
                 assert!(around.y * facing > 0.0, "{facing} {moved}: {around}");
             }
+        }
+    }
+
+    #[test]
+    fn the_shorter_side_is_not_taken_where_it_is_closed() {
+        let circle = Circle {
+            middle: Point2::new(1.5, 0.1),
+            radius: 0.5,
+        };
+        for (closed, is_left) in [(-1.0, true), (1.0, false)] {
+            let is_closed = |place: Point2<f32>| place.y * closed > 0.0;
+            let target = Point2::new(3.0, 0.0);
+            let around = first_way_point(target, [circle].into_iter(), 0.16, is_closed);
+            assert_eq!(around.y > 0.0, is_left, "{around}");
         }
     }
 
