@@ -147,8 +147,10 @@ fn walk_behind(view: &View<'_>, ball: Point2<f32>, aim: f32, activity: Activity)
     };
     let mut decision = view.walk_to(&target, Some(around), activity, activity);
     // Near enough for a place, but the ball cannot be played from there yet: who stood here would stand for ever.
-    if decision.command.body == BodyMotion::Stand {
-        let step = straight(&view.out_of_goals(&target), &view.parameters.walk);
+    let target = view.out_of_goals(&target);
+    let is_free = !view.is_occupied(target.translation.vector.into(), true);
+    if decision.command.body == BodyMotion::Stand && is_free {
+        let step = straight(&target, &view.parameters.walk);
         decision.command = Decision::walk(activity, step, view.head()).command;
     }
     decision
@@ -167,6 +169,8 @@ impl Stance {
 
 #[cfg(test)]
 mod tests {
+    use types::obstacles::{Obstacle, ObstacleKind};
+
     use super::*;
     use crate::behavior::tests::{Scene, parameters};
 
@@ -230,6 +234,22 @@ mod tests {
         assert_eq!(decision.activity, Activity::WalkBehindBall);
         assert_eq!(decision.command.body, BodyMotion::Walk);
         assert!(decision.command.step.left > 0.0, "{decision:?}");
+    }
+
+    #[test]
+    fn a_robot_behind_the_ball_is_not_pushed_away() {
+        let mut scene = Scene::at(-2.0, 0.0, std::f32::consts::PI).with_ball(0.3, 0.0);
+        for (kind, stands) in [(ObstacleKind::Robot, true), (ObstacleKind::Unknown, false)] {
+            scene.world.obstacles = vec![Obstacle {
+                position: Point2::new(0.48, 0.1),
+                radius: 0.2,
+                kind,
+                ..Obstacle::default()
+            }];
+            let decision = scene.view(|view| attack(view, Point2::new(0.3, 0.0)));
+            assert_eq!(decision.activity, Activity::WalkBehindBall);
+            assert_eq!(decision.command.body == BodyMotion::Stand, stands);
+        }
     }
 
     #[test]

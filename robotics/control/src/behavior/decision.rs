@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use types::behavior::{Activity, Plan};
 use types::game::PrimaryState;
 use types::motion::{BodyMotion, HeadMotion, MotionCommand, Step};
+use types::obstacles::ObstacleKind;
 use types::world_state::WorldState;
 
 use super::parameters::{BehaviorParameters, WalkParameters};
@@ -187,7 +188,13 @@ impl View<'_> {
             ..self.parameters.walk
         };
         let target = &self.out_of_goals(target);
-        let way_point = self.way_point(target.translation.vector.into(), more);
+        let place = Point2::from(target.translation.vector);
+        if self.is_occupied(place, more.is_some()) {
+            let mut decision = Decision::of_body(there, BodyMotion::Stand, self.head());
+            decision.plan.target = Some(*target);
+            return decision;
+        }
+        let way_point = self.way_point(place, more);
         let step = step_to(target, way_point, self.memory.is_walking, &walk);
         let mut decision = match step {
             Some(step) => Decision::walk(on_the_way, step, self.head()),
@@ -196,6 +203,19 @@ impl View<'_> {
         decision.plan.target = Some(*target);
         decision.plan.way_point = step.map(|_| way_point);
         decision
+    }
+
+    /// Whether somebody stands in a place, or so near that both would touch, and the robot beside him: going on would push.
+    ///
+    /// At the ball only robots count: what else is seen there may be the ball.
+    pub(super) fn is_occupied(&self, place: Point2<f32>, is_at_ball: bool) -> bool {
+        let walk = &self.parameters.walk;
+        self.world.obstacles.iter().any(|obstacle| {
+            let radius = obstacle.radius + walk.clearance;
+            (obstacle.kind == ObstacleKind::Robot || !is_at_ball)
+                && (place - obstacle.position).norm() < radius
+                && obstacle.position.coords.norm() < radius + walk.beside_occupied
+        })
     }
 
     /// Where it goes first on its way to a place, around what stands there and never through a goal.
@@ -235,6 +255,8 @@ impl View<'_> {
 
 #[cfg(test)]
 mod tests {
+    use types::obstacles::Obstacle;
+
     use super::*;
     use crate::behavior::tests::Scene;
 
@@ -265,12 +287,36 @@ mod tests {
         assert!(way_point.x > -4.3 && way_point.y < 0.5, "{way_point}");
         // Past somebody near the touch line on the inner side, though that is longer.
         let mut scene = Scene::at(-1.0, 3.4, 0.0);
-        scene.world.obstacles.push(types::obstacles::Obstacle {
+        scene.world.obstacles.push(Obstacle {
             position: Point2::new(1.0, -0.05),
             radius: 0.2,
-            ..types::obstacles::Obstacle::default()
+            ..Obstacle::default()
         });
         let way_point = scene.way_point_to(&Isometry2::translation(1.0, 3.4));
         assert!(way_point.y < 3.1, "{way_point}");
+    }
+
+    #[test]
+    fn a_place_in_which_somebody_stands_is_not_walked_into() {
+        let mut scene = Scene::at(-2.0, 0.0, 0.0);
+        for (ahead, beside_place, stops) in [
+            (0.45, 0.0, true),
+            (0.45, 0.2, true),
+            (0.45, 0.6, false),
+            // From further away it comes nearer.
+            (1.0, 0.0, false),
+        ] {
+            let obstacle = Obstacle {
+                position: Point2::new(ahead, 0.0),
+                radius: 0.2,
+                ..Obstacle::default()
+            };
+            scene.world.obstacles = vec![obstacle];
+            let pose = Isometry2::translation(-2.0 + ahead, beside_place);
+            let decision =
+                scene.view(|view| view.go_to(&pose, Activity::WalkToPlace, Activity::WaitInReady));
+            let has_stopped = decision.activity == Activity::WaitInReady;
+            assert_eq!(has_stopped, stops, "{ahead} {beside_place}");
+        }
     }
 }
