@@ -32,7 +32,11 @@ pub(super) fn attack(view: &View<'_>, ball: Point2<f32>) -> Decision {
         let away = ball.coords.cap_magnitude(attack.behind);
         let heading = math::atan2(ball.y, ball.x);
         let target = Isometry2::new(ball.coords - away, heading);
-        return view.walk_to(&target, None, Activity::WalkToBall, Activity::WalkToBall);
+        let decision = view.walk_to(&target, None, Activity::WalkToBall, Activity::WalkToBall);
+        return match decision.command.body {
+            BodyMotion::Stand => view.look_for_pose(Activity::WalkToBall),
+            _ => decision,
+        };
     };
     let heading = ground_to_field.rotation.angle();
     let on_field = ground_to_field * ball;
@@ -169,6 +173,7 @@ impl Stance {
 
 #[cfg(test)]
 mod tests {
+    use types::motion::HeadMotion;
     use types::obstacles::{Obstacle, ObstacleKind};
 
     use super::*;
@@ -273,5 +278,10 @@ mod tests {
         assert_eq!(far.command.body, BodyMotion::Walk);
         let near = scene.view(|view| attack(view, Point2::new(0.2, 0.0)));
         assert_eq!(near.command.body, BodyMotion::Stand);
+        assert_eq!(near.command.head, HeadMotion::LookAround);
+        // And turns where it has seen nothing new for a while.
+        scene.without_pose_for(scene.parameters.search.with_head + 1.0);
+        let turns = scene.view(|view| attack(view, Point2::new(0.2, 0.0)));
+        assert_eq!(turns.activity, Activity::SearchByTurning);
     }
 }

@@ -31,6 +31,8 @@ pub(super) struct Memory {
     kick_off_at: Option<Timestamp>,
     /// When the ball was known last, or the robot began to do without it.
     pub(super) ball_known_at: Timestamp,
+    /// When it knew last where it is, or had no need to.
+    pub(super) pose_known_at: Timestamp,
     pub(super) is_walking: bool,
     pub(super) activity: Activity,
     pub(super) progress: Progress,
@@ -81,6 +83,10 @@ impl Memory {
         if world.ball.is_some() || !is_playing {
             self.ball_known_at = now;
         }
+        let is_in_game = is_playing || world.primary_state == PrimaryState::Ready;
+        if world.ground_to_field.is_some() || !is_in_game {
+            self.pose_known_at = now;
+        }
         let ground_to_field = world.ground_to_field.as_ref();
         self.progress
             .notice(ground_to_field, self.moves(), &parameters.recovery, now);
@@ -124,7 +130,7 @@ impl View<'_> {
 
     /// Walks to a pose of the field frame around what stands in the way, and stands there as something else.
     ///
-    /// Where the robot does not know where it is it stands.
+    /// Where the robot does not know where it is it looks for that.
     pub(super) fn go_to(
         &self,
         pose: &Isometry2<f32>,
@@ -160,8 +166,27 @@ impl View<'_> {
                 let target = ground_to_field.inverse() * pose;
                 self.walk(near, &target, None, (on_the_way, there))
             }
-            None => Decision::of_body(there, BodyMotion::Stand, self.head()),
+            None => self.look_for_pose(there),
         }
+    }
+
+    /// Where the robot does not know where it is: who sees only lines of one direction learns no more before it turns.
+    pub(super) fn look_for_pose(&self, standing: Activity) -> Decision {
+        let search = &self.parameters.search;
+        let lost_for = (self.now - self.memory.pose_known_at).as_secs_f32();
+        let round = search.with_head + search.turning;
+        match round > 0.0 && lost_for % round >= search.with_head {
+            true => self.search_by_turning(),
+            false => Decision::of_body(standing, BodyMotion::Stand, HeadMotion::LookAround),
+        }
+    }
+
+    pub(super) fn search_by_turning(&self) -> Decision {
+        let step = Step {
+            turn: self.parameters.search.turn,
+            ..Step::ZERO
+        };
+        Decision::walk(Activity::SearchByTurning, step, HeadMotion::LookAround)
     }
 
     /// Likewise in the ground frame, and around one more circle.

@@ -98,11 +98,7 @@ fn without_ball(view: &View<'_>) -> Decision {
         );
     }
     if phase < search.with_head + search.turning {
-        let step = Step {
-            turn: search.turn,
-            ..Step::ZERO
-        };
-        return Decision::walk(Activity::SearchByTurning, step, HeadMotion::LookAround);
+        return view.search_by_turning();
     }
     view.go_to(&place, Activity::HoldPosition, Activity::SearchWithHead)
 }
@@ -327,5 +323,7 @@ mod tests {
         assert_eq!(scene.view(get_ready).activity, Activity::WaitInReady);
         scene.world.ground_to_field = None;
         assert_eq!(scene.view(get_ready).activity, Activity::WaitInReady);
+        scene.without_pose_for(scene.parameters.search.with_head + 1.0);
+        assert_eq!(scene.view(get_ready).activity, Activity::SearchByTurning);
     }
 }

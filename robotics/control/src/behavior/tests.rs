@@ -56,7 +56,7 @@ impl Scene {
 
     /// So many seconds ago Set was over.
     pub(super) fn kicked_off(&mut self, since: f32) {
-        let at = cycle_time(100_000 - (since * 1000.0) as u64, 12).start;
+        let at = self.ago(since);
         let set = WorldState {
             primary_state: PrimaryState::Set,
             ..WorldState::default()
@@ -67,7 +67,22 @@ impl Scene {
 
     /// The ball was known so many seconds ago.
     pub(super) fn lost_for(&mut self, seconds: f32) {
-        self.memory.ball_known_at = cycle_time(100_000 - (seconds * 1000.0) as u64, 12).start;
+        self.memory.ball_known_at = self.ago(seconds);
+    }
+
+    /// The robot knew so many seconds ago where it is.
+    pub(super) fn without_pose_for(&mut self, seconds: f32) {
+        self.world.ground_to_field = None;
+        self.memory.pose_known_at = self.ago(seconds);
+    }
+
+    fn ago(&self, seconds: f32) -> Timestamp {
+        cycle_time(100_000 - (seconds * 1000.0) as u64, 12).start
+    }
+
+    /// What the robot did in the last cycle.
+    pub(super) fn did(&mut self, activity: Activity) {
+        self.memory.activity = activity;
     }
 
     /// Where it goes first on its way to a pose, on the field, m.
