@@ -21,12 +21,12 @@ pub(super) fn get_ready(view: &View<'_>) -> Decision {
 
 /// In Playing.
 pub(super) fn play(view: &View<'_>) -> Decision {
+    if let Some(restricted) = restricted(view) {
+        return restricted;
+    }
     let Some(ball) = view.world.ball else {
         return without_ball(view);
     };
-    if let Some(restricted) = restricted(view, &ball) {
-        return restricted;
-    }
     match view.world.role {
         Role::Striker => attack(view, ball.position),
         Role::Keeper => guard(view, &ball),
@@ -35,11 +35,24 @@ pub(super) fn play(view: &View<'_>) -> Decision {
 }
 
 /// What the rules ask of this robot while one of the teams has the ball for itself; `None` where it may play.
-fn restricted(view: &View<'_>, ball: &Ball) -> Option<Decision> {
+///
+/// A ball that only a team mate sees is as much the others'. Nobody keeps away from one that nobody sees.
+fn restricted(view: &View<'_>) -> Option<Decision> {
     let world = view.world;
-    let on_field = world.ground_to_field? * ball.position;
     let places = &view.parameters.places;
     let is_penalty_kick = world.set_play == SetPlay::PenaltyKick;
+    let is_theirs = world.kicking_team == KickingTeam::Opponent && world.set_play != SetPlay::None;
+    if is_theirs && world.role == Role::Keeper {
+        let blocks = world.ball.and_then(|ball| block(view, &ball));
+        if blocks.is_some() {
+            return blocks;
+        }
+    }
+    if world.ground_to_field.is_none() && is_theirs && world.ball.is_some() {
+        let (stand, activity) = (BodyMotion::Stand, Activity::KeepDistance);
+        return Some(Decision::of_body(activity, stand, view.head()));
+    }
+    let on_field = view.ball_on_field()?;
     let stay_away = |activity| {
         let of_role = places.of_role(world.role, on_field, &view.parameters.keeper);
         let pose = match activity {
@@ -47,13 +60,15 @@ fn restricted(view: &View<'_>, ball: &Ball) -> Option<Decision> {
                 places.outside_other_penalty_area(&of_role)
             }
             Activity::LeavePenaltyArea => places.outside_own_penalty_area(&of_role),
+            // Between ball and goal; pushed away it would stand where the striker does.
+            _ if world.role == Role::Keeper => of_role,
             _ => places.at_a_distance(&of_role, on_field),
         };
         Some(view.go_to_facing_ball(&pose, activity, activity))
     };
     match (world.kicking_team, world.role) {
         (KickingTeam::Own, Role::Striker) => None,
-        (KickingTeam::Opponent, Role::Keeper) if is_penalty_kick => Some(stay_on_line(view, ball)),
+        (KickingTeam::Opponent, Role::Keeper) if is_penalty_kick => Some(stay_on_line(view)),
         (KickingTeam::Own, Role::Keeper) => None,
         (KickingTeam::Own | KickingTeam::Opponent, _) if is_penalty_kick => {
             stay_away(Activity::LeavePenaltyArea)
@@ -130,8 +145,8 @@ fn hold(view: &View<'_>, role: Role) -> Decision {
 
 /// The goalkeeper: into the way of a ball that comes, at one that lies near the goal, else between the two.
 fn guard(view: &View<'_>, ball: &Ball) -> Decision {
-    if let Some(step) = block(view, ball) {
-        return Decision::walk(Activity::Block, step, view.head());
+    if let Some(block) = block(view, ball) {
+        return block;
     }
     let (places, keeper) = (&view.parameters.places, &view.parameters.keeper);
     let from_goal = view
@@ -143,16 +158,13 @@ fn guard(view: &View<'_>, ball: &Ball) -> Decision {
     }
 }
 
-/// On the goal line until the ball is played, only sideways.
-fn stay_on_line(view: &View<'_>, ball: &Ball) -> Decision {
-    match block(view, ball) {
-        Some(step) => Decision::walk(Activity::Block, step, view.head()),
-        None => Decision::of_body(Activity::GuardGoal, BodyMotion::Stand, view.head()),
-    }
+/// On the goal line until the ball is played, only sideways: a ball that comes has been blocked before.
+fn stay_on_line(view: &View<'_>) -> Decision {
+    Decision::of_body(Activity::GuardGoal, BodyMotion::Stand, view.head())
 }
 
 /// The step into the way of a ball that comes fast; `None` where none does, or it hits the robot anyway.
-fn block(view: &View<'_>, ball: &Ball) -> Option<Step> {
+fn block(view: &View<'_>, ball: &Ball) -> Option<Decision> {
     let keeper = &view.parameters.keeper;
     let (place, velocity) = (ball.position, ball.velocity);
     if velocity.x > -keeper.fast || place.x <= 0.0 {
@@ -161,10 +173,11 @@ fn block(view: &View<'_>, ball: &Ball) -> Option<Step> {
     let time = place.x / -velocity.x;
     let aside = place.y + time * velocity.y;
     let is_needed = time <= keeper.soon && aside.abs() > keeper.covered;
-    is_needed.then(|| Step {
+    let step = Step {
         left: within(aside, view.parameters.walk.left),
         ..Step::ZERO
-    })
+    };
+    is_needed.then(|| Decision::walk(Activity::Block, step, view.head()))
 }
 
 #[cfg(test)]
@@ -232,6 +245,42 @@ mod tests {
                 assert!((target - Vector2::new(0.6, 0.1)).norm() > 0.75, "{target}");
             }
         }
+    }
+
+    #[test]
+    fn who_does_not_see_a_ball_of_the_others_or_is_lost_does_not_play_it_either() {
+        for (sees, is_lost) in [(false, false), (true, true)] {
+            let mut scene = Scene::at(0.0, 0.0, 0.0).with_ball(0.6, 0.1);
+            scene.world.set_play = SetPlay::KickIn;
+            scene.world.kicking_team = KickingTeam::Opponent;
+            if !sees {
+                scene.world.team_ball = scene.world.ball.take().map(|ball| ball.position);
+            }
+            if is_lost {
+                scene.without_pose_for(0.0);
+            }
+            let decided = scene.view(play);
+            assert_eq!(decided.activity, Activity::KeepDistance, "{sees} {is_lost}");
+        }
+    }
+
+    #[test]
+    fn at_a_free_kick_of_the_others_the_keeper_keeps_its_own_place_and_blocks() {
+        let mut scene = Scene::at(-4.0, 0.0, 0.0).with_ball(0.7, 0.3);
+        scene.world.role = Role::Keeper;
+        scene.world.set_play = SetPlay::PushingFreeKick;
+        scene.world.kicking_team = KickingTeam::Opponent;
+        let target = |scene: &Scene| {
+            let target = scene.view(play).plan.target.unwrap().translation.vector;
+            scene.world.ground_to_field.unwrap() * Point2::from(target)
+        };
+        let own = target(&scene);
+        assert!((own - Point2::new(-4.5, 0.0)).norm() < 0.6, "{own}");
+        scene.world.role = Role::Striker;
+        assert!((target(&scene) - own).norm() > 0.3);
+        scene.world.role = Role::Keeper;
+        scene.roll(Vector2::new(-1.0, 0.2));
+        assert_eq!(scene.view(play).activity, Activity::Block);
     }
 
     #[test]
