@@ -459,6 +459,7 @@ impl Nodes {
             client_wish: frame.own.client_wish.as_ref(),
             cycle_time: frame.cycle.time,
             parameters: &frame.parameters.behavior,
+            keeper: &frame.parameters.role_assignment.keeper,
             plan: AdditionalOutput::new(
                 frame.subscribed.plan,
                 frame.cycle.number,

@@ -62,7 +62,7 @@ pub enum Activity {
     Align,
     /// Kicks.
     Kick,
-    /// Stays away from a ball that is the other team's for now.
+    /// Stays away from a ball that is the other team's for now, or the own keeper's.
     KeepDistance,
     /// Stays outside of the penalty area while a penalty kick is taken.
     LeavePenaltyArea,
@@ -74,6 +74,16 @@ pub enum Activity {
     Block,
     /// Walks away from where it got nowhere.
     BackOff,
+}
+
+impl Activity {
+    /// Whether it is about playing the ball.
+    pub const fn plays_ball(self) -> bool {
+        matches!(
+            self,
+            Self::WalkBehindBall | Self::Dribble | Self::Align | Self::Kick
+        )
+    }
 }
 
 /// Where the behaviour wants to get, for those who want to see it; ground frame, m and rad.

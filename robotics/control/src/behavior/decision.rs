@@ -43,6 +43,8 @@ pub(super) struct Memory {
 pub(super) struct View<'a> {
     pub(super) world: &'a WorldState,
     pub(super) parameters: &'a BehaviorParameters,
+    /// Number of the goalkeeper's shirt.
+    pub(super) keeper: u8,
     pub(super) memory: Memory,
     pub(super) now: Timestamp,
 }
@@ -96,8 +98,7 @@ impl Memory {
     fn moves(&self) -> bool {
         match self.activity {
             Activity::FollowClient => false,
-            Activity::Kick | Activity::WalkBehindBall => true,
-            _ => self.is_walking,
+            activity => activity.plays_ball() || self.is_walking,
         }
     }
 

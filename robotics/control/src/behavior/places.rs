@@ -65,7 +65,14 @@ impl PlaceParameters {
                 let nearest = keeper.before_line - self.goal_line;
                 Point2::new(place.x.max(nearest), place.y.clamp(-self.post, self.post))
             }
-            Role::Striker => ball - to_ball * self.distance_to_free_kick,
+            Role::Striker => {
+                // Near the goal the keeper has that place.
+                let distance = self.distance_to_free_kick;
+                let is_near = (ball - goal).norm() < 2.0 * distance;
+                let aside = if is_near { BESIDE_KEEPER } else { 0.0 };
+                let away = Isometry2::rotation(aside.copysign(ball.y)) * -to_ball;
+                ball + away * distance
+            }
             Role::Supporter => {
                 let side = if ball.y > 0.0 { -1.0 } else { 1.0 };
                 ball + Vector2::new(-self.supporter_behind, side * self.supporter_aside)
@@ -76,16 +83,30 @@ impl PlaceParameters {
         self.facing(self.on_the_field(place), ball)
     }
 
-    /// Pushed away from a ball that is the other team's, towards the own goal.
+    /// Pushed away from a ball that is the other team's.
     pub(super) fn at_a_distance(&self, pose: &Isometry2<f32>, ball: Point2<f32>) -> Isometry2<f32> {
         let place = Point2::from(pose.translation.vector);
         if (place - ball).norm() >= self.distance_to_free_kick {
             return *pose;
         }
-        let away = (self.own_goal() - ball)
+        let away = (place - ball)
             .try_normalize(f32::EPSILON)
             .unwrap_or_else(|| -Vector2::x());
         self.facing(ball + away * self.distance_to_free_kick, ball)
+    }
+
+    /// Beside the way of a ball that the keeper plays away: on the side of the touch line.
+    pub(super) fn beside_clearing(
+        &self,
+        ball: Point2<f32>,
+        keeper: &KeeperParameters,
+    ) -> Isometry2<f32> {
+        let from_goal = (ball - self.own_goal())
+            .try_normalize(f32::EPSILON)
+            .unwrap_or_else(Vector2::x);
+        let aside = Isometry2::rotation(BESIDE_KEEPER.copysign(ball.y)) * from_goal;
+        let place = ball + aside * keeper.clears;
+        self.facing(self.on_the_field(place), ball)
     }
 
     /// Moved to the front of the own penalty area where it lies inside.
@@ -200,6 +221,8 @@ impl PlaceParameters {
     }
 }
 
+/// So far aside of the way from ball to goal, rad, a striker waits near the own goal.
+const BESIDE_KEEPER: f32 = 1.0;
 /// Who faces less to one side, as the sine says, has not turned to it.
 const ASIDE: f32 = 0.2;
 /// A goal that opens less, rad, is not aimed at.

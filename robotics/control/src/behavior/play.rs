@@ -28,6 +28,7 @@ pub(super) fn play(view: &View<'_>) -> Decision {
         return without_ball(view);
     };
     match view.world.role {
+        Role::Striker if leaves_it_to_keeper(view) => beside_keeper(view),
         Role::Striker => attack(view, ball.position),
         Role::Keeper => guard(view, &ball),
         role => hold(view, role),
@@ -148,14 +149,44 @@ fn guard(view: &View<'_>, ball: &Ball) -> Decision {
     if let Some(block) = block(view, ball) {
         return block;
     }
-    let (places, keeper) = (&view.parameters.places, &view.parameters.keeper);
-    let from_goal = view
-        .ball_on_field()
-        .map(|ball| (ball - places.own_goal()).norm());
-    match from_goal {
-        Some(distance) if distance < keeper.clears => attack(view, ball.position),
-        _ => hold(view, Role::Keeper),
+    match is_near_goal(view, view.memory.activity.plays_ball()) {
+        true => attack(view, ball.position),
+        false => hold(view, Role::Keeper),
     }
+}
+
+/// Whether the ball lies so near to the goal that the keeper plays it away; farther off it goes on where it has begun to.
+fn is_near_goal(view: &View<'_>, has_begun: bool) -> bool {
+    let (places, keeper) = (&view.parameters.places, &view.parameters.keeper);
+    let patience = if has_begun { keeper.patience } else { 1.0 };
+    view.ball_on_field()
+        .is_some_and(|ball| (ball - places.own_goal()).norm() < patience * keeper.clears)
+}
+
+/// Whether a keeper plays the ball: one that stands there, and that said that it knows the ball.
+fn leaves_it_to_keeper(view: &View<'_>) -> bool {
+    let (places, keeper) = (&view.parameters.places, &view.parameters.keeper);
+    let stays_away = view.memory.activity == Activity::KeepDistance;
+    let mut teammates = view.world.teammates.iter();
+    is_near_goal(view, stays_away)
+        && teammates.any(|teammate| {
+            let message = &teammate.message;
+            let is_at_goal = message.ground_to_field.is_some_and(|pose| {
+                let place = Point2::from(pose.translation.vector);
+                (place - places.own_goal()).norm() < keeper.patience * keeper.clears
+            });
+            let can_play = !message.is_fallen && message.ball.is_some();
+            message.player_number == view.keeper && is_at_goal && can_play
+        })
+}
+
+/// Out of the way of a keeper that plays the ball away: where the others' striker is met.
+fn beside_keeper(view: &View<'_>) -> Decision {
+    let (places, keeper) = (&view.parameters.places, &view.parameters.keeper);
+    let ball = view.ball_on_field().unwrap_or_else(Point2::origin);
+    let pose = places.beside_clearing(ball, keeper);
+    let activity = Activity::KeepDistance;
+    view.go_to_facing_ball(&pose, activity, activity)
 }
 
 /// On the goal line until the ball is played, only sideways: a ball that comes has been blocked before.
@@ -183,6 +214,7 @@ fn block(view: &View<'_>, ball: &Ball) -> Option<Decision> {
 #[cfg(test)]
 mod tests {
     use nalgebra::Vector2;
+    use types::team::{TeamBall, TeamMessage, Teammate};
 
     use super::*;
     use crate::behavior::tests::Scene;
@@ -360,6 +392,56 @@ mod tests {
         let mut scene = Scene::at(-4.2, 0.0, 0.0).with_ball(0.6, 0.1);
         scene.world.role = Role::Keeper;
         assert_eq!(scene.view(play).activity, Activity::WalkBehindBall);
+    }
+
+    #[test]
+    fn of_keeper_and_striker_one_plays_the_ball_and_goes_on_a_little_further() {
+        use Activity::{GuardGoal, KeepDistance, WalkBehindBall};
+        for (role, from_goal, before, activity) in [
+            (Role::Keeper, 1.1, GuardGoal, WalkBehindBall),
+            (Role::Keeper, 1.3, GuardGoal, GuardGoal),
+            (Role::Keeper, 1.3, Activity::Dribble, WalkBehindBall),
+            (Role::Keeper, 1.6, Activity::Dribble, GuardGoal),
+            (Role::Striker, 1.1, WalkBehindBall, KeepDistance),
+            (Role::Striker, 1.3, WalkBehindBall, WalkBehindBall),
+            (Role::Striker, 1.3, KeepDistance, KeepDistance),
+        ] {
+            let mut scene = Scene::at(-2.5, 0.0, 0.0).with_ball(from_goal - 2.0, 0.0);
+            scene.world.role = role;
+            scene.world.teammates = vec![keeper(true)];
+            scene.did(before);
+            let decided = scene.view(play).activity;
+            assert_eq!(decided, activity, "{role:?} {from_goal} after {before:?}");
+        }
+    }
+
+    #[test]
+    fn a_striker_plays_the_ball_where_the_keeper_lies_or_does_not_know_it() {
+        let mut lies = keeper(true);
+        lies.message.is_fallen = true;
+        let mut elsewhere = keeper(true);
+        elsewhere.message.ground_to_field = Some(Isometry2::translation(0.0, 0.0));
+        let mut another = keeper(true);
+        another.message.player_number = 2;
+        for teammate in [lies, elsewhere, another, keeper(false)] {
+            let mut scene = Scene::at(-2.5, 0.0, 0.0).with_ball(-0.9, 0.0);
+            scene.world.teammates = vec![teammate];
+            let decided = scene.view(play).activity;
+            assert_eq!(decided, Activity::WalkBehindBall, "{teammate:?}");
+        }
+    }
+
+    /// In its goal.
+    fn keeper(knows_ball: bool) -> Teammate {
+        Teammate {
+            message: TeamMessage {
+                player_number: 1,
+                ground_to_field: Some(Isometry2::translation(-4.2, 0.0)),
+                ball: knows_ball.then(TeamBall::default),
+                ..TeamMessage::default()
+            },
+            ..Teammate::default()
+        }
     }
 
     #[test]

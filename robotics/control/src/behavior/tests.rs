@@ -96,6 +96,7 @@ impl Scene {
         decide(&View {
             world: &self.world,
             parameters: &self.parameters,
+            keeper: 1,
             memory: self.memory,
             now: self.now,
         })
@@ -113,6 +114,7 @@ fn decision_with(
         client_wish,
         cycle_time: cycle_time(1000, 12),
         parameters: &parameters(),
+        keeper: &1,
         plan: plan.output(),
     };
     let outputs = node.cycle(context).unwrap();
@@ -282,6 +284,7 @@ fn a_robot_that_gets_nowhere_backs_off_and_begins_anew() {
         ..WorldState::default()
     };
     let mut node = Behavior::new(CreationContext {}).unwrap();
+    let parameters = parameters();
     let mut activities = Vec::new();
     for cycle in 0..2000 {
         let mut plan = AdditionalProbe::unsubscribed();
@@ -289,7 +292,8 @@ fn a_robot_that_gets_nowhere_backs_off_and_begins_anew() {
             world_state: &world_state,
             client_wish: None,
             cycle_time: cycle_time(1000 + 12 * cycle, 12),
-            parameters: &parameters(),
+            parameters: &parameters,
+            keeper: &1,
             plan: plan.output(),
         };
         let outputs = node.cycle(context).unwrap();
