@@ -99,6 +99,7 @@ fn some_are_played() {
         ("stand_up_from_the_back", 1),
         ("kick_right", 1),
         ("goal", 1),
+        ("catch", 1),
         ("penalised_by_the_referee", 1),
         ("removed_while_it_gets_up", 1),
     ] {

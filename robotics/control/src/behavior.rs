@@ -6,6 +6,7 @@
 
 mod attack;
 mod decision;
+mod keeper;
 mod on_the_ground;
 mod parameters;
 mod places;
@@ -82,7 +83,7 @@ impl Behavior {
             now,
         };
         let decision = obey(context.client_wish, decide(&view));
-        self.memory.keep(&decision);
+        self.memory.keep(&decision, now);
         context.plan.fill_if_subscribed(|| decision.plan);
         Ok(MainOutputs {
             motion_command: decision.command.into(),

@@ -5,7 +5,7 @@
 
 use framework::{CyclerState, Input, MainOutput, Result, context};
 use serde::{Deserialize, Serialize};
-use types::motion::{BodyMotion, MotionCommand, MotionSelection, SafeExits};
+use types::motion::{BodyMotion, MotionCommand, MotionSelection, SafeExits, Script};
 
 /// Which motion has the body.
 #[derive(Debug, Deserialize, Serialize)]
@@ -49,11 +49,11 @@ impl MotionSelector {
 
 fn next(selection: MotionSelection, wanted: BodyMotion, exits: SafeExits) -> MotionSelection {
     let stay = selection;
-    let go = |current| MotionSelection {
-        current,
-        is_dispatching: current != BodyMotion::Unstiff,
-    };
     let current = selection.current;
+    let go = |to| MotionSelection {
+        current: to,
+        is_dispatching: to != BodyMotion::Unstiff && !begins_anywhere(current, to),
+    };
     if let BodyMotion::Scripted(script) = wanted
         && script.protects()
     {
@@ -100,6 +100,12 @@ fn arrive(selection: MotionSelection, exits: SafeExits) -> MotionSelection {
     }
 }
 
+/// A ball waits for nobody who looks elsewhere: a catch begins as the robot stands, with its head as it is.
+fn begins_anywhere(from: BodyMotion, to: BodyMotion) -> bool {
+    let is_on_both_feet = matches!(from, BodyMotion::Stand | BodyMotion::Walk);
+    is_on_both_feet && to == BodyMotion::Scripted(Script::Catch)
+}
+
 /// Who has asked for a kick does not ask until it is over.
 fn is_kick(motion: BodyMotion) -> bool {
     matches!(motion, BodyMotion::Scripted(script) if !script.protects() && !script.stands_up())
@@ -107,8 +113,6 @@ fn is_kick(motion: BodyMotion) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use types::motion::Script;
-
     use super::*;
 
     const NOWHERE: SafeExits = SafeExits {
@@ -252,6 +256,19 @@ mod tests {
         let mut node = node_in(RISE);
         assert_eq!(select(&mut node, RISE, EVERYWHERE), (RISE, true));
         assert_eq!(select(&mut node_in(RISE), FALL, EVERYWHERE), (FALL, false));
+    }
+
+    #[test]
+    fn a_catch_begins_at_once_but_not_in_the_midst_of_a_step() {
+        let catch = BodyMotion::Scripted(Script::Catch);
+        let stand = BodyMotion::Stand;
+        let mut node = node_in(stand);
+        assert_eq!(select(&mut node, catch, NOWHERE), (catch, false));
+        assert_eq!(select(&mut node, stand, NOWHERE), (catch, false));
+        assert_eq!(select(&mut node, stand, EVERYWHERE), (stand, true));
+        let mut node = node_in(BodyMotion::Walk);
+        assert_eq!(select(&mut node, catch, NOWHERE), (BodyMotion::Walk, false));
+        assert_eq!(select(&mut node, catch, EVERYWHERE), (catch, false));
     }
 
     #[test]

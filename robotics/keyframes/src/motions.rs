@@ -24,6 +24,8 @@ pub struct Motions {
     pub kick_left: Motion,
     /// With the right foot, straight ahead.
     pub kick_right: Motion,
+    /// Stops a ball that rolls at the feet.
+    pub catch: Motion,
 }
 
 impl Motions {
@@ -37,6 +39,7 @@ impl Motions {
             Script::FallSideways => &self.fall_sideways,
             Script::KickLeft => &self.kick_left,
             Script::KickRight => &self.kick_right,
+            Script::Catch => &self.catch,
         }
     }
 }

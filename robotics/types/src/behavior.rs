@@ -72,6 +72,8 @@ pub enum Activity {
     GuardGoal,
     /// Steps into the way of a ball that rolls to the goal.
     Block,
+    /// Squats with its feet apart before a ball that comes to them.
+    Catch,
     /// Walks away from where it got nowhere.
     BackOff,
 }

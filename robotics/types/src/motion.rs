@@ -51,11 +51,13 @@ pub enum Script {
     KickLeft,
     /// With the right foot, straight ahead.
     KickRight,
+    /// Stops a ball that rolls at the feet.
+    Catch,
 }
 
 impl Script {
     /// Every one of them.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::StandUpFront,
         Self::StandUpBack,
         Self::FallForward,
@@ -63,6 +65,7 @@ impl Script {
         Self::FallSideways,
         Self::KickLeft,
         Self::KickRight,
+        Self::Catch,
     ];
 
     /// Whether it brings a robot that lies back to its feet.

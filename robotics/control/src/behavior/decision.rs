@@ -36,6 +36,8 @@ pub(super) struct Memory {
     pub(super) is_walking: bool,
     pub(super) activity: Activity,
     pub(super) progress: Progress,
+    /// When it began to search where it is; `None` while it does anything else.
+    pub(super) searches_since: Option<Timestamp>,
 }
 
 /// Everything that is decided on.
@@ -103,7 +105,12 @@ impl Memory {
     }
 
     /// Once it is decided.
-    pub(super) fn keep(&mut self, decision: &Decision) {
+    pub(super) fn keep(&mut self, decision: &Decision, now: Timestamp) {
+        let searches = matches!(
+            decision.activity,
+            Activity::SearchWithHead | Activity::SearchByTurning
+        );
+        self.searches_since = searches.then(|| self.searches_since.unwrap_or(now));
         self.activity = decision.activity;
         self.is_walking = decision.command.body == BodyMotion::Walk;
     }

@@ -217,6 +217,15 @@ pub struct KeeperParameters {
     /// A ball that passes nearer is hit anyway.
     #[reflect(unit = "m", range = 0.0..)]
     pub covered: f32,
+    /// A robot that stands catches a ball that needs longer to get there.
+    #[reflect(unit = "s", range = 0.0..)]
+    pub catch_after: f32,
+    /// And no longer than this.
+    #[reflect(unit = "s", range = 0.0..)]
+    pub catch_before: f32,
+    /// If it passes nearer.
+    #[reflect(unit = "m", range = 0.0..)]
+    pub catch_aside: f32,
 }
 
 /// When to give up where the robot gets nowhere.

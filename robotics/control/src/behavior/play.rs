@@ -2,14 +2,13 @@
 
 use framework::math;
 use nalgebra::{Isometry2, Point2};
-use types::ball::Ball;
 use types::behavior::{Activity, Role};
 use types::game::{KickingTeam, SetPlay};
-use types::motion::{BodyMotion, HeadMotion, Step};
+use types::motion::{BodyMotion, HeadMotion};
 
 use super::attack::attack;
 use super::decision::{Decision, View};
-use super::walk_to::within;
+use super::keeper::{beside_keeper, block, guard, leaves_it_to_keeper, stay_on_line};
 
 /// In Ready: to the place of the role.
 pub(super) fn get_ready(view: &View<'_>) -> Decision {
@@ -94,16 +93,31 @@ fn restricted(view: &View<'_>) -> Option<Decision> {
 
 /// With the head first, then with the body, then from somewhere else.
 fn without_ball(view: &View<'_>) -> Decision {
-    if let Some(ball) = view.world.team_ball {
-        return towards(view, ball);
-    }
     let search = &view.parameters.search;
+    let seconds_since = |since| (view.now - since).as_secs_f32();
+    let phase = |since, round| match round > 0.0 {
+        true => seconds_since(since) % round,
+        false => 0.0,
+    };
+    if let Some(ball) = view.world.team_ball {
+        // Who finds nothing where a mate sees it turns, however long he goes on to say so.
+        let round = search.with_head + search.turning;
+        let since = view.memory.searches_since.unwrap_or(view.now);
+        return match phase(since, round) < search.with_head {
+            true => towards(view, ball),
+            false => view.search_by_turning(),
+        };
+    }
     let (places, keeper) = (&view.parameters.places, &view.parameters.keeper);
-    let lost_for = (view.now - view.memory.ball_known_at).as_secs_f32();
+    let is_keeper = view.world.role == Role::Keeper;
     let place = places.of_role(view.world.role, Point2::origin(), keeper);
     let round = search.with_head + search.turning + search.walking;
-    let phase = if round > 0.0 { lost_for % round } else { 0.0 };
-    if view.world.role == Role::Keeper {
+    let phase = phase(view.memory.ball_known_at, round);
+    let with_body = search.with_head..search.with_head + search.turning;
+    if with_body.contains(&phase) {
+        return view.search_by_turning();
+    }
+    if is_keeper {
         return view.go_to(&place, Activity::GuardGoal, Activity::GuardGoal);
     }
     if phase < search.with_head {
@@ -112,9 +126,6 @@ fn without_ball(view: &View<'_>) -> Decision {
             BodyMotion::Stand,
             HeadMotion::LookAround,
         );
-    }
-    if phase < search.with_head + search.turning {
-        return view.search_by_turning();
     }
     view.go_to(&place, Activity::HoldPosition, Activity::SearchWithHead)
 }
@@ -134,7 +145,7 @@ fn towards(view: &View<'_>, ball: Point2<f32>) -> Decision {
 }
 
 /// At the place of the role, which goes with the ball.
-fn hold(view: &View<'_>, role: Role) -> Decision {
+pub(super) fn hold(view: &View<'_>, role: Role) -> Decision {
     let ball = view.ball_on_field().unwrap_or_else(Point2::origin);
     let places = &view.parameters.places;
     let pose = places.of_role(role, ball, &view.parameters.keeper);
@@ -144,77 +155,9 @@ fn hold(view: &View<'_>, role: Role) -> Decision {
     }
 }
 
-/// The goalkeeper: into the way of a ball that comes, at one that lies near the goal, else between the two.
-fn guard(view: &View<'_>, ball: &Ball) -> Decision {
-    if let Some(block) = block(view, ball) {
-        return block;
-    }
-    match is_near_goal(view, view.memory.activity.plays_ball()) {
-        true => attack(view, ball.position),
-        false => hold(view, Role::Keeper),
-    }
-}
-
-/// Whether the ball lies so near to the goal that the keeper plays it away; farther off it goes on where it has begun to.
-fn is_near_goal(view: &View<'_>, has_begun: bool) -> bool {
-    let (places, keeper) = (&view.parameters.places, &view.parameters.keeper);
-    let patience = if has_begun { keeper.patience } else { 1.0 };
-    view.ball_on_field()
-        .is_some_and(|ball| (ball - places.own_goal()).norm() < patience * keeper.clears)
-}
-
-/// Whether a keeper plays the ball: one that stands there, and that said that it knows the ball.
-fn leaves_it_to_keeper(view: &View<'_>) -> bool {
-    let (places, keeper) = (&view.parameters.places, &view.parameters.keeper);
-    let stays_away = view.memory.activity == Activity::KeepDistance;
-    let mut teammates = view.world.teammates.iter();
-    is_near_goal(view, stays_away)
-        && teammates.any(|teammate| {
-            let message = &teammate.message;
-            let is_at_goal = message.ground_to_field.is_some_and(|pose| {
-                let place = Point2::from(pose.translation.vector);
-                (place - places.own_goal()).norm() < keeper.patience * keeper.clears
-            });
-            let can_play = !message.is_fallen && message.ball.is_some();
-            message.player_number == view.keeper && is_at_goal && can_play
-        })
-}
-
-/// Out of the way of a keeper that plays the ball away: where the others' striker is met.
-fn beside_keeper(view: &View<'_>) -> Decision {
-    let (places, keeper) = (&view.parameters.places, &view.parameters.keeper);
-    let ball = view.ball_on_field().unwrap_or_else(Point2::origin);
-    let pose = places.beside_clearing(ball, keeper);
-    let activity = Activity::KeepDistance;
-    view.go_to_facing_ball(&pose, activity, activity)
-}
-
-/// On the goal line until the ball is played, only sideways: a ball that comes has been blocked before.
-fn stay_on_line(view: &View<'_>) -> Decision {
-    Decision::of_body(Activity::GuardGoal, BodyMotion::Stand, view.head())
-}
-
-/// The step into the way of a ball that comes fast; `None` where none does, or it hits the robot anyway.
-fn block(view: &View<'_>, ball: &Ball) -> Option<Decision> {
-    let keeper = &view.parameters.keeper;
-    let (place, velocity) = (ball.position, ball.velocity);
-    if velocity.x > -keeper.fast || place.x <= 0.0 {
-        return None;
-    }
-    let time = place.x / -velocity.x;
-    let aside = place.y + time * velocity.y;
-    let is_needed = time <= keeper.soon && aside.abs() > keeper.covered;
-    let step = Step {
-        left: within(aside, view.parameters.walk.left),
-        ..Step::ZERO
-    };
-    is_needed.then(|| Decision::walk(Activity::Block, step, view.head()))
-}
-
 #[cfg(test)]
 mod tests {
     use nalgebra::Vector2;
-    use types::team::{TeamBall, TeamMessage, Teammate};
 
     use super::*;
     use crate::behavior::tests::Scene;
@@ -367,80 +310,30 @@ mod tests {
     }
 
     #[test]
-    fn the_keeper_steps_into_the_way_of_a_ball_that_comes() {
-        for (aside, speed, left) in [
-            (0.4, 1.5, Some(true)),
-            (-0.4, 1.5, Some(false)),
-            (0.02, 1.5, None),
-            (0.4, 0.05, None),
-        ] {
-            let mut scene = Scene::at(-4.2, 0.0, 0.0).with_ball(2.0, aside);
-            scene.world.role = Role::Keeper;
-            scene.roll(Vector2::new(-speed, 0.0));
-            let decided = scene.view(play);
-            let blocks = decided.activity == Activity::Block;
-            assert_eq!(
-                blocks.then_some(decided.command.step.left > 0.0),
-                left,
-                "{aside}"
-            );
-        }
-    }
-
-    #[test]
-    fn the_keeper_plays_away_what_lies_before_its_goal() {
-        let mut scene = Scene::at(-4.2, 0.0, 0.0).with_ball(0.6, 0.1);
+    fn a_keeper_turns_for_a_lost_ball_and_a_striker_for_one_that_only_its_mate_sees() {
+        let mut scene = Scene::at(-4.0, 0.0, 0.0);
+        let search = scene.parameters.search;
         scene.world.role = Role::Keeper;
-        assert_eq!(scene.view(play).activity, Activity::WalkBehindBall);
-    }
-
-    #[test]
-    fn of_keeper_and_striker_one_plays_the_ball_and_goes_on_a_little_further() {
-        use Activity::{GuardGoal, KeepDistance, WalkBehindBall};
-        for (role, from_goal, before, activity) in [
-            (Role::Keeper, 1.1, GuardGoal, WalkBehindBall),
-            (Role::Keeper, 1.3, GuardGoal, GuardGoal),
-            (Role::Keeper, 1.3, Activity::Dribble, WalkBehindBall),
-            (Role::Keeper, 1.6, Activity::Dribble, GuardGoal),
-            (Role::Striker, 1.1, WalkBehindBall, KeepDistance),
-            (Role::Striker, 1.3, WalkBehindBall, WalkBehindBall),
-            (Role::Striker, 1.3, KeepDistance, KeepDistance),
+        for (lost_for, activity) in [
+            (0.5 * search.with_head, Activity::GuardGoal),
+            (search.with_head + 1.0, Activity::SearchByTurning),
+            (search.with_head + search.turning + 1.0, Activity::GuardGoal),
         ] {
-            let mut scene = Scene::at(-2.5, 0.0, 0.0).with_ball(from_goal - 2.0, 0.0);
-            scene.world.role = role;
-            scene.world.teammates = vec![keeper(true)];
-            scene.did(before);
-            let decided = scene.view(play).activity;
-            assert_eq!(decided, activity, "{role:?} {from_goal} after {before:?}");
+            scene.lost_for(lost_for);
+            assert_eq!(scene.view(play).activity, activity, "{lost_for} s");
         }
-    }
-
-    #[test]
-    fn a_striker_plays_the_ball_where_the_keeper_lies_or_does_not_know_it() {
-        let mut lies = keeper(true);
-        lies.message.is_fallen = true;
-        let mut elsewhere = keeper(true);
-        elsewhere.message.ground_to_field = Some(Isometry2::translation(0.0, 0.0));
-        let mut another = keeper(true);
-        another.message.player_number = 2;
-        for teammate in [lies, elsewhere, another, keeper(false)] {
-            let mut scene = Scene::at(-2.5, 0.0, 0.0).with_ball(-0.9, 0.0);
-            scene.world.teammates = vec![teammate];
-            let decided = scene.view(play).activity;
-            assert_eq!(decided, Activity::WalkBehindBall, "{teammate:?}");
-        }
-    }
-
-    /// In its goal.
-    fn keeper(knows_ball: bool) -> Teammate {
-        Teammate {
-            message: TeamMessage {
-                player_number: 1,
-                ground_to_field: Some(Isometry2::translation(-4.2, 0.0)),
-                ball: knows_ball.then(TeamBall::default),
-                ..TeamMessage::default()
-            },
-            ..Teammate::default()
+        scene.world.role = Role::Striker;
+        scene.world.team_ball = Some(Point2::new(0.2, 0.0));
+        for (since, activity) in [
+            (0.5 * search.with_head, Activity::SearchWithHead),
+            (search.with_head + 1.0, Activity::SearchByTurning),
+            (
+                search.with_head + search.turning + 1.0,
+                Activity::SearchWithHead,
+            ),
+        ] {
+            scene.searches_for(since);
+            assert_eq!(scene.view(play).activity, activity, "{since} s");
         }
     }
 

@@ -43,8 +43,7 @@ impl Progress {
         if moves {
             self.moved_at = now;
         }
-        let is_long_ago =
-            |since: Timestamp, seconds: f32| (now - since).as_secs_f32() >= seconds;
+        let is_long_ago = |since: Timestamp, seconds: f32| (now - since).as_secs_f32() >= seconds;
         let has_backed_off = self
             .backs_off_since
             .is_some_and(|since| is_long_ago(since, recovery.duration));
@@ -125,7 +124,10 @@ mod tests {
         let recovery = parameters().recovery;
         let stuck = backs_off(0.0, 0.0, |_| true, true);
         let rounds = 20.0 / (recovery.after + recovery.duration);
-        assert!(stuck > 0.9 * recovery.duration * rounds.floor(), "{stuck} s");
+        assert!(
+            stuck > 0.9 * recovery.duration * rounds.floor(),
+            "{stuck} s"
+        );
         assert!(stuck < 1.1 * recovery.duration * rounds.ceil(), "{stuck} s");
         // Who dithers between two decisions is no better off.
         assert_eq!(backs_off(0.0, 0.0, |cycle| cycle % 50 < 5, true), stuck);

@@ -85,6 +85,16 @@ impl Scene {
         self.memory.activity = activity;
     }
 
+    /// It has searched where it is for so many seconds.
+    pub(super) fn searches_for(&mut self, seconds: f32) {
+        self.memory.searches_since = Some(self.ago(seconds));
+    }
+
+    /// Whether it walked in the last cycle.
+    pub(super) fn walks(&mut self, walks: bool) {
+        self.memory.is_walking = walks;
+    }
+
     /// Where it goes first on its way to a pose, on the field, m.
     pub(super) fn way_point_to(&self, pose: &Isometry2<f32>) -> Point2<f32> {
         let (walk, wait) = (Activity::WalkToPlace, Activity::WaitInReady);

@@ -1,0 +1,190 @@
+//! Owns what the goalkeeper does, and what the striker leaves to it.
+
+use nalgebra::Point2;
+use types::ball::Ball;
+use types::behavior::{Activity, Role};
+use types::motion::{BodyMotion, Script, Step};
+
+use super::attack::attack;
+use super::decision::{Decision, View};
+use super::play::hold;
+use super::walk_to::within;
+
+/// The goalkeeper: into the way of a ball that comes, at one that lies near the goal, else between the two.
+pub(super) fn guard(view: &View<'_>, ball: &Ball) -> Decision {
+    if let Some(block) = block(view, ball) {
+        return block;
+    }
+    match is_near_goal(view, view.memory.activity.plays_ball()) {
+        true => attack(view, ball.position),
+        false => hold(view, Role::Keeper),
+    }
+}
+
+/// Whether the ball lies so near to the goal that the keeper plays it away; farther off it goes on where it has begun to.
+fn is_near_goal(view: &View<'_>, has_begun: bool) -> bool {
+    let (places, keeper) = (&view.parameters.places, &view.parameters.keeper);
+    let patience = if has_begun { keeper.patience } else { 1.0 };
+    view.ball_on_field()
+        .is_some_and(|ball| (ball - places.own_goal()).norm() < patience * keeper.clears)
+}
+
+/// Whether a keeper plays the ball: one that stands there, and that said that it knows the ball.
+pub(super) fn leaves_it_to_keeper(view: &View<'_>) -> bool {
+    let (places, keeper) = (&view.parameters.places, &view.parameters.keeper);
+    let stays_away = view.memory.activity == Activity::KeepDistance;
+    let mut teammates = view.world.teammates.iter();
+    is_near_goal(view, stays_away)
+        && teammates.any(|teammate| {
+            let message = &teammate.message;
+            let is_at_goal = message.ground_to_field.is_some_and(|pose| {
+                let place = Point2::from(pose.translation.vector);
+                (place - places.own_goal()).norm() < keeper.patience * keeper.clears
+            });
+            let can_play = !message.is_fallen && message.ball.is_some();
+            message.player_number == view.keeper && is_at_goal && can_play
+        })
+}
+
+/// Out of the way of a keeper that plays the ball away: where the others' striker is met.
+pub(super) fn beside_keeper(view: &View<'_>) -> Decision {
+    let (places, keeper) = (&view.parameters.places, &view.parameters.keeper);
+    let ball = view.ball_on_field().unwrap_or_else(Point2::origin);
+    let pose = places.beside_clearing(ball, keeper);
+    let activity = Activity::KeepDistance;
+    view.go_to_facing_ball(&pose, activity, activity)
+}
+
+/// On the goal line until the ball is played, only sideways: a ball that comes has been blocked before.
+pub(super) fn stay_on_line(view: &View<'_>) -> Decision {
+    Decision::of_body(Activity::GuardGoal, BodyMotion::Stand, view.head())
+}
+
+/// What stops a ball that comes fast: a catch, or the step into its way; `None` where none comes, or it hits the robot anyway.
+pub(super) fn block(view: &View<'_>, ball: &Ball) -> Option<Decision> {
+    let keeper = &view.parameters.keeper;
+    let (place, velocity) = (ball.position, ball.velocity);
+    if velocity.x > -keeper.fast || place.x <= 0.0 {
+        return None;
+    }
+    let time = place.x / -velocity.x;
+    let aside = place.y + time * velocity.y;
+    let is_catchable = keeper.catch_after < time && time < keeper.catch_before;
+    if !view.memory.is_walking && is_catchable && aside.abs() < keeper.catch_aside {
+        let catch = BodyMotion::Scripted(Script::Catch);
+        return Some(Decision::of_body(Activity::Catch, catch, view.head()));
+    }
+    let is_needed = time <= keeper.soon && aside.abs() > keeper.covered;
+    let step = Step {
+        left: within(aside, view.parameters.walk.left),
+        ..Step::ZERO
+    };
+    is_needed.then(|| Decision::walk(Activity::Block, step, view.head()))
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Isometry2, Vector2};
+    use types::team::{TeamBall, TeamMessage, Teammate};
+
+    use super::*;
+    use crate::behavior::play::play;
+    use crate::behavior::tests::Scene;
+
+    #[test]
+    fn the_keeper_steps_into_the_way_of_a_ball_that_comes() {
+        for (aside, speed, left) in [
+            (0.4, 1.5, Some(true)),
+            (-0.4, 1.5, Some(false)),
+            (0.02, 1.5, None),
+            (0.4, 0.05, None),
+        ] {
+            let mut scene = Scene::at(-4.2, 0.0, 0.0).with_ball(2.0, aside);
+            scene.world.role = Role::Keeper;
+            scene.roll(Vector2::new(-speed, 0.0));
+            let decided = scene.view(play);
+            let blocks = decided.activity == Activity::Block;
+            assert_eq!(
+                blocks.then_some(decided.command.step.left > 0.0),
+                left,
+                "{aside}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_keeper_that_stands_catches_what_comes_near_its_feet_and_soon() {
+        for (distance, aside, walks, activity) in [
+            (0.9, 0.15, false, Activity::Catch),
+            (0.9, 0.0, false, Activity::Catch),
+            (0.9, 0.15, true, Activity::Block),
+            (0.9, 0.3, false, Activity::Block),
+            (2.0, 0.15, false, Activity::Block),
+            (0.4, 0.15, false, Activity::Block),
+        ] {
+            let mut scene = Scene::at(-4.2, 0.0, 0.0).with_ball(distance, aside);
+            scene.world.role = Role::Keeper;
+            scene.roll(Vector2::new(-1.5, 0.0));
+            scene.walks(walks);
+            let decided = scene.view(play).activity;
+            assert_eq!(decided, activity, "{distance} {aside} {walks}");
+        }
+    }
+
+    #[test]
+    fn the_keeper_plays_away_what_lies_before_its_goal() {
+        let mut scene = Scene::at(-4.2, 0.0, 0.0).with_ball(0.6, 0.1);
+        scene.world.role = Role::Keeper;
+        assert_eq!(scene.view(play).activity, Activity::WalkBehindBall);
+    }
+
+    #[test]
+    fn of_keeper_and_striker_one_plays_the_ball_and_goes_on_a_little_further() {
+        use Activity::{GuardGoal, KeepDistance, WalkBehindBall};
+        for (role, from_goal, before, activity) in [
+            (Role::Keeper, 1.1, GuardGoal, WalkBehindBall),
+            (Role::Keeper, 1.3, GuardGoal, GuardGoal),
+            (Role::Keeper, 1.3, Activity::Dribble, WalkBehindBall),
+            (Role::Keeper, 1.6, Activity::Dribble, GuardGoal),
+            (Role::Striker, 1.1, WalkBehindBall, KeepDistance),
+            (Role::Striker, 1.3, WalkBehindBall, WalkBehindBall),
+            (Role::Striker, 1.3, KeepDistance, KeepDistance),
+        ] {
+            let mut scene = Scene::at(-2.5, 0.0, 0.0).with_ball(from_goal - 2.0, 0.0);
+            scene.world.role = role;
+            scene.world.teammates = vec![keeper(true)];
+            scene.did(before);
+            let decided = scene.view(play).activity;
+            assert_eq!(decided, activity, "{role:?} {from_goal} after {before:?}");
+        }
+    }
+
+    #[test]
+    fn a_striker_plays_the_ball_where_the_keeper_lies_or_does_not_know_it() {
+        let mut lies = keeper(true);
+        lies.message.is_fallen = true;
+        let mut elsewhere = keeper(true);
+        elsewhere.message.ground_to_field = Some(Isometry2::translation(0.0, 0.0));
+        let mut another = keeper(true);
+        another.message.player_number = 2;
+        for teammate in [lies, elsewhere, another, keeper(false)] {
+            let mut scene = Scene::at(-2.5, 0.0, 0.0).with_ball(-0.9, 0.0);
+            scene.world.teammates = vec![teammate];
+            let decided = scene.view(play).activity;
+            assert_eq!(decided, Activity::WalkBehindBall, "{teammate:?}");
+        }
+    }
+
+    /// In its goal.
+    fn keeper(knows_ball: bool) -> Teammate {
+        Teammate {
+            message: TeamMessage {
+                player_number: 1,
+                ground_to_field: Some(Isometry2::translation(-4.2, 0.0)),
+                ball: knows_ball.then(TeamBall::default),
+                ..TeamMessage::default()
+            },
+            ..Teammate::default()
+        }
+    }
+}
