@@ -237,6 +237,9 @@ pub(super) fn wrapped(angle: f32) -> f32 {
 mod tests {
     use std::f32::consts::PI;
 
+    use framework::testing::ParameterFile;
+    use types::field_markings::FieldMarkings;
+
     use super::*;
     use crate::behavior::tests::parameters;
 
@@ -367,6 +370,22 @@ mod tests {
             assert!((behind.abs() - 1.05).abs() < 0.01, "{y}: {behind}");
         }
         assert!(aim(-4.4, 1.5, 0.0).abs() < 0.5);
+    }
+
+    #[test]
+    fn the_measures_are_those_of_the_field_by_which_the_robot_finds_its_place() {
+        let file = ParameterFile::new(include_str!("../../../parameters/default.toml"));
+        let field: FieldMarkings = file.get("field_dimensions.markings");
+        let places = parameters().places;
+        for (place, marking) in [
+            (places.goal_line, field.length / 2.0),
+            (places.touch_line, field.width / 2.0),
+            (places.penalty_area_length, field.penalty_area_length),
+            (places.penalty_area_side, field.penalty_area_width / 2.0),
+            (places.penalty_mark, field.penalty_mark_distance),
+        ] {
+            assert_eq!(place, marking);
+        }
     }
 
     #[test]
