@@ -49,8 +49,7 @@ fn restricted(view: &View<'_>) -> Option<Decision> {
         }
     }
     if world.ground_to_field.is_none() && is_theirs && world.ball.is_some() {
-        let (stand, activity) = (BodyMotion::Stand, Activity::KeepDistance);
-        return Some(Decision::of_body(activity, stand, view.head()));
+        return Some(view.look_for_pose(Activity::KeepDistance));
     }
     let on_field = view.ball_on_field()?;
     let stay_away = |activity| {
