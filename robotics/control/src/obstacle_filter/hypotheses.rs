@@ -1,4 +1,6 @@
 //! The places where something may stand, each a Kalman filter for a position that hardly changes.
+//!
+//! Invariant: the covariance of a place, `variance` times the identity, is positive definite while all numbers are finite.
 
 use framework::{Timestamp, math};
 use nalgebra::Point2;
@@ -10,6 +12,10 @@ use crate::places::{self, Places};
 
 /// More are not kept: the one that least speaks for makes room.
 pub(super) const MOST_HYPOTHESES: usize = 16;
+
+/// Nothing is measured more exactly than this, one standard deviation, in m: the shell of a foot is no point. What a camera
+/// sees before its own toes would else be known for certain, and whatever is perceived later would not move it.
+const LEAST_NOISE: f32 = 0.01;
 
 /// Something that stands in the start frame.
 #[derive(Clone, Copy, Debug, Deserialize, Serialize)]
@@ -67,7 +73,7 @@ impl Hypotheses {
             Some((_, hypothesis)) => hypothesis.learn(measurement, seen_at, parameters),
             None => self.insert(Hypothesis {
                 position: measurement.position,
-                variance: math::powi(measurement.noise, 2),
+                variance: measurement.variance(),
                 evidence: measurement.evidence,
                 kind: measurement.kind,
                 seen_at,
@@ -104,14 +110,67 @@ impl Hypothesis {
         seen_at: Timestamp,
         parameters: &ObstacleFilterParameters,
     ) {
-        let expected = (self.variance + math::powi(measurement.noise, 2)).max(f32::MIN_POSITIVE);
+        let noise = measurement.variance();
+        let expected = self.variance + noise;
+        if !expected.is_finite() {
+            return;
+        }
         let gain = self.variance / expected;
         self.position += (measurement.position - self.position) * gain;
-        self.variance *= 1.0 - gain;
+        // One less the gain, times the variance, but never rounded to nothing.
+        self.variance = gain * noise;
         self.evidence = (self.evidence + measurement.evidence).min(parameters.most_evidence);
         self.seen_at = self.seen_at.max(seen_at);
         if measurement.kind == ObstacleKind::Robot {
             self.kind = ObstacleKind::Robot;
+        }
+    }
+}
+
+impl Measurement {
+    /// Of each coordinate, in m².
+    fn variance(&self) -> f32 {
+        math::powi(self.noise.max(LEAST_NOISE), 2)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::Duration;
+
+    use framework::testing::ParameterFile;
+    use proptest::prelude::*;
+
+    use super::*;
+
+    /// After how many seconds something is perceived where, and how exactly: from the toes to the end of the field.
+    fn measurements() -> impl Strategy<Value = Vec<(f32, [f32; 2], f32)>> {
+        let place = prop::array::uniform2(-5.0_f32..5.0);
+        let noise = prop_oneof![Just(0.0), 0.0_f32..1.0, Just(f32::INFINITY)];
+        prop::collection::vec((0.0_f32..1.0, place, noise), 1..300)
+    }
+
+    proptest! {
+        #[test]
+        fn the_covariance_stays_positive_definite(measurements in measurements()) {
+            let file = ParameterFile::new(include_str!("../../../parameters/default.toml"));
+            let parameters: ObstacleFilterParameters = file.get("obstacle_filter");
+            let mut hypotheses = Hypotheses::default();
+            let mut now = Timestamp::ZERO;
+            for (elapsed, [x, y], noise) in measurements {
+                now = now + Duration::from_secs_f32(elapsed);
+                hypotheses.predict(now, &parameters);
+                let measurement = Measurement {
+                    position: Point2::new(x, y),
+                    noise,
+                    evidence: 1.0,
+                    kind: ObstacleKind::Unknown,
+                };
+                hypotheses.learn(&measurement, now, &parameters);
+                for hypothesis in hypotheses.iter() {
+                    prop_assert!(hypothesis.variance > 0.0, "{hypothesis:?}");
+                }
+            }
         }
     }
 }
