@@ -89,7 +89,7 @@ pub struct Parameters {
     /// vision::penalty_mark_detection
     pub projection_noise: ProjectionNoise,
     pub recording_switch: RecordingSwitch,
-    /// control::behavior, control::role_assignment
+    /// control::role_assignment
     pub role_assignment: RoleParameters,
     pub sit_down: SitDown,
     pub sonar_filter: SonarFilter,

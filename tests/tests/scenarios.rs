@@ -101,6 +101,7 @@ fn some_are_played() {
         ("goal", 1),
         ("catch", 1),
         ("penalised_by_the_referee", 1),
+        ("roles_as_the_referee_says", 1),
         ("removed_while_it_gets_up", 1),
     ] {
         let outcome = play(name, seeds);

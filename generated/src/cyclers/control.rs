@@ -459,7 +459,6 @@ impl Nodes {
             client_wish: frame.own.client_wish.as_ref(),
             cycle_time: frame.cycle.time,
             parameters: &frame.parameters.behavior,
-            keeper: &frame.parameters.role_assignment.keeper,
             plan: AdditionalOutput::new(
                 frame.subscribed.plan,
                 frame.cycle.number,
@@ -1123,7 +1122,8 @@ impl Nodes {
         Ok(())
     }
 
-    /// primary_state, ground_to_field, ball, teammates -> role, team_ball
+    /// primary_state, game_controller_state, ground_to_field, ball, teammates -> role,
+    /// goalkeeper, team_ball
     #[inline(always)]
     fn role_assignment<Hardware>(
         &mut self,
@@ -1131,6 +1131,7 @@ impl Nodes {
     ) -> Result<()> {
         let context = role_assignment::CycleContext {
             primary_state: &frame.own.primary_state,
+            game_controller_state: &frame.own.game_controller_state,
             ground_to_field: &frame.own.ground_to_field,
             ball: &frame.own.ball,
             teammates: &frame.own.teammates,
@@ -1142,9 +1143,11 @@ impl Nodes {
             .role_assignment
             .call(&frame.cycle, |node| node.cycle(context))?;
         frame.own.role = outputs.role.value;
+        frame.own.goalkeeper = outputs.goalkeeper.value;
         frame.own.team_ball = outputs.team_ball.value;
         if let Some(injections) = frame.injections {
             injections.role.replace(&mut frame.own.role);
+            injections.goalkeeper.replace(&mut frame.own.goalkeeper);
             injections.team_ball.replace(&mut frame.own.team_ball);
         }
         Ok(())
@@ -1291,7 +1294,7 @@ impl Nodes {
         Ok(())
     }
 
-    /// perception SplNetwork.team_message -> teammates
+    /// perception SplNetwork.team_message, game_controller_state -> teammates
     #[inline(always)]
     fn team_message_filter<Hardware>(
         &mut self,
@@ -1304,6 +1307,7 @@ impl Nodes {
             .project(|outputs| &outputs.team_message);
         let context = team_message_filter::CycleContext {
             messages: PerceptionInput::new(&messages),
+            game_controller_state: &frame.own.game_controller_state,
             cycle_time: frame.cycle.time,
             forget_after: &frame.parameters.team_message_filter.forget_after,
             teammates: &mut frame.own.teammates,
@@ -1447,7 +1451,7 @@ impl Nodes {
     }
 
     /// primary_state, game_controller_state, fall_state, has_ground_contact, ground_to_field,
-    /// ball, obstacles, teammates, role, team_ball -> world_state
+    /// ball, obstacles, teammates, role, goalkeeper, team_ball -> world_state
     #[inline(always)]
     fn world_state_composer<Hardware>(
         &mut self,
@@ -1464,6 +1468,7 @@ impl Nodes {
             obstacles: &frame.own.obstacles,
             teammates: &frame.own.teammates,
             role: &frame.own.role,
+            goalkeeper: &frame.own.goalkeeper,
             team_ball: &frame.own.team_ball,
             world_state: &mut frame.own.world_state,
         };

@@ -82,6 +82,8 @@ pub struct OwnOutputs {
     pub fall_state: FallState,
     /// control::game_controller_filter
     pub game_controller_state: Option<GameControllerState>,
+    /// control::role_assignment
+    pub goalkeeper: u8,
     /// control::localization
     pub ground_to_field: Option<Isometry2<f32>>,
     /// control::ground_contact_filter
@@ -113,7 +115,7 @@ pub struct OwnOutputs {
     /// control::game_state_filter
     pub primary_state: PrimaryState,
     /// control::role_assignment
-    pub role: Role,
+    pub role: Option<Role>,
     /// control::scripted_motion
     pub script_commands: Option<MotorCommands>,
     /// control::self_report
@@ -226,6 +228,7 @@ pub struct Injections {
     pub dispatch_commands: Injection<Option<MotorCommands>>,
     pub fall_state: Injection<FallState>,
     pub game_controller_state: Injection<Option<GameControllerState>>,
+    pub goalkeeper: Injection<u8>,
     pub ground_to_field: Injection<Option<Isometry2<f32>>>,
     pub has_ground_contact: Injection<bool>,
     pub head_command: Injection<Option<HeadCommand>>,
@@ -242,7 +245,7 @@ pub struct Injections {
     pub penalized_commands: Injection<Option<MotorCommands>>,
     pub primary_state: Injection<PrimaryState>,
     pub robot_kinematics: Injection<RobotKinematics>,
-    pub role: Injection<Role>,
+    pub role: Injection<Option<Role>>,
     pub script_commands: Injection<Option<MotorCommands>>,
     pub self_report: Injection<Option<TeamMessage>>,
     pub sensor_data: Injection<SensorData>,
@@ -272,6 +275,7 @@ impl InjectionTable for Injections {
             "dispatch_commands" => Some(&mut self.dispatch_commands),
             "fall_state" => Some(&mut self.fall_state),
             "game_controller_state" => Some(&mut self.game_controller_state),
+            "goalkeeper" => Some(&mut self.goalkeeper),
             "ground_to_field" => Some(&mut self.ground_to_field),
             "has_ground_contact" => Some(&mut self.has_ground_contact),
             "head_command" => Some(&mut self.head_command),

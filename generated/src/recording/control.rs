@@ -387,6 +387,11 @@ impl<
             "obstacles",
             digest(&self.own.previous().obstacles)?,
         );
+        visit(
+            "control::role_assignment",
+            "goalkeeper",
+            digest(&self.own.previous().goalkeeper)?,
+        );
         visit("control::role_assignment", "role", digest(&self.own.previous().role)?);
         visit(
             "control::role_assignment",

@@ -240,6 +240,7 @@ impl<
             "ground_to_field",
             "ball",
             "obstacles",
+            "goalkeeper",
             "role",
             "team_ball",
             "world_state",
@@ -290,6 +291,7 @@ impl<
             "ground_to_field" => Some(&self.own.previous().ground_to_field),
             "ball" => Some(&self.own.previous().ball),
             "obstacles" => Some(&self.own.previous().obstacles),
+            "goalkeeper" => Some(&self.own.previous().goalkeeper),
             "role" => Some(&self.own.previous().role),
             "team_ball" => Some(&self.own.previous().team_ball),
             "world_state" => Some(&self.own.previous().world_state),
@@ -375,6 +377,7 @@ impl<
         visitor.output(Some(&self.own.previous().ground_to_field));
         visitor.output(Some(&self.own.previous().ball));
         visitor.output(Some(&self.own.previous().obstacles));
+        visitor.output(Some(&self.own.previous().goalkeeper));
         visitor.output(Some(&self.own.previous().role));
         visitor.output(Some(&self.own.previous().team_ball));
         visitor.output(Some(&self.own.previous().world_state));

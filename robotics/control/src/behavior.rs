@@ -47,8 +47,6 @@ pub struct CycleContext {
     cycle_time: CycleTime,
 
     parameters: Parameter<BehaviorParameters, "behavior">,
-    /// Number of the goalkeeper's shirt.
-    keeper: Parameter<u8, "role_assignment.keeper">,
 
     /// Where the robot wants to get.
     plan: AdditionalOutput<Plan, "plan">,
@@ -78,7 +76,6 @@ impl Behavior {
         let view = View {
             world: context.world_state,
             parameters: context.parameters,
-            keeper: *context.keeper,
             memory: self.memory,
             now,
         };

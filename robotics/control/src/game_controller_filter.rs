@@ -11,7 +11,7 @@ use framework::{
 };
 use serde::{Deserialize, Serialize};
 use types::game::{
-    GameControllerPacket, GameControllerState, KickingTeam, Player, PlayerState, TeamState,
+    GameControllerPacket, GameControllerState, KickingTeam, Penalty, Player, TeamState,
 };
 
 /// What was heard so far.
@@ -121,7 +121,8 @@ fn after(
     let since = known
         .filter(|known| known.sender == packet.sender && known.game_state == message.game_state)
         .map_or(timestamp, |known| known.game_state_since);
-    Some(GameControllerState {
+    let own_penalties = own.players.map(|player| player.penalty);
+    let state = GameControllerState {
         game_phase: message.game_phase,
         game_state: message.game_state,
         game_state_since: since,
@@ -129,12 +130,18 @@ fn after(
         kicking_team: kicking_team(message.kicking_team, own, opponent),
         is_first_half: message.is_first_half,
         seconds_remaining: message.seconds_remaining,
-        penalty: state_of(player, own).penalty,
+        penalty: Penalty::None,
+        goalkeeper: own.goalkeeper,
+        own_penalties,
         own_score: own.score,
         opponent_score: opponent.score,
         message_budget: own.message_budget,
         received_at: timestamp,
         sender: packet.sender,
+    };
+    Some(GameControllerState {
+        penalty: state.penalty_of(player.number),
+        ..state
     })
 }
 
@@ -146,17 +153,10 @@ fn kicking_team(number: Option<u8>, own: &TeamState, opponent: &TeamState) -> Ki
     }
 }
 
-/// A player whom the referee's computer does not know has no penalty.
-fn state_of(player: Player, own: &TeamState) -> PlayerState {
-    let index = usize::from(player.number).checked_sub(1);
-    let state = index.and_then(|index| own.players.get(index));
-    state.copied().unwrap_or_default()
-}
-
 #[cfg(test)]
 mod tests {
     use framework::testing::{at_millis, cycle_time, perception};
-    use types::game::{GameControllerMessage, GameState, Penalty};
+    use types::game::{GameControllerMessage, GameState};
     use types::network::Endpoint;
 
     use super::*;
@@ -178,7 +178,10 @@ mod tests {
         message.teams[0].score = 1;
         message.teams[1].number = own_team;
         message.teams[1].message_budget = 900;
+        message.teams[0].goalkeeper = 7;
+        message.teams[1].goalkeeper = 5;
         message.teams[1].players[2].penalty = Penalty::PlayerPushing;
+        message.teams[1].players[19].penalty = Penalty::Substitute;
         GameControllerPacket {
             message,
             ..GameControllerPacket::default()
@@ -213,6 +216,16 @@ mod tests {
         assert_eq!(state.game_state, GameState::Ready);
         assert_eq!(state.kicking_team, KickingTeam::Own);
         assert_eq!(state.penalty, Penalty::PlayerPushing);
+        assert_eq!(state.goalkeeper, 5);
+        for (number, penalty) in [
+            (0, Penalty::None),
+            (1, Penalty::None),
+            (3, Penalty::PlayerPushing),
+            (20, Penalty::Substitute),
+            (21, Penalty::None),
+        ] {
+            assert_eq!(state.penalty_of(number), penalty, "{number}");
+        }
         assert_eq!((state.own_score, state.opponent_score), (0, 1));
         assert_eq!(state.message_budget, 900);
         assert_eq!(state.received_at, at_millis(90));

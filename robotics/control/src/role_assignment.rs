@@ -4,29 +4,33 @@
 //! goal, of the others the one that is nearest to the ball plays it, the rest take their places in the order of their numbers.
 //! Messages come every few seconds, so that robots may disagree for as long; who plays the ball already counts as nearer than
 //! it is. Before the ball is in play numbers alone count. A robot that hears nobody plays the ball itself.
+//!
+//! Whose the goalkeeper's shirt is the referee says, and whoever has been taken out has no role: `teammates` leaves others out.
 
 use framework::{CycleTime, Input, MainOutput, Parameter, Reflect, Result, Timestamp, context};
 use nalgebra::{Isometry2, Point2};
 use serde::{Deserialize, Serialize};
 use types::ball::Ball;
 use types::behavior::Role;
-use types::game::{Player, PrimaryState};
+use types::game::{GameControllerState, Player, PrimaryState};
 use types::team::Teammate;
 
 /// In the order in which players without gloves and without the ball take them.
 const PLACES: [Role; 3] = [Role::DefenderLeft, Role::Supporter, Role::DefenderRight];
 
-/// What this robot was last.
+/// What this robot was last, and what the referee said last.
 #[derive(Debug, Deserialize, Serialize)]
 pub struct RoleAssignment {
-    role: Role,
+    role: Option<Role>,
+    /// Number of the goalkeeper's shirt; a referee that falls silent has not given it to somebody else.
+    goalkeeper: Option<u8>,
 }
 
 /// How robots of a team share the work.
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct RoleParameters {
-    /// Number of the goalkeeper's shirt.
+    /// Number of the goalkeeper's shirt until the referee says it.
     pub keeper: u8,
     /// So much nearer to the ball than it is the robot counts that plays it.
     #[reflect(unit = "m", range = 0.0..)]
@@ -42,6 +46,7 @@ pub struct CreationContext {}
 #[context]
 pub struct CycleContext {
     primary_state: Input<PrimaryState, "primary_state">,
+    game_controller_state: Input<Option<GameControllerState>, "game_controller_state">,
     ground_to_field: Input<Option<Isometry2<f32>>, "ground_to_field">,
     ball: Input<Option<Ball>, "ball">,
     teammates: Input<Vec<Teammate>, "teammates">,
@@ -54,8 +59,10 @@ pub struct CycleContext {
 
 #[context]
 pub struct MainOutputs {
-    /// What this robot is for its team.
-    role: MainOutput<Role>,
+    /// What this robot is for its team; `None` while it may not play.
+    role: MainOutput<Option<Role>>,
+    /// Number of the own goalkeeper's shirt; no robot has it where there is none.
+    goalkeeper: MainOutput<u8>,
     /// Where a team mate has seen the ball lately, in the own ground frame, m.
     team_ball: MainOutput<Option<Point2<f32>>>,
 }
@@ -64,7 +71,8 @@ impl RoleAssignment {
     /// Alone until somebody is heard.
     pub fn new(_context: CreationContext) -> Result<Self> {
         Ok(Self {
-            role: Role::Striker,
+            role: Some(Role::Striker),
+            goalkeeper: None,
         })
     }
 
@@ -82,24 +90,30 @@ impl RoleAssignment {
             .or(team_ball)
             .map(|ball| ball.coords.norm());
         let head_start = match self.role {
-            Role::Striker => context.parameters.hysteresis,
+            Some(Role::Striker) => context.parameters.hysteresis,
             _ => 0.0,
         };
+        let said = context.game_controller_state.as_ref();
+        self.goalkeeper = said.map(|said| said.goalkeeper).or(self.goalkeeper);
+        let goalkeeper = self.goalkeeper.unwrap_or(context.parameters.keeper);
         let others = context.teammates.iter().map(|teammate| Candidate {
             number: teammate.message.player_number,
             distance: distance_to_ball(teammate),
         });
-        self.role = role(
-            Candidate {
-                number: context.player.number,
-                distance: own.map(|distance| distance - head_start),
-            },
-            others,
-            context.parameters.keeper,
-            *context.primary_state == PrimaryState::Playing,
-        );
+        let own = Candidate {
+            number: context.player.number,
+            distance: own.map(|distance| distance - head_start),
+        };
+        self.role = match context.primary_state {
+            PrimaryState::Penalized => None,
+            state => {
+                let is_playing = *state == PrimaryState::Playing;
+                Some(role(own, others, goalkeeper, is_playing))
+            }
+        };
         Ok(MainOutputs {
             role: self.role.into(),
+            goalkeeper: goalkeeper.into(),
             team_ball: team_ball.into(),
         })
     }
@@ -265,8 +279,23 @@ mod tests {
     }
 
     fn cycle(node: &mut RoleAssignment, ball: f32, teammates: Vec<Teammate>) -> MainOutputs {
+        cycle_in(node, PrimaryState::Playing, None, ball, teammates)
+    }
+
+    fn cycle_in(
+        node: &mut RoleAssignment,
+        primary_state: PrimaryState,
+        goalkeeper: Option<u8>,
+        ball: f32,
+        teammates: Vec<Teammate>,
+    ) -> MainOutputs {
+        let referee = goalkeeper.map(|goalkeeper| GameControllerState {
+            goalkeeper,
+            ..GameControllerState::default()
+        });
         let context = CycleContext {
-            primary_state: &PrimaryState::Playing,
+            primary_state: &primary_state,
+            game_controller_state: &referee,
             ground_to_field: &Some(Isometry2::translation(-1.0, 0.0)),
             ball: &Some(Ball {
                 position: Point2::new(ball, 0.0),
@@ -290,7 +319,7 @@ mod tests {
     #[test]
     fn who_plays_the_ball_goes_on_while_the_other_is_hardly_nearer() {
         let mut node = RoleAssignment::new(CreationContext {}).unwrap();
-        let mut role = |ball, other| cycle(&mut node, ball, vec![other]).role.value;
+        let mut role = |ball, other| cycle(&mut node, ball, vec![other]).role.value.unwrap();
         assert_eq!(role(1.0, teammate(3, 0.8, 0.0, false)), Role::Striker);
         assert_eq!(role(1.0, teammate(3, 0.4, 0.0, false)), Role::DefenderLeft);
         assert_eq!(role(1.0, teammate(3, 0.8, 0.0, false)), Role::DefenderLeft);
@@ -299,6 +328,69 @@ mod tests {
             Role::Striker,
             "it lies"
         );
+    }
+
+    #[test]
+    fn the_goalkeeper_is_whom_the_referee_names_and_where_it_names_nobody_there_is_none() {
+        use PrimaryState::{Playing, Ready};
+        use Role::{DefenderLeft, Keeper, Striker, Supporter};
+        for (said, state, mates, role, goalkeeper) in [
+            // This robot is number 2, its file says 1; number 3 is nearer to the ball.
+            (None, Playing, vec![1, 3], DefenderLeft, 1),
+            (Some(1), Playing, vec![1, 3], DefenderLeft, 1),
+            (Some(2), Playing, vec![1, 3], Keeper, 2),
+            (Some(2), Ready, vec![1, 3], Keeper, 2),
+            (Some(2), Ready, vec![], Keeper, 2),
+            (Some(2), Playing, vec![], Striker, 2),
+            // A goalkeeper plays no ball, and the number 1 is a player as the others are.
+            (Some(3), Playing, vec![1, 3], DefenderLeft, 3),
+            (Some(3), Playing, vec![3], Striker, 3),
+            (Some(1), Ready, vec![1, 3], Striker, 1),
+            (Some(3), Ready, vec![1, 3], DefenderLeft, 3),
+            // Nobody, a substitute that is no team mate, or a number that no shirt has.
+            (Some(0), Playing, vec![1, 3], Supporter, 0),
+            (Some(9), Ready, vec![3], Striker, 9),
+            (Some(255), Ready, vec![3], Striker, 255),
+        ] {
+            let mut node = RoleAssignment::new(CreationContext {}).unwrap();
+            let nearer = |number| teammate(number, 0.2 * f32::from(4 - number), 0.0, false);
+            let mates: Vec<_> = mates.into_iter().map(nearer).collect();
+            let outputs = cycle_in(&mut node, state, said, 2.0, mates.clone());
+            assert_eq!(
+                (outputs.role.value, outputs.goalkeeper.value),
+                (Some(role), goalkeeper),
+                "{said:?} {state:?} {mates:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_referee_that_falls_silent_has_named_nobody_else() {
+        let mut node = RoleAssignment::new(CreationContext {}).unwrap();
+        let mut goalkeeper = |said| {
+            let mates = vec![teammate(3, 0.2, 0.0, false)];
+            let outputs = cycle_in(&mut node, PrimaryState::Playing, said, 2.0, mates);
+            outputs.goalkeeper.value
+        };
+        assert_eq!(goalkeeper(None), 1);
+        assert_eq!(goalkeeper(Some(2)), 2);
+        assert_eq!(goalkeeper(None), 2);
+        assert_eq!(goalkeeper(Some(3)), 3);
+    }
+
+    #[test]
+    fn who_has_been_taken_out_has_no_role_and_begins_as_any_other() {
+        let mut node = RoleAssignment::new(CreationContext {}).unwrap();
+        let mut role = |state, other| {
+            let mates = vec![teammate(3, other, 0.0, false)];
+            cycle_in(&mut node, state, Some(1), 1.0, mates).role.value
+        };
+        let (playing, penalized) = (PrimaryState::Playing, PrimaryState::Penalized);
+        assert_eq!(role(playing, 0.8), Some(Role::Striker));
+        assert_eq!(role(penalized, 0.8), None);
+        assert_eq!(role(playing, 0.8), Some(Role::DefenderLeft));
+        assert_eq!(role(penalized, 0.8), None);
+        assert_eq!(role(playing, 1.2), Some(Role::Striker));
     }
 
     #[test]

@@ -1,12 +1,13 @@
 //! Knows what the other robots of the own team said last, from messages that come when they come.
 //!
-//! What this robot said itself is no message: `team_message_parser` leaves it out.
+//! What this robot said itself is no message: `team_message_parser` leaves it out. Whom the referee has taken out plays no
+//! part for its team, whatever it said before or says from beside the field.
 
 use framework::{
-    CycleTime, MainOutput, Parameter, PerceptionInput, Result, RollBack, Timestamp, context,
+    CycleTime, Input, MainOutput, Parameter, PerceptionInput, Result, RollBack, Timestamp, context,
 };
 use serde::{Deserialize, Serialize};
-use types::game::PLAYER_COUNT;
+use types::game::{GameControllerState, PLAYER_COUNT, Penalty};
 use types::team::{TeamMessage, Teammate};
 
 /// By the number of the shirt, 1 first.
@@ -24,13 +25,14 @@ pub struct CreationContext {}
 #[context]
 pub struct CycleContext {
     messages: PerceptionInput<Option<TeamMessage>, "SplNetwork", "team_message">,
+    game_controller_state: Input<Option<GameControllerState>, "game_controller_state">,
     cycle_time: CycleTime,
 
     /// A robot that is silent for so long is not there.
     #[reflect(unit = "s", range = 0.0..)]
     forget_after: Parameter<f32, "team_message_filter.forget_after">,
 
-    /// The other robots of the own team that were heard lately, by their number.
+    /// The other robots of the own team that were heard lately and may play, by their number.
     teammates: MainOutput<Vec<Teammate>>,
 }
 
@@ -58,8 +60,13 @@ impl TeamMessageFilter {
         let now = context.cycle_time.start;
         let is_recent =
             |teammate: &Teammate| (now - teammate.heard_at).as_secs_f32() <= *context.forget_after;
+        let may_play = |teammate: &Teammate| {
+            let number = teammate.message.player_number;
+            let referee = context.game_controller_state.as_ref();
+            referee.is_none_or(|referee| referee.penalty_of(number) == Penalty::None)
+        };
         let recent = newest.into_iter().flatten().filter(is_recent);
-        context.teammates.extend(recent);
+        context.teammates.extend(recent.filter(may_play));
         Ok(MainOutputs {})
     }
 }
@@ -101,9 +108,20 @@ mod tests {
         persistent: Heard<'_>,
         transient: Heard<'_>,
     ) -> Vec<Teammate> {
+        cycle_with(node, None, now, persistent, transient)
+    }
+
+    fn cycle_with(
+        node: &mut TeamMessageFilter,
+        referee: Option<GameControllerState>,
+        now: u64,
+        persistent: Heard<'_>,
+        transient: Heard<'_>,
+    ) -> Vec<Teammate> {
         let mut teammates = Vec::new();
         let context = CycleContext {
             messages: perception(&persistent, &transient),
+            game_controller_state: &referee,
             cycle_time: cycle_time(now, 12),
             forget_after: &10.0,
             teammates: &mut teammates,
@@ -145,6 +163,37 @@ mod tests {
         cycle(&mut node, 10, vec![(at_millis(10), &two)], vec![]);
         assert_eq!(numbers(&cycle(&mut node, 10_010, vec![], vec![])), [2]);
         assert_eq!(cycle(&mut node, 10_020, vec![], vec![]), []);
+    }
+
+    #[test]
+    fn whom_the_referee_has_taken_out_is_no_teammate_until_it_may_play_again() {
+        let (two, five) = (message(2, false), message(5, false));
+        for (penalty, expected) in [
+            (Penalty::None, vec![2, 5]),
+            (Penalty::IllegalBallContact, vec![5]),
+            (Penalty::PlayerPushing, vec![5]),
+            (Penalty::IllegalMotionInSet, vec![5]),
+            (Penalty::InactivePlayer, vec![5]),
+            (Penalty::IllegalPosition, vec![5]),
+            (Penalty::LeavingTheField, vec![5]),
+            (Penalty::RequestForPickup, vec![5]),
+            (Penalty::LocalGameStuck, vec![5]),
+            (Penalty::IllegalPositionInSet, vec![5]),
+            (Penalty::PlayerStance, vec![5]),
+            (Penalty::IllegalMotionInStandby, vec![5]),
+            (Penalty::Substitute, vec![5]),
+            (Penalty::Manual, vec![5]),
+        ] {
+            let mut referee = GameControllerState::default();
+            let mut node = node();
+            referee.own_penalties[1] = penalty;
+            let heard = vec![(at_millis(10), &two), (at_millis(10), &five)];
+            let playing = cycle_with(&mut node, Some(referee), 20, heard, vec![]);
+            assert_eq!(numbers(&playing), expected, "{penalty:?}");
+            referee.own_penalties[1] = Penalty::None;
+            let back = cycle_with(&mut node, Some(referee), 30, vec![], vec![]);
+            assert_eq!(numbers(&back), [2, 5], "{penalty:?}");
+        }
     }
 
     #[test]

@@ -28,7 +28,8 @@ pub struct CycleContext {
     ball: Input<Option<Ball>, "ball">,
     obstacles: Input<Vec<Obstacle>, "obstacles">,
     teammates: Input<Vec<Teammate>, "teammates">,
-    role: Input<Role, "role">,
+    role: Input<Option<Role>, "role">,
+    goalkeeper: Input<u8, "goalkeeper">,
     team_ball: Input<Option<Point2<f32>>, "team_ball">,
 
     /// The robot and what is around it.
@@ -56,6 +57,7 @@ impl WorldStateComposer {
         world_state.kicking_team = kicking_team;
         world_state.set_play = set_play;
         world_state.role = *context.role;
+        world_state.goalkeeper = *context.goalkeeper;
         world_state.fall_state = *context.fall_state;
         world_state.has_ground_contact = *context.has_ground_contact;
         world_state.ground_to_field = *context.ground_to_field;
@@ -91,7 +93,8 @@ mod tests {
             ball: &Some(Ball::default()),
             obstacles: &vec![Obstacle::default(); 2],
             teammates: &vec![Teammate::default(); 3],
-            role: &Role::Supporter,
+            role: &Some(Role::Supporter),
+            goalkeeper: &4,
             team_ball: &Some(Point2::new(1.0, 2.0)),
             world_state: &mut world_state,
         };
@@ -100,7 +103,8 @@ mod tests {
             primary_state: PrimaryState::Ready,
             kicking_team: KickingTeam::Own,
             set_play: SetPlay::CornerKick,
-            role: Role::Supporter,
+            role: Some(Role::Supporter),
+            goalkeeper: 4,
             fall_state: FallState::Lying(Facing::Up),
             has_ground_contact: true,
             ground_to_field: Some(Isometry2::translation(1.0, 2.0)),
@@ -125,7 +129,8 @@ mod tests {
             ball: &None,
             obstacles: &vec![],
             teammates: &vec![],
-            role: &Role::Striker,
+            role: &None,
+            goalkeeper: &0,
             team_ball: &None,
             world_state: &mut world_state,
         };

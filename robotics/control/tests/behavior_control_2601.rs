@@ -16,7 +16,6 @@ fn behavior_computes_cycle_2601_of_control_again() {
         client_wish: client_wish.as_ref(),
         cycle_time: captured.time(),
         parameters: &captured.value("parameters"),
-        keeper: &captured.value("keeper"),
         plan: plan.output(),
     };
     let outputs = node

@@ -152,7 +152,6 @@ impl Robot {
             client_wish: None,
             cycle_time: self.time(),
             parameters: &self.parameters.get("behavior"),
-            keeper: &1,
             plan: plan.output(),
         };
         let command = self.behavior.cycle(context).unwrap().motion_command.value;

@@ -354,6 +354,10 @@ mod tests {
                 "game.player_number: shirts have numbers from 1 to 20, not 21",
             ),
             (
+                "[game]\ngoalkeepers = [0, 21]",
+                "game.goalkeepers: shirts have numbers from 1 to 20, not 21",
+            ),
+            (
                 "[game]\nschedule = [{ at = 3, state = 'Set' }, { at = 2, state = 'Playing' }]",
                 "game.schedule: Playing at 2 s does not come after 3 s",
             ),

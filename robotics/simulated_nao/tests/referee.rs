@@ -5,7 +5,7 @@ use nalgebra::{Point2, Point3};
 use simulated_nao::referee::{Player, Referee, Ruling, message};
 use simulated_nao::scene::Team;
 use simulated_nao::settings::{GameSettings, PlaySettings};
-use types::game::{GameControllerMessage, GameState, Penalty, SetPlay};
+use types::game::{GameControllerMessage, GameState, Penalty, SetPlay, TeamState};
 
 const QUICK: PlaySettings = PlaySettings {
     initial: 1.0,
@@ -106,6 +106,25 @@ fn the_game_begins_and_the_computer_tells_of_the_whistle_late() {
         assert_eq!(game.said().game_state, said, "at {time} s");
     }
     assert_eq!(game.whistles, 2, "kick-off and end");
+}
+
+#[test]
+fn the_computer_names_the_goalkeepers_and_knows_a_mate_that_only_speaks() {
+    let game = Game::new();
+    let settings = GameSettings {
+        goalkeepers: [4, 0],
+        mate: Some(2),
+        ..GameSettings::default()
+    };
+    let [own, other] = message(&game.referee, &settings, 0.0, &game.players).teams;
+    assert_eq!((own.goalkeeper, other.goalkeeper), (4, 0));
+    let penalties = |team: TeamState| [0, 1, 2].map(|index: usize| team.players[index].penalty);
+    let (plays, sits) = (Penalty::None, Penalty::Substitute);
+    assert_eq!(penalties(own), [plays, plays, sits]);
+    assert_eq!(penalties(other), [plays, sits, sits]);
+    let [own, other] = game.said().teams;
+    assert_eq!((own.goalkeeper, other.goalkeeper), (1, 1));
+    assert_eq!(penalties(own), [plays, sits, sits]);
 }
 
 #[test]

@@ -231,6 +231,10 @@ pub struct GameControllerState {
     pub seconds_remaining: i16,
     /// Why this robot may not play.
     pub penalty: Penalty,
+    /// Number of the own goalkeeper's shirt; 0, or that of a substitute, where there is none.
+    pub goalkeeper: u8,
+    /// Why players of the own team may not play, by the number of their shirt, 1 first.
+    pub own_penalties: [Penalty; PLAYER_COUNT],
     /// Goals of the own team.
     pub own_score: u8,
     /// Goals of the other team.
@@ -241,6 +245,15 @@ pub struct GameControllerState {
     pub received_at: Timestamp,
     /// Who sent it: where answers go.
     pub sender: Endpoint,
+}
+
+impl GameControllerState {
+    /// Why a player of the own team may not play; one that the referee's computer does not know may.
+    pub fn penalty_of(&self, number: u8) -> Penalty {
+        let index = usize::from(number).checked_sub(1);
+        let penalty = index.and_then(|index| self.own_penalties.get(index));
+        penalty.copied().unwrap_or_default()
+    }
 }
 
 /// Who kicks first.

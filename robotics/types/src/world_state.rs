@@ -20,8 +20,10 @@ pub struct WorldState {
     pub kicking_team: KickingTeam,
     /// How the game was resumed.
     pub set_play: SetPlay,
-    /// What this robot is for its team.
-    pub role: Role,
+    /// What this robot is for its team; `None` while it may not play.
+    pub role: Option<Role>,
+    /// Number of the own goalkeeper's shirt; no robot has it where there is none.
+    pub goalkeeper: u8,
     /// Whether the robot stands, falls, or lies.
     pub fall_state: FallState,
     /// Whether its soles carry it.
@@ -34,6 +36,6 @@ pub struct WorldState {
     pub team_ball: Option<Point2<f32>>,
     /// What stands in the way, nearest first.
     pub obstacles: Vec<Obstacle>,
-    /// The robots of the own team that were heard lately, by their number.
+    /// The robots of the own team that were heard lately and may play, by their number.
     pub teammates: Vec<Teammate>,
 }

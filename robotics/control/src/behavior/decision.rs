@@ -3,7 +3,7 @@
 use framework::Timestamp;
 use nalgebra::{Isometry2, Point2};
 use serde::{Deserialize, Serialize};
-use types::behavior::{Activity, Plan};
+use types::behavior::{Activity, Plan, Role};
 use types::game::PrimaryState;
 use types::motion::{BodyMotion, HeadMotion, MotionCommand, Step};
 use types::obstacles::ObstacleKind;
@@ -45,8 +45,6 @@ pub(super) struct Memory {
 pub(super) struct View<'a> {
     pub(super) world: &'a WorldState,
     pub(super) parameters: &'a BehaviorParameters,
-    /// Number of the goalkeeper's shirt.
-    pub(super) keeper: u8,
     pub(super) memory: Memory,
     pub(super) now: Timestamp,
 }
@@ -117,6 +115,11 @@ impl Memory {
 }
 
 impl View<'_> {
+    /// What the robot is for its team; one without a role does not get as far as to play it.
+    pub(super) fn role(&self) -> Role {
+        self.world.role.unwrap_or_default()
+    }
+
     /// Since the kick-off, s; `None` where the game goes on for another reason.
     pub(super) fn since_kick_off(&self) -> Option<f32> {
         let kick_off_at = self.memory.kick_off_at?;

@@ -42,7 +42,7 @@ pub(super) fn leaves_it_to_keeper(view: &View<'_>) -> bool {
                 (place - places.own_goal()).norm() < keeper.patience * keeper.clears
             });
             let can_play = !message.is_fallen && message.ball.is_some();
-            message.player_number == view.keeper && is_at_goal && can_play
+            message.player_number == view.world.goalkeeper && is_at_goal && can_play
         })
 }
 
@@ -100,7 +100,7 @@ mod tests {
             (0.4, 0.05, None),
         ] {
             let mut scene = Scene::at(-4.2, 0.0, 0.0).with_ball(2.0, aside);
-            scene.world.role = Role::Keeper;
+            scene.world.role = Some(Role::Keeper);
             scene.roll(Vector2::new(-speed, 0.0));
             let decided = scene.view(play);
             let blocks = decided.activity == Activity::Block;
@@ -123,7 +123,7 @@ mod tests {
             (0.4, 0.15, false, Activity::Block),
         ] {
             let mut scene = Scene::at(-4.2, 0.0, 0.0).with_ball(distance, aside);
-            scene.world.role = Role::Keeper;
+            scene.world.role = Some(Role::Keeper);
             scene.roll(Vector2::new(-1.5, 0.0));
             scene.walks(walks);
             let decided = scene.view(play).activity;
@@ -134,7 +134,7 @@ mod tests {
     #[test]
     fn the_keeper_plays_away_what_lies_before_its_goal() {
         let mut scene = Scene::at(-4.2, 0.0, 0.0).with_ball(0.6, 0.1);
-        scene.world.role = Role::Keeper;
+        scene.world.role = Some(Role::Keeper);
         assert_eq!(scene.view(play).activity, Activity::WalkBehindBall);
     }
 
@@ -151,7 +151,7 @@ mod tests {
             (Role::Striker, 1.3, KeepDistance, KeepDistance),
         ] {
             let mut scene = Scene::at(-2.5, 0.0, 0.0).with_ball(from_goal - 2.0, 0.0);
-            scene.world.role = role;
+            scene.world.role = Some(role);
             scene.world.teammates = vec![keeper(true)];
             scene.did(before);
             let decided = scene.view(play).activity;

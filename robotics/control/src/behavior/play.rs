@@ -14,7 +14,7 @@ use super::keeper::{beside_keeper, block, guard, leaves_it_to_keeper, stay_on_li
 pub(super) fn get_ready(view: &View<'_>) -> Decision {
     let (places, keeper) = (&view.parameters.places, &view.parameters.keeper);
     let world = view.world;
-    let pose = places.before_kick(world.role, world.kicking_team, world.set_play, keeper);
+    let pose = places.before_kick(view.role(), world.kicking_team, world.set_play, keeper);
     view.go_to(&pose, Activity::WalkToPlace, Activity::WaitInReady)
 }
 
@@ -26,7 +26,7 @@ pub(super) fn play(view: &View<'_>) -> Decision {
     let Some(ball) = view.world.ball else {
         return without_ball(view);
     };
-    match view.world.role {
+    match view.role() {
         Role::Striker if leaves_it_to_keeper(view) => beside_keeper(view),
         Role::Striker => attack(view, ball.position),
         Role::Keeper => guard(view, &ball),
@@ -42,7 +42,7 @@ fn restricted(view: &View<'_>) -> Option<Decision> {
     let places = &view.parameters.places;
     let is_penalty_kick = world.set_play == SetPlay::PenaltyKick;
     let is_theirs = world.kicking_team == KickingTeam::Opponent && world.set_play != SetPlay::None;
-    if is_theirs && world.role == Role::Keeper {
+    if is_theirs && view.role() == Role::Keeper {
         let blocks = world.ball.and_then(|ball| block(view, &ball));
         if blocks.is_some() {
             return blocks;
@@ -53,19 +53,19 @@ fn restricted(view: &View<'_>) -> Option<Decision> {
     }
     let on_field = view.ball_on_field()?;
     let stay_away = |activity| {
-        let of_role = places.of_role(world.role, on_field, &view.parameters.keeper);
+        let of_role = places.of_role(view.role(), on_field, &view.parameters.keeper);
         let pose = match activity {
             Activity::LeavePenaltyArea if world.kicking_team == KickingTeam::Own => {
                 places.outside_other_penalty_area(&of_role)
             }
             Activity::LeavePenaltyArea => places.outside_own_penalty_area(&of_role),
             // Between ball and goal; pushed away it would stand where the striker does.
-            _ if world.role == Role::Keeper => of_role,
+            _ if view.role() == Role::Keeper => of_role,
             _ => places.at_a_distance(&of_role, on_field),
         };
         Some(view.go_to_facing_ball(&pose, activity, activity))
     };
-    match (world.kicking_team, world.role) {
+    match (world.kicking_team, view.role()) {
         (KickingTeam::Own, Role::Striker) => None,
         (KickingTeam::Opponent, Role::Keeper) if is_penalty_kick => Some(stay_on_line(view)),
         (KickingTeam::Own, Role::Keeper) => None,
@@ -108,8 +108,8 @@ fn without_ball(view: &View<'_>) -> Decision {
         };
     }
     let (places, keeper) = (&view.parameters.places, &view.parameters.keeper);
-    let is_keeper = view.world.role == Role::Keeper;
-    let place = places.of_role(view.world.role, Point2::origin(), keeper);
+    let is_keeper = view.role() == Role::Keeper;
+    let place = places.of_role(view.role(), Point2::origin(), keeper);
     let round = search.with_head + search.turning + search.walking;
     let phase = phase(view.memory.ball_known_at, round);
     let with_body = search.with_head..search.with_head + search.turning;
@@ -131,7 +131,7 @@ fn without_ball(view: &View<'_>) -> Decision {
 
 /// Turns to where a team mate sees the ball, or to the place from which the role plays it.
 fn towards(view: &View<'_>, ball: Point2<f32>) -> Decision {
-    match view.world.role {
+    match view.role() {
         Role::Striker => {
             let away = ball.coords.cap_magnitude(view.parameters.attack.reach);
             let heading = math::atan2(ball.y, ball.x);
@@ -171,7 +171,7 @@ mod tests {
             (Role::DefenderRight, Activity::HoldPosition),
         ] {
             let mut scene = Scene::at(-1.0, 0.0, 0.0).with_ball(2.0, 0.0);
-            scene.world.role = role;
+            scene.world.role = Some(role);
             assert_eq!(scene.view(play).activity, activity, "{role:?}");
         }
     }
@@ -208,7 +208,7 @@ mod tests {
             let mut scene = Scene::at(0.0, 0.0, 0.0).with_ball(0.6, 0.1);
             scene.world.set_play = set_play;
             scene.world.kicking_team = kicking_team;
-            scene.world.role = role;
+            scene.world.role = Some(role);
             let decided = scene.view(play);
             assert_eq!(
                 decided.activity, activity,
@@ -241,7 +241,7 @@ mod tests {
     #[test]
     fn at_a_free_kick_of_the_others_the_keeper_keeps_its_own_place_and_blocks() {
         let mut scene = Scene::at(-4.0, 0.0, 0.0).with_ball(0.7, 0.3);
-        scene.world.role = Role::Keeper;
+        scene.world.role = Some(Role::Keeper);
         scene.world.set_play = SetPlay::PushingFreeKick;
         scene.world.kicking_team = KickingTeam::Opponent;
         let target = |scene: &Scene| {
@@ -250,9 +250,9 @@ mod tests {
         };
         let own = target(&scene);
         assert!((own - Point2::new(-4.5, 0.0)).norm() < 0.6, "{own}");
-        scene.world.role = Role::Striker;
+        scene.world.role = Some(Role::Striker);
         assert!((target(&scene) - own).norm() > 0.3);
-        scene.world.role = Role::Keeper;
+        scene.world.role = Some(Role::Keeper);
         scene.roll(Vector2::new(-1.0, 0.2));
         assert_eq!(scene.view(play).activity, Activity::Block);
     }
@@ -274,7 +274,7 @@ mod tests {
         // The ball lies between the robot and the other goal; its place is behind it.
         for (role, x, ball) in [(Role::Striker, 0.0, 0.4), (Role::Keeper, -3.1, 2.0)] {
             let mut scene = Scene::at(x, 0.0, 0.0).with_ball(ball, 0.0);
-            scene.world.role = role;
+            scene.world.role = Some(role);
             scene.world.set_play = SetPlay::KickIn;
             scene.world.kicking_team = KickingTeam::Opponent;
             let step = scene.view(play).command.step;
@@ -304,7 +304,7 @@ mod tests {
         }
         scene.world.team_ball = Some(Point2::new(2.0, 1.0));
         assert_eq!(scene.view(play).activity, Activity::LookWhereTeamSees);
-        scene.world.role = Role::Supporter;
+        scene.world.role = Some(Role::Supporter);
         assert_eq!(scene.view(play).activity, Activity::HoldPosition);
     }
 
@@ -312,7 +312,7 @@ mod tests {
     fn a_keeper_turns_for_a_lost_ball_and_a_striker_for_one_that_only_its_mate_sees() {
         let mut scene = Scene::at(-4.0, 0.0, 0.0);
         let search = scene.parameters.search;
-        scene.world.role = Role::Keeper;
+        scene.world.role = Some(Role::Keeper);
         for (lost_for, activity) in [
             (0.5 * search.with_head, Activity::GuardGoal),
             (search.with_head + 1.0, Activity::SearchByTurning),
@@ -321,7 +321,7 @@ mod tests {
             scene.lost_for(lost_for);
             assert_eq!(scene.view(play).activity, activity, "{lost_for} s");
         }
-        scene.world.role = Role::Striker;
+        scene.world.role = Some(Role::Striker);
         scene.world.team_ball = Some(Point2::new(0.2, 0.0));
         for (since, activity) in [
             (0.5 * search.with_head, Activity::SearchWithHead),

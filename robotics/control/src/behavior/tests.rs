@@ -26,6 +26,7 @@ impl Scene {
     pub(super) fn at(x: f32, y: f32, heading: f32) -> Self {
         let world = WorldState {
             primary_state: PrimaryState::Playing,
+            goalkeeper: 1,
             ground_to_field: Some(Isometry2::new(Vector2::new(x, y), heading)),
             ..WorldState::default()
         };
@@ -106,7 +107,6 @@ impl Scene {
         decide(&View {
             world: &self.world,
             parameters: &self.parameters,
-            keeper: 1,
             memory: self.memory,
             now: self.now,
         })
@@ -124,7 +124,6 @@ fn decision_with(
         client_wish,
         cycle_time: cycle_time(1000, 12),
         parameters: &parameters(),
-        keeper: &1,
         plan: plan.output(),
     };
     let outputs = node.cycle(context).unwrap();
@@ -303,7 +302,6 @@ fn a_robot_that_gets_nowhere_backs_off_and_begins_anew() {
             client_wish: None,
             cycle_time: cycle_time(1000 + 12 * cycle, 12),
             parameters: &parameters,
-            keeper: &1,
             plan: plan.output(),
         };
         let outputs = node.cycle(context).unwrap();

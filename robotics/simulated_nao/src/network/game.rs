@@ -98,6 +98,7 @@ fn own_team(game: &GameSettings, current: &Announcement) -> TeamState {
         number: game.team,
         field_player_color: TeamColor::Blue,
         goalkeeper_color: TeamColor::Black,
+        goalkeeper: game.goalkeepers[0],
         score: current.score[0],
         ..team_state()
     }
@@ -108,6 +109,7 @@ fn other_team(game: &GameSettings, current: &Announcement) -> TeamState {
         number: game.opponent,
         field_player_color: TeamColor::Red,
         goalkeeper_color: TeamColor::Green,
+        goalkeeper: game.goalkeepers[1],
         score: current.score[1],
         ..team_state()
     }
@@ -120,7 +122,6 @@ fn team_state() -> TeamState {
         substitute.penalty = Penalty::Substitute;
     }
     TeamState {
-        goalkeeper: 1,
         message_budget: MESSAGE_BUDGET,
         players,
         ..TeamState::default()
@@ -171,6 +172,18 @@ mod tests {
         };
         assert_eq!((penalized(&own), penalized(&other)), (1, 0));
         assert_eq!(own.players[7].penalty, Penalty::Substitute);
+    }
+
+    #[test]
+    fn each_team_has_a_goalkeeper_of_its_own() {
+        let goalkeepers =
+            |game: &GameSettings| message_at(game, 0.0).teams.map(|team| team.goalkeeper);
+        assert_eq!(goalkeepers(&GameSettings::default()), [1, 1]);
+        let game = GameSettings {
+            goalkeepers: [4, 0],
+            ..GameSettings::default()
+        };
+        assert_eq!(goalkeepers(&game), [4, 0]);
     }
 
     #[test]

@@ -26,10 +26,10 @@ pub fn message(
         number: game.team_of(team),
         field_player_color,
         goalkeeper_color,
-        goalkeeper: 1,
+        goalkeeper: game.goalkeepers[index(team)],
         score: said.score[index(team)],
         message_budget: MESSAGE_BUDGET,
-        players: states(referee, team, players),
+        players: states(referee, game, team, players),
         ..TeamState::default()
     };
     GameControllerMessage {
@@ -50,12 +50,22 @@ pub fn message(
     }
 }
 
-/// Of those that play; everybody else is a substitute.
-fn states(referee: &Referee, team: Team, players: &[Player]) -> [PlayerState; PLAYER_COUNT] {
+/// Of those that play, a team mate that only speaks among them; everybody else is a substitute.
+fn states(
+    referee: &Referee,
+    game: &GameSettings,
+    team: Team,
+    players: &[Player],
+) -> [PlayerState; PLAYER_COUNT] {
     let mut states = [PlayerState {
         penalty: Penalty::Substitute,
         seconds_till_unpenalized: 0,
     }; PLAYER_COUNT];
+    if team == Team::Own
+        && let Some(mate) = game.mate
+    {
+        states[usize::from(mate) - 1] = PlayerState::default();
+    }
     for (place, player) in players.iter().enumerate() {
         let state = states.get_mut(usize::from(player.number).wrapping_sub(1));
         let (true, Some(state)) = (player.team == team, state) else {

@@ -27,6 +27,11 @@ pub struct GameSettings {
     /// Whether the robot is one of the other team, as a scenario says.
     #[serde(skip)]
     pub is_opponent: bool,
+    /// The number of the shirt of a team mate of the own team that only speaks, where there is one.
+    #[serde(skip)]
+    pub mate: Option<u8>,
+    /// Numbers of the goalkeepers' shirts, of the own and of the other team; 0 where there is none.
+    pub goalkeepers: [u8; 2],
     /// A referee plays a game in place of `schedule`.
     pub play: Option<PlaySettings>,
     /// What the referee's computer says, in the order of time.
@@ -78,6 +83,8 @@ impl Default for GameSettings {
             opponent: 6,
             player_number: 3,
             is_opponent: false,
+            mate: None,
+            goalkeepers: [1; 2],
             play: None,
             schedule: vec![
                 Announcement::of(0.0, GameState::Initial),
@@ -132,6 +139,16 @@ impl GameSettings {
             let number = self.player_number;
             return wrong(
                 "player_number",
+                format!("shirts have numbers from 1 to {PLAYER_COUNT}, not {number}"),
+            );
+        }
+        if let Some(number) = self
+            .goalkeepers
+            .iter()
+            .find(|number| usize::from(**number) > PLAYER_COUNT)
+        {
+            return wrong(
+                "goalkeepers",
                 format!("shirts have numbers from 1 to {PLAYER_COUNT}, not {number}"),
             );
         }

@@ -27,6 +27,7 @@ impl Settings {
         let mut settings: Self = context.parameters()?;
         settings.apply(&context.options)?;
         settings.take_part();
+        settings.game.mate = settings.network.mate.then(|| settings.game.mate_number());
         // Lockstep is there to be repeated, beside others of its kind, too: nobody but this robot's world speaks to it,
         // unless its scenario opens it to a network.
         if context.clock.is_stepped() && settings.network.address.is_loopback() {
