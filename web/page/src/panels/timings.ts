@@ -8,7 +8,7 @@ import type { Context, Panel, PanelKind } from "./panel";
 
 const PERIOD_MILLISECONDS = 1000;
 /** Of instances p99 as a share of the deadline, of nodes p50 as a share of the cycle's. */
-const HEAD = ["", "rate", "p50", "p99", "max", "share", "runs", "skipped", "failed", "overruns"];
+const HEAD = ["", "rate", "p50", "p99", "max", "share", "runs", "skip\u00adped", "failed", "over\u00adruns"];
 
 function open(context: Context): Panel {
   let before: Timings | null = null;
@@ -16,7 +16,7 @@ function open(context: Context): Panel {
   const failure = make("p", { class: "failure", hidden: true });
   const body = make("tbody");
   const head = make("tr", {}, ...HEAD.map((text) => make("th", { scope: "col" }, text)));
-  const table = make("table", { class: "timings" }, make("thead", {}, head), body);
+  const table = make("table", { class: "timings of-nodes" }, make("thead", {}, head), body);
 
   const ask = async (): Promise<void> => {
     if (context.robot.state.value !== "open" || document.hidden) return;
@@ -56,16 +56,16 @@ function rows(instance: InstanceTimings, now: Timings, before: Timings | null, c
     if (!closed.delete(instance.name)) closed.add(instance.name);
     draw();
   }, isClosed ? "caret" : "caret open");
-  const title = make("th", { scope: "row" }, caret, instance.name);
+  const title = make("th", { scope: "row" }, make("span", { class: "whole" }, caret, instance.name));
   const deadline = instance.deadline ?? null;
   const share = deadline === null || instance.cycle == null ? "" : `${((100 * instance.cycle.p99) / deadline).toFixed(0)} %`;
   const numbers = [rate, ...durations(instance.cycle), share, instance.cycles, "", instance.failures, instance.overruns];
   const lines = [line(title, numbers, instance.overruns + instance.failures > 0 ? "instance bad" : "instance")];
   if (isClosed) return lines;
   const whole = instance.cycle?.p50 ?? 0;
-  if (instance.lateness != null) lines.push(partLine("(late: from capture to begin)", instance.lateness, 0));
+  if (instance.lateness != null) lines.push(partLine("(late)", instance.lateness, 0, "from capture to begin"));
   for (const node of instance.nodes) lines.push(nodeLine(node, whole));
-  if (instance.framework != null) lines.push(partLine("(framework)", instance.framework, whole));
+  if (instance.framework != null) lines.push(partLine("(framework)", instance.framework, whole, "what of a cycle is no node"));
   for (const queue of instance.queues) {
     const text = `from ${queue.from}: ${queue.delivered} delivered, ${queue.late} late, ${queue.dropped} dropped`;
     lines.push(make("tr", { class: "node" }, make("td", { colspan: HEAD.length, class: "muted" }, text)));
@@ -74,13 +74,18 @@ function rows(instance: InstanceTimings, now: Timings, before: Timings | null, c
 }
 
 function nodeLine(node: NodeTimings, whole: number): HTMLElement {
-  const name = make("td", { title: node.node }, ...wrapping(node.node));
+  const name = make("td", { title: node.node }, ...wrapping(withoutCrate(node.node)));
   const numbers = ["", ...durations(node.durations), shareOf(node.durations, whole), node.calls, node.skipped, node.failures, ""];
   return line(name, numbers, node.failures > 0 ? "node bad" : "node");
 }
 
-function partLine(name: string, part: Durations, whole: number): HTMLElement {
-  return line(make("td", { class: "muted" }, name), ["", ...durations(part), shareOf(part, whole), "", "", "", ""], "node");
+/** A table has little place, and nodes of a cycler are mostly of one crate. */
+function withoutCrate(path: string): string {
+  return path.replace(/^\w+::/, "");
+}
+
+function partLine(name: string, part: Durations, whole: number, about: string): HTMLElement {
+  return line(make("td", { class: "muted", title: about }, name), ["", ...durations(part), shareOf(part, whole), "", "", "", ""], "node");
 }
 
 function durations(of: Durations | null | undefined): string[] {
