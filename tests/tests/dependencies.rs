@@ -1,5 +1,6 @@
 //! The rules of deny.toml, and how many crates hulkgen may need.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -138,6 +139,34 @@ fn no_denied_crate_is_used() {
 }
 
 #[test]
+fn crates_in_two_versions_are_those_that_are_known() {
+    let rules = rules();
+    assert_eq!(rules["bans"]["multiple-versions"].as_str(), Some("deny"));
+    let known = rules["bans"]["skip"].as_array().expect("a list");
+    let known: BTreeSet<_> = known
+        .iter()
+        .map(|rule| {
+            let reason = rule["reason"].as_str().unwrap_or_default();
+            let name = rule["name"].as_str().expect("a crate has a name");
+            assert!(!reason.is_empty(), "why does {name} come twice?");
+            name.to_owned()
+        })
+        .collect();
+    let mut versions = BTreeMap::<String, BTreeSet<String>>::new();
+    for package in packages() {
+        let of = |key: &str| package[key].as_str().expect("a text").to_owned();
+        let all = versions.entry(of("name")).or_default();
+        all.insert(of("version"));
+    }
+    versions.retain(|_, all| all.len() > 1);
+    let found: BTreeSet<_> = versions.keys().cloned().collect();
+    assert_eq!(
+        found, known,
+        "in several versions on the left, `skip` of deny.toml on the right: {versions:?}"
+    );
+}
+
+#[test]
 fn every_crate_comes_from_the_registry_or_the_workspace() {
     for package in packages() {
         let source = package["source"].as_str().unwrap_or("path");
@@ -221,7 +250,7 @@ fn no_crate_is_compiled_twice_on_the_way_of_the_first_command() {
         "target-simulated",
     ];
     let robot = units(&[&["-p", "nao_runtime"][..], &target].concat());
-    let mut ways = std::collections::BTreeMap::<_, std::collections::BTreeSet<_>>::new();
+    let mut ways = BTreeMap::<_, BTreeSet<_>>::new();
     for (package, how) in hulkgen.iter().chain(&robot) {
         ways.entry(package).or_default().insert(how);
     }
