@@ -253,6 +253,50 @@ fn stage_of(path: &str) -> &str {
     below.split(['/', '.']).next().unwrap_or_default()
 }
 
+/// The code map tells which crate uses which; it may not forget one.
+#[test]
+fn the_code_map_has_every_crate_with_those_that_it_uses() {
+    let read = |path: &str| std::fs::read_to_string(root().join(path)).expect("it is there");
+    let table = |path: &str| read(path).parse::<toml::Table>().expect("it is TOML");
+    let page = read("ARCHITECTURE.md");
+    let code = |cell: &str| -> Vec<String> {
+        let names = cell.split('`').skip(1).step_by(2);
+        names.map(str::to_owned).collect()
+    };
+    let rows = page.lines().filter_map(|line| line.strip_prefix("| `"));
+    let told: BTreeMap<String, Vec<String>> = rows
+        .map(|row| row.split('|').map(code).collect::<Vec<_>>())
+        .filter_map(|cells| Some((cells.get(1)?.first()?.clone(), cells.get(2)?.clone())))
+        .filter(|(name, _)| name.starts_with("hulkgen") && name != "hulkgen-tests")
+        .collect();
+
+    let workspace = table("Cargo.toml");
+    let members = workspace["workspace"]["members"].as_array();
+    let members = members
+        .expect("a list")
+        .iter()
+        .filter_map(|one| one.as_str());
+    let manifests = members.map(|member| table(&format!("{member}/Cargo.toml")));
+    let mut found = BTreeMap::new();
+    for manifest in manifests {
+        let name = manifest["package"]["name"].as_str().expect("a name");
+        if !name.starts_with("hulkgen") || name == "hulkgen-tests" {
+            continue;
+        }
+        let uses = manifest.get("dependencies").and_then(toml::Value::as_table);
+        let uses = uses.into_iter().flatten().map(|(name, _)| name.as_str());
+        let uses = uses.filter_map(|name| match name {
+            "framework" => Some("hulkgen-framework".to_owned()),
+            name => name.starts_with("hulkgen").then(|| name.to_owned()),
+        });
+        found.insert(name.to_owned(), uses.collect::<Vec<_>>());
+    }
+    assert_eq!(
+        told, found,
+        "ARCHITECTURE.md on the left, Cargo.toml on the right"
+    );
+}
+
 #[test]
 fn only_the_doors_touch_the_disk() {
     /// Whoever reads or writes files uses one of these.

@@ -22,6 +22,11 @@ pub(crate) enum Kind {
     RequiredInput,
 }
 
+/// Names of the kinds that have a meaning in a context, sorted.
+pub fn kinds(context: ContextKind) -> impl Iterator<Item = &'static str> {
+    Kind::of(context)
+}
+
 impl Kind {
     /// Sorted by name.
     pub(crate) const ALL: [Self; 14] = [

@@ -22,6 +22,7 @@ pub use field::{
     ProcedureName, ReadField, StatePath, option_argument, read_field,
 };
 pub use hints::{Hints, Range, documentation, is_hint_attribute};
+pub use kind::kinds;
 pub use mistake::{Mistake, Rule};
 pub use nearest::nearest;
 pub use path::{DataPath, Name, Segment, SegmentName};

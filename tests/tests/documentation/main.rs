@@ -1,5 +1,6 @@
 //! What the pages say, as far as a machine can judge it: links lead somewhere, commands are commands, code is code.
 
+mod messages;
 mod others;
 mod page;
 mod shell;
@@ -11,7 +12,7 @@ use std::process::Command;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use clap::{CommandFactory, Parser, error::ErrorKind};
-use grammar::{is_context_attribute, parse_context};
+use grammar::{ContextKind, is_context_attribute, parse_context};
 use hulkgen::arguments::Arguments;
 use hulkgen::commands;
 use hulkgen::outcome::Outcome;
@@ -109,6 +110,28 @@ fn every_link_leads_to_a_file_and_a_heading() {
     }
     assert_none("links that lead nowhere", &wrong);
     assert!(followed > 100, "only {followed} links");
+}
+
+/// `[`name`](file)` says that the name is found there.
+#[test]
+fn code_that_is_a_link_stands_in_the_file_to_which_it_leads() {
+    let (mut wrong, mut found) = (Vec::new(), 0);
+    for (path, page) in &pages() {
+        let folder = path.parent().expect("a page lies in a folder");
+        for link in &page.links {
+            let Some(code) = &link.code else { continue };
+            let target = straight(&folder.join(&link.target));
+            let Ok(text) = fs::read_to_string(root().join(&target)) else {
+                continue;
+            };
+            found += 1;
+            if !text.contains(code) && !target.as_str().ends_with(code) {
+                wrong.push(format!("{path}:{}: {target} has no `{code}`", link.line));
+            }
+        }
+    }
+    assert_none("names that stand elsewhere", &wrong);
+    assert!(found > 20, "only {found} names");
 }
 
 #[test]
@@ -305,6 +328,46 @@ fn every_block_of_rust_is_rust_and_its_contexts_are_contexts() {
     assert!(contexts > 30, "only {contexts} contexts");
 }
 
+/// The kinds of the grammar, each with the contexts in which it has a meaning.
+fn kinds() -> BTreeSet<(String, String)> {
+    let of = |context, name: &str| {
+        let kinds = grammar::kinds(context).map(move |kind| (kind, name.to_owned()));
+        kinds.collect::<Vec<_>>()
+    };
+    let creation = of(ContextKind::Creation, "creation");
+    let cycle = of(ContextKind::Cycle, "cycle");
+    let outputs = of(ContextKind::MainOutputs, "outputs");
+    let all = creation.into_iter().chain(cycle).chain(outputs);
+    all.map(|(kind, context)| (kind.to_owned(), context))
+        .collect()
+}
+
+#[test]
+fn tables_of_kinds_have_every_kind_where_it_has_a_meaning() {
+    for path in ["docs/reference/fields.md", "docs/contract.md"] {
+        let text = fs::read_to_string(root().join(path)).expect("the page is there");
+        let rows = text
+            .lines()
+            .skip_while(|line| !line.starts_with("| Kind |"));
+        let rows = rows.skip(2).take_while(|line| line.starts_with('|'));
+        let mut told = BTreeSet::new();
+        for row in rows {
+            let mut cells = row.split('|').skip(1);
+            let (kind, contexts) = (cells.next().unwrap_or(""), cells.next().unwrap_or(""));
+            let kind = kind.trim().trim_matches('`');
+            let kind = kind.split('<').next().unwrap_or(kind).to_owned();
+            let words = contexts.split(|one: char| !one.is_ascii_lowercase());
+            let contexts = words.filter(|word| ["creation", "cycle", "outputs"].contains(word));
+            told.extend(contexts.map(|context| (kind.clone(), context.to_owned())));
+        }
+        assert_eq!(
+            told,
+            kinds(),
+            "{path} on the left, the grammar on the right"
+        );
+    }
+}
+
 #[test]
 fn pages_of_the_reference_are_current() {
     let is_update = std::env::var("INSTA_UPDATE").is_ok_and(|value| value == "always");
@@ -319,6 +382,38 @@ fn pages_of_the_reference_are_current() {
             path.display()
         );
         assert!(is == text, "{stale}");
+    }
+}
+
+/// A number from 20 to 99 in words.
+fn in_words(number: usize) -> String {
+    let tens = [
+        "twenty", "thirty", "forty", "fifty", "sixty", "seventy", "eighty", "ninety",
+    ];
+    let ones = [
+        "", "-one", "-two", "-three", "-four", "-five", "-six", "-seven", "-eight", "-nine",
+    ];
+    format!("{}{}", tens[number / 10 - 2], ones[number % 10])
+}
+
+#[test]
+fn pages_count_the_nodes_of_the_nao_as_its_manifest_does() {
+    let read = |path: &str| fs::read_to_string(root().join(path)).expect("it is there");
+    let manifest: toml::Table = read("hulk.toml").parse().expect("it is TOML");
+    let cyclers = manifest["cycler"].as_array().expect("there are cyclers");
+    let lists = cyclers
+        .iter()
+        .flat_map(|one| [one.get("setup_nodes"), one.get("nodes")]);
+    let nodes = lists.flatten().filter_map(toml::Value::as_array).flatten();
+    let paths = nodes.filter_map(|node| node.as_str().or_else(|| node.get("node")?.as_str()));
+    let count = paths.collect::<BTreeSet<_>>().len();
+    let told = [
+        ("README.md", format!("{} nodes", in_words(count))),
+        ("docs/nao.md", format!("{} nodes", in_words(count))),
+        ("docs/tutorial.md", format!("{count} nodes")),
+    ];
+    for (page, told) in told {
+        assert!(read(page).contains(&told), "{page} does not say {told:?}");
     }
 }
 

@@ -18,6 +18,8 @@ pub(crate) struct Link {
     /// From 1.
     pub(crate) line: usize,
     pub(crate) target: String,
+    /// The text, where it is nothing but code.
+    pub(crate) code: Option<String>,
 }
 
 /// A page in parts.
@@ -30,6 +32,9 @@ pub(crate) struct Page {
     /// Of the headings, as GitHub and mdBook name them.
     pub(crate) anchors: BTreeSet<String>,
 }
+
+/// Stands for a piece of code while links are looked for.
+const CODE: char = '\u{fffc}';
 
 impl Page {
     pub(crate) fn parse(text: &str) -> Self {
@@ -64,22 +69,31 @@ impl Page {
             // GitHub counts headings of one name; nobody links to the second.
             self.anchors.insert(anchor);
         }
-        let mut prose = String::new();
+        // Code is no link, whatever it looks like; one that is a link's text has its place in it.
+        let (mut prose, mut code) = (String::new(), Vec::new());
         for (index, part) in text.split('`').enumerate() {
             if index % 2 == 0 {
                 prose.push_str(part);
             } else {
-                self.code.push((line, part.to_owned()));
+                prose.push(CODE);
+                code.push(part);
             }
         }
-        for (_, behind) in prose
-            .match_indices("](")
-            .map(|(at, _)| prose.split_at(at + 2))
-        {
+        for (at, _) in prose.match_indices("](") {
+            let (before, behind) = (&prose[..at], &prose[at + 2..]);
             let target = behind.split_once(')').map_or(behind, |(target, _)| target);
-            let target = target.to_owned();
-            self.links.push(Link { line, target });
+            let is_code = before
+                .strip_suffix(CODE)
+                .is_some_and(|rest| rest.ends_with('['));
+            let which = before.matches(CODE).count().checked_sub(1);
+            self.links.push(Link {
+                line,
+                target: target.to_owned(),
+                code: which.filter(|_| is_code).map(|at| code[at].to_owned()),
+            });
         }
+        self.code
+            .extend(code.into_iter().map(|part| (line, part.to_owned())));
     }
 }
 

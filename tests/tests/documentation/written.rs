@@ -8,11 +8,12 @@ use hulkgen::diagnostics::Code;
 use serde_json::Value;
 
 /// Every page of this kind: its path, and its text.
-pub(crate) fn pages() -> [(&'static str, String); 3] {
+pub(crate) fn pages() -> [(&'static str, String); 4] {
     [
         ("docs/reference/cli.md", command_line()),
         ("docs/reference/diagnostics.md", diagnostics()),
         ("docs/reference/manifest.md", manifest()),
+        ("docs/reference/messages.md", super::messages::page()),
     ]
 }
 
