@@ -143,8 +143,25 @@ impl Finder<'_> {
                 let is_structure = named_type(&typed.ty).map(|name| name == self.structure);
                 self.declare_pattern(&typed.pat, is_structure);
             }
-            _ => {}
+            Pat::Paren(inner) => self.declare_pattern(&inner.pat, is_structure),
+            Pat::Reference(inner) => self.declare_pattern(&inner.pat, is_structure),
+            // What is taken out of a value may be anything.
+            pattern => {
+                let mut names = Names(Vec::new());
+                names.visit_pat(pattern);
+                for name in names.0 {
+                    self.declare(name, None);
+                }
+            }
         }
+    }
+
+    /// A function sees no variable around it.
+    fn function(&mut self, signature: &Signature, visit: impl FnOnce(&mut Self)) {
+        let around = std::mem::replace(&mut self.scopes, vec![BTreeMap::new()]);
+        self.declare_arguments(signature);
+        visit(self);
+        self.scopes = around;
     }
 
     fn within(&mut self, visit: impl FnOnce(&mut Self)) {
@@ -166,19 +183,18 @@ impl Finder<'_> {
 impl<'ast> Visit<'ast> for Finder<'_> {
     fn visit_item_impl(&mut self, block: &'ast syn::ItemImpl) {
         let is_own = named_type(&block.self_ty).is_some_and(|name| name == self.structure);
-        self.within(|finder| {
-            finder.declare(
-                &syn::Ident::new("self", block.impl_token.span),
-                Some(is_own),
-            );
-            visit::visit_item_impl(finder, block);
-        });
+        let around = std::mem::replace(&mut self.scopes, vec![BTreeMap::new()]);
+        self.declare(
+            &syn::Ident::new("self", block.impl_token.span),
+            Some(is_own),
+        );
+        visit::visit_item_impl(self, block);
+        self.scopes = around;
     }
 
     fn visit_item_fn(&mut self, function: &'ast syn::ItemFn) {
-        self.within(|finder| {
-            finder.declare_arguments(&function.sig);
-            visit::visit_item_fn(finder, function);
+        self.function(&function.sig, |finder| {
+            visit::visit_item_fn(finder, function)
         });
     }
 
@@ -199,6 +215,42 @@ impl<'ast> Visit<'ast> for Finder<'_> {
                 finder.declare_pattern(input, None);
             }
             visit::visit_expr_closure(finder, closure);
+        });
+    }
+
+    /// Names of a condition are known in the conditions behind it and in the block.
+    fn visit_expr_if(&mut self, condition: &'ast syn::ExprIf) {
+        self.within(|finder| {
+            finder.visit_expr(&condition.cond);
+            finder.visit_block(&condition.then_branch);
+        });
+        if let Some((_, otherwise)) = &condition.else_branch {
+            self.visit_expr(otherwise);
+        }
+    }
+
+    fn visit_expr_while(&mut self, repeated: &'ast syn::ExprWhile) {
+        self.within(|finder| visit::visit_expr_while(finder, repeated));
+    }
+
+    fn visit_expr_let(&mut self, condition: &'ast syn::ExprLet) {
+        visit::visit_expr_let(self, condition);
+        self.declare_pattern(&condition.pat, None);
+    }
+
+    fn visit_expr_for_loop(&mut self, repeated: &'ast syn::ExprForLoop) {
+        self.visit_expr(&repeated.expr);
+        self.within(|finder| {
+            finder.visit_pat(&repeated.pat);
+            finder.declare_pattern(&repeated.pat, None);
+            finder.visit_block(&repeated.body);
+        });
+    }
+
+    fn visit_arm(&mut self, arm: &'ast syn::Arm) {
+        self.within(|finder| {
+            finder.declare_pattern(&arm.pat, None);
+            visit::visit_arm(finder, arm);
         });
     }
 
@@ -267,6 +319,16 @@ impl<'ast> Visit<'ast> for Finder<'_> {
         for argument in arguments.iter().flatten() {
             Visit::visit_expr(&mut *self, argument);
         }
+    }
+}
+
+/// Every name that a pattern declares.
+struct Names<'a>(Vec<&'a syn::Ident>);
+
+impl<'ast> Visit<'ast> for Names<'ast> {
+    fn visit_pat_ident(&mut self, pattern: &'ast syn::PatIdent) {
+        self.0.push(&pattern.ident);
+        visit::visit_pat_ident(self, pattern);
     }
 }
 
@@ -361,5 +423,26 @@ mod tests {
             impl CycleContext<'_> { fn fill(&mut self) { self.[ball].clear(); } } \
             fn test() { let context = |n| CycleContext { [ball]: &mut ball, n }; context(1).[ball]; }";
         assert_eq!(marked(text, "CycleContext"), expected);
+    }
+
+    #[test]
+    fn another_variable_of_the_same_name_is_not_the_struct() {
+        let text = "fn test() { let seen = node.cycle(c).unwrap(); seen.ball; \
+            if let Some((seen, 1)) = other && seen.ball { seen.ball; } seen.ball; \
+            for seen in list { seen.ball; } while let Some(&seen) = next() { seen.ball; } \
+            match other { Seen { seen, .. } => seen.ball, [seen @ 1, ..] if seen.ball => 1, _ => seen.ball }; \
+            list.map(|(seen, _)| seen.ball); \
+            fn inner(seen: u8) { seen.ball; } fn further() { seen.ball; } \
+            let Some(seen) = other else { seen.ball }; seen.ball; \
+            let (seen, other) = (node.cycle(c).unwrap(), 1); seen.ball; }";
+        let expected = "fn test() { let seen = node.cycle(c).unwrap(); seen.[ball]; \
+            if let Some((seen, 1)) = other && seen.?ball { seen.?ball; } seen.[ball]; \
+            for seen in list { seen.?ball; } while let Some(&seen) = next() { seen.?ball; } \
+            match other { Seen { seen, .. } => seen.?ball, [seen @ 1, ..] if seen.?ball => 1, _ => seen.[ball] }; \
+            list.map(|(seen, _)| seen.?ball); \
+            fn inner(seen: u8) { seen.ball; } fn further() { seen.?ball; } \
+            let Some(seen) = other else { seen.[ball] }; seen.?ball; \
+            let (seen, other) = (node.cycle(c).unwrap(), 1); seen.?ball; }";
+        assert_eq!(marked(text, "MainOutputs"), expected);
     }
 }
