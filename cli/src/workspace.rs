@@ -28,7 +28,7 @@ use parsed::Parsed;
 
 pub use asked::Answers;
 pub use changes::Changes;
-pub use members::{Member, Members};
+pub use members::{Member, Members, Origin};
 pub(crate) use members::{normalized, relative};
 pub use revision::{Missing, RevisionError};
 pub use watch::Glance;

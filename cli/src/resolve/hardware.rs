@@ -62,16 +62,16 @@ pub(super) fn targets(
                 .help(help);
             diagnostics.add(error);
         }
-        targets.push(robot_target(target));
+        targets.push(robot_target(workspace, target));
     }
     targets
 }
 
-fn robot_target(target: &manifest::Target) -> Target {
+fn robot_target(workspace: &Workspace, target: &manifest::Target) -> Target {
     let declared = &target.declared;
     Target {
         name: declared.name.to_string(),
-        hardware: declared.hardware.to_string(),
+        hardware: workspace.members().by_library(declared.hardware.as_str()),
         triple: declared.triple.clone(),
         cpu: declared.cpu.clone(),
         profile: declared.profile.clone(),
@@ -85,8 +85,8 @@ fn unknown(
     library: &Library<'_>,
     target: &schema::Target,
 ) -> Option<(String, String)> {
-    let path = target.hardware.as_str();
-    let name = target.hardware.segments().next()?;
+    let path = workspace.members().by_library(target.hardware.as_str());
+    let name = path.split("::").next()?;
     if library.member(name).is_none() {
         if workspace.members().is_shared(name) {
             return None;
@@ -105,5 +105,5 @@ fn unknown(
             help,
         ));
     }
-    library.missing_type(path)
+    library.missing_type(&path)
 }

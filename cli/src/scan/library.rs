@@ -76,6 +76,11 @@ impl<'workspace> Library<'workspace> {
         member.filter(|member| member.folder != self.generated)
     }
 
+    /// The hardware of a target with its crate called by the name of its library.
+    pub fn by_library(&self, path: &str) -> String {
+        self.workspace.members().by_library(path)
+    }
+
     /// Adds what could not be read or parsed since the last call.
     pub fn report_problems(&self, diagnostics: &mut Diagnostics) {
         for problem in self.problems.take() {

@@ -6,6 +6,7 @@ use syn::Item;
 
 use super::library::{Globs, Library};
 use super::module::{Entry, Import, Module, Visible};
+use crate::workspace::Origin;
 
 /// What a path stands for.
 #[derive(Clone, Debug)]
@@ -249,12 +250,15 @@ impl Library<'_> {
         if matches!(name, "std" | "core" | "alloc") {
             return Some(Found::Standard(Vec::new()));
         }
-        if let Some(root) = self.root(name) {
-            return Some(Found::Module(root));
+        let own = self.member(module.library());
+        match own.and_then(|member| member.dependency(name)) {
+            Some(Origin::Member(library)) => match self.root(library) {
+                Some(root) => Some(Found::Module(root)),
+                None => Some(Found::Foreign(vec![library.to_owned()])),
+            },
+            Some(Origin::Outside(name)) => Some(Found::Foreign(vec![name.to_owned()])),
+            None => self.root(name).map(Found::Module),
         }
-        let member = self.member(module.library())?;
-        let known = member.dependencies().any(|dependency| dependency == name);
-        known.then(|| Found::Foreign(vec![name.to_owned()]))
     }
 }
 

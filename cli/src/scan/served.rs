@@ -70,11 +70,12 @@ impl Hardware {
 impl Library<'_> {
     /// The hardware type `crate::Type` of a target; `None` if it is not plainly a type of the workspace.
     pub fn hardware(&self, path: &str) -> Option<Hardware> {
+        let path = self.by_library(path);
         let root = self.root(path.split("::").next()?)?;
         let Shape::Named {
             definition: Definition::Workspace(item),
             ..
-        } = self.resolve_absolute(&root, path).shape
+        } = self.resolve_absolute(&root, &path).shape
         else {
             return None;
         };

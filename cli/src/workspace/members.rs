@@ -1,11 +1,16 @@
 //! Packages of a workspace, read from Cargo.toml files without cargo.
 
+mod dependencies;
+
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use camino::{Utf8Component, Utf8Path, Utf8PathBuf};
+use camino::{Utf8Path, Utf8PathBuf};
 
 use super::{Workspace, glob};
+use dependencies::{Dependencies, read_dependencies};
+
+pub use dependencies::Origin;
 
 /// The packages of a workspace, and what the root says about dependencies.
 #[derive(Debug, Default)]
@@ -35,6 +40,8 @@ pub struct Member {
     pub folder: Utf8PathBuf,
     /// The library's first file, usually `src/lib.rs`.
     pub root_file: Utf8PathBuf,
+    /// The package's folder from cargo's root.
+    of_cargo: Utf8PathBuf,
     dependencies: Dependencies,
 }
 
@@ -44,18 +51,6 @@ pub struct BrokenPackage {
     pub file: Utf8PathBuf,
     pub range: Range<usize>,
     pub message: String,
-}
-
-/// A dependency table: crate name as written in `use` → key and right side.
-type Dependencies = BTreeMap<String, Entry>;
-
-#[derive(Clone, Debug)]
-struct Entry {
-    key: String,
-    requirement: String,
-    /// `path`, relative to the package's folder.
-    path: Option<String>,
-    workspace: bool,
 }
 
 impl Members {
@@ -74,7 +69,7 @@ impl Members {
             excluded = patterns(workspace, table, "exclude", &way);
             folders.extend(patterns(workspace, table, "members", &way));
             folders.retain(|folder| !excluded.contains(folder));
-            members.shared = dependencies(table, "dependencies");
+            members.shared = read_dependencies(table);
             let inherited = table.get("package").and_then(toml::Value::as_table);
             members.inherited = inherited
                 .into_iter()
@@ -98,7 +93,7 @@ impl Members {
                 }
             }
         }
-        members.name_shared_libraries(&own);
+        members.bind_dependencies();
         members.own = own;
         members
     }
@@ -111,50 +106,6 @@ impl Members {
     /// Every package with a library, sorted by the library's name.
     pub fn libraries(&self) -> impl Iterator<Item = &Member> {
         self.libraries.values()
-    }
-
-    /// Whether the root's `[workspace.dependencies]` has a crate of this name.
-    pub fn is_shared(&self, library: &str) -> bool {
-        self.shared.contains_key(library)
-    }
-
-    /// The line for `[dependencies]` of a package in `from` that makes a crate known as `library`: key and right side.
-    ///
-    /// The root's `[workspace.dependencies]` come first, then the path of a member, then what one of the packages
-    /// `users` (libraries' names) asks for. `None`: nobody says where the crate comes from.
-    pub fn requirement(
-        &self,
-        library: &str,
-        from: &Utf8Path,
-        users: &[&str],
-    ) -> Option<(String, String)> {
-        if let Some(entry) = self.shared.get(library) {
-            return Some((entry.key.clone(), "{ workspace = true }".to_owned()));
-        }
-        if let Some(member) = self.libraries.get(library) {
-            let path = dotted(relative(from, &member.folder));
-            return Some((member.package.clone(), format!("{{ path = \"{path}\" }}")));
-        }
-        users
-            .iter()
-            .filter_map(|user| self.libraries.get(*user))
-            .find_map(|user| {
-                let entry = user
-                    .dependencies
-                    .get(library)
-                    .filter(|entry| !entry.workspace)?;
-                let requirement = match &entry.path {
-                    None => entry.requirement.clone(),
-                    Some(path) => {
-                        let moved = dotted(relative(from, &normalized(&user.folder.join(path))));
-                        let path = |path: &str| format!("\"{path}\"");
-                        entry
-                            .requirement
-                            .replace(&path(entry.path.as_deref()?), &path(moved.as_str()))
-                    }
-                };
-                Some((entry.key.clone(), requirement))
-            })
     }
 
     /// A folder of the robot as the root's Cargo.toml names it.
@@ -195,55 +146,31 @@ impl Members {
         let Some(package) = self.parse(workspace, &folder.join("Cargo.toml")) else {
             return Vec::new();
         };
-        let needed = dependencies(&package, "dependencies").into_iter();
-        let needed = needed.filter_map(|(name, entry)| match entry.workspace {
-            true => within(Utf8Path::new(""), self.shared.get(&name)?.path.as_deref()?),
-            false => within(of_cargo, entry.path.as_deref()?),
+        let dependencies = read_dependencies(&package);
+        let needed = dependencies.iter().filter_map(|(name, entry)| {
+            let folder = match entry.workspace {
+                true => self.shared.get(name)?.folder(Utf8Path::new("")),
+                false => entry.folder(of_cargo),
+            };
+            folder.filter(|folder| !folder.is_absolute() && !folder.starts_with(".."))
         });
         let needed = needed.collect();
-        if let Some(member) = Member::new(workspace, folder, &package) {
+        if let Some(member) = Member::new(workspace, folder, of_cargo, &package, dependencies) {
             self.libraries.insert(member.library.clone(), member);
         }
         needed
-    }
-
-    /// A shared dependency on a member is known by the member's library name unless the root renames it.
-    fn name_shared_libraries(&mut self, own: &Utf8Path) {
-        let by_folder: BTreeMap<&Utf8Path, &Member> = self
-            .libraries
-            .values()
-            .map(|member| (member.folder.as_path(), member))
-            .collect();
-        let named = std::mem::take(&mut self.shared)
-            .into_iter()
-            .map(|(name, entry)| {
-                let member = entry
-                    .path
-                    .as_deref()
-                    .map(|path| relative(own, &normalized(Utf8Path::new(path))))
-                    .and_then(|folder| by_folder.get(folder.as_path()));
-                match member {
-                    Some(member) if member.package == entry.key => (member.library.clone(), entry),
-                    _ => (name, entry),
-                }
-            });
-        // A package may stand there twice, once by its own name and once renamed: the shorter key is kept.
-        let mut shared = Dependencies::new();
-        for (name, entry) in named {
-            match shared.get(&name) {
-                Some(other) if other.key.len() <= entry.key.len() => {}
-                _ => {
-                    shared.insert(name, entry);
-                }
-            }
-        }
-        self.shared = shared;
     }
 }
 
 impl Member {
     /// `None`: the package has no library.
-    fn new(workspace: &Workspace, folder: Utf8PathBuf, package: &toml::Table) -> Option<Self> {
+    fn new(
+        workspace: &Workspace,
+        folder: Utf8PathBuf,
+        of_cargo: &Utf8Path,
+        package: &toml::Table,
+        dependencies: Dependencies,
+    ) -> Option<Self> {
         let name = package.get("package")?.get("name")?.as_str()?.to_owned();
         let library = package.get("lib");
         let library_name = library
@@ -255,35 +182,11 @@ impl Member {
             package: name,
             library: library_name,
             root_file,
-            dependencies: dependencies(package, "dependencies"),
+            dependencies,
+            of_cargo: of_cargo.to_owned(),
             folder,
         })
     }
-
-    /// Crates that the package names in `[dependencies]`, as written in `use`.
-    pub fn dependencies(&self) -> impl Iterator<Item = &str> {
-        self.dependencies.keys().map(String::as_str)
-    }
-}
-
-impl Entry {
-    fn new(key: &str, value: &toml::Value) -> (String, Self) {
-        let text = |name: &str| value.get(name).and_then(toml::Value::as_str);
-        let workspace = value.get("workspace").and_then(toml::Value::as_bool);
-        let entry = Self {
-            key: key.to_owned(),
-            requirement: value.to_string(),
-            path: text("path").map(str::to_owned),
-            workspace: workspace.unwrap_or(false),
-        };
-        (key.replace('-', "_"), entry)
-    }
-}
-
-fn dependencies(table: &toml::Table, name: &str) -> Dependencies {
-    let entries = table.get(name).and_then(toml::Value::as_table);
-    let entries = entries.into_iter().flatten();
-    entries.map(|(key, value)| Entry::new(key, value)).collect()
 }
 
 /// The folders that `members` or `exclude` names, in the order of the list.
@@ -333,21 +236,6 @@ pub(crate) fn relative(from: &Utf8Path, to: &Utf8Path) -> Utf8PathBuf {
     } else {
         way
     }
-}
-
-/// Where a way from a folder ends; `None` where that is not below the root.
-fn within(folder: &Utf8Path, way: &str) -> Option<Utf8PathBuf> {
-    let way = folder.join(way);
-    let mut parts: Vec<&str> = Vec::new();
-    for part in way.components() {
-        match part {
-            Utf8Component::CurDir => {}
-            Utf8Component::ParentDir => _ = parts.pop()?,
-            Utf8Component::Normal(part) => parts.push(part),
-            Utf8Component::RootDir | Utf8Component::Prefix(_) => return None,
-        }
-    }
-    Some(parts.iter().collect())
 }
 
 /// The empty way as Cargo.toml writes it.

@@ -255,3 +255,51 @@ fn a_pattern_names_packages_and_what_a_neighbour_will_write_may_be_missing() {
         ]
     );
 }
+
+#[test]
+fn a_dependency_keeps_the_name_and_the_package_that_its_author_gave() {
+    let depends =
+        |name: &str, on: &str| format!("[package]\nname = \"{name}\"\n[dependencies]\n{on}");
+    let vision = depends(
+        "vision",
+        "rays = { package = \"light\", path = \"../../light\" }\nnew = { package = \"rand\", version = \"0.9\" }",
+    );
+    let types = depends(
+        "my-types",
+        "linear = { package = \"linear-algebra\", version = \"0.3\", optional = true }\n\
+         rand = \"0.8\"\nlight = { path = \"../../light\" }\nserde_two = { package = \"serde\", version = \"1.0.2\" }",
+    );
+    let workspace = workspace(&[
+        ROOT,
+        ("robotics/types/Cargo.toml", &types),
+        ("robotics/types/src/lib.rs", ""),
+        ("robotics/vision/Cargo.toml", &vision),
+        ("robotics/vision/src/lib.rs", ""),
+    ]);
+    let line = |name| {
+        let found = workspace
+            .members()
+            .requirement(name, Utf8Path::new("generated"), &["vision"]);
+        found.map(|(key, requirement)| format!("{key} = {requirement}"))
+    };
+    for (name, expected) in [
+        (
+            "linear",
+            "linear = { package = \"linear-algebra\", version = \"0.3\" }",
+        ),
+        ("new", "new = { package = \"rand\", version = \"0.9\" }"),
+        ("rand", "rand = \"0.8\""),
+        // The root calls it so already.
+        ("serde", "serde = { workspace = true }"),
+        // Its users call one package by two names.
+        (
+            "light",
+            "light = { package = \"light\", path = \"../light\" }",
+        ),
+    ] {
+        assert_eq!(line(name).as_deref(), Some(expected));
+    }
+    for name in ["rays", "serde_two"] {
+        assert_eq!(line(name), None, "it has another name");
+    }
+}

@@ -218,3 +218,47 @@ fn what_cannot_be_seen_is_counted_and_left_to_rustc() {
         .expect("it reads");
     assert!(!read.checked);
 }
+
+#[test]
+fn a_crate_is_the_same_by_whatever_name_its_users_know_it() {
+    let renamed = "forms = { package = \"types\", path = \"../types\" }";
+    let shared = "forms = { package = \"types\", path = \"crates/types\" }";
+    for (root, line) in [("", renamed), (shared, "forms.workspace = true")] {
+        let fixture =
+            Fixture::control(&["a", "b"]).node("a", writes("x: MainOutput<forms::Ball>,"));
+        let fixture = with_field(fixture, "b", "y: Input<types::Ball, \"x\">");
+        let packages = fixture.text("crates/nodes/Cargo.toml");
+        let packages = format!("{packages}{line}\n");
+        let workspace = fixture.text("Cargo.toml");
+        let workspace = format!("{workspace}[workspace.dependencies]\n{root}\n");
+        let answer = fixture
+            .file("crates/nodes/Cargo.toml", &packages)
+            .file("Cargo.toml", &workspace)
+            .answer();
+        assert_eq!(answer.codes, ["actuator-takes-default"], "{}", answer.text);
+        let robot = answer.robot.expect("there are no errors");
+        assert_eq!(robot.cyclers[0].outputs[0].data.text, "types::Ball");
+        let found = robot.crates.iter().find(|one| one.name == "types");
+        let line = found.map(|one| (one.key.as_str(), one.requirement.as_str()));
+        assert_eq!(line, Some(("types", "{ path = \"../crates/types\" }")));
+    }
+}
+
+#[test]
+fn a_crate_that_only_types_know_comes_with_their_dependency() {
+    let robot = Fixture::control(&["a", "b"])
+        .node("a", writes("x: MainOutput<types::Placed>,"))
+        .file("crates/types/src/lib.rs", "pub type Placed = linear::Point;")
+        .file(
+            "crates/types/Cargo.toml",
+            "[package]\nname = \"types\"\n[dependencies]\nlinear = { package = \"linear-algebra\", version = \"0.3\" }\n",
+        );
+    let answer = with_field(robot, "b", "y: Input<types::Placed, \"x\">").answer();
+    assert_eq!(answer.codes, ["actuator-takes-default"], "{}", answer.text);
+    let robot = answer.robot.expect("there are no errors");
+    assert_eq!(robot.cyclers[0].outputs[0].data.text, "linear::Point");
+    let found = robot.crates.iter().find(|one| one.name == "linear");
+    let line = found.map(|one| (one.key.as_str(), one.requirement.as_str()));
+    let expected = "{ package = \"linear-algebra\", version = \"0.3\" }";
+    assert_eq!(line, Some(("linear", expected)));
+}
