@@ -153,7 +153,8 @@ fn child(workspace: &Workspace, parent: &Place, item: &ItemMod) -> Result<Place,
         let message = format!("`{path}` stands inside of `{}`", parent.file);
         return Err(Refusal::bad(message).help("give it a file of its own first"));
     }
-    let files = places(&parent.file, &parent.folder, item);
+    let base = parent.file.parent().unwrap_or(Utf8Path::new(""));
+    let files = places(base, &parent.folder, item);
     let found = files.iter().find(|file| workspace.is_file(file));
     let file =
         found.ok_or_else(|| Refusal::bad(format!("the file of module `{path}` does not exist")))?;

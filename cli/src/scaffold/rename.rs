@@ -244,7 +244,8 @@ fn own_files(
         if let syn::Item::Mod(item) = item
             && item.content.is_none()
         {
-            let places = places(source.file(), &source.module.folder, item);
+            let folder = source.file().parent().unwrap_or(Utf8Path::new(""));
+            let places = places(folder, &source.module.folder, item);
             files.extend(places.into_iter().find(|file| workspace.is_file(file)));
         }
     }

@@ -198,15 +198,15 @@ impl<'workspace> Library<'workspace> {
                 attrs: item.attrs.clone(),
                 items: items.clone(),
             };
-            let folder = parent.folder.join(&name);
-            return Some(Rc::new(Module::new(
-                path,
-                parent.file.clone(),
-                folder,
-                Rc::new(syntax),
-            )));
+            let folder = match path_attribute(item) {
+                Some(named) => base(parent).join(named),
+                None => parent.folder.join(&name),
+            };
+            let mut module = Module::new(path, parent.file.clone(), folder, Rc::new(syntax));
+            module.inline = true;
+            return Some(Rc::new(module));
         }
-        let files = places(&parent.file, &parent.folder, item);
+        let files = places(base(parent), &parent.folder, item);
         let Some(file) = files.iter().find(|file| self.workspace.is_file(file)) else {
             let message = format!("the file of module `{path}` does not exist");
             let places: Vec<&str> = files.iter().map(|file| file.as_str()).collect();
@@ -237,7 +237,7 @@ impl<'workspace> Library<'workspace> {
 
     /// What the file of a declared module says, without parsing it.
     pub(super) fn text(&self, parent: &Module, item: &ItemMod) -> Option<Arc<str>> {
-        let mut files = places(&parent.file, &parent.folder, item).into_iter();
+        let mut files = places(base(parent), &parent.folder, item).into_iter();
         let file = files.find(|file| self.workspace.is_file(file))?;
         self.workspace.read(&file).ok()
     }
@@ -370,10 +370,18 @@ pub(crate) fn candidates(folder: &Utf8Path, name: &str) -> Vec<Utf8PathBuf> {
     ]
 }
 
-/// Where the file of a module may lie that is declared in `file`.
-pub(crate) fn places(file: &Utf8Path, folder: &Utf8Path, item: &ItemMod) -> Vec<Utf8PathBuf> {
+/// Where `#[path]` begins in a module: beside its file, or in the folder of a module that is written within one.
+fn base(module: &Module) -> &Utf8Path {
+    if module.inline {
+        return &module.folder;
+    }
+    module.file.parent().unwrap_or(Utf8Path::new(""))
+}
+
+/// Where the file of a module may lie; `#[path]` begins in `base`.
+pub(crate) fn places(base: &Utf8Path, folder: &Utf8Path, item: &ItemMod) -> Vec<Utf8PathBuf> {
     match path_attribute(item) {
-        Some(named) => vec![file.parent().unwrap_or(Utf8Path::new("")).join(named)],
+        Some(named) => vec![base.join(named)],
         None => candidates(folder, &item.ident.to_string()),
     }
 }

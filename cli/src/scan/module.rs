@@ -15,6 +15,8 @@ pub struct Module {
     pub file: Utf8PathBuf,
     /// Where files of its own modules lie.
     pub(crate) folder: Utf8PathBuf,
+    /// It is written within the file of another.
+    pub(super) inline: bool,
     pub syntax: Rc<syn::File>,
     pub(super) entries: BTreeMap<String, Entry>,
     pub(super) globs: Vec<Import>,
@@ -64,6 +66,7 @@ impl Module {
             path,
             file,
             folder,
+            inline: false,
             entries: BTreeMap::new(),
             globs: Vec::new(),
             syntax: syntax.clone(),
@@ -148,10 +151,11 @@ impl Module {
     }
 
     fn insert(&mut self, name: String, entry: Entry) {
-        let entry = if self.entries.contains_key(&name) {
-            Entry::Ambiguous
-        } else {
-            entry
+        let entry = match (self.entries.get(&name), entry) {
+            // Of a type that is imported rustc would not allow another here: the import is of a function or macro.
+            (None | Some(Entry::Import(_)), entry) => entry,
+            (Some(_), Entry::Import(_)) => return,
+            (Some(_), _) => Entry::Ambiguous,
         };
         self.entries.insert(name, entry);
     }
@@ -208,7 +212,7 @@ impl Entry {
 }
 
 impl Visible {
-    fn new(visibility: &Visibility) -> Self {
+    pub(super) fn new(visibility: &Visibility) -> Self {
         match visibility {
             Visibility::Public(_) => Self::Everywhere,
             Visibility::Restricted(_) => Self::InCrate,

@@ -121,6 +121,7 @@ impl Looking<'_> {
         let around = &self.module;
         let (path, file, folder) = (&around.path, &around.file, &around.folder);
         let mut scope = Module::new(path.clone(), file.clone(), folder.clone(), Rc::new(syntax));
+        scope.inline = around.inline;
         // Where the globs of a module lead is known by its path, which is the one of the module around.
         let globs = std::mem::take(&mut scope.globs);
         Some((Rc::new(scope), globs))

@@ -2,7 +2,9 @@
 
 mod names;
 
+use super::Library;
 use super::fixture::{Fixture, Node};
+use crate::workspace::Workspace;
 
 const WRITER: Node<'_> = Node {
     head: "",
@@ -323,5 +325,48 @@ fn a_trait_reads_if_a_method_returns_something() {
             (bounds[0].path.as_str(), bounds[0].reading),
             (path, reading)
         );
+    }
+}
+
+#[test]
+fn a_file_that_is_named_in_an_inline_module_lies_where_rustc_looks() {
+    let nodes = [
+        "nodes::outer::moved",
+        "nodes::folder::within",
+        "nodes::files::deep::moved",
+    ];
+    let fixture = Fixture::control(&nodes).node("x", acting());
+    let text = node_text(&fixture);
+    let fixture = fixture
+        .file(
+            "crates/nodes/src/lib.rs",
+            "pub mod outer { #[path = \"there.rs\"] pub mod moved; }\n\
+             #[path = \"named\"] pub mod folder { pub mod within; }\npub mod files;",
+        )
+        .file(
+            "crates/nodes/src/files.rs",
+            "pub mod deep { #[path = \"there.rs\"] pub mod moved; }",
+        );
+    let files = ["outer/there.rs", "named/within.rs", "files/deep/there.rs"];
+    let files = files.map(|file| format!("crates/nodes/src/{file}"));
+    let fixture = files
+        .iter()
+        .fold(fixture, |fixture, file| fixture.file(file, &text));
+    let workspace = Workspace::in_memory(fixture.files());
+    let library = Library::new(&workspace, "generated".into());
+    for (node, file) in nodes.iter().zip(&files) {
+        let module = library.find_module(node);
+        assert_eq!(module.expect("it is there").file, *file);
+    }
+}
+
+#[test]
+fn a_function_may_be_called_as_a_module_is() {
+    for library in ["pub use a::a;\npub mod a;", "pub mod a;\npub use a::a;"] {
+        let robot = Fixture::control(&["a"])
+            .node("a", acting())
+            .file("crates/nodes/src/lib.rs", library)
+            .robot();
+        assert_eq!(robot.cyclers[0].nodes[0].path, "nodes::a");
     }
 }
