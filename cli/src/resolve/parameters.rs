@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use camino::Utf8Path;
 use grammar::{CreationField, CycleField, Pathed};
 use syn::LitStr;
 
@@ -11,6 +12,7 @@ use super::scene::{Scene, SceneCycler, SceneNode};
 use super::tree::{Declaration, Rules, merge};
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::scan::range;
+use crate::workspace::MANIFEST;
 
 /// The parameters of a robot.
 pub(super) struct Parameters {
@@ -21,6 +23,9 @@ pub(super) struct Parameters {
     /// How many paths could not be compared.
     pub(super) unchecked: usize,
 }
+
+/// The table of the parameter files that only a target's hardware reads.
+const TARGETS: &str = "hardware";
 
 /// A field that reads a parameter.
 struct Declared<'a> {
@@ -49,6 +54,7 @@ pub(super) fn parameters(scene: &Scene<'_>, diagnostics: &mut Diagnostics) -> Pa
     let hints = hints::collect(&hinted, diagnostics);
     let declarations: Vec<_> = hinted.into_iter().map(|one| one.declaration).collect();
     report_strangers(scene, &declarations, diagnostics);
+    report_table_of_targets(scene, &declarations, diagnostics);
     let rules = Rules {
         conflict: Code::ParameterConflict,
         what: "parameter",
@@ -182,6 +188,38 @@ fn report_strangers(
             .help(format!(
                 "declare it with `$cycler_instance` in a node of `{cycler}`, or elsewhere"
             ));
+        diagnostics.add(error);
+    }
+}
+
+/// `[hardware]` of the parameter files is read by the targets, so no instance may have its parameters there.
+fn report_table_of_targets(
+    scene: &Scene<'_>,
+    declarations: &[Declaration<'_, Reader>],
+    diagnostics: &mut Diagnostics,
+) {
+    for (index, cycler) in scene.cyclers.iter().enumerate() {
+        let instances = cycler.declared.instances.iter();
+        let mut instances =
+            instances.filter(|one| schema::snake_case(one.name.as_str()) == TARGETS);
+        let declared = declarations
+            .iter()
+            .find(|one| one.instance == Some((0, index)) && one.segments[0].name == TARGETS);
+        let Some((instance, declared)) = instances.next().zip(declared) else {
+            continue;
+        };
+        let name = instance.name.as_str();
+        let message = format!(
+            "the parameters of instance `{name}` would stand in `{TARGETS}`, which belongs to the targets"
+        );
+        let error = Diagnostic::new(Code::InvalidName, message)
+            .at(Utf8Path::new(MANIFEST), instance.range.clone(), "")
+            .at(
+                declared.source.file(),
+                declared.range.clone(),
+                "`$cycler_instance` is the name of the instance",
+            )
+            .help("rename the instance, or begin the path with another name, as in `arms.$cycler_instance`");
         diagnostics.add(error);
     }
 }

@@ -251,3 +251,22 @@ fn additional_outputs_are_unique() {
     )
     .expect("duplicate-output", &["one lies below the other"]);
 }
+
+#[test]
+fn an_instance_is_not_called_like_the_table_of_the_targets() {
+    let fixture = |instances: &str, path: &str| {
+        let manifest = cycler("Hardware", "real-time", instances, &[], &["a"]);
+        let field = format!("x: Parameter<f32, {path:?}>");
+        with_field(Fixture::new(&manifest), "a", &field)
+    };
+    let answer = fixture("", "$cycler_instance.x").answer();
+    let parts = ["`Hardware`", "hulk.toml", "crates/nodes/src/a.rs", "help: "];
+    answer.expect_error("invalid-name", &parts);
+    for (instances, path) in [
+        ("", "arms.$cycler_instance.x"),
+        ("instances = [\"Left\", \"Hardware\"]", "$cycler_instance.x"),
+    ] {
+        let answer = fixture(instances, path).answer();
+        assert!(!answer.codes.contains(&"invalid-name"), "{}", answer.text);
+    }
+}
