@@ -7,6 +7,7 @@
 //! Invariant: a file is parsed once for each text that it has, and only if a node or one of its names leads there, or it belongs to the crate of a
 //! target's hardware.
 
+mod beyond;
 mod brackets;
 pub mod compare;
 pub mod components;

@@ -229,7 +229,7 @@ impl Home<'_> {
             .flat_map(|node| {
                 let bounds = [&node.new_bounds, &node.cycle_bounds, &node.restore_bounds];
                 let names = bounds.into_iter().flatten();
-                names.map(|bound| (last(&bound.path), node.path.as_str()))
+                names.map(|bound| (bound.name(), node.path.as_str()))
             })
             .filter(|(name, _)| words.contains(name))
             .collect();
@@ -261,8 +261,4 @@ fn output_range(writer: &Node, output: &str) -> Option<Range<usize>> {
     let mut all = returned.chain(in_place);
     all.find(|(name, _)| *name == output)
         .map(|(_, range)| range.clone())
-}
-
-fn last(path: &str) -> &str {
-    path.rsplit("::").next().unwrap_or(path)
 }

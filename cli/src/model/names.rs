@@ -15,6 +15,12 @@ pub const PRELUDE: [&str; 26] = [
     "String", "Sync", "ToString", "Vec",
 ];
 
+/// Types that are no item of any crate.
+const PRIMITIVE: [&str; 17] = [
+    "bool", "char", "f32", "f64", "i128", "i16", "i32", "i64", "i8", "isize", "str", "u128", "u16",
+    "u32", "u64", "u8", "usize",
+];
+
 /// Names that every file of nodes defines itself.
 const FUNCTIONS_OF_NODES: [&str; 7] = [
     "create",
@@ -25,6 +31,11 @@ const FUNCTIONS_OF_NODES: [&str; 7] = [
     "restore",
     "setup",
 ];
+
+/// Whether a path that begins so begins with a type that is in scope everywhere, and not with a crate: `u8::MAX`.
+pub fn begins_with_type(first: &str) -> bool {
+    PRIMITIVE.contains(&first) || PRELUDE.contains(&first)
+}
 
 /// `VisionTop` becomes `VISION_TOP`.
 pub fn constant_case(name: &str) -> String {

@@ -9,7 +9,7 @@ use quote::quote;
 use super::database::{database_modules, quote_instance_parameters, quote_shared_of};
 use super::instance::quote_description;
 use super::layout::{self, doc};
-use super::spelling::{ident, path};
+use super::spelling::{bound, ident, path};
 use crate::model::frame::{FrameField, Hardware};
 use crate::model::{CyclerModel, Runtime};
 
@@ -88,7 +88,7 @@ pub(super) fn quote_generics(cycler: &CyclerModel, bounded: bool) -> (TokenStrea
         Hardware::Absent => (quote!(), quote!()),
         Hardware::Asked(_) if !bounded => (quote!(<Hardware>), quote!(<Hardware>)),
         Hardware::Asked(traits) => {
-            let traits = traits.iter().map(|bound| path(bound));
+            let traits = traits.iter().map(|one| bound(one));
             (
                 quote!(<Hardware: #(#traits +)* Send + Sync>),
                 quote!(<Hardware>),

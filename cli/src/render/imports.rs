@@ -153,12 +153,34 @@ impl VisitMut for OwnNames {
     }
 }
 
+/// The parts of `<u8>::MAX` and `<T as Trait>::Out`, which stay whole.
+fn visit_qualified(qself: &mut syn::QSelf, path: &mut Path, visitor: &mut impl VisitMut) {
+    visitor.visit_qself_mut(qself);
+    for segment in &mut path.segments {
+        visitor.visit_path_segment_mut(segment);
+    }
+}
+
 struct Collect<'a> {
     modules: &'a [String],
     found: BTreeSet<String>,
 }
 
 impl VisitMut for Collect<'_> {
+    fn visit_type_path_mut(&mut self, data: &mut syn::TypePath) {
+        match &mut data.qself {
+            Some(qself) => visit_qualified(qself, &mut data.path, self),
+            None => self.visit_path_mut(&mut data.path),
+        }
+    }
+
+    fn visit_expr_path_mut(&mut self, value: &mut syn::ExprPath) {
+        match &mut value.qself {
+            Some(qself) => visit_qualified(qself, &mut value.path, self),
+            None => self.visit_path_mut(&mut value.path),
+        }
+    }
+
     fn visit_path_mut(&mut self, path: &mut Path) {
         if let Some((imported, _)) = split(path, self.modules) {
             self.found.insert(imported);
@@ -183,6 +205,20 @@ struct Shorten<'a> {
 }
 
 impl VisitMut for Shorten<'_> {
+    fn visit_type_path_mut(&mut self, data: &mut syn::TypePath) {
+        match &mut data.qself {
+            Some(qself) => visit_qualified(qself, &mut data.path, self),
+            None => self.visit_path_mut(&mut data.path),
+        }
+    }
+
+    fn visit_expr_path_mut(&mut self, value: &mut syn::ExprPath) {
+        match &mut value.qself {
+            Some(qself) => visit_qualified(qself, &mut value.path, self),
+            None => self.visit_path_mut(&mut value.path),
+        }
+    }
+
     fn visit_path_mut(&mut self, path: &mut Path) {
         visit_mut::visit_path_mut(self, path);
         let Some((imported, length)) = split(path, self.modules) else {

@@ -7,7 +7,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use super::layout::{self, comment, doc, empty_line};
-use super::spelling::{ident, path};
+use super::spelling::{bound, ident, path};
 use crate::model::runtime::{Buffer, InstanceModel, Runtime, end};
 use crate::model::{CyclerModel, RuntimeModel};
 pub(super) use instance::quote_body_fields;
@@ -56,7 +56,7 @@ fn quote_create(model: &RuntimeModel) -> TokenStream {
         .iter()
         .map(|instance| quote_access(model, instance));
     let robot = &model.runtime.robot;
-    let bounds = model.runtime.hardware.iter().map(|bound| path(bound));
+    let bounds = model.runtime.hardware.iter().map(|one| bound(one));
     let hardware = ident(if model.runtime.uses_hardware {
         "hardware"
     } else {

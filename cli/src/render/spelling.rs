@@ -6,6 +6,7 @@ use syn::visit_mut::VisitMut;
 
 use crate::model::accessor::Accessor;
 use crate::model::frame::Hardware;
+use crate::model::names::begins_with_type;
 
 /// A name, raw where it is a keyword.
 pub(super) fn ident(name: &str) -> Ident {
@@ -24,6 +25,14 @@ pub(super) fn path(text: &str) -> TokenStream {
     });
     let root = (!text.starts_with("crate::")).then(|| quote!(::));
     quote!(#root #(#names)::*)
+}
+
+/// A trait with its arguments, all of whose paths are absolute.
+pub(super) fn bound(text: &str) -> TokenStream {
+    let mut bound: syn::Path = syn::parse_str(text)
+        .unwrap_or_else(|error| panic!("hulkgen resolved no trait ({error}): {text}"));
+    MakeAbsolute.visit_path_mut(&mut bound);
+    quote!(#bound)
 }
 
 /// A type whose paths are absolute; names without a path are the prelude's.
@@ -46,7 +55,9 @@ struct MakeAbsolute;
 
 impl VisitMut for MakeAbsolute {
     fn visit_path_mut(&mut self, path: &mut syn::Path) {
-        if path.segments.len() > 1 && path.segments[0].ident != "crate" {
+        let first = path.segments.first().map(|first| first.ident.to_string());
+        let first = first.unwrap_or_default();
+        if path.segments.len() > 1 && first != "crate" && !begins_with_type(&first) {
             path.leading_colon.get_or_insert_default();
         }
         syn::visit_mut::visit_path_mut(self, path);
@@ -97,7 +108,7 @@ pub(super) fn quote_hardware(hardware: &Hardware) -> (TokenStream, TokenStream) 
         Hardware::Absent => (quote!(), quote!()),
         Hardware::Asked(traits) if traits.is_empty() => (quote!(<Hardware>), quote!(, Hardware)),
         Hardware::Asked(traits) => {
-            let traits = traits.iter().map(|bound| path(bound));
+            let traits = traits.iter().map(|one| bound(one));
             (quote!(), quote!(, impl #(#traits)+*))
         }
     }

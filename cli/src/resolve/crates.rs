@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use camino::Utf8Path;
 
 use super::robot::{Content, CycleBinding, Dependency, Robot, Tree};
+use crate::scan::lookup::is_prelude;
 use crate::workspace::Workspace;
 
 /// Crates that every generated crate names.
@@ -81,7 +82,11 @@ fn crates_of(text: &str) -> impl Iterator<Item = String> {
     let paths =
         text.split(|letter: char| !(letter.is_alphanumeric() || matches!(letter, '_' | ':')));
     let roots = paths.filter_map(|path| path.split_once("::").map(|(root, _)| root));
-    let roots = roots.filter(|root| !root.is_empty() && !matches!(*root, "std" | "core" | "alloc"));
+    let is_crate = |root: &&str| {
+        let is_standard = matches!(*root, "std" | "core" | "alloc");
+        !root.is_empty() && !is_standard && !is_prelude(root)
+    };
+    let roots = roots.filter(is_crate);
     roots.map(str::to_owned).collect::<Vec<_>>().into_iter()
 }
 

@@ -24,6 +24,17 @@ pub(super) fn interfaces(
         let Some(found) = library.hardware_trait(&source.module, bound) else {
             continue;
         };
+        for name in &found.lost {
+            let message = format!("`{name}` cannot be followed to where it is defined");
+            let error = Diagnostic::new(Code::InvalidSignature, message)
+                .at(
+                    source.file(),
+                    range(signature.span),
+                    "the generated crate has to write this bound, too",
+                )
+                .help(format!("bring `{name}` in with a `use` of its own"));
+            diagnostics.add(error);
+        }
         if let Some(item) = &found.private {
             let error = Diagnostic::new(Code::NotPublic, format!("`{}` is private", item.path()))
                 .at(

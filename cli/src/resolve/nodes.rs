@@ -8,7 +8,7 @@ use super::inputs::Inputs;
 use super::robot::{
     Access, CreationBinding, CycleBinding, DataType, Field, Node, OnFailure, OutputBinding,
 };
-use super::scene::{Scene, SceneNode, report_private};
+use super::scene::{Scene, SceneNode, report_unnameable};
 use crate::diagnostics::{Code, Diagnostic, Diagnostics, position};
 use crate::scan::types::Resolved;
 use crate::scan::{NodeSource, range};
@@ -299,7 +299,7 @@ impl Binder<'_, '_> {
         let data = self.resolve(data);
         let place = range(field.span);
         let source: &NodeSource = self.node.source;
-        report_private(&data, source, &place, self.scene.sources, self.diagnostics);
+        report_unnameable(&data, source, &place, self.scene.sources, self.diagnostics);
         DataType::from(&data)
     }
 

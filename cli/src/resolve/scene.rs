@@ -123,7 +123,7 @@ fn collect_outputs<'a>(
     for (node, SceneNode { source, .. }) in nodes.iter().enumerate() {
         for (name, data, in_place, range) in declared_outputs(source) {
             let data = sources.library.resolve(&source.module, data);
-            report_private(&data, source, &range, sources, diagnostics);
+            report_unnameable(&data, source, &range, sources, diagnostics);
             if let Some(first) = outputs.get(&name) {
                 let cycler = cycler.name();
                 let message = format!("two nodes of cycler `{cycler}` write `{name}`");
@@ -182,14 +182,27 @@ fn declared_outputs(
         .map(|(name, data, in_place, span)| (name.to_string(), data, in_place, range(span)))
 }
 
-/// Types that are declared in a node file have to be public for the generated crate.
-pub(super) fn report_private(
+/// Types that are declared in a node file have to be public for the generated crate, and to have names that it can write.
+pub(super) fn report_unnameable(
     data: &Resolved,
     source: &NodeSource,
     range_of_field: &Range<usize>,
     sources: &Sources<'_>,
     diagnostics: &mut Diagnostics,
 ) {
+    for name in &data.lost {
+        let message = format!("`{name}` cannot be followed to where it is defined");
+        let error = Diagnostic::new(Code::InvalidField, message)
+            .at(
+                source.file(),
+                range_of_field.clone(),
+                "the generated crate has to write this type, too",
+            )
+            .help(format!(
+                "bring `{name}` in with a `use` of its own, or give the type a name with `pub type` and write that"
+            ));
+        diagnostics.add(error);
+    }
     for item in &data.private {
         let message = format!("`{}` is private", item.path());
         let name = &item.name;

@@ -118,6 +118,10 @@ pub fn compare(a: &Resolved, b: &Resolved) -> Comparison {
             compare(a, b)
         }
         (Shape::Constant(a), Shape::Constant(b)) if a == b => Same,
+        // Of lifetimes rustc knows more.
+        (Shape::Constant(a), Shape::Constant(_)) if a.starts_with('\'') && !a.ends_with('\'') => {
+            Unknown
+        }
         _ => Different,
     }
 }

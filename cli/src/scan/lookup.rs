@@ -47,7 +47,7 @@ impl ItemId {
 }
 
 impl Found {
-    fn is(&self, other: &Self) -> bool {
+    pub(super) fn is(&self, other: &Self) -> bool {
         match (self, other) {
             (Self::Module(a), Self::Module(b)) => a.path == b.path,
             (Self::Item(a), Self::Item(b)) => a.path() == b.path(),
@@ -66,7 +66,9 @@ impl Library<'_> {
             .iter()
             .map(|one| one.ident.to_string())
             .collect();
-        self.follow(module, &segments, path.leading_colon.is_some(), 0)
+        let absolute = path.leading_colon.is_some();
+        self.follow(module, &segments, absolute, 0)
+            .or_else(|| self.beyond(module, &segments, absolute, 0))
     }
 
     /// A module, also one that is brought in by `use`.
@@ -263,7 +265,7 @@ impl Library<'_> {
 }
 
 /// Types and traits that no `use` has to bring in.
-fn is_prelude(name: &str) -> bool {
+pub(crate) fn is_prelude(name: &str) -> bool {
     const NAMES: &[&str] = &[
         "Box",
         "Clone",

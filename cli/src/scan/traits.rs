@@ -10,7 +10,7 @@ use syn::{Item, ItemTrait, PathArguments, ReturnType, TraitItem, Type, TypeParam
 use super::library::Library;
 use super::lookup::{Found, ItemId};
 use super::module::Module;
-use super::types::written;
+use super::types::Substitutions;
 use crate::diagnostics::listed;
 
 pub use methods::{Answer, Method};
@@ -18,7 +18,7 @@ pub use methods::{Answer, Method};
 /// A hardware trait that a node asks for.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub struct Interface {
-    /// Absolute path: `hardware::CameraInterface`.
+    /// Absolute path with arguments: `hardware::CameraInterface`, `hardware::Drives<types::Arm>`.
     pub path: String,
     /// Whether a method returns anything but nothing; `None` where the trait was not found.
     pub reading: Option<bool>,
@@ -33,6 +33,8 @@ pub struct HardwareTrait {
     pub interface: Interface,
     /// The trait, if generated code cannot name it.
     pub private: Option<ItemId>,
+    /// Names in it that could not be followed.
+    pub lost: Vec<String>,
 }
 
 /// Supertraits may lead in circles; no honest trait has more.
@@ -41,16 +43,33 @@ const DEEPEST: usize = 8;
 /// Traits without methods that say nothing about hardware.
 const MARKERS: &[&str] = &["Send", "Sized", "Sync", "Unpin"];
 
+impl Interface {
+    /// The trait's own name.
+    pub fn name(&self) -> &str {
+        let path = self.path.split('<').next().unwrap_or(&self.path);
+        path.rsplit("::").next().unwrap_or(path)
+    }
+}
+
 impl Library<'_> {
     /// The trait of a bound that is written in a module; nothing for markers such as `Send`.
     pub fn hardware_trait(&self, module: &Rc<Module>, bound: &syn::Path) -> Option<HardwareTrait> {
-        let known = |path: String, reading, private| {
+        let arguments = bound.segments.last().map(|last| &last.arguments);
+        let arguments = arguments.unwrap_or(&PathArguments::None);
+        let arguments = self.absolute_arguments(module, arguments);
+        let known = |path: String, reading, private: Option<ItemId>| {
             let interface = Interface {
-                path,
+                path: format!("{path}{}", arguments.text),
                 reading,
                 methods: None,
             };
-            Some(HardwareTrait { interface, private })
+            let private = private.or_else(|| arguments.private.first().cloned());
+            let lost = arguments.lost.clone();
+            Some(HardwareTrait {
+                interface,
+                private,
+                lost,
+            })
         };
         match self.find(module, bound) {
             Some(Found::Prelude(name)) if MARKERS.contains(&name.as_str()) => None,
@@ -68,8 +87,24 @@ impl Library<'_> {
                     found
                 })
             }
-            Some(Found::Module(_)) | None => known(written(bound), None, None),
+            Some(Found::Module(_)) | None => self.lost_trait(module, bound),
         }
+    }
+
+    /// A trait whose definition is not to be seen.
+    fn lost_trait(&self, module: &Rc<Module>, bound: &syn::Path) -> Option<HardwareTrait> {
+        let found = self.absolute_path(module, bound, &Substitutions::new());
+        let interface = Interface {
+            path: found.text,
+            reading: None,
+            methods: None,
+        };
+        let private = found.private.into_iter().next();
+        Some(HardwareTrait {
+            interface,
+            private,
+            lost: found.lost,
+        })
     }
 
     /// Why `crate::Type` of a member names no type that others can name, and what to do; `None`: nothing is wrong.

@@ -1,16 +1,20 @@
 //! Types as an author wrote them, made absolute: what generated code names, and what can be compared.
 
+pub(super) mod absolute;
+mod aliases;
 mod constants;
 
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use quote::ToTokens;
-use syn::{GenericArgument, GenericParam, Item, PathArguments, Type};
+use syn::{GenericArgument, Item, PathArguments, Type};
 
 use super::library::Library;
 use super::lookup::{Found, ItemId};
 use super::module::Module;
+
+pub(super) use aliases::substitutions;
 
 /// A type with every name followed as far as possible.
 #[derive(Clone, Debug)]
@@ -20,6 +24,8 @@ pub struct Resolved {
     pub shape: Shape,
     /// Items in it that generated code cannot name.
     pub private: Vec<ItemId>,
+    /// Names in it that could not be followed to what they mean, so that they mean nothing elsewhere.
+    pub lost: Vec<String>,
 }
 
 /// What a type is, by definitions instead of names.
@@ -34,7 +40,7 @@ pub enum Shape {
     Array(Box<Resolved>, Box<Resolved>),
     Slice(Box<Resolved>),
     Reference(Box<Resolved>),
-    /// A length or another constant argument.
+    /// A length or another constant argument, or a lifetime.
     Constant(String),
     /// A name in it could not be followed, or it is nothing that data has.
     Unknown,
@@ -120,6 +126,15 @@ impl Resolved {
             text,
             shape: Shape::Unknown,
             private: Vec::new(),
+            lost: Vec::new(),
+        }
+    }
+
+    /// A constant or a lifetime.
+    fn constant(text: String, value: String) -> Self {
+        Self {
+            shape: Shape::Constant(value),
+            ..Self::unknown(text)
         }
     }
 
@@ -131,10 +146,12 @@ impl Resolved {
     ) -> Self {
         let texts: Vec<String> = parts.iter().map(|part| part.text.clone()).collect();
         let private = parts.iter().flat_map(|part| part.private.clone()).collect();
+        let lost = parts.iter().flat_map(|part| part.lost.clone()).collect();
         Self {
             text: text(&texts),
             shape: shape(parts),
             private,
+            lost,
         }
     }
 }
@@ -201,7 +218,8 @@ impl Library<'_> {
                 Resolved::of(parts, tuple_text, Shape::Tuple)
             }
             Type::Array(array) => {
-                let parts = vec![inner(&array.elem), self.constant(module, &array.len)];
+                let length = self.constant(module, &array.len, generics);
+                let parts = vec![inner(&array.elem), length];
                 Resolved::of(
                     parts,
                     |texts| format!("[{}; {}]", texts[0], texts[1]),
@@ -229,7 +247,7 @@ impl Library<'_> {
             }
             Type::Paren(paren) => inner(&paren.elem),
             Type::Group(group) => inner(&group.elem),
-            other => Resolved::unknown(written(other)),
+            other => self.absolute_type(module, other, generics),
         }
     }
 
@@ -246,10 +264,16 @@ impl Library<'_> {
             return argument.clone();
         }
         let Some(arguments) = self.arguments(module, path, generics, depth) else {
-            return Resolved::unknown(written(path));
+            return self.absolute_path(module, path, generics);
         };
         match self.find(module, path) {
-            Some(Found::Item(item)) => self.resolve_item(&item, arguments, path, depth),
+            Some(Found::Item(item)) => match item.item() {
+                Item::Struct(_) | Item::Enum(_) | Item::Union(_) => {
+                    self.structure(&item, arguments)
+                }
+                Item::Type(alias) => self.alias(&item, alias, arguments, depth),
+                _ => self.absolute_path(module, path, generics),
+            },
             Some(Found::Prelude(name)) => named(name.clone(), Definition::Prelude(name), arguments),
             Some(Found::Standard(path)) => {
                 let path = path.join("::");
@@ -273,48 +297,22 @@ impl Library<'_> {
                 let path = path.join("::");
                 named(path.clone(), Definition::Foreign(path), arguments)
             }
-            Some(Found::Module(_)) | None => Resolved::unknown(written(path)),
+            Some(Found::Module(_)) | None => self.absolute_path(module, path, generics),
         }
     }
 
-    /// A struct, enum or union by its public path; an alias by what it stands for.
-    fn resolve_item(
-        &self,
-        item: &ItemId,
-        arguments: Vec<Resolved>,
-        path: &syn::Path,
-        depth: usize,
-    ) -> Resolved {
-        match item.item() {
-            Item::Struct(_) | Item::Enum(_) | Item::Union(_) => {
-                let public = self.public_path(item);
-                let text = public.clone().unwrap_or_else(|| item.path());
-                let mut resolved = named(text, Definition::Workspace(item.clone()), arguments);
-                if public.is_none() {
-                    resolved.private.push(item.clone());
-                }
-                resolved
-            }
-            Item::Type(alias) => {
-                let Some(generics) = substitutions(&alias.generics, arguments) else {
-                    return Resolved::unknown(written(path));
-                };
-                let expanded = self.resolve_with(&item.module, &alias.ty, &generics, depth + 1);
-                match self.public_path(item) {
-                    // What the alias stands for is hidden, the alias is not.
-                    Some(text) if !expanded.private.is_empty() && generics.is_empty() => Resolved {
-                        text,
-                        shape: expanded.shape,
-                        private: Vec::new(),
-                    },
-                    _ => expanded,
-                }
-            }
-            _ => Resolved::unknown(written(path)),
+    /// A struct, enum or union by its public path.
+    fn structure(&self, item: &ItemId, arguments: Vec<Resolved>) -> Resolved {
+        let public = self.public_path(item);
+        let text = public.clone().unwrap_or_else(|| item.path());
+        let mut resolved = named(text, Definition::Workspace(item.clone()), arguments);
+        if public.is_none() {
+            resolved.private.push(item.clone());
         }
+        resolved
     }
 
-    /// Types and constants between `<` and `>`; `None` if something else stands there.
+    /// Types, constants and lifetimes between `<` and `>`; `None` if something else stands there.
     fn arguments(
         &self,
         module: &Rc<Module>,
@@ -333,7 +331,11 @@ impl Library<'_> {
                             GenericArgument::Type(data) => {
                                 self.type_or_constant(module, data, generics, depth)
                             }
-                            GenericArgument::Const(value) => self.constant(module, value),
+                            GenericArgument::Const(value) => self.constant(module, value, generics),
+                            GenericArgument::Lifetime(lifetime) => {
+                                let text = lifetime.to_string();
+                                Resolved::constant(text.clone(), text)
+                            }
                             _ => return None,
                         });
                     }
@@ -361,23 +363,6 @@ impl Library<'_> {
         }
         self.resolve_with(module, data, generics, depth)
     }
-}
-
-/// What the parameters of an alias or a struct stand for; `None` if their numbers differ.
-pub(super) fn substitutions(
-    generics: &syn::Generics,
-    arguments: Vec<Resolved>,
-) -> Option<Substitutions> {
-    let names: Vec<String> = generics
-        .params
-        .iter()
-        .filter_map(|parameter| match parameter {
-            GenericParam::Type(parameter) => Some(parameter.ident.to_string()),
-            GenericParam::Const(parameter) => Some(parameter.ident.to_string()),
-            GenericParam::Lifetime(_) => None,
-        })
-        .collect();
-    (names.len() == arguments.len()).then(|| names.into_iter().zip(arguments).collect())
 }
 
 pub(super) fn named(name: String, definition: Definition, arguments: Vec<Resolved>) -> Resolved {

@@ -1,7 +1,8 @@
 //! The table of written types and paths: who reads what as what.
 
 use super::{with_field, writes};
-use crate::scan::fixture::Fixture;
+use crate::diagnostics::Diagnostics;
+use crate::scan::fixture::{Fixture, Node};
 
 /// Codes for a node that reads the output `x` of this type by this field.
 fn answer(output: &str, field: &str) -> (Vec<&'static str>, String) {
@@ -261,4 +262,62 @@ fn a_crate_that_only_types_know_comes_with_their_dependency() {
     let line = found.map(|one| (one.key.as_str(), one.requirement.as_str()));
     let expected = "{ package = \"linear-algebra\", version = \"0.3\" }";
     assert_eq!(line, Some(("linear", expected)));
+}
+
+#[test]
+fn a_type_of_which_nobody_can_tell_what_it_is_is_told_at_its_field() {
+    for (head, written) in [
+        (
+            "use nalgebra::*; use ordered_float::*;",
+            "Vec<Vector3<f32>>",
+        ),
+        ("", "[u8; Self::COUNT]"),
+        ("use types::*;", "Lost"),
+    ] {
+        let output = format!("x: MainOutput<{written}>,");
+        let fixture = Fixture::control(&["a", "b"]).node(
+            "a",
+            Node {
+                head,
+                ..writes(&output)
+            },
+        );
+        let answer = with_field(fixture, "b", &format!("y: Input<{written}, \"x\">")).answer();
+        answer.expect_error(
+            "invalid-field",
+            &["cannot be followed", "crates/nodes/src/a.rs", "help: "],
+        );
+    }
+}
+
+#[test]
+fn a_hardware_trait_keeps_its_arguments() {
+    let hardware = "pub struct Hardware; pub struct Arm;
+        pub trait Drives<T, const N: usize>: Send { fn drive(&self, value: T) -> Result<()>; }";
+    let node = |asks| Node {
+        head: "use hardware::{Arm, Drives};",
+        cycle: "hardware: HardwareInterface,",
+        asks,
+        ..Node::default()
+    };
+    let robot = Fixture::control(&["a"])
+        .node("a", node("Drives<Vec<Arm>, 3> + Drives<u8, 3>"))
+        .file("crates/hardware/src/lib.rs", hardware)
+        .robot();
+    let bounds = &robot.cyclers[0].nodes[0].cycle_bounds;
+    let paths: Vec<&str> = bounds.iter().map(|bound| bound.path.as_str()).collect();
+    assert_eq!(
+        paths,
+        [
+            "hardware::Drives<Vec<hardware::Arm>, 3>",
+            "hardware::Drives<u8, 3>"
+        ]
+    );
+    let schedule =
+        crate::schedule::schedule(&robot, &mut Diagnostics::new()).expect("it has an order");
+    let files = crate::render::render(&crate::model::describe(&robot, &schedule));
+    let text = &files[camino::Utf8Path::new("generated/src/runtime.rs")];
+    for bound in ["Drives<Vec<Arm>, 3>", "Drives<u8, 3>"] {
+        assert!(text.contains(bound), "{text}");
+    }
 }

@@ -87,9 +87,9 @@ fn names_resolve_as_rustc_would() {
         ("", "<u8 as Trait>::Out", "<u8 as Trait>::Out", false),
         ("", "Box<dyn Fn()>", "Box<dyn Fn ()>", false),
         (
-            "#[cfg(a)] struct X; #[cfg(not(a))] struct X;",
+            "#[cfg(a)] pub struct X; #[cfg(not(a))] pub struct X;",
             "X",
-            "X",
+            "nodes::a::X",
             false,
         ),
         ("use types::Vec;", "Vec<u8>", "Vec<u8>", false),
@@ -199,4 +199,107 @@ fn types_are_only_told_apart_where_that_is_certain() {
             "{b} {a}"
         );
     }
+}
+
+#[test]
+fn what_cannot_be_known_is_written_with_absolute_names() {
+    let alias = "pub type Grid<T, const N: usize = 2> = [[T; N]; 2];";
+    let with_out = "pub trait HasOut { type Out; } pub type Out<T> = <T as HasOut>::Out;";
+    for (head, written, text, known) in [
+        (
+            "pub struct S;",
+            "[f32; S::COUNT]",
+            "[f32; nodes::a::S::COUNT]",
+            false,
+        ),
+        (
+            "use types::COUNT as N;",
+            "Vec<[f32; N + 1]>",
+            "Vec<[f32; types::COUNT + 1]>",
+            false,
+        ),
+        (
+            "",
+            "[u8; u8::MAX as usize]",
+            "[u8; u8::MAX as usize]",
+            false,
+        ),
+        (
+            "use types::Ball; const fn size() -> usize { 1 }",
+            "[u8; size_of::<Ball>() + { let a = 1; a }]",
+            "[u8; size_of::<types::Ball> () + { let a = 1; a }]",
+            false,
+        ),
+        (
+            "pub const fn size() -> usize { 1 }",
+            "[u8; size()]",
+            "[u8; nodes::a::size ()]",
+            false,
+        ),
+        (
+            "use nalgebra::*;",
+            "Vector3<f32>",
+            "nalgebra::Vector3<f32>",
+            true,
+        ),
+        (
+            "use std::collections::*;",
+            "BTreeMap<u8, Vec<u8>>",
+            "std::collections::BTreeMap<u8, Vec<u8>>",
+            true,
+        ),
+        ("use nalgebra::*;", "types::Ball", "types::Ball", true),
+        (alias, "Grid<u8, 3>", "[[u8; 3]; 2]", true),
+        (alias, "Grid<u8>", "[[u8; 2]; 2]", true),
+        (
+            with_out,
+            "Out<types::Ball>",
+            "nodes::a::Out<types::Ball>",
+            false,
+        ),
+        (
+            with_out,
+            "<types::Ball as HasOut>::Out",
+            "<types::Ball as nodes::a::HasOut>::Out",
+            false,
+        ),
+        (
+            "use types::*;",
+            "Box<dyn Fn(Ball) -> Point>",
+            "Box<dyn Fn (types::Ball) -> types::Point>",
+            false,
+        ),
+        (
+            "use std::borrow::Cow;",
+            "Cow<'static, str>",
+            "std::borrow::Cow<'static, str>",
+            true,
+        ),
+        (
+            "macro_rules! define { ($name:ident) => { pub struct $name; } } define!(Made);",
+            "Made",
+            "nodes::a::Made",
+            false,
+        ),
+        (
+            "mod inner { pub use std::collections::*; pub use super::made::*; } use inner::*; pub mod made { \
+             macro_rules! define { ($name:ident) => { pub struct $name; } } define!(Made); \
+             const fn count() -> usize { 1 } pub const fn size() -> usize { 1 } }",
+            "(Made, BTreeSet<u8>, [u8; size()])",
+            "(nodes::a::made::Made, std::collections::BTreeSet<u8>, [u8; nodes::a::made::size ()])",
+            false,
+        ),
+        (
+            "use made::size as count; pub mod made { pub const fn size() -> usize { 1 } }",
+            "[u8; count()]",
+            "[u8; nodes::a::made::size ()]",
+            false,
+        ),
+    ] {
+        let resolved = resolve(head, written);
+        assert_eq!(resolved.text, text, "{head} {written}");
+        assert_eq!(resolved.is_known(), known, "{head} {written}");
+        assert!(resolved.private.is_empty(), "{head} {written}");
+    }
+    assert_eq!(resolve("struct S;", "[u8; S::COUNT]").private.len(), 1);
 }

@@ -4,20 +4,21 @@ use std::rc::Rc;
 
 use syn::{Expr, Item};
 
-use super::{Resolved, Shape, written};
+use super::{Resolved, Substitutions, written};
 use crate::scan::library::Library;
 use crate::scan::lookup::{Found, ItemId};
 use crate::scan::module::Module;
 
 impl Library<'_> {
     /// A number between `<` and `>` or behind the `;` of an array.
-    pub(super) fn constant(&self, module: &Rc<Module>, value: &Expr) -> Resolved {
+    pub(super) fn constant(
+        &self,
+        module: &Rc<Module>,
+        value: &Expr,
+        generics: &Substitutions,
+    ) -> Resolved {
         if let Some(number) = number(value) {
-            return Resolved {
-                shape: Shape::Constant(number.clone()),
-                text: number,
-                private: Vec::new(),
-            };
+            return Resolved::constant(number.clone(), number);
         }
         let value = match value {
             Expr::Block(block) => match block.block.stmts.as_slice() {
@@ -27,11 +28,19 @@ impl Library<'_> {
             value => value,
         };
         if let Expr::Path(path) = value
-            && let Some(Found::Item(item)) = self.find(module, &path.path)
+            && path.qself.is_none()
         {
-            return self.constant_item(&item);
+            let name = path.path.get_ident().map(ToString::to_string);
+            if let Some(argument) = name.and_then(|name| generics.get(&name)) {
+                return argument.clone();
+            }
+            if let Some(Found::Item(item)) = self.find(module, &path.path)
+                && matches!(item.item(), Item::Const(_))
+            {
+                return self.constant_item(&item);
+            }
         }
-        Resolved::unknown(written(value))
+        self.absolute_constant(module, value, generics)
     }
 
     /// A constant by its number, where its definition is one.
@@ -41,21 +50,12 @@ impl Library<'_> {
         };
         let public = self.public_path(item);
         match (number(&constant.expr), public) {
-            (Some(number), Some(text)) => Resolved {
-                text,
-                shape: Shape::Constant(number),
-                private: Vec::new(),
-            },
-            (Some(number), None) => Resolved {
-                text: number.clone(),
-                shape: Shape::Constant(number),
-                private: Vec::new(),
-            },
+            (Some(number), Some(text)) => Resolved::constant(text, number),
+            (Some(number), None) => Resolved::constant(number.clone(), number),
             (None, Some(text)) => Resolved::unknown(text),
             (None, None) => Resolved {
-                text: item.path(),
-                shape: Shape::Unknown,
                 private: vec![item.clone()],
+                ..Resolved::unknown(item.path())
             },
         }
     }
