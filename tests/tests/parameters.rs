@@ -298,8 +298,8 @@ fn what_serde_alone_knows_is_not_judged() {
     for data in [
         "BTreeMap<u8, u8>",
         "nalgebra::DVector<f32>",
-        "Missing",
-        "Either<Missing>",
+        "nalgebra::Unseen",
+        "Either<nalgebra::Unseen>",
         "(u8, nalgebra::DMatrix<f32>)",
         "std::sync::Mutex<u8>",
     ] {

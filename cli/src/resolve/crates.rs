@@ -6,13 +6,13 @@ use camino::Utf8Path;
 
 use super::robot::{Content, CycleBinding, Dependency, Robot, Tree};
 use crate::scan::lookup::is_prelude;
-use crate::workspace::Workspace;
+use crate::workspace::{OF_GENERATED, Workspace};
 
 /// Crates that every generated crate names.
-const ALWAYS: &[&str] = &["framework", "serde"];
+const ALWAYS: [&str; 2] = [OF_GENERATED[0], OF_GENERATED[1]];
 
 /// What every target names.
-const SERVER: &str = "hulkgen_communication";
+const SERVER: &str = OF_GENERATED[2];
 
 /// Every crate of the generated crate's `[dependencies]`, sorted by name.
 pub(crate) fn dependencies(workspace: &Workspace, robot: &Robot) -> Vec<Dependency> {

@@ -10,7 +10,7 @@ use camino::{Utf8Path, Utf8PathBuf};
 use super::{Workspace, glob};
 use dependencies::{Dependencies, read_dependencies};
 
-pub use dependencies::Origin;
+pub use dependencies::{OF_GENERATED, Origin};
 
 /// The packages of a workspace, and what the root says about dependencies.
 #[derive(Debug, Default)]

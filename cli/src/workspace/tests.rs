@@ -303,3 +303,19 @@ fn a_dependency_keeps_the_name_and_the_package_that_its_author_gave() {
         assert_eq!(line(name), None, "it has another name");
     }
 }
+
+#[test]
+fn the_framework_is_called_as_generated_code_calls_it_by_whatever_other_name_the_root_has_it_too() {
+    let root = "[workspace]\nmembers = []\n[workspace.dependencies]\n\
+                hulkgen-framework = { path = \"/elsewhere/framework\" }\n\
+                framework = { package = \"hulkgen-framework\", path = \"/elsewhere/framework\" }\n";
+    let workspace = workspace(&[("Cargo.toml", root)]);
+    let line = workspace
+        .members()
+        .requirement("framework", Utf8Path::new("generated"), &[]);
+    let (key, requirement) = line.expect("the root has it");
+    assert_eq!(
+        (&*key, &*requirement),
+        ("framework", "{ workspace = true }")
+    );
+}

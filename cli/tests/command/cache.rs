@@ -170,7 +170,7 @@ const NOTICED: &[Change] = &[
     ("a link leads somewhere else", |robot| {
         robot.write(
             "nodes/other.rs",
-            &robot.read("nodes/src/linked.rs").replace("Linked", "Else"),
+            "pub mod inner;\npub type Linked = inner::Linked;\n",
         );
         fs::remove_file(robot.path("nodes/src/linked.rs")).expect("it is there");
         symlink("../other.rs", robot.path("nodes/src/linked.rs")).expect("links are known");
@@ -181,7 +181,11 @@ const NOTICED: &[Change] = &[
         symlink("../../linked.rs", inner).expect("links are known");
     }),
     ("what a link leads to is edited", |robot| {
-        robot.edit("nodes/linked.rs", "struct Linked", "struct Else");
+        robot.edit(
+            "nodes/linked.rs",
+            "pub struct Linked;",
+            "pub type Linked = u8;",
+        );
     }),
     ("a file comes into a folder", |robot| {
         robot.write("parameters/moon/default.toml", "steps = 2\n");

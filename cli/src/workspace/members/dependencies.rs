@@ -11,6 +11,9 @@ use camino::{Utf8Component, Utf8Path, Utf8PathBuf};
 
 use super::{Member, Members, dotted, normalized, relative};
 
+/// What generated code calls so, whatever its robot does: a package that anybody calls so has this name.
+pub const OF_GENERATED: [&str; 3] = ["framework", "serde", "hulkgen_communication"];
+
 /// A dependency table: crate name as written in `use` → what stands there.
 pub(super) type Dependencies = BTreeMap<String, Entry>;
 
@@ -167,9 +170,12 @@ impl Members {
             entries.map(|entry| (entry, member.of_cargo.as_path()))
         });
         let (mut shared, mut own): (Vec<_>, Vec<_>) = (shared.collect(), own.collect());
-        // The plainest name first: the package's own, then the shortest.
+        // That of generated code first, then the plainest: the package's own, then the shortest.
         for entries in [&mut shared, &mut own] {
-            entries.sort_by_key(|(entry, _)| (entry.package.is_some(), entry.key.len()));
+            entries.sort_by_key(|(entry, _)| {
+                let is_generated = OF_GENERATED.contains(&&*underscored(&entry.key));
+                (!is_generated, entry.package.is_some(), entry.key.len())
+            });
         }
         let mut taken: BTreeSet<String> = self.libraries.keys().cloned().collect();
         let mut found: Vec<Outside> = Vec::new();
