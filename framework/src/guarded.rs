@@ -80,6 +80,8 @@ pub struct Guarded<N> {
     node: N,
     /// It panicked: its state cannot be trusted until it is created anew.
     broken: bool,
+    /// Whether its failures left behind what only the ledger knows: otherwise a recording need not open it.
+    noted: bool,
     calls: u64,
     ledger: Box<Ledger>,
 }
@@ -104,6 +106,7 @@ impl<N> Guarded<N> {
         Self {
             node,
             broken: false,
+            noted: false,
             calls: 0,
             ledger: Box::new(Ledger {
                 name,
@@ -192,6 +195,7 @@ impl<N> Guarded<N> {
         match self.call_and_catch(cycle, call) {
             Ok(outputs) => {
                 self.ledger.good_at = Some(cycle.time.start);
+                self.noted = true;
                 Ok(Held::Written(outputs))
             }
             Err(error) if ends_cycle(&error, cycle.in_setup) => Err(error),
@@ -251,13 +255,18 @@ impl<N> Guarded<N> {
     }
 
     /// What [`Condition`] is made of.
-    pub(crate) fn failed(&self) -> (bool, &Option<String>, Option<Timestamp>) {
+    #[inline]
+    pub(crate) fn failed(&self) -> (bool, Option<&String>, Option<Timestamp>) {
+        if !self.noted {
+            return (self.broken, None, None);
+        }
+        cold_path();
         let Ledger {
             not_renewed,
             good_at,
             ..
         } = &*self.ledger;
-        (self.broken, not_renewed, *good_at)
+        (self.broken, not_renewed.as_ref(), *good_at)
     }
 
     /// What the node did so far; how long it took, the instance knows.
@@ -288,6 +297,7 @@ impl<N> Guarded<N> {
                         // The next failure names the node itself.
                         let reason = Error::from(error.into_boxed()).to_string();
                         self.ledger.not_renewed = Some(reason);
+                        self.noted = true;
                         Ok(())
                     }
                     on_failure => Err(error.of_node(name, Some(on_failure))),
@@ -387,6 +397,7 @@ impl<N: Serialize + DeserializeOwned> State for Guarded<N> {
 
     fn set_condition(&mut self, condition: Condition) {
         self.broken = condition.broken;
+        self.noted = condition.not_renewed.is_some() || condition.good_at.is_some();
         self.ledger.not_renewed = condition.not_renewed;
         self.ledger.good_at = condition.good_at;
     }

@@ -9,6 +9,7 @@
 mod body;
 mod bytes;
 mod capture;
+mod encode;
 mod ends;
 mod history;
 mod inputs;
@@ -21,7 +22,7 @@ mod trace;
 mod types;
 
 pub use body::{Loaded, Recorded, Visit, digest};
-pub use bytes::{Loading, SaveError, Saving};
+pub use bytes::{Loading, Reason, SaveError, Saving};
 pub(crate) use capture::{BEGUN, FINISHED, Written};
 pub use capture::{Capture, Head, PARAMETERS, Stored, VERSION, Values};
 pub use hulkgen_recording::{Counts, Settings};

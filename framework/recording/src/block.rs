@@ -1,7 +1,6 @@
 //! What a cycler writes its frames into: memory that is reserved once.
 
-use std::fmt;
-use std::io;
+use std::{fmt, io, mem};
 
 use hulkgen_mcap::{ChannelId, MESSAGE_HEAD, RECORD_HEAD, opcode};
 
@@ -28,8 +27,10 @@ pub struct Full;
 /// The data of one message, being written; never longer than there is room.
 #[derive(Debug)]
 pub struct Writing<'block> {
-    bytes: &'block mut [u8],
-    length: usize,
+    /// Behind what was written; nothing, once something had no room.
+    free: &'block mut [u8],
+    /// How much was free in the beginning.
+    room: usize,
     is_full: bool,
 }
 
@@ -89,14 +90,14 @@ impl Block {
             return Err(Full);
         }
         if written.is_ok() {
-            let length = writing.length;
+            let length = writing.length();
             let mut head = Writing::new(head);
-            head.put(&[opcode::MESSAGE])?;
-            head.put(&((MESSAGE_HEAD + length) as u64).to_le_bytes())?;
-            head.put(&channel.number().to_le_bytes())?;
-            head.put(&sequence.to_le_bytes())?;
-            head.put(&time.to_le_bytes())?;
-            head.put(&time.to_le_bytes())?;
+            head.add([opcode::MESSAGE]);
+            head.add(((MESSAGE_HEAD + length) as u64).to_le_bytes());
+            head.add(channel.number().to_le_bytes());
+            head.add(sequence.to_le_bytes());
+            head.add(time.to_le_bytes());
+            head.add(time.to_le_bytes());
             self.length += RECORD_HEAD + MESSAGE_HEAD + length;
         }
         Ok(written)
@@ -105,52 +106,68 @@ impl Block {
 
 impl<'block> Writing<'block> {
     /// From the beginning of this memory on.
+    #[inline]
     pub fn new(bytes: &'block mut [u8]) -> Self {
         Self {
-            bytes,
-            length: 0,
+            room: bytes.len(),
+            free: bytes,
             is_full: false,
         }
     }
 
-    /// How many bytes were written.
-    pub fn length(&self) -> usize {
-        self.length
-    }
-
-    /// Appends, unless there is no room: then nothing more is written, and the message is not.
+    /// How many bytes were written; none, once something had no room.
     #[inline]
-    pub fn put(&mut self, bytes: &[u8]) -> Result<(), Full> {
-        self.fill(|free| {
-            let place = free.get_mut(..bytes.len())?;
-            place.copy_from_slice(bytes);
-            Some(bytes.len())
-        })
+    pub fn length(&self) -> usize {
+        self.room - self.free.len()
     }
 
-    /// Lets `write` append into what is free. It tells how many bytes it has written from the beginning; `None`, or more than
-    /// there are, where there is no room for all of them: then the message is not.
+    /// Whether something had no room: then nothing is written any more, and the message is not.
+    #[inline]
+    pub fn is_full(&self) -> bool {
+        self.is_full
+    }
+
+    /// Appends so many bytes. Whether they had room, [`Self::is_full`] tells: whoever writes many asks once.
+    #[inline]
+    pub fn add<const BYTES: usize>(&mut self, bytes: [u8; BYTES]) {
+        match mem::take(&mut self.free).split_first_chunk_mut() {
+            Some((place, free)) => {
+                *place = bytes;
+                self.free = free;
+            }
+            None => self.refuse(),
+        }
+    }
+
+    /// As [`Self::add`].
+    #[inline]
+    pub fn add_all(&mut self, bytes: &[u8]) {
+        match mem::take(&mut self.free).split_at_mut_checked(bytes.len()) {
+            Some((place, free)) => {
+                place.copy_from_slice(bytes);
+                self.free = free;
+            }
+            None => self.refuse(),
+        }
+    }
+
+    /// As [`Self::add`].
     ///
     /// # Errors
     /// If there is no room, or there was none for something before.
     #[inline]
-    pub fn fill(&mut self, write: impl FnOnce(&mut [u8]) -> Option<usize>) -> Result<(), Full> {
-        let free = self.bytes.get_mut(self.length..).unwrap_or_default();
-        let free_bytes = free.len();
-        let written = match self.is_full {
-            true => None,
-            false => write(free).filter(|written| *written <= free_bytes),
-        };
-        match written {
-            Some(written) => {
-                self.length += written;
-                Ok(())
-            }
-            None => {
-                self.is_full = true;
-                Err(Full)
-            }
+    pub fn put(&mut self, bytes: &[u8]) -> Result<(), Full> {
+        self.add_all(bytes);
+        match self.is_full {
+            true => Err(Full),
+            false => Ok(()),
         }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn refuse(&mut self) {
+        (self.free, self.room, self.is_full) = (&mut [], 0, true);
     }
 }
 

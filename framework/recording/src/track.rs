@@ -139,7 +139,9 @@ impl Track {
             match written {
                 Ok(()) if !is_full => {
                     block.end_frame(time);
-                    self.counts.recorded.fetch_add(1, Ordering::Relaxed);
+                    // Relaxed: a count, and nobody else counts: no locked instruction, which would wait for all of the frame.
+                    let recorded = self.counts.recorded() + 1;
+                    self.counts.recorded.store(recorded, Ordering::Relaxed);
                     return Recorded::Whole;
                 }
                 Err(error) if !is_full => {

@@ -3,10 +3,10 @@
 use std::fmt;
 
 use hulkgen_recording::{Full, Writing};
-use postcard::ser_flavors::{Flavor, Slice};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
+use super::encode::{EncodeError, Encoder};
 use crate::error::{Error, Result};
 
 /// Values on their way into a frame.
@@ -27,8 +27,15 @@ pub enum SaveError {
     /// The block has no room.
     Full,
     /// A value's own `Serialize` failed, or asks for what the format lacks.
-    Value(String),
+    Value(Reason),
 }
+
+/// What a value's own `Serialize` says. One pointer wide: all that saves something has it in its result.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Reason(Box<Text>);
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Text(String);
 
 impl<'a, 'block> Saving<'a, 'block> {
     /// Into this message.
@@ -37,25 +44,26 @@ impl<'a, 'block> Saving<'a, 'block> {
     }
 
     /// Appends a value.
+    ///
+    /// # Errors
+    /// If there is no room, or the value cannot be serialised.
+    #[inline(never)]
     pub fn put<T: Serialize + ?Sized>(&mut self, value: &T) -> Result<(), SaveError> {
-        let mut failure = None;
-        let filled = self.writing.fill(|free| {
-            let mut serializer = postcard::Serializer {
-                output: Room::new(free),
-            };
-            let serialized = value.serialize(&mut serializer);
+        self.encode(|writing| value.serialize(Encoder(writing)))
+    }
+
+    /// Appends values, of which `write` fails as their own `Serialize` does.
+    #[inline]
+    pub(super) fn encode(
+        &mut self,
+        write: impl FnOnce(&mut Writing<'block>) -> Result<(), EncodeError>,
+    ) -> Result<(), SaveError> {
+        match write(self.writing) {
             // Whatever the value makes of a refusal.
-            let length = serializer.output.finalize().ok()?;
-            match serialized {
-                Ok(()) => Some(length),
-                Err(error) => {
-                    failure = Some(SaveError::Value(error.to_string()));
-                    Some(0)
-                }
-            }
-        });
-        filled?;
-        failure.map_or(Ok(()), Err)
+            _ if self.writing.is_full() => Err(SaveError::Full),
+            Err(EncodeError(reason)) => Err(SaveError::Value(reason)),
+            Ok(()) => Ok(()),
+        }
     }
 }
 
@@ -87,46 +95,23 @@ impl<'frame> Loading<'frame> {
     }
 }
 
-/// What postcard writes into: once something had no room, nothing more has, and it has no end.
-struct Room<'free> {
-    free: Slice<'free>,
-    is_full: bool,
-}
-
-impl<'free> Room<'free> {
-    fn new(free: &'free mut [u8]) -> Self {
-        Self {
-            free: Slice::new(free),
-            is_full: false,
-        }
-    }
-
+impl Reason {
     #[cold]
-    fn refuse(&mut self) -> postcard::Error {
-        (self.free, self.is_full) = (Slice::new(&mut []), true);
-        postcard::Error::SerializeBufferFull
+    pub(super) fn new(text: String) -> Self {
+        Self(Box::new(Text(text)))
     }
 }
 
-impl Flavor for Room<'_> {
-    /// How many bytes were written.
-    type Output = usize;
-
-    #[inline]
-    fn try_push(&mut self, byte: u8) -> postcard::Result<()> {
-        self.free.try_push(byte).map_err(|_| self.refuse())
+impl fmt::Display for Reason {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(&self.0.0)
     }
+}
 
-    #[inline]
-    fn try_extend(&mut self, bytes: &[u8]) -> postcard::Result<()> {
-        self.free.try_extend(bytes).map_err(|_| self.refuse())
-    }
-
-    fn finalize(self) -> postcard::Result<usize> {
-        match self.is_full {
-            true => Err(postcard::Error::SerializeBufferFull),
-            false => Ok(self.free.finalize()?.len()),
-        }
+impl SaveError {
+    #[cold]
+    pub(super) fn value(reason: String) -> Self {
+        Self::Value(Reason::new(reason))
     }
 }
 
@@ -140,7 +125,7 @@ impl fmt::Display for SaveError {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Full => write!(formatter, "{Full}"),
-            Self::Value(message) => formatter.write_str(message),
+            Self::Value(reason) => reason.fmt(formatter),
         }
     }
 }

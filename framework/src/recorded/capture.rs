@@ -177,7 +177,7 @@ impl Values<'_, '_> {
         let mut channels = self.channels.iter();
         let channel = channels.find(|(known, _)| *known == name);
         let (_, channel) = channel
-            .ok_or_else(|| SaveError::Value(format!("`{name}` has no channel of values")))?;
+            .ok_or_else(|| SaveError::value(format!("`{name}` has no channel of values")))?;
         self.written.next[self.position] = Some(cycle);
         let time = timestamp.as_nanos();
         self.frame.message(*channel, cycle as u32, time, |writing| {

@@ -8,7 +8,6 @@ use hulkgen_recording::{ChannelId, Recorded, Track};
 use super::output::OutputRecorder;
 use super::{Capture, FINISHED, SaveError, Written};
 use crate::cycler::{Instance, Record};
-use crate::digest::DigestError;
 use crate::driver::Observer;
 use crate::reflect::{self, Path, binary};
 use crate::report::tell;
@@ -138,8 +137,9 @@ impl CycleRecorder {
         if !self.wanted.next() {
             return;
         }
-        // Relaxed: a count.
-        self.wanted_cycles.fetch_add(1, Ordering::Relaxed);
+        // Relaxed: a count, and nobody else counts: no locked instruction, which would wait for all that was written.
+        let wanted = self.wanted_cycles.load(Ordering::Relaxed) + 1;
+        self.wanted_cycles.store(wanted, Ordering::Relaxed);
         let cycle = instance.cycle();
         let keep = END + DIGEST * instance.main_outputs().len();
         let Self {
@@ -177,15 +177,14 @@ impl CycleRecorder {
             let own = self.own;
             let ended = self.track.end(time, |frame| {
                 frame.message(own, cycle.number as u32, time, |writing| {
-                    writing.put(&[FINISHED])?;
-                    let mut put = Ok(());
-                    let digested = instance.digests(&mut |_, _, digest| {
-                        if put.is_ok() {
-                            put = writing.put(&digest.to_le_bytes());
-                        }
-                    });
-                    put?;
-                    digested.map_err(|error: DigestError| SaveError::Value(error.to_string()))
+                    writing.add([FINISHED]);
+                    let digested =
+                        instance.digests(&mut |_, _, digest| writing.add(digest.to_le_bytes()));
+                    match digested {
+                        _ if writing.is_full() => Err(SaveError::Full),
+                        Err(error) => Err(SaveError::value(error.to_string())),
+                        Ok(()) => Ok(()),
+                    }
                 })
             });
             if let Recorded::Failed(error) = ended {
