@@ -5,10 +5,15 @@ use std::thread;
 use std::time::Duration;
 
 use framework::driver::Observer;
-use framework::recorded::{About, Counts, Recording, Settings};
-use framework::{Finished, Instance, Record, Result, Robot, Waited};
+use framework::recorded::{About, Counts, Recording, Saving, Settings};
+use framework::{Finished, Instance, Record, Result, Robot, Timestamp, Waited};
+use hulkgen_recording::Writing;
 use tempfile::TempDir;
 
+/// More than any frame takes, in bytes.
+const ROOM: usize = 1 << 20;
+/// Of one output.
+const DIGEST: usize = 8;
 /// The writer looks every 5 ms: it gets a core before blocks run out.
 const PAUSE: Duration = Duration::from_millis(10);
 /// The file does not grow beyond, in bytes.
@@ -68,4 +73,14 @@ impl Recorder {
         let is_complete = self.counts.iter().all(|counts| counts.is_complete());
         assert!(is_complete, "every cycle is recorded");
     }
+}
+
+/// How many bytes a recording gets of a cycle: its frame and the digests, without what other instances wrote. Asked of what the
+/// cycle has left.
+pub(crate) fn bytes(instance: &mut dyn Instance, since: Option<Timestamp>) -> usize {
+    let mut room = vec![0; ROOM];
+    let mut writing = Writing::new(&mut room);
+    let saved = instance.save_alone(since, &mut Saving::new(&mut writing));
+    saved.expect("there is room for any frame");
+    writing.length() + DIGEST * instance.main_outputs().len()
 }

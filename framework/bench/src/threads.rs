@@ -86,7 +86,7 @@ pub(crate) fn section_of_pace(report: &Report) -> Section {
     Section {
         title: "83 Hz, five threads, cold caches",
         unit: ("HAND", hand),
-        rows: report.rows_until("83 Hz: HAND, p50", "83 Hz: ours, recorded, p99"),
+        rows: report.rows_until("83 Hz: HAND, p50", "83 Hz: a frame's bytes copied, p99"),
         limits: vec![
             Limit::new(
                 "overhead over HAND, p50",
