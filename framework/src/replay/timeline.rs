@@ -131,53 +131,23 @@ impl<'r> Timeline<'r> {
         parameters: P,
         stop: &Stop,
     ) -> Result<(Self, Link)> {
-        let mut moments = Vec::new();
-        let mut instances = Vec::new();
         players.players.retain(|player| !player.frames.is_empty());
-        for (index, (player, chunks)) in players.each().enumerate() {
-            let heads = player.frames.iter().map(|frame| frame.head).enumerate();
-            moments.extend(heads.map(|(position, head)| Moment {
-                at: head.start,
-                instance: index,
-                position,
-            }));
-            let name = player.instance;
-            let mut loaded = player.load_at(0, chunks);
-            for position in 1..player.frames.len() {
-                if loaded.is_ok() {
-                    break;
-                }
-                loaded = player.load_at(position, chunks);
-            }
-            loaded.map_err(|error| error.context(format!("`{name}`")))?;
-            let instance = player.replay_mut()?.instance_mut();
-            let subscriptions = Subscriptions::new(&[]);
-            let (taps, reports) = instance.tap(&subscriptions);
-            let nodes = instance.report().nodes;
-            instances.push(InstanceLink {
-                description: *instance.description(),
-                nodes: nodes.iter().map(|node| node.node).collect(),
-                counters: instance.counters().clone(),
-                taps,
-                reports,
-                access: access(name, subscriptions),
-            });
-        }
-        moments.sort_by_key(|moment| moment.at);
+        let moments = moments(&players);
         let first = moments.first().map(|moment| moment.at);
         let first = first.ok_or_else(|| {
             Error::new("the recording has no cycle that this robot can replay: `--verify` says why")
         })?;
+        let mut instances = recorded(&mut players)?;
         let (caller, moves) = procedure();
-        let mut clients = access(TIMELINE, Subscriptions::new(&[]));
-        clients.procedures = vec![(PROCEDURE, Box::new(caller))];
+        let mut own = access(TIMELINE, Subscriptions::new(&[]));
+        own.procedures = vec![(PROCEDURE, Box::new(caller))];
         instances.push(InstanceLink {
             description: description(),
             nodes: Vec::new(),
             counters: std::sync::Arc::new(Counters::default()),
             taps: Vec::new(),
             reports: Reports::silent(),
-            access: clients,
+            access: own,
         });
         let clock = Clock::wall();
         let (writer, [], []) = crate::buffer::buffer_of(|| parameters.clone(), []);
@@ -443,6 +413,50 @@ impl Inject for Recorded {
     }
 
     fn release_all(&mut self) {}
+}
+
+/// When which cycle began, in order of time.
+fn moments(players: &Players<'_>) -> Vec<Moment> {
+    let mut moments = Vec::new();
+    for (instance, player) in players.players.iter().enumerate() {
+        let heads = player.frames.iter().map(|frame| frame.head).enumerate();
+        moments.extend(heads.map(|(position, head)| Moment {
+            at: head.start,
+            instance,
+            position,
+        }));
+    }
+    moments.sort_by_key(|moment| moment.at);
+    moments
+}
+
+/// What a server needs of the recorded instances; each is at its first cycle that fits this robot.
+fn recorded(players: &mut Players<'_>) -> Result<Vec<InstanceLink>> {
+    let mut instances = Vec::new();
+    for (player, chunks) in players.each() {
+        let name = player.instance;
+        let mut loaded = player.load_at(0, chunks);
+        for position in 1..player.frames.len() {
+            if loaded.is_ok() {
+                break;
+            }
+            loaded = player.load_at(position, chunks);
+        }
+        loaded.map_err(|error| error.context(format!("`{name}`")))?;
+        let instance = player.replay_mut()?.instance_mut();
+        let subscriptions = Subscriptions::new(&[]);
+        let (taps, reports) = instance.tap(&subscriptions);
+        let nodes = instance.report().nodes;
+        instances.push(InstanceLink {
+            description: *instance.description(),
+            nodes: nodes.iter().map(|node| node.node).collect(),
+            counters: instance.counters().clone(),
+            taps,
+            reports,
+            access: access(name, subscriptions),
+        });
+    }
+    Ok(instances)
 }
 
 fn access(instance: &'static str, subscriptions: Subscriptions) -> Access {
