@@ -362,7 +362,7 @@ mod tests {
             assert!((0.4..0.52).contains(&distance), "{distance}");
         }
         assert!(sensors.touch.chest_button);
-        let sensors = sample([0.0, 0.0, 0.0], 800);
+        let sensors = sample([0.0, 0.0, 0.0], 2600);
         assert_eq!(
             (sensors.sonar.left, sensors.sonar.right),
             (NO_ECHO, NO_ECHO)

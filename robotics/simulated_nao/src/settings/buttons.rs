@@ -31,12 +31,12 @@ pub enum Button {
 }
 
 impl Press {
-    /// Wakes the limp robot.
+    /// Wakes the limp robot, also where a busy machine starts its Control late.
     pub(super) fn usual() -> Vec<Self> {
         vec![Self {
             at: 0.5,
             button: Button::Chest,
-            lasts: usual_duration(),
+            lasts: 2.0,
         }]
     }
 
