@@ -35,28 +35,22 @@ impl Programs {
         let own = std::env::current_exe().map_err(|error| error.to_string())?;
         let folder = own.parent().ok_or("this program lies nowhere")?.to_owned();
         let target = folder.parent().ok_or("this program lies nowhere")?;
-        let robot = [
-            "nao_runtime",
-            "--no-default-features",
-            "--features",
-            "target-nao",
-            "--bin",
-            "nao",
-        ];
-        let simulator = ["simulated_nao", "--bin", "nao_simulator"];
-        for words in [&robot[..], &simulator] {
-            let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or("cargo".into()));
-            cargo
-                .args(["build", "--quiet", "--locked", "--package"])
-                .args(words);
-            cargo.arg("--target-dir").arg(target).current_dir(root());
-            if !cfg!(debug_assertions) {
-                cargo.arg("--release");
-            }
-            let status = cargo.status().map_err(|error| format!("cargo: {error}"))?;
-            if !status.success() {
-                return Err(format!("{} cannot be built", words[0]));
-            }
+        let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or("cargo".into()));
+        // At once, with the features of the workspace's tests: what those have compiled is not compiled again.
+        cargo
+            .args(["build", "--quiet", "--locked"])
+            .args(["--package", "nao_runtime", "--package", "simulated_nao"])
+            .args(["--features", "nao_runtime/target-nao"])
+            .args(["--bin", "nao", "--bin", "nao_simulator"])
+            .arg("--target-dir")
+            .arg(target)
+            .current_dir(root());
+        if !cfg!(debug_assertions) {
+            cargo.arg("--release");
+        }
+        let status = cargo.status().map_err(|error| format!("cargo: {error}"))?;
+        if !status.success() {
+            return Err("robot and simulator cannot be built".to_owned());
         }
         Ok(Self { folder })
     }
