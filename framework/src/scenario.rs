@@ -41,6 +41,7 @@ mod draw;
 mod ensemble;
 mod file;
 mod judge;
+mod pace;
 mod play;
 mod report;
 

@@ -1,12 +1,9 @@
-//! Clients that watch a scenario: each of its robots is served at a port of its own, and time passes no faster than theirs.
+//! Clients that watch a scenario: each of its robots is served at a port of its own.
 
 use std::net::{SocketAddr, ToSocketAddrs as _};
-use std::time::Instant;
 
 use crate::error::{Error, Result};
 use crate::launch::{Listening, Serve};
-use crate::stop::Stop;
-use crate::time::Timestamp;
 
 /// Who serves the robots, and where.
 pub(crate) struct Audience {
@@ -62,37 +59,8 @@ impl Audience {
     }
 }
 
-/// How fast the world goes on.
-pub(super) enum Pace {
-    /// As fast as the machine can.
-    Free,
-    /// No faster than clocks on the wall; the world began then.
-    Wall(Instant),
-}
-
-impl Pace {
-    /// Until the world may come to this time.
-    ///
-    /// # Errors
-    /// Where somebody ends the run meanwhile.
-    pub(super) fn wait_for(&mut self, time: Timestamp, stop: &Stop) -> Result<()> {
-        let Self::Wall(begun) = self else {
-            return Ok(());
-        };
-        let (due, elapsed) = (time - Timestamp::ZERO, begun.elapsed());
-        match due.checked_sub(elapsed) {
-            Some(early) => stop.wait(early)?,
-            // A world that was too much for the machine does not hurry afterwards.
-            None => *begun += elapsed - due,
-        }
-        Ok(())
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use std::time::Duration;
-
     use super::*;
     use crate::launch::nobody;
 
@@ -156,26 +124,5 @@ mod tests {
                 "{error}"
             );
         }
-    }
-
-    #[test]
-    fn a_world_that_is_watched_waits_for_the_wall_and_does_not_hurry() {
-        let (stop, begun) = (Stop::new(), Instant::now());
-        let mut pace = Pace::Wall(begun);
-        let at = |milliseconds| Timestamp::ZERO + Duration::from_millis(milliseconds);
-        pace.wait_for(at(30), &stop).expect("nobody stops it");
-        assert!(begun.elapsed() >= Duration::from_millis(30));
-        // It was slow: what comes a little later is not at once.
-        std::thread::sleep(Duration::from_millis(100));
-        pace.wait_for(at(40), &stop).expect("nobody stops it");
-        let late = Instant::now();
-        pace.wait_for(at(60), &stop).expect("nobody stops it");
-        assert!(late.elapsed() >= Duration::from_millis(19));
-        stop.request();
-        let stopped = pace.wait_for(at(60_000), &stop);
-        assert!(stopped.is_err_and(|error| error.is_stopped()));
-        Pace::Free
-            .wait_for(at(60_000), &Stop::new())
-            .expect("it waits for nothing");
     }
 }

@@ -3,24 +3,25 @@
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-use super::audience::{Audience, Pace};
+use super::audience::Audience;
 use super::ensemble::{Ensemble, Lives, together};
 use super::file::{Call, Event, Scenario};
 use super::judge::{Judge, Verdict};
+use super::pace::{Pace, Speed};
 use super::report::Played;
 use crate::digest::Digest;
 use crate::driver::Lockstep;
 use crate::error::{Error, Result};
 use crate::guarded::contain;
 use crate::hardware::Hardware;
-use crate::launch::start_server;
+use crate::launch::{Listening, Served, start_server};
 use crate::procedure::{CallAny, PendingAny};
 use crate::recorded::Recording;
 use crate::reflect::Shape;
 use crate::robot::Robot;
 use crate::stop::Stop;
 use crate::time::Timestamp;
-use crate::world;
+use crate::world::{self, Named};
 
 /// One robot that was created for this scenario and this seed.
 pub(crate) struct Cast<H, P> {
@@ -66,6 +67,7 @@ pub(crate) fn play<H: Hardware + 'static, P: Send>(
     let mut actors = Vec::new();
     let seats = manner.audience.map(|audience| audience.seats(casts.len()));
     let mut seats = seats.transpose()?.unwrap_or_default().into_iter();
+    let speed = Speed::real_time();
     // Servers end when the robots have lived.
     let mut served = Vec::new();
     for (number, cast) in (1..).zip(casts.iter_mut()) {
@@ -74,11 +76,10 @@ pub(crate) fn play<H: Hardware + 'static, P: Send>(
         let procedures = share_procedures(&mut cast.robot);
         let mut lockstep = Lockstep::new(&mut cast.robot, hardware)
             .observed(|instance| recording.as_mut()?.observer(instance));
-        if let Some((audience, listening)) = manner.audience.zip(seats.next()) {
-            let rearm = lockstep.rearming();
-            let mut link = lockstep.robot_mut().link(manner.stop, rearm);
-            link.procedures = world::procedures(&cast.hardware);
-            served.extend(start_server(link, listening, audience.serve)?);
+        if let Some(seat) = manner.audience.zip(seats.next()) {
+            let mut procedures = world::procedures(&cast.hardware);
+            procedures.push(speed.procedure());
+            served.extend(seated(&mut lockstep, procedures, seat, manner.stop)?);
         }
         hardwares.push(hardware);
         actors.push(Mutex::new(Actor {
@@ -91,7 +92,8 @@ pub(crate) fn play<H: Hardware + 'static, P: Send>(
         }));
     }
     let (lasted, is_ended, verdicts) = together(&actors, manner.threads, |ensemble| {
-        let lived = live_through(scenario, seed, &hardwares, ensemble, manner);
+        let pace = Pace::of(manner.audience.map(|_| speed));
+        let lived = live_through(scenario, seed, &hardwares, ensemble, (pace, manner.stop));
         let is_ended = manner.stop.is_requested() && lived.as_ref().is_err_and(Error::is_stopped);
         if !is_ended {
             lived?;
@@ -132,6 +134,19 @@ pub(crate) fn play<H: Hardware + 'static, P: Send>(
         lasted,
         real_time_factor: lasted / begun.elapsed().as_secs_f64().max(1e-9),
     })
+}
+
+/// The server of one robot, with what clients may do to its world.
+fn seated<P>(
+    lockstep: &mut Lockstep<'_, P>,
+    procedures: Vec<Named>,
+    (audience, listening): (&Audience, Listening),
+    stop: &Stop,
+) -> Result<Option<Box<dyn Served>>> {
+    let rearm = lockstep.rearming();
+    let mut link = lockstep.robot_mut().link(stop, rearm);
+    link.procedures = procedures;
+    start_server(link, listening, audience.serve)
 }
 
 /// A robot on its way through the scenario.
@@ -185,17 +200,17 @@ fn live_through<P: Send>(
     seed: u64,
     hardwares: &[&dyn Hardware],
     ensemble: &Ensemble<'_, Actor<'_, P>>,
-    manner: &Manner<'_>,
+    (mut pace, stop): (Pace, &Stop),
 ) -> Result<()> {
-    let (mut pace, stretch) = match manner.audience {
-        Some(_) => (Pace::Wall(Instant::now()), WATCHED_STRETCH),
-        None => (Pace::Free, STRETCH),
+    let stretch = match pace {
+        Pace::Watched(_) => WATCHED_STRETCH,
+        Pace::Free => STRETCH,
     };
     let events = scenario.events(seed);
     let mut world = Timestamp::ZERO;
     for (until, deed) in deeds(scenario, &events)? {
         loop {
-            manner.stop.check()?;
+            stop.check()?;
             ensemble.live(world.min(until));
             if world >= until {
                 break;
@@ -204,7 +219,7 @@ fn live_through<P: Send>(
                 [first, _, ..] => first.advance()?,
                 _ => until.min(world + stretch),
             };
-            pace.wait_for(world, manner.stop)?;
+            pace.wait_for(world, stop)?;
         }
         if ensemble.all().all(|actor| actor.stopped.is_some()) {
             return Ok(());

@@ -1,4 +1,5 @@
 // A panel that is the hand in a simulated world: puts ball and robot elsewhere, pushes, presses, whistles.
+import { expect } from "../connection/socket";
 import { button, complain, eachFrame, make, select } from "../view/dom";
 import type { Context, Panel, PanelKind } from "../panels/panel";
 import { COLORS } from "../panels/series";
@@ -9,6 +10,10 @@ import { outOf, type Point } from "./geometry";
 import { disturb, DISTURB, watchTruth, type Truth } from "./truth";
 
 const PENALTIES = ["PlayerPushing", "LeavingTheField", "IllegalPosition", "LocalGameStuck", "RequestForPickup"];
+/** Robots have it whose world goes on as clients wish: those of a scenario. */
+const SPEED = "framework.procedures.speed";
+/** In times of real time; the last one is more than a machine can. */
+const SPEEDS: readonly [string, number][] = [["hold", 0], ["0.1 ×", 0.1], ["0.25 ×", 0.25], ["0.5 ×", 0.5], ["1 ×", 1], ["2 ×", 2], ["4 ×", 4], ["at full speed", 1000]];
 /** A finger is wider than a ball on a small field, px. */
 const REACH = 24;
 
@@ -21,9 +26,11 @@ class Simulator implements Panel {
   private readonly chart = new Chart(this.canvas, this.draw);
   private readonly state = make("output", { class: "muted" });
   private readonly failure = make("p", { class: "failure", hidden: true });
+  private readonly speed: HTMLSelectElement;
   private readonly strength = make("input", { type: "number", min: 0.5, max: 10, step: 0.5, value: 3, "aria-label": "strength of a push in N s" });
   private readonly stop: () => void;
   private truth: Truth | null = null;
+  private isSpeedAsked = false;
   private dragged: { thing: Thing; at: Point } | null = null;
 
   constructor(private readonly context: Context) {
@@ -33,10 +40,13 @@ class Simulator implements Panel {
         this.deed({ push: [forward * strength, left * strength, 0] });
       });
     const press = (name: string, what: string): HTMLElement => button(name, `somebody presses it: ${what}`, () => this.deed({ press: { button: what, lasts: 0.2 } }));
+    const names = SPEEDS.map(([name]) => name);
+    this.speed = select(names, "1 ×", "how fast the world goes on", () => void this.goOn((SPEEDS[this.speed.selectedIndex] as [string, number])[1]));
+    this.speed.hidden = true;
     this.content = make(
       "div",
       { class: "map" },
-      make("div", { class: "bar" }, make("span", { class: "muted" }, "Drag the ball, the robot, or its nose."), make("span", { class: "space" }), this.state),
+      make("div", { class: "bar" }, make("span", { class: "muted" }, "Drag the ball, the robot, or its nose."), make("span", { class: "space" }), this.state, this.speed),
       this.canvas,
       make(
         "div",
@@ -59,6 +69,8 @@ class Simulator implements Panel {
     this.canvas.addEventListener("pointerdown", (event) => this.grasp(event));
     this.stop = watchTruth(context.robot, (truth) => {
       this.truth = truth;
+      // Who may not write hears neither.
+      if (truth !== null && !this.isSpeedAsked) void this.findSpeed();
       this.draw();
     });
   }
@@ -76,6 +88,25 @@ class Simulator implements Panel {
       () => complain(this.failure, null),
       (error: unknown) => complain(this.failure, error),
     );
+  }
+
+  private async findSpeed(): Promise<void> {
+    this.isSpeedAsked = true;
+    const { paths } = this.context.robot;
+    if ((await paths.find(SPEED).catch(() => undefined)) !== undefined) await this.goOn(null);
+  }
+
+  /** At this speed; `null`: at the one that it has. */
+  private async goOn(wished: number | null): Promise<void> {
+    try {
+      const speed = Number(expect(await this.context.robot.ask({ call: { path: SPEED, argument: wished } }), "called"));
+      const at = SPEEDS.findIndex(([, known]) => known === speed);
+      this.speed.selectedIndex = at < 0 ? SPEEDS.length - 1 : at;
+      this.speed.hidden = false;
+      complain(this.failure, null);
+    } catch (error) {
+      complain(this.failure, error);
+    }
   }
 
   private roll(): void {

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
-import { add, clearLayout, isConnected, open, panel, reads, until } from "../page.mjs";
+import { add, ask, clearLayout, isConnected, open, panel, reads, until } from "../page.mjs";
 import { freePorts, PATIENCE, Stage, step } from "../robot.mjs";
 
 const SCENARIO = join(fileURLToPath(import.meta.url), "../../three_robots.toml");
@@ -61,6 +61,7 @@ export async function severalRobotsAreShown(browser, program, options, folder, p
     await curvesShareAPlot(page, addresses);
     await picture(page, "robots");
     await tokensStayApart(page, addresses);
+    await theWorldIsHeld(page, addresses);
     await strangersStayOutside(page, port + COUNT);
     assert.deepEqual(wrong, []);
   } finally {
@@ -170,4 +171,23 @@ async function strangersStayOutside(page, port) {
   );
   assert.equal(violated, `connect-src ws://127.0.0.1:${port}/socket`);
   step("the page asks no robot that was not named");
+}
+
+/** Those of a scenario share a world, which goes on as somebody wishes who has the token of one of them. */
+async function theWorldIsHeld(page, addresses) {
+  await page.reload();
+  await isConnected(page);
+  await clearLayout(page);
+  await add(page, "Simulator");
+  await choose(page, panel(page, "simulator"), addresses[1]);
+  const speed = panel(page, "simulator").getByLabel("how fast the world goes on");
+  await speed.selectOption("hold");
+  // Who reads an output waits for the next cycle.
+  const goesOn = () => ask(page, { read: { path: "Control.main_outputs.primary_state" } }).then(() => true, () => false);
+  const begin = Date.now();
+  while (await goesOn()) assert(Date.now() - begin < PATIENCE, "a world that is held stands still");
+  await speed.selectOption("at full speed");
+  while (!(await goesOn())) assert(Date.now() - begin < 2 * PATIENCE, "and goes on");
+  await speed.selectOption("1 ×");
+  step("the world of a scenario is held, and goes on");
 }
