@@ -1,13 +1,14 @@
 // Uses the page in a real browser, with a real robot: `node test/browser.mjs [--screenshots FOLDER] PROGRAM [OPTIONS]`.
 // PROGRAM is that of the simulated NAO. Ends with 0 if everything was seen, else it says what was not.
 import assert from "node:assert/strict";
-import { existsSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { cpSync, existsSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { chromium } from "playwright-core";
-import { begin, isConnected } from "./page.mjs";
+import { ask, begin, isConnected } from "./page.mjs";
 import { PATIENCE, Stage, step } from "./robot.mjs";
 import { aRecordingIsReplayed, foreignScriptsDoNotRun, layoutsStay, nonsenseDoesNoHarm, otherRobotsHaveNoFootball, restartsAreSurvived, somethingHappens, tokensAreAskedFor } from "./steps/life.mjs";
+import { additionalOutputsFlow, cyclesAreLookedAt, keysAndLooksAreThere, logsAreFiltered, panelsAreMoved, parametersAreStored, plotsAreHeld, tablesAreWhole, theGraphIsRead } from "./steps/panels.mjs";
 import { severalRobotsAreShown } from "./steps/robots.mjs";
 import { theRobotIsDriven, theWorldIsChanged } from "./steps/robotics.mjs";
 import { aParameterChangesAnOutput, curvesAndImagesMove, injectionsReplaceOutputs, parametersComeBack, valuesChange } from "./steps/values.mjs";
@@ -23,7 +24,10 @@ const words = process.argv.slice(2);
 const screenshots = words[0] === "--screenshots" ? words.splice(0, 2)[1] : null;
 const [program, ...options] = words;
 const folder = mkdtempSync(join(tmpdir(), "hulkgen-page-"));
-const stage = await Stage.at(program, options, folder);
+// What is stored from the page goes into a copy.
+const parameters = join(folder, "parameters");
+cpSync(new URL("../../../robotics/parameters", import.meta.url), parameters, { recursive: true });
+const stage = await Stage.at(program, ["--parameters", parameters, ...options], folder);
 
 /** Small enough to be checked in: the browser itself writes WebP. */
 async function picture(page, name) {
@@ -40,12 +44,27 @@ async function picture(page, name) {
   writeFileSync(join(screenshots, `${name}.webp`), Buffer.from(webp.slice(webp.indexOf(",") + 1), "base64"));
 }
 
+/** Who wakes the robot at its start may have been too quick for a busy machine; and pictures show one that stands. */
+async function theRobotIsAwake(page) {
+  const disturb = (argument) => ask(page, { call: { path: "framework.procedures.disturb", argument } });
+  const state = async () => (await ask(page, { read: { path: "Control.main_outputs.primary_state" } })).value.value;
+  for (const since = Date.now(); (await state()) === "Unstiff"; await page.waitForTimeout(3000)) {
+    assert(Date.now() - since < PATIENCE, "the robot does not wake up");
+    await disturb({ press: { button: "chest", lasts: 1 } });
+  }
+  await disturb({ kidnap: [2.0, 0.0, 0.0], ball: [3.0, 0.3] });
+  await page.waitForTimeout(3000);
+}
+
 async function everyPresetIsShown(page) {
+  await theRobotIsAwake(page);
+  await page.getByLabel("search all paths").fill("");
   for (const preset of PRESETS) {
     await begin(page, preset);
     await page.waitForTimeout(screenshots === null ? 2500 : 6000);
     const failures = await page.locator(".failure:not([hidden])").allTextContents();
     assert.deepEqual(failures, [], preset);
+    await tablesAreWhole(page, preset);
     await picture(page, preset.toLowerCase());
   }
   step("every preset is shown");
@@ -56,6 +75,9 @@ async function aPhoneShowsIt(browser) {
   const page = await context.newPage();
   await page.goto(stage.address);
   await isConnected(page);
+  await begin(page, "Overview");
+  await page.waitForTimeout(2500);
+  await tablesAreWhole(page, "on a phone");
   await begin(page, "Game");
   await page.waitForTimeout(3000);
   const { wide, screen } = await page.evaluate(() => ({ wide: document.documentElement.scrollWidth, screen: innerWidth }));
@@ -86,6 +108,14 @@ try {
   await injectionsReplaceOutputs(page);
   await restartsAreSurvived(page, stage);
   await layoutsStay(page);
+  await keysAndLooksAreThere(page);
+  await panelsAreMoved(page);
+  await plotsAreHeld(page);
+  await cyclesAreLookedAt(page);
+  await theGraphIsRead(page);
+  await logsAreFiltered(page);
+  await additionalOutputsFlow(page);
+  await parametersAreStored(page, parameters);
   await everyPresetIsShown(page);
   await theRobotIsDriven(page);
   await theWorldIsChanged(page);
@@ -93,8 +123,7 @@ try {
   await nonsenseDoesNoHarm(browser, stage);
   await otherRobotsHaveNoFootball(browser, stage);
   await somethingHappens(page);
-  await aRecordingIsReplayed(page, stage);
-  await picture(page, "replay");
+  await aRecordingIsReplayed(page, stage, picture);
   await tokensAreAskedFor(page, stage);
   assert.deepEqual(wrong, []);
   await foreignScriptsDoNotRun(page);

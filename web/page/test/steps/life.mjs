@@ -4,6 +4,7 @@ import { existsSync } from "node:fs";
 import { join } from "node:path";
 import { add, ask, begin, changes, clearLayout, hasCurve, hasPicture, isConnected, open, panel, reads, until } from "../page.mjs";
 import { PATIENCE, step } from "../robot.mjs";
+import { tablesAreWhole } from "./panels.mjs";
 
 export async function restartsAreSurvived(page, stage) {
   await stage.stop();
@@ -62,7 +63,7 @@ async function whatHappenedIsMarked(page) {
 }
 
 /** The robot has ended; its recording takes its place. */
-export async function aRecordingIsReplayed(page, stage) {
+export async function aRecordingIsReplayed(page, stage, picture) {
   const file = join(stage.run, "recording.mcap");
   await stage.stop();
   assert(existsSync(file), `no recording at ${file}`);
@@ -70,6 +71,8 @@ export async function aRecordingIsReplayed(page, stage) {
   await isConnected(page);
   await begin(page, "Replay");
   await whatHappenedIsMarked(page);
+  await tablesAreWhole(page, "Replay");
+  await picture(page, "replay");
   const replay = panel(page, "replay");
   const state = replay.locator("output");
   await replay.getByRole("button", { name: /^play or pause/ }).click();
@@ -97,6 +100,8 @@ export async function aRecordingIsReplayed(page, stage) {
   await begin(page, "Match");
   await panel(page, "replay").getByLabel(/^speed/).selectOption("1 ×");
   await until(page, panel(page, "camera").locator(".stage canvas").first(), hasPicture, "a recorded image");
+  await tablesAreWhole(page, "Match");
+  await picture(page, "match");
   step("a recording is played, stepped, and played backwards");
 }
 
