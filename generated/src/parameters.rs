@@ -27,6 +27,7 @@ use types::leds::ChestColors;
 use types::leds::Color;
 use types::projection_noise::ProjectionNoise;
 use vision::ball_detection::BallDetectionParameters;
+use vision::center_circle_detection::CenterCircleDetectionParameters;
 use vision::field_border::FieldBorderParameters;
 use vision::field_color::FieldColor;
 use vision::field_color_detection::FieldColorDetectionParameters;
@@ -174,7 +175,7 @@ pub struct FieldDimensions {
     /// vision::penalty_mark_detection
     #[reflect(unit = "m", range = 0..)]
     pub line_width: f32,
-    /// control::localization
+    /// control::localization, vision::center_circle_detection
     pub markings: FieldMarkings,
     /// vision::penalty_mark_detection
     #[reflect(unit = "m", range = 0..)]
@@ -445,6 +446,8 @@ pub struct ToneSelector {
 pub struct VisionInstance {
     /// vision::camera_matrix_extractor, vision::image_receiver, vision::limb_projector
     pub camera_position: CameraPosition,
+    /// vision::center_circle_detection
+    pub center_circle_detection: CenterCircleDetectionParameters,
     /// vision::field_border
     pub field_border: FieldBorderParameters,
     /// vision::line_detection

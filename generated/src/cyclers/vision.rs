@@ -11,6 +11,7 @@ use framework::Result;
 use hardware::CameraInterface;
 use vision::ball_detection;
 use vision::camera_matrix_extractor;
+use vision::center_circle_detection;
 use vision::field_border;
 use vision::field_color_detection;
 use vision::image_receiver;
@@ -26,6 +27,7 @@ use crate::databases::vision::Frame;
 pub struct Nodes {
     pub ball_detection: Guarded<ball_detection::BallDetection>,
     pub camera_matrix_extractor: Guarded<camera_matrix_extractor::CameraMatrixExtractor>,
+    pub center_circle_detection: Guarded<center_circle_detection::CenterCircleDetection>,
     pub field_border: Guarded<field_border::FieldBorderDetection>,
     pub field_color_detection: Guarded<field_color_detection::FieldColorDetection>,
     pub image_receiver: Guarded<image_receiver::ImageReceiver>,
@@ -74,6 +76,11 @@ impl Nodes {
                 OnFailure::Restart,
                 Self::create_line_detection()?,
             ),
+            center_circle_detection: Guarded::new(
+                "vision::center_circle_detection",
+                OnFailure::Restart,
+                Self::create_center_circle_detection()?,
+            ),
             penalty_mark_detection: Guarded::new(
                 "vision::penalty_mark_detection",
                 OnFailure::Restart,
@@ -115,6 +122,7 @@ impl Nodes {
         self.image_segmenter(frame)?;
         self.field_border(frame)?;
         self.line_detection(frame)?;
+        self.center_circle_detection(frame)?;
         self.penalty_mark_detection(frame)?;
         self.ball_detection(frame)?;
         self.obstacle_detection(frame)?;
@@ -197,6 +205,39 @@ impl Nodes {
         frame.own.camera_matrix = outputs.camera_matrix.value;
         if let Some(injections) = frame.injections {
             injections.camera_matrix.replace(&mut frame.own.camera_matrix);
+        }
+        Ok(())
+    }
+
+    /// lines, camera_matrix (required) -> center_circle; when subscribed: image_circle
+    #[inline(always)]
+    fn center_circle_detection<Hardware>(
+        &mut self,
+        frame: &mut Frame<'_, Hardware>,
+    ) -> Result<()> {
+        if let Some(camera_matrix) = frame.own.camera_matrix.as_ref() {
+            let context = center_circle_detection::CycleContext {
+                lines: &frame.shared.lines,
+                camera_matrix,
+                radius: &frame.parameters.field_dimensions.markings.circle_radius,
+                parameters: &frame.instance_parameters.center_circle_detection,
+                image_circle: AdditionalOutput::new(
+                    frame.subscribed.image_circle,
+                    frame.cycle.number,
+                    &mut frame.additional_outputs.image_circle,
+                ),
+            };
+            let outputs = self
+                .center_circle_detection
+                .call(&frame.cycle, |node| node.cycle(context))?;
+            frame.own.center_circle = outputs.center_circle.value;
+        } else {
+            // A required input is absent: the main outputs take their defaults.
+            self.center_circle_detection.skip();
+            frame.own.center_circle = Default::default();
+        }
+        if let Some(injections) = frame.injections {
+            injections.center_circle.replace(&mut frame.own.center_circle);
         }
         Ok(())
     }
@@ -460,6 +501,14 @@ impl Nodes {
         let context = camera_matrix_extractor::CreationContext {};
         camera_matrix_extractor::CameraMatrixExtractor::new(context)
             .in_node("vision::camera_matrix_extractor")
+    }
+
+    fn create_center_circle_detection() -> Result<
+        center_circle_detection::CenterCircleDetection,
+    > {
+        let context = center_circle_detection::CreationContext {};
+        center_circle_detection::CenterCircleDetection::new(context)
+            .in_node("vision::center_circle_detection")
     }
 
     fn create_field_border() -> Result<field_border::FieldBorderDetection> {

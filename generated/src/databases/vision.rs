@@ -18,6 +18,7 @@ use serde::Deserialize;
 use serde::Serialize;
 use types::ball::BallCandidate;
 use types::camera::CameraMatrix;
+use types::field_features::CenterCircle;
 use types::field_features::FieldBorder;
 use types::field_features::LineSegment;
 use types::field_features::PenaltyMark;
@@ -37,6 +38,8 @@ use crate::parameters::VisionInstance;
 pub struct OwnOutputs {
     /// vision::camera_matrix_extractor
     pub camera_matrix: Option<CameraMatrix>,
+    /// vision::center_circle_detection
+    pub center_circle: Option<CenterCircle>,
     /// vision::field_border
     pub field_border: FieldBorder,
     /// vision::field_color_detection
@@ -71,6 +74,8 @@ pub struct AdditionalOutputs {
     pub ball_proposals: AdditionalSlot<Vec<BallProposal>>,
     /// vision::field_border
     pub field_border_points: AdditionalSlot<Vec<Point2<f32>>>,
+    /// vision::center_circle_detection
+    pub image_circle: AdditionalSlot<Vec<Point2<f32>>>,
     /// vision::line_detection
     pub image_lines: AdditionalSlot<Vec<[Point2<f32>; 2]>>,
     /// vision::line_detection
@@ -87,6 +92,7 @@ pub struct Subscribed {
     pub ball_candidates: bool,
     pub ball_proposals: bool,
     pub field_border_points: bool,
+    pub image_circle: bool,
     pub image_lines: bool,
     pub line_points: bool,
     pub obstacle_feet: bool,
@@ -98,6 +104,7 @@ pub struct Subscribed {
 pub struct Injections {
     pub balls: Injection<Vec<BallCandidate>>,
     pub camera_matrix: Injection<Option<CameraMatrix>>,
+    pub center_circle: Injection<Option<CenterCircle>>,
     pub field_border: Injection<FieldBorder>,
     pub field_color: Injection<FieldColor>,
     pub image: Injection<Option<Leased<YuyvImage>>>,
@@ -113,6 +120,7 @@ impl InjectionTable for Injections {
         match output {
             "balls" => Some(&mut self.balls),
             "camera_matrix" => Some(&mut self.camera_matrix),
+            "center_circle" => Some(&mut self.center_circle),
             "field_border" => Some(&mut self.field_border),
             "field_color" => Some(&mut self.field_color),
             "image" => Some(&mut self.image),

@@ -76,6 +76,7 @@ impl<Hardware: CameraInterface + Send + Sync> Recorded for Vision<Hardware> {
         self.nodes.image_segmenter.record(out)?;
         self.nodes.field_border.record(out)?;
         self.nodes.line_detection.record(out)?;
+        self.nodes.center_circle_detection.record(out)?;
         self.nodes.penalty_mark_detection.record(out)?;
         self.nodes.ball_detection.record(out)?;
         self.nodes.obstacle_detection.record(out)?;
@@ -103,6 +104,11 @@ impl<Hardware: CameraInterface + Send + Sync> Recorded for Vision<Hardware> {
         types.node("vision::image_segmenter", |body| &body.nodes.image_segmenter);
         types.node("vision::field_border", |body| &body.nodes.field_border);
         types.node("vision::line_detection", |body| &body.nodes.line_detection);
+        types
+            .node(
+                "vision::center_circle_detection",
+                |body| &body.nodes.center_circle_detection,
+            );
         types
             .node(
                 "vision::penalty_mark_detection",
@@ -169,6 +175,11 @@ impl<Hardware: CameraInterface + Send + Sync> Recorded for Vision<Hardware> {
         );
         visit("vision::line_detection", "lines", digest(&shared.lines)?);
         visit(
+            "vision::center_circle_detection",
+            "center_circle",
+            digest(&self.own.previous().center_circle)?,
+        );
+        visit(
             "vision::penalty_mark_detection",
             "penalty_mark",
             digest(&shared.penalty_mark)?,
@@ -214,6 +225,11 @@ fn load_nodes(from: &mut Loading<'_>) -> Result<Nodes> {
         )?,
         line_detection: Guarded::recorded(
             "vision::line_detection",
+            OnFailure::Restart,
+            from,
+        )?,
+        center_circle_detection: Guarded::recorded(
+            "vision::center_circle_detection",
             OnFailure::Restart,
             from,
         )?,

@@ -74,6 +74,7 @@ pub const ADDITIONAL_OUTPUTS: &[&str] = &[
     "ball_candidates",
     "ball_proposals",
     "field_border_points",
+    "image_circle",
     "image_lines",
     "line_points",
     "obstacle_feet",
@@ -154,6 +155,7 @@ impl<Hardware: CameraInterface + Send + Sync> Body for Vision<Hardware> {
                 ball_candidates: wanted.next_one(),
                 ball_proposals: wanted.next_one(),
                 field_border_points: wanted.next_one(),
+                image_circle: wanted.next_one(),
                 image_lines: wanted.next_one(),
                 line_points: wanted.next_one(),
                 obstacle_feet: wanted.next_one(),
@@ -198,6 +200,7 @@ impl<Hardware: CameraInterface + Send + Sync> Body for Vision<Hardware> {
             "image_segments",
             "field_border",
             "lines",
+            "center_circle",
             "penalty_mark",
             "balls",
             "obstacles",
@@ -217,6 +220,7 @@ impl<Hardware: CameraInterface + Send + Sync> Body for Vision<Hardware> {
             "image_segments" => Some(&self.own.previous().image_segments),
             "field_border" => Some(&self.own.previous().field_border),
             "lines" => Some(&shared.lines),
+            "center_circle" => Some(&self.own.previous().center_circle),
             "penalty_mark" => Some(&shared.penalty_mark),
             "balls" => Some(&shared.balls),
             "obstacles" => Some(&shared.obstacles),
@@ -233,6 +237,7 @@ impl<Hardware: CameraInterface + Send + Sync> Body for Vision<Hardware> {
             "field_border_points" => {
                 Some(self.additional_outputs.field_border_points.get(cycle)?)
             }
+            "image_circle" => Some(self.additional_outputs.image_circle.get(cycle)?),
             "image_lines" => Some(self.additional_outputs.image_lines.get(cycle)?),
             "line_points" => Some(self.additional_outputs.line_points.get(cycle)?),
             "obstacle_feet" => Some(self.additional_outputs.obstacle_feet.get(cycle)?),
@@ -256,12 +261,14 @@ impl<Hardware: CameraInterface + Send + Sync> Body for Vision<Hardware> {
         visitor.output(Some(&self.own.previous().image_segments));
         visitor.output(Some(&self.own.previous().field_border));
         visitor.output(Some(&shared.lines));
+        visitor.output(Some(&self.own.previous().center_circle));
         visitor.output(Some(&shared.penalty_mark));
         visitor.output(Some(&shared.balls));
         visitor.output(Some(&shared.obstacles));
         visitor.output(self.additional_outputs.ball_candidates.get(cycle));
         visitor.output(self.additional_outputs.ball_proposals.get(cycle));
         visitor.output(self.additional_outputs.field_border_points.get(cycle));
+        visitor.output(self.additional_outputs.image_circle.get(cycle));
         visitor.output(self.additional_outputs.image_lines.get(cycle));
         visitor.output(self.additional_outputs.line_points.get(cycle));
         visitor.output(self.additional_outputs.obstacle_feet.get(cycle));
@@ -276,6 +283,7 @@ impl<Hardware: CameraInterface + Send + Sync> Body for Vision<Hardware> {
         visit(self.nodes.image_segmenter.report());
         visit(self.nodes.field_border.report());
         visit(self.nodes.line_detection.report());
+        visit(self.nodes.center_circle_detection.report());
         visit(self.nodes.penalty_mark_detection.report());
         visit(self.nodes.ball_detection.report());
         visit(self.nodes.obstacle_detection.report());
@@ -294,6 +302,10 @@ impl<Hardware: CameraInterface + Send + Sync> Body for Vision<Hardware> {
         visit("vision::image_segmenter", &mut self.nodes.image_segmenter);
         visit("vision::field_border", &mut self.nodes.field_border);
         visit("vision::line_detection", &mut self.nodes.line_detection);
+        visit(
+            "vision::center_circle_detection",
+            &mut self.nodes.center_circle_detection,
+        );
         visit("vision::penalty_mark_detection", &mut self.nodes.penalty_mark_detection);
         visit("vision::ball_detection", &mut self.nodes.ball_detection);
         visit("vision::obstacle_detection", &mut self.nodes.obstacle_detection);

@@ -1,7 +1,7 @@
-//! Owns what an image shows of the field: its border, its lines, its penalty marks.
+//! Owns what an image shows of the field: its border, its lines, its centre circle, its penalty marks.
 
-use framework::{Clear, Reflect};
-use nalgebra::{Matrix2, Point2};
+use framework::{Clear, Reflect, math};
+use nalgebra::{Matrix2, Point2, Vector2};
 use serde::{Deserialize, Serialize};
 
 /// Where the field ends in an image: above it nothing belongs to the game.
@@ -31,6 +31,17 @@ pub struct LineSegment {
     pub start_covariance: Matrix2<f32>,
     /// The same of the other end.
     pub end_covariance: Matrix2<f32>,
+}
+
+/// The centre circle, of which lines are pieces.
+#[derive(Clear, Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
+pub struct CenterCircle {
+    /// Its middle in the ground frame, m.
+    pub position: Point2<f32>,
+    /// Of that place, in m².
+    pub covariance: Matrix2<f32>,
+    /// How many pieces of it were seen.
+    pub chords: u32,
 }
 
 /// A penalty mark.
@@ -72,10 +83,33 @@ impl LineSegment {
         nalgebra::distance(&self.start, &self.end)
     }
 
+    /// From its start to its end, of length 1; `None` where it has no length.
+    pub fn direction(&self) -> Option<Vector2<f32>> {
+        (self.end - self.start).try_normalize(f32::EPSILON)
+    }
+
+    /// The middles of both circles of this radius (m) of which it may be a piece, in the ground frame, m.
+    ///
+    /// `None` where the segment has no length, or is longer than the circle.
+    pub fn circle_centers(&self, radius: f32) -> Option<[Point2<f32>; 2]> {
+        let along = self.direction()?;
+        let length = self.length();
+        let outward = Vector2::new(-along.y, along.x) * chord_distance(length, radius);
+        let middle = nalgebra::center(&self.start, &self.end);
+        (length <= 2.0 * radius).then(|| [middle + outward, middle - outward])
+    }
+
     /// In m from the nearest point of the segment.
     pub fn distance_to(&self, point: Point2<f32>) -> f32 {
         let along = self.end - self.start;
         let part = (point - self.start).dot(&along) / along.norm_squared().max(f32::MIN_POSITIVE);
         nalgebra::distance(&(self.start + along * part.clamp(0.0, 1.0)), &point)
     }
+}
+
+/// How far from the middle of a circle a line lies that was fitted to an arc with a chord of this length, all in m.
+pub fn chord_distance(length: f32, radius: f32) -> f32 {
+    // The mean of the arc's distances along the normal.
+    let half_angle = math::asin((length / (2.0 * radius)).min(1.0)).max(1e-3);
+    radius * math::sin(half_angle) / half_angle
 }

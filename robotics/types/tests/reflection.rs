@@ -18,7 +18,7 @@ use types::buttons::Buttons;
 use types::camera::{CameraCalibration, CameraMatrices, CameraMatrix, CameraPosition, Intrinsics};
 use types::fall_state::{Facing, FallDirection, FallState};
 use types::feet::{Feet, Side};
-use types::field_features::{FieldBorder, ImageLine, LineSegment, PenaltyMark};
+use types::field_features::{CenterCircle, FieldBorder, ImageLine, LineSegment, PenaltyMark};
 use types::field_markings::FieldMarkings;
 use types::game::{
     CompetitionPhase, CompetitionType, GameControllerMessage, GameControllerPacket,
@@ -91,6 +91,7 @@ const KINDS: &[Kind] = kinds![
     FieldBorder,
     ImageLine,
     LineSegment,
+    CenterCircle,
     PenaltyMark,
     FieldMarkings,
     GameControllerMessage,

@@ -1,15 +1,17 @@
 //! Paints images for tests: a coloured floor and upright boards, as a camera on a robot sees them.
 
 use framework::pool::Leased;
+use framework::testing::{AdditionalProbe, ParameterFile};
 use nalgebra::{Isometry3, Matrix3, Point2, Rotation3, Translation3, UnitQuaternion, Vector2};
 use types::camera::{CameraMatrix, Intrinsics};
-use types::field_features::FieldBorder;
+use types::field_features::{FieldBorder, LineSegment};
 use types::image::{Yuv, YuyvImage};
 use types::limbs::LimbMask;
 use types::projection_noise::ProjectionNoise;
 
 use crate::field_color::tests::{GREEN, field_color};
 use crate::image_segmenter::{self, ImageSegmenter, ScanSteps};
+use crate::line_detection::{self, LineDetection};
 use crate::segments::ImageSegments;
 
 pub(crate) const WHITE: [u8; 3] = [210, 212, 210];
@@ -108,6 +110,30 @@ pub(crate) fn segments(image: &YuyvImage, matrix: &CameraMatrix) -> ImageSegment
         })
         .unwrap();
     image_segments
+}
+
+/// The lines that the robot's top camera finds.
+pub(crate) fn lines(image: &YuyvImage, matrix: &CameraMatrix) -> Vec<LineSegment> {
+    let file = ParameterFile::new(include_str!("../../parameters/default.toml"));
+    let mut lines = Vec::new();
+    LineDetection::new(line_detection::CreationContext {})
+        .unwrap()
+        .cycle(line_detection::CycleContext {
+            image: &Leased::of(image.clone()),
+            image_segments: &segments(image, matrix),
+            limb_mask: &LimbMask::default(),
+            field_border: &FieldBorder::default(),
+            camera_matrix: matrix,
+            field_color: &field_color(),
+            line_width: &0.05,
+            parameters: &file.get("vision_top.line_detection"),
+            projection_noise: &PROJECTION_NOISE,
+            line_points: AdditionalProbe::unsubscribed().output(),
+            image_lines: AdditionalProbe::unsubscribed().output(),
+            lines: &mut lines,
+        })
+        .unwrap();
+    lines
 }
 
 /// A border at this row, all over the image.
