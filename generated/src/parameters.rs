@@ -28,6 +28,7 @@ use types::leds::Color;
 use types::projection_noise::ProjectionNoise;
 use vision::ball_detection::BallDetectionParameters;
 use vision::center_circle_detection::CenterCircleDetectionParameters;
+use vision::corner_detection::CornerDetectionParameters;
 use vision::field_border::FieldBorderParameters;
 use vision::field_color::FieldColor;
 use vision::field_color_detection::FieldColorDetectionParameters;
@@ -50,6 +51,8 @@ pub struct Parameters {
     pub button_filter: ButtonFilter,
     pub cameras: Cameras,
     pub client_wishes: ClientWishes,
+    /// vision::corner_detection
+    pub corner_detection: CornerDetectionParameters,
     pub fall_state_filter: FallStateFilter,
     /// vision::field_color_detection
     pub field_color: FieldColor,
@@ -86,8 +89,8 @@ pub struct Parameters {
     /// control::localization, control::role_assignment, control::self_report,
     /// spl_network::team_message_parser
     pub player: Player,
-    /// vision::ball_detection, vision::line_detection, vision::obstacle_detection,
-    /// vision::penalty_mark_detection
+    /// vision::ball_detection, vision::corner_detection, vision::line_detection,
+    /// vision::obstacle_detection, vision::penalty_mark_detection
     pub projection_noise: ProjectionNoise,
     pub recording_switch: RecordingSwitch,
     /// control::role_assignment
@@ -175,7 +178,7 @@ pub struct FieldDimensions {
     /// vision::penalty_mark_detection
     #[reflect(unit = "m", range = 0..)]
     pub line_width: f32,
-    /// control::localization, vision::center_circle_detection
+    /// control::localization, vision::center_circle_detection, vision::corner_detection
     pub markings: FieldMarkings,
     /// vision::penalty_mark_detection
     #[reflect(unit = "m", range = 0..)]

@@ -12,6 +12,7 @@ use hardware::CameraInterface;
 use vision::ball_detection;
 use vision::camera_matrix_extractor;
 use vision::center_circle_detection;
+use vision::corner_detection;
 use vision::field_border;
 use vision::field_color_detection;
 use vision::image_receiver;
@@ -28,6 +29,7 @@ pub struct Nodes {
     pub ball_detection: Guarded<ball_detection::BallDetection>,
     pub camera_matrix_extractor: Guarded<camera_matrix_extractor::CameraMatrixExtractor>,
     pub center_circle_detection: Guarded<center_circle_detection::CenterCircleDetection>,
+    pub corner_detection: Guarded<corner_detection::CornerDetection>,
     pub field_border: Guarded<field_border::FieldBorderDetection>,
     pub field_color_detection: Guarded<field_color_detection::FieldColorDetection>,
     pub image_receiver: Guarded<image_receiver::ImageReceiver>,
@@ -81,6 +83,11 @@ impl Nodes {
                 OnFailure::Restart,
                 Self::create_center_circle_detection()?,
             ),
+            corner_detection: Guarded::new(
+                "vision::corner_detection",
+                OnFailure::Restart,
+                Self::create_corner_detection()?,
+            ),
             penalty_mark_detection: Guarded::new(
                 "vision::penalty_mark_detection",
                 OnFailure::Restart,
@@ -123,6 +130,7 @@ impl Nodes {
         self.field_border(frame)?;
         self.line_detection(frame)?;
         self.center_circle_detection(frame)?;
+        self.corner_detection(frame)?;
         self.penalty_mark_detection(frame)?;
         self.ball_detection(frame)?;
         self.obstacle_detection(frame)?;
@@ -238,6 +246,38 @@ impl Nodes {
         }
         if let Some(injections) = frame.injections {
             injections.center_circle.replace(&mut frame.own.center_circle);
+        }
+        Ok(())
+    }
+
+    /// image (required), lines, center_circle, limb_mask, camera_matrix (required) -> corners
+    #[inline(always)]
+    fn corner_detection<Hardware>(
+        &mut self,
+        frame: &mut Frame<'_, Hardware>,
+    ) -> Result<()> {
+        Clear::clear(&mut frame.own.corners);
+        if let Some(image) = frame.own.image.as_ref()
+            && let Some(camera_matrix) = frame.own.camera_matrix.as_ref()
+        {
+            let context = corner_detection::CycleContext {
+                image,
+                lines: &frame.shared.lines,
+                center_circle: frame.own.center_circle.as_ref(),
+                limb_mask: &frame.own.limb_mask,
+                camera_matrix,
+                radius: &frame.parameters.field_dimensions.markings.circle_radius,
+                parameters: &frame.parameters.corner_detection,
+                projection_noise: &frame.parameters.projection_noise,
+                corners: &mut frame.own.corners,
+            };
+            self.corner_detection.call(&frame.cycle, |node| node.cycle(context))?;
+        } else {
+            // A required input is absent: the main outputs take their defaults.
+            self.corner_detection.skip();
+        }
+        if let Some(injections) = frame.injections {
+            injections.corners.replace(&mut frame.own.corners);
         }
         Ok(())
     }
@@ -509,6 +549,12 @@ impl Nodes {
         let context = center_circle_detection::CreationContext {};
         center_circle_detection::CenterCircleDetection::new(context)
             .in_node("vision::center_circle_detection")
+    }
+
+    fn create_corner_detection() -> Result<corner_detection::CornerDetection> {
+        let context = corner_detection::CreationContext {};
+        corner_detection::CornerDetection::new(context)
+            .in_node("vision::corner_detection")
     }
 
     fn create_field_border() -> Result<field_border::FieldBorderDetection> {

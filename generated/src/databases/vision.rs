@@ -20,6 +20,7 @@ use types::ball::BallCandidate;
 use types::camera::CameraMatrix;
 use types::field_features::CenterCircle;
 use types::field_features::FieldBorder;
+use types::field_features::LineCorner;
 use types::field_features::LineSegment;
 use types::field_features::PenaltyMark;
 use types::image::YuyvImage;
@@ -40,6 +41,8 @@ pub struct OwnOutputs {
     pub camera_matrix: Option<CameraMatrix>,
     /// vision::center_circle_detection
     pub center_circle: Option<CenterCircle>,
+    /// vision::corner_detection
+    pub corners: Vec<LineCorner>,
     /// vision::field_border
     pub field_border: FieldBorder,
     /// vision::field_color_detection
@@ -105,6 +108,7 @@ pub struct Injections {
     pub balls: Injection<Vec<BallCandidate>>,
     pub camera_matrix: Injection<Option<CameraMatrix>>,
     pub center_circle: Injection<Option<CenterCircle>>,
+    pub corners: Injection<Vec<LineCorner>>,
     pub field_border: Injection<FieldBorder>,
     pub field_color: Injection<FieldColor>,
     pub image: Injection<Option<Leased<YuyvImage>>>,
@@ -121,6 +125,7 @@ impl InjectionTable for Injections {
             "balls" => Some(&mut self.balls),
             "camera_matrix" => Some(&mut self.camera_matrix),
             "center_circle" => Some(&mut self.center_circle),
+            "corners" => Some(&mut self.corners),
             "field_border" => Some(&mut self.field_border),
             "field_color" => Some(&mut self.field_color),
             "image" => Some(&mut self.image),

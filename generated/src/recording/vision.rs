@@ -77,6 +77,7 @@ impl<Hardware: CameraInterface + Send + Sync> Recorded for Vision<Hardware> {
         self.nodes.field_border.record(out)?;
         self.nodes.line_detection.record(out)?;
         self.nodes.center_circle_detection.record(out)?;
+        self.nodes.corner_detection.record(out)?;
         self.nodes.penalty_mark_detection.record(out)?;
         self.nodes.ball_detection.record(out)?;
         self.nodes.obstacle_detection.record(out)?;
@@ -109,6 +110,7 @@ impl<Hardware: CameraInterface + Send + Sync> Recorded for Vision<Hardware> {
                 "vision::center_circle_detection",
                 |body| &body.nodes.center_circle_detection,
             );
+        types.node("vision::corner_detection", |body| &body.nodes.corner_detection);
         types
             .node(
                 "vision::penalty_mark_detection",
@@ -180,6 +182,11 @@ impl<Hardware: CameraInterface + Send + Sync> Recorded for Vision<Hardware> {
             digest(&self.own.previous().center_circle)?,
         );
         visit(
+            "vision::corner_detection",
+            "corners",
+            digest(&self.own.previous().corners)?,
+        );
+        visit(
             "vision::penalty_mark_detection",
             "penalty_mark",
             digest(&shared.penalty_mark)?,
@@ -230,6 +237,11 @@ fn load_nodes(from: &mut Loading<'_>) -> Result<Nodes> {
         )?,
         center_circle_detection: Guarded::recorded(
             "vision::center_circle_detection",
+            OnFailure::Restart,
+            from,
+        )?,
+        corner_detection: Guarded::recorded(
+            "vision::corner_detection",
             OnFailure::Restart,
             from,
         )?,

@@ -201,6 +201,7 @@ impl<Hardware: CameraInterface + Send + Sync> Body for Vision<Hardware> {
             "field_border",
             "lines",
             "center_circle",
+            "corners",
             "penalty_mark",
             "balls",
             "obstacles",
@@ -221,6 +222,7 @@ impl<Hardware: CameraInterface + Send + Sync> Body for Vision<Hardware> {
             "field_border" => Some(&self.own.previous().field_border),
             "lines" => Some(&shared.lines),
             "center_circle" => Some(&self.own.previous().center_circle),
+            "corners" => Some(&self.own.previous().corners),
             "penalty_mark" => Some(&shared.penalty_mark),
             "balls" => Some(&shared.balls),
             "obstacles" => Some(&shared.obstacles),
@@ -262,6 +264,7 @@ impl<Hardware: CameraInterface + Send + Sync> Body for Vision<Hardware> {
         visitor.output(Some(&self.own.previous().field_border));
         visitor.output(Some(&shared.lines));
         visitor.output(Some(&self.own.previous().center_circle));
+        visitor.output(Some(&self.own.previous().corners));
         visitor.output(Some(&shared.penalty_mark));
         visitor.output(Some(&shared.balls));
         visitor.output(Some(&shared.obstacles));
@@ -284,6 +287,7 @@ impl<Hardware: CameraInterface + Send + Sync> Body for Vision<Hardware> {
         visit(self.nodes.field_border.report());
         visit(self.nodes.line_detection.report());
         visit(self.nodes.center_circle_detection.report());
+        visit(self.nodes.corner_detection.report());
         visit(self.nodes.penalty_mark_detection.report());
         visit(self.nodes.ball_detection.report());
         visit(self.nodes.obstacle_detection.report());
@@ -306,6 +310,7 @@ impl<Hardware: CameraInterface + Send + Sync> Body for Vision<Hardware> {
             "vision::center_circle_detection",
             &mut self.nodes.center_circle_detection,
         );
+        visit("vision::corner_detection", &mut self.nodes.corner_detection);
         visit("vision::penalty_mark_detection", &mut self.nodes.penalty_mark_detection);
         visit("vision::ball_detection", &mut self.nodes.ball_detection);
         visit("vision::obstacle_detection", &mut self.nodes.obstacle_detection);

@@ -1,4 +1,5 @@
-//! Owns what an image shows of the field: its border, its lines, its centre circle, its penalty marks.
+//! Owns what an image shows of the field: its border, its lines, its centre circle, its corners, its
+//! penalty marks.
 
 use framework::{Clear, Reflect, math};
 use nalgebra::{Matrix2, Point2, Vector2};
@@ -44,6 +45,34 @@ pub struct CenterCircle {
     pub chords: u32,
 }
 
+/// Where two lines of the field meet at a right angle.
+#[derive(Clear, Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
+pub struct LineCorner {
+    /// Which of its four arms are lines.
+    pub kind: CornerKind,
+    /// Where the middles of the lines cross in the image, px.
+    pub center: Point2<f32>,
+    /// The same in the ground frame, m.
+    pub position: Point2<f32>,
+    /// Of that place, as of a single point that is seen there, in m².
+    pub covariance: Matrix2<f32>,
+    /// Which way it opens, of length 1, in the ground frame: an L between its arms, a T along its stem, an X along
+    /// any of its arms.
+    pub direction: Vector2<f32>,
+}
+
+/// Which of the four arms of a corner are lines.
+#[derive(Clear, Clone, Copy, Debug, Default, Deserialize, Eq, PartialEq, Reflect, Serialize)]
+pub enum CornerKind {
+    /// Two: both lines end.
+    #[default]
+    L,
+    /// Three: one line ends at the other one.
+    T,
+    /// All: both lines go on.
+    X,
+}
+
 /// A penalty mark.
 #[derive(Clear, Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
 pub struct PenaltyMark {
@@ -74,6 +103,18 @@ impl ImageLine {
     /// The row of the line in this column, px.
     pub fn row_at(&self, column: f32) -> f32 {
         self.at_left + self.slope * column
+    }
+}
+
+impl CenterCircle {
+    /// Whether a line may be a piece of it: the middle of the circle of that radius (m) to which it belongs is at
+    /// most `tolerance` m off.
+    pub fn has_piece(&self, line: &LineSegment, radius: f32, tolerance: f32) -> bool {
+        let centers = line.circle_centers(radius);
+        centers.is_some_and(|centers| {
+            let is_same = |center| nalgebra::distance(center, &self.position) <= tolerance;
+            centers.iter().any(is_same)
+        })
     }
 }
 

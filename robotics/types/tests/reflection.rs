@@ -18,7 +18,9 @@ use types::buttons::Buttons;
 use types::camera::{CameraCalibration, CameraMatrices, CameraMatrix, CameraPosition, Intrinsics};
 use types::fall_state::{Facing, FallDirection, FallState};
 use types::feet::{Feet, Side};
-use types::field_features::{CenterCircle, FieldBorder, ImageLine, LineSegment, PenaltyMark};
+use types::field_features::{
+    CenterCircle, CornerKind, FieldBorder, ImageLine, LineCorner, LineSegment, PenaltyMark,
+};
 use types::field_markings::FieldMarkings;
 use types::game::{
     CompetitionPhase, CompetitionType, GameControllerMessage, GameControllerPacket,
@@ -92,6 +94,8 @@ const KINDS: &[Kind] = kinds![
     ImageLine,
     LineSegment,
     CenterCircle,
+    LineCorner,
+    CornerKind,
     PenaltyMark,
     FieldMarkings,
     GameControllerMessage,

@@ -2,7 +2,7 @@
 //!
 //! In the order of a cycle: [`image_receiver`], [`camera_matrix_extractor`], [`limb_projector`],
 //! [`field_color_detection`], [`image_segmenter`], [`field_border`], [`line_detection`], [`center_circle_detection`],
-//! [`penalty_mark_detection`], [`ball_detection`], [`obstacle_detection`]. Beside them the data that they share:
+//! [`corner_detection`], [`penalty_mark_detection`], [`ball_detection`], [`obstacle_detection`]. Beside them the data that they share:
 //! [`field_color`], [`segments`].
 
 pub mod field_color;
@@ -15,6 +15,7 @@ mod sampler;
 pub mod ball_detection;
 pub mod camera_matrix_extractor;
 pub mod center_circle_detection;
+pub mod corner_detection;
 pub mod field_border;
 pub mod field_color_detection;
 pub mod image_receiver;

@@ -1,4 +1,4 @@
-//! Draws what was seen into an image: border, lines, mark, balls and obstacles.
+//! Draws what was seen into an image: border, lines, corners, centre circle, mark, balls and obstacles.
 
 use std::collections::BTreeMap;
 use std::f32::consts::TAU;
@@ -9,13 +9,14 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 use types::ball::BallCandidate;
 use types::camera::CameraMatrix;
-use types::field_features::{FieldBorder, LineSegment, PenaltyMark};
+use types::field_features::{CenterCircle, FieldBorder, LineCorner, LineSegment, PenaltyMark};
 use types::obstacles::ObstacleCandidate;
 
 use super::file::Rgb;
 
 const BORDER: [u8; 3] = [255, 255, 0];
 const LINE: [u8; 3] = [255, 0, 0];
+const CORNER: [u8; 3] = [0, 255, 255];
 const MARK: [u8; 3] = [255, 0, 255];
 const BALL: [u8; 3] = [255, 128, 0];
 const OBSTACLE: [u8; 3] = [0, 128, 255];
@@ -41,6 +42,15 @@ pub(super) fn draw(
         let pixel = |end: Point2<f32>| matrix.ground_to_pixel(end.coords.push(0.0).into());
         if let (Some(start), Some(end)) = (pixel(line.start), pixel(line.end)) {
             straight(image, start, end, LINE);
+        }
+    }
+    for corner in output::<Vec<LineCorner>>(seen, "corners")?.unwrap_or_default() {
+        cross(image, corner.center, 8.0, CORNER);
+    }
+    if let Some(known) = output::<Option<CenterCircle>>(seen, "center_circle")?.flatten() {
+        let middle = matrix.ground_to_pixel(known.position.coords.push(0.0).into());
+        if let Some(middle) = middle {
+            circle(image, middle, 8.0, MARK);
         }
     }
     if let Some(mark) = output::<Option<PenaltyMark>>(seen, "penalty_mark")?.flatten() {

@@ -14,7 +14,7 @@ const [, AMBER, GREEN, PINK, RED, SKY] = COLORS as [string, string, string, stri
 /** Outputs of the image's instance, by the overlay that draws them. */
 const OUTPUTS: Record<string, readonly string[]> = {
   segments: ["main_outputs.image_segments"],
-  lines: ["additional_outputs.image_lines"],
+  lines: ["additional_outputs.image_lines", "additional_outputs.image_circle", "main_outputs.corners"],
   balls: ["additional_outputs.ball_candidates", "main_outputs.balls"],
   horizon: ["main_outputs.camera_matrix"],
   border: ["main_outputs.field_border"],
@@ -166,6 +166,12 @@ class Camera extends ImagePanel {
       context.setLineDash([6, 4]);
       line(context, ends, SKY);
       context.setLineDash([]);
+    }
+    line(context, list(this.value("additional_outputs.image_circle")).map(point).filter((one) => one !== null), PINK);
+    for (const value of list(this.value("main_outputs.corners"))) {
+      const corner = fields(value);
+      const center = point(corner?.["center"]);
+      if (center !== null) label(context, center[0] + 6, center[1] - 6, String(corner?.["kind"] ?? "?"), PINK);
     }
   }
 
