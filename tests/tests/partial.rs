@@ -120,6 +120,8 @@ fn the_nao_with_control_alone_names_only_what_control_needs() {
     let outside: Vec<&str> = outside.map(|output| output.name.as_str()).collect();
     let expected = [
         "balls",
+        "center_circle",
+        "corners",
         "lines",
         "obstacles",
         "penalty_mark",

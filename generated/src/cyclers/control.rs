@@ -821,7 +821,8 @@ impl Nodes {
         Ok(())
     }
 
-    /// perception Vision.lines, perception Vision.penalty_mark, historic odometry, fall_state,
+    /// perception Vision.lines, perception Vision.penalty_mark, perception
+    /// Vision.center_circle, perception Vision.corners, historic odometry, fall_state,
     /// primary_state -> ground_to_field; when subscribed: localization.hypotheses
     #[inline(always)]
     fn localization<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
@@ -839,10 +840,26 @@ impl Nodes {
                 &frame.perception.vision_bottom.project(|outputs| &outputs.penalty_mark),
             ],
         };
+        let center_circle = Interleaved {
+            order: &frame.perception.vision,
+            instances: [
+                &frame.perception.vision_top.project(|outputs| &outputs.center_circle),
+                &frame.perception.vision_bottom.project(|outputs| &outputs.center_circle),
+            ],
+        };
+        let corners = Interleaved {
+            order: &frame.perception.vision,
+            instances: [
+                &frame.perception.vision_top.project(|outputs| &outputs.corners),
+                &frame.perception.vision_bottom.project(|outputs| &outputs.corners),
+            ],
+        };
         let odometry = frame.historic.odometry.project(|odometry| odometry);
         let context = localization::CycleContext {
             lines: PerceptionInput::new(&lines),
             penalty_mark: PerceptionInput::new(&penalty_mark),
+            center_circle: PerceptionInput::new(&center_circle),
+            corners: PerceptionInput::new(&corners),
             odometry: HistoricInput::new(
                 &odometry,
                 frame.cycle.time.start,

@@ -238,14 +238,14 @@ impl Nodes {
             let outputs = self
                 .center_circle_detection
                 .call(&frame.cycle, |node| node.cycle(context))?;
-            frame.own.center_circle = outputs.center_circle.value;
+            frame.shared.center_circle = outputs.center_circle.value;
         } else {
             // A required input is absent: the main outputs take their defaults.
             self.center_circle_detection.skip();
-            frame.own.center_circle = Default::default();
+            frame.shared.center_circle = Default::default();
         }
         if let Some(injections) = frame.injections {
-            injections.center_circle.replace(&mut frame.own.center_circle);
+            injections.center_circle.replace(&mut frame.shared.center_circle);
         }
         Ok(())
     }
@@ -256,20 +256,20 @@ impl Nodes {
         &mut self,
         frame: &mut Frame<'_, Hardware>,
     ) -> Result<()> {
-        Clear::clear(&mut frame.own.corners);
+        Clear::clear(&mut frame.shared.corners);
         if let Some(image) = frame.own.image.as_ref()
             && let Some(camera_matrix) = frame.own.camera_matrix.as_ref()
         {
             let context = corner_detection::CycleContext {
                 image,
                 lines: &frame.shared.lines,
-                center_circle: frame.own.center_circle.as_ref(),
+                center_circle: frame.shared.center_circle.as_ref(),
                 limb_mask: &frame.own.limb_mask,
                 camera_matrix,
                 radius: &frame.parameters.field_dimensions.markings.circle_radius,
                 parameters: &frame.parameters.corner_detection,
                 projection_noise: &frame.parameters.projection_noise,
-                corners: &mut frame.own.corners,
+                corners: &mut frame.shared.corners,
             };
             self.corner_detection.call(&frame.cycle, |node| node.cycle(context))?;
         } else {
@@ -277,7 +277,7 @@ impl Nodes {
             self.corner_detection.skip();
         }
         if let Some(injections) = frame.injections {
-            injections.corners.replace(&mut frame.own.corners);
+            injections.corners.replace(&mut frame.shared.corners);
         }
         Ok(())
     }

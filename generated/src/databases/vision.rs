@@ -39,10 +39,6 @@ use crate::parameters::VisionInstance;
 pub struct OwnOutputs {
     /// vision::camera_matrix_extractor
     pub camera_matrix: Option<CameraMatrix>,
-    /// vision::center_circle_detection
-    pub center_circle: Option<CenterCircle>,
-    /// vision::corner_detection
-    pub corners: Vec<LineCorner>,
     /// vision::field_border
     pub field_border: FieldBorder,
     /// vision::field_color_detection
@@ -60,6 +56,10 @@ pub struct OwnOutputs {
 pub struct SharedOutputs {
     /// vision::ball_detection
     pub balls: Vec<BallCandidate>,
+    /// vision::center_circle_detection
+    pub center_circle: Option<CenterCircle>,
+    /// vision::corner_detection
+    pub corners: Vec<LineCorner>,
     /// vision::line_detection
     pub lines: Vec<LineSegment>,
     /// vision::obstacle_detection

@@ -179,13 +179,9 @@ impl<Hardware: CameraInterface + Send + Sync> Recorded for Vision<Hardware> {
         visit(
             "vision::center_circle_detection",
             "center_circle",
-            digest(&self.own.previous().center_circle)?,
+            digest(&shared.center_circle)?,
         );
-        visit(
-            "vision::corner_detection",
-            "corners",
-            digest(&self.own.previous().corners)?,
-        );
+        visit("vision::corner_detection", "corners", digest(&shared.corners)?);
         visit(
             "vision::penalty_mark_detection",
             "penalty_mark",

@@ -221,8 +221,8 @@ impl<Hardware: CameraInterface + Send + Sync> Body for Vision<Hardware> {
             "image_segments" => Some(&self.own.previous().image_segments),
             "field_border" => Some(&self.own.previous().field_border),
             "lines" => Some(&shared.lines),
-            "center_circle" => Some(&self.own.previous().center_circle),
-            "corners" => Some(&self.own.previous().corners),
+            "center_circle" => Some(&shared.center_circle),
+            "corners" => Some(&shared.corners),
             "penalty_mark" => Some(&shared.penalty_mark),
             "balls" => Some(&shared.balls),
             "obstacles" => Some(&shared.obstacles),
@@ -263,8 +263,8 @@ impl<Hardware: CameraInterface + Send + Sync> Body for Vision<Hardware> {
         visitor.output(Some(&self.own.previous().image_segments));
         visitor.output(Some(&self.own.previous().field_border));
         visitor.output(Some(&shared.lines));
-        visitor.output(Some(&self.own.previous().center_circle));
-        visitor.output(Some(&self.own.previous().corners));
+        visitor.output(Some(&shared.center_circle));
+        visitor.output(Some(&shared.corners));
         visitor.output(Some(&shared.penalty_mark));
         visitor.output(Some(&shared.balls));
         visitor.output(Some(&shared.obstacles));

@@ -1,4 +1,4 @@
-//! Knows where the robot is on the field, from the lines and penalty marks that both cameras saw in order.
+//! Knows where the robot is on the field, from the lines, corners, centre circles and penalty marks that both cameras saw in order.
 //!
 //! A few hypotheses, each an extended Kalman filter over place and heading that odometry moves. What
 //! was seen belongs to the marking that was expected nearest; a hypothesis that explains little of it
@@ -24,7 +24,7 @@ use framework::{
 use nalgebra::{Isometry2, Matrix3, Vector2};
 use serde::{Deserialize, Serialize};
 use types::fall_state::FallState;
-use types::field_features::{LineSegment, PenaltyMark};
+use types::field_features::{CenterCircle, LineCorner, LineSegment, PenaltyMark};
 use types::field_markings::FieldMarkings;
 use types::game::{Player, PrimaryState};
 use types::odometry::Odometry;
@@ -170,6 +170,8 @@ pub struct CreationContext {}
 pub struct CycleContext {
     lines: PerceptionInput<Vec<LineSegment>, "Vision", "lines">,
     penalty_mark: PerceptionInput<Option<PenaltyMark>, "Vision", "penalty_mark">,
+    center_circle: PerceptionInput<Option<CenterCircle>, "Vision", "center_circle">,
+    corners: PerceptionInput<Vec<LineCorner>, "Vision", "corners">,
     odometry: HistoricInput<Odometry, "odometry">,
     fall_state: Input<FallState, "fall_state">,
     primary_state: Input<PrimaryState, "primary_state">,
@@ -219,22 +221,32 @@ impl Localization {
                 belief.learn(timestamp, pose, seen, &view);
             }
         };
-        let marks = context.penalty_mark.persistent;
+        let (marks, circles) = (&context.penalty_mark, &context.center_circle);
+        let corners = &context.corners;
         self.belief
             .settle(context.lines.persistent, |belief, timestamp, lines| {
-                let mark = at(marks.iter(), timestamp);
-                see(belief, timestamp, Seen { lines, mark });
+                let seen = Seen {
+                    lines,
+                    mark: at(marks.persistent.iter(), timestamp).and_then(Option::as_ref),
+                    circle: at(circles.persistent.iter(), timestamp).and_then(Option::as_ref),
+                    corners: at(corners.persistent.iter(), timestamp).map_or(&[], Vec::as_slice),
+                };
+                see(belief, timestamp, seen);
             });
         let pose = ground_to_start(&odometry, now);
         if let Some(pose) = pose {
             self.put(now, pose, *context.primary_state, *context.player, &view);
         }
-        let marks = context.penalty_mark.transient;
         let mut newest =
             self.belief
                 .with_transient(context.lines.transient, |belief, timestamp, lines| {
-                    let mark = at(marks.iter(), timestamp);
-                    see(belief, timestamp, Seen { lines, mark });
+                    let seen = Seen {
+                        lines,
+                        mark: at(marks.transient.iter(), timestamp).and_then(Option::as_ref),
+                        circle: at(circles.transient.iter(), timestamp).and_then(Option::as_ref),
+                        corners: at(corners.transient.iter(), timestamp).map_or(&[], Vec::as_slice),
+                    };
+                    see(belief, timestamp, seen);
                 });
         if let Some(pose) = pose {
             newest.predict(now, pose, is_upright, &view);
@@ -276,12 +288,12 @@ impl Localization {
 }
 
 /// What the image of that time shows.
-fn at<'a>(
-    mut marks: impl Iterator<Item = (Timestamp, &'a Option<PenaltyMark>)>,
+fn at<'a, T>(
+    mut images: impl Iterator<Item = (Timestamp, &'a T)>,
     timestamp: Timestamp,
-) -> Option<&'a PenaltyMark> {
-    let (_, mark) = marks.find(|(seen_at, _)| *seen_at == timestamp)?;
-    mark.as_ref()
+) -> Option<&'a T> {
+    let (_, seen) = images.find(|(seen_at, _)| *seen_at == timestamp)?;
+    Some(seen)
 }
 
 fn start_pose(player: Player, parameters: &LocalizationParameters) -> Isometry2<f32> {

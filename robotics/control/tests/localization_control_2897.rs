@@ -1,6 +1,7 @@
 //! Cycle 2897 of Control as it was recorded: `control::localization` computes the same again, bit for bit.
 //!
 //! Written by `hulkgen capture`, with its values in `captured/localization_control_2897.json`.
+//! Vision of that day told neither circles nor corners: written in by hand, with the digest of the state that has room for them.
 
 use control::localization::{CycleContext, Localization};
 use framework::testing::{AdditionalProbe, Captured};
@@ -13,12 +14,18 @@ fn localization_computes_cycle_2897_of_control_again() {
     let lines = lines.seen();
     let penalty_mark = captured.series("penalty_mark");
     let penalty_mark = penalty_mark.seen();
+    let center_circle = captured.series("center_circle");
+    let center_circle = center_circle.seen();
+    let corners = captured.series("corners");
+    let corners = corners.seen();
     let odometry = captured.history("odometry");
     let odometry = odometry.seen();
     let mut hypotheses = AdditionalProbe::default();
     let context = CycleContext {
         lines: lines.input(),
         penalty_mark: penalty_mark.input(),
+        center_circle: center_circle.input(),
+        corners: corners.input(),
         odometry: odometry.input(),
         fall_state: &captured.value("fall_state"),
         primary_state: &captured.value("primary_state"),

@@ -6,8 +6,12 @@ use framework::Reflect;
 use nalgebra::{Point2, Vector2};
 use serde::{Deserialize, Serialize};
 
+use crate::field_features::CornerKind;
+
 /// How many straight lines there are on a field.
 pub const LINE_COUNT: usize = 17;
+/// How many corners they make.
+pub const CORNER_COUNT: usize = 22;
 
 /// Measures of the field between the middles of its lines, m.
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
@@ -61,6 +65,17 @@ pub struct FieldLine {
     pub to: f32,
 }
 
+/// A corner of straight lines.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FieldCorner {
+    /// Which of its four arms are lines.
+    pub kind: CornerKind,
+    /// Where the middles of the lines cross, in the field frame, m.
+    pub position: Point2<f32>,
+    /// Which way it opens, of length 1: an L between its arms, a T along its stem.
+    pub direction: Vector2<f32>,
+}
+
 impl FieldMarkings {
     /// Every straight line.
     pub fn lines(&self) -> [FieldLine; LINE_COUNT] {
@@ -107,6 +122,43 @@ impl FieldMarkings {
         lines
     }
 
+    /// Every corner of straight lines; none of them is an X.
+    pub fn corners(&self) -> [FieldCorner; CORNER_COUNT] {
+        let (goal, touch) = (self.length / 2.0, self.width / 2.0);
+        let corner = |kind, x, y, direction: Vector2<f32>| FieldCorner {
+            kind,
+            position: Point2::new(x, y),
+            direction: direction.normalize(),
+        };
+        let areas = [
+            (self.goal_area_length, self.goal_area_width / 2.0),
+            (self.penalty_area_length, self.penalty_area_width / 2.0),
+        ];
+        let quarters = [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)];
+        let of_quarters = quarters.into_iter().flat_map(move |(x, y)| {
+            let of_areas = areas.into_iter().flat_map(move |(length, half)| {
+                let front = corner(
+                    CornerKind::L,
+                    x * (goal - length),
+                    y * half,
+                    Vector2::new(x, -y),
+                );
+                [
+                    front,
+                    corner(CornerKind::T, x * goal, y * half, -Vector2::x() * x),
+                ]
+            });
+            let of_field = corner(CornerKind::L, x * goal, y * touch, Vector2::new(-x, -y));
+            of_areas.chain([of_field])
+        });
+        let middle = [1.0, -1.0].map(|y| corner(CornerKind::T, 0.0, y * touch, -Vector2::y() * y));
+        let mut corners = [middle[0]; CORNER_COUNT];
+        for (place, corner) in corners.iter_mut().zip(of_quarters.chain(middle)) {
+            *place = corner;
+        }
+        corners
+    }
+
     /// The penalty marks, the one before the opponents' goal first.
     pub fn penalty_marks(&self) -> [Point2<f32>; 2] {
         let x = self.length / 2.0 - self.penalty_mark_distance;
@@ -141,9 +193,8 @@ impl Course {
 mod tests {
     use super::*;
 
-    #[test]
-    fn the_plan_looks_the_same_from_both_goals() {
-        let markings = FieldMarkings {
+    fn markings() -> FieldMarkings {
+        FieldMarkings {
             length: 9.0,
             width: 6.0,
             goal_area_length: 0.6,
@@ -152,7 +203,67 @@ mod tests {
             penalty_area_width: 4.0,
             penalty_mark_distance: 1.3,
             circle_radius: 0.75,
-        };
+        }
+    }
+
+    /// Whether a line leads away from there so.
+    fn has_arm(lines: &[FieldLine], place: Point2<f32>, arm: Vector2<f32>) -> bool {
+        let end = place + arm * 0.1;
+        lines.iter().any(|line| {
+            let (across, along) = line.course.axes();
+            let is_on = |place: Point2<f32>| {
+                (place[across] - line.at).abs() < 1e-4
+                    && (line.from - 1e-4..=line.to + 1e-4).contains(&place[along])
+            };
+            is_on(place) && is_on(end)
+        })
+    }
+
+    #[test]
+    fn corners_are_where_lines_meet_and_open_as_they_lead_away() {
+        let (lines, corners) = (markings().lines(), markings().corners());
+        let mut places: Vec<Point2<f32>> = Vec::new();
+        let across = lines.iter().filter(|line| line.course == Course::Across);
+        for (one, other) in across.flat_map(|one| lines.iter().map(move |other| (one, other))) {
+            let place = Point2::new(one.at, other.at);
+            let meet = other.course == Course::Along
+                && (one.from..=one.to).contains(&place.y)
+                && (other.from..=other.to).contains(&place.x);
+            if !meet
+                || places
+                    .iter()
+                    .any(|known| nalgebra::distance(known, &place) < 1e-4)
+            {
+                continue;
+            }
+            places.push(place);
+            let is_here =
+                |corner: &&FieldCorner| nalgebra::distance(&corner.position, &place) < 1e-4;
+            let corner = corners
+                .iter()
+                .find(is_here)
+                .expect("lines meet in a corner");
+            let arms = [Vector2::x(), -Vector2::x(), Vector2::y(), -Vector2::y()];
+            let arms = arms.into_iter().filter(|arm| has_arm(&lines, place, *arm));
+            let (count, sum) = arms.fold((0, Vector2::zeros()), |(count, sum), arm| {
+                (count + 1, sum + arm)
+            });
+            assert_eq!(
+                count,
+                if corner.kind == CornerKind::L { 2 } else { 3 },
+                "{corner:?}"
+            );
+            assert!(
+                (sum.normalize() - corner.direction).norm() < 1e-4,
+                "{corner:?}"
+            );
+        }
+        assert_eq!(places.len(), CORNER_COUNT);
+    }
+
+    #[test]
+    fn the_plan_looks_the_same_from_both_goals() {
+        let markings = markings();
         let lines = markings.lines();
         for line in lines {
             assert!(line.from < line.to, "{line:?}");

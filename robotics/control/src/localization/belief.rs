@@ -6,7 +6,7 @@
 use framework::{Timestamp, math};
 use nalgebra::{Isometry2, Point2, Vector3};
 use serde::{Deserialize, Serialize};
-use types::field_features::{LineSegment, PenaltyMark};
+use types::field_features::{CenterCircle, CornerKind, LineCorner, LineSegment, PenaltyMark};
 
 use super::estimate::Estimate;
 use super::memory::Memory;
@@ -21,6 +21,12 @@ pub(super) const MOST_HYPOTHESES: usize = 8;
 const LONG: f32 = 1.0;
 /// As how much line a penalty mark counts, m.
 const MARK_LENGTH: f32 = 0.5;
+/// As how much line the centre circle counts, m.
+const CIRCLE_LENGTH: f32 = 1.0;
+/// As how much line a corner counts, whose lines count as well, m.
+pub(super) const CORNER_LENGTH: f32 = 0.5;
+/// How far the middle of a circle may be off of which a line is a piece, m.
+const PIECE_TOLERANCE: f32 = 0.2;
 
 /// A place where the robot may be.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
@@ -47,6 +53,22 @@ pub(super) struct Belief {
 pub(super) struct Seen<'a> {
     pub(super) lines: &'a [LineSegment],
     pub(super) mark: Option<&'a PenaltyMark>,
+    pub(super) circle: Option<&'a CenterCircle>,
+    pub(super) corners: &'a [LineCorner],
+}
+
+impl Seen<'_> {
+    /// Circle and corners are made of lines.
+    fn is_empty(&self) -> bool {
+        self.lines.is_empty() && self.mark.is_none()
+    }
+
+    /// Whether the line is a piece of the circle that was seen.
+    fn is_piece(&self, line: &LineSegment, view: &View<'_>) -> bool {
+        let radius = view.markings.circle_radius;
+        self.circle
+            .is_some_and(|circle| circle.has_piece(line, radius, PIECE_TOLERANCE))
+    }
 }
 
 impl Default for Belief {
@@ -135,7 +157,7 @@ impl Belief {
         let Some(current) = self.odometry else {
             return;
         };
-        if seen.lines.is_empty() && seen.mark.is_none() {
+        if seen.is_empty() {
             return;
         }
         // An image that is older than what is known already shows things from where the robot was.
@@ -143,7 +165,7 @@ impl Belief {
         for hypothesis in self.hypotheses.iter_mut().flatten() {
             hypothesis.learn(&seen, &to_now, view);
         }
-        self.memory.remember(time, &odometry, seen.lines, view);
+        self.memory.remember(time, &odometry, &seen, view);
         self.sort(view);
         self.merge(view);
         let is_lost = self
@@ -160,7 +182,8 @@ impl Belief {
     fn search(&mut self, ground_to_start: &Isometry2<f32>, view: &View<'_>) {
         let anchor = self.best().map(|best| best.estimate.pose());
         let lines = self.memory.lines(self.time, ground_to_start, view);
-        for found in search::places(&lines, anchor.as_ref(), view)
+        let corners = self.memory.corners(self.time, ground_to_start, view);
+        for found in search::places(&lines, &corners, anchor.as_ref(), view)
             .into_iter()
             .flatten()
         {
@@ -227,24 +250,32 @@ impl Hypothesis {
     /// `to_now` leads from the frame of what was seen to that of the robot now.
     fn learn(&mut self, seen: &Seen<'_>, to_now: &Isometry2<f32>, view: &View<'_>) {
         let (mut total, mut explained) = (0.0, 0.0);
-        let mut count = |found: Option<Match>, length: f32, estimate: &mut Estimate| {
+        let mut count = |found: Option<&Match>, length: f32| {
             total += length;
-            if let Some(found) = found {
-                explained += length * quality(&found, view);
-                if found.is_clear {
-                    found.innovations.iter().for_each(|one| estimate.learn(one));
-                }
-            }
+            explained += found.map_or(0.0, |found| length * quality(found, view));
+        };
+        let learn = |found: Option<Match>, estimate: &mut Estimate| {
+            let clear = found.filter(|found| found.is_clear);
+            let innovations = clear.iter().flat_map(|found| &found.innovations);
+            innovations.for_each(|one| estimate.learn(one));
         };
         let Self { estimate, evidence } = self;
-        for line in seen.lines {
+        if let Some(circle) = seen.circle {
+            let found = view.circle(estimate, to_now * circle.position);
+            count(found.as_ref(), CIRCLE_LENGTH);
+            learn(found, estimate);
+        }
+        let straight = seen.lines.iter().filter(|line| !seen.is_piece(line, view));
+        for line in straight {
             let line = moved(line, to_now);
             let found = view.line(estimate, &line);
-            count(found, line.length().min(LONG), estimate);
+            count(found.as_ref(), line.length().min(LONG));
+            learn(found, estimate);
         }
         if let Some(mark) = seen.mark {
             let found = view.mark(estimate, to_now * mark.position);
-            count(found, MARK_LENGTH, estimate);
+            count(found.as_ref(), MARK_LENGTH);
+            learn(found, estimate);
         }
         if total > 0.0 {
             let newest = 1.0 / view.parameters.evidence_images.max(1.0);
@@ -258,6 +289,21 @@ impl Hypothesis {
 /// From 1 where something is exactly where it was expected to half of it at the gate.
 pub(super) fn quality(found: &Match, view: &View<'_>) -> f32 {
     1.0 - 0.5 * found.deviation / math::powi(view.parameters.gate, 2)
+}
+
+/// Straight lines cross in no X.
+pub(super) fn is_on_field(corner: &LineCorner) -> bool {
+    corner.kind != CornerKind::X
+}
+
+pub(super) fn moved_corner(corner: &LineCorner, by: &Isometry2<f32>) -> LineCorner {
+    let rotation = by.rotation.to_rotation_matrix();
+    LineCorner {
+        position: by * corner.position,
+        direction: by * corner.direction,
+        covariance: rotation.matrix() * corner.covariance * rotation.matrix().transpose(),
+        ..*corner
+    }
 }
 
 pub(super) fn moved(line: &LineSegment, by: &Isometry2<f32>) -> LineSegment {

@@ -1,23 +1,29 @@
-//! Owns `Memory`, lines that were seen lately: one image rarely shows enough to find a lost robot.
+//! Owns `Memory`, lines and corners that were seen lately: one image rarely shows enough to find a lost robot.
 
 use framework::Timestamp;
 use nalgebra::Isometry2;
 use serde::{Deserialize, Serialize};
-use types::field_features::LineSegment;
+use types::field_features::{LineCorner, LineSegment};
 
-use super::belief::moved;
+use super::belief::{Seen, is_on_field, moved, moved_corner};
 use super::sight::View;
 
 /// How many lines are remembered.
 const MOST_LINES: usize = 32;
 /// How many of one image.
 const OF_ONE_IMAGE: usize = 4;
+/// How many corners are remembered.
+const MOST_CORNERS: usize = 8;
+/// How many of one image.
+const CORNERS_OF_ONE_IMAGE: usize = 2;
 
 /// The newest ones, in the start frame of odometry.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Serialize)]
 pub(super) struct Memory {
     lines: [Option<Remembered>; MOST_LINES],
     next: usize,
+    corners: [Option<RememberedCorner>; MOST_CORNERS],
+    next_corner: usize,
     newest: Timestamp,
 }
 
@@ -27,14 +33,20 @@ struct Remembered {
     seen_at: Timestamp,
 }
 
+#[derive(Clone, Copy, Debug, Deserialize, Serialize)]
+struct RememberedCorner {
+    corner: LineCorner,
+    seen_at: Timestamp,
+}
+
 impl Memory {
-    /// Keeps the first lines of an image, in which those with the most points stand first. Images that
-    /// follow at once show the same.
+    /// Keeps the first lines and corners of an image, in which those with the most points stand first. Images
+    /// that follow at once show the same.
     pub(super) fn remember(
         &mut self,
         seen_at: Timestamp,
         ground_to_start: &Isometry2<f32>,
-        lines: &[LineSegment],
+        seen: &Seen<'_>,
         view: &View<'_>,
     ) {
         let since = (seen_at - self.newest).as_secs_f32();
@@ -42,11 +54,37 @@ impl Memory {
             return;
         }
         self.newest = seen_at;
-        for line in lines.iter().take(OF_ONE_IMAGE) {
+        for line in seen.lines.iter().take(OF_ONE_IMAGE) {
             let line = moved(line, ground_to_start);
             self.lines[self.next] = Some(Remembered { line, seen_at });
             self.next = (self.next + 1) % MOST_LINES;
         }
+        let corners = seen.corners.iter().filter(|corner| is_on_field(corner));
+        for corner in corners.take(CORNERS_OF_ONE_IMAGE) {
+            let corner = moved_corner(corner, ground_to_start);
+            self.corners[self.next_corner] = Some(RememberedCorner { corner, seen_at });
+            self.next_corner = (self.next_corner + 1) % MOST_CORNERS;
+        }
+    }
+
+    /// What is not too old, in the ground frame, the newest first.
+    pub(super) fn corners(
+        &self,
+        now: Timestamp,
+        ground_to_start: &Isometry2<f32>,
+        view: &View<'_>,
+    ) -> Vec<LineCorner> {
+        let to_ground = ground_to_start.inverse();
+        let is_recent = |remembered: &&RememberedCorner| {
+            (now - remembered.seen_at).as_secs_f32() <= view.parameters.memory_time
+        };
+        let oldest_first = self.corners[self.next_corner..]
+            .iter()
+            .chain(&self.corners[..self.next_corner]);
+        let recent = oldest_first.rev().flatten().filter(is_recent);
+        recent
+            .map(|remembered| moved_corner(&remembered.corner, &to_ground))
+            .collect()
     }
 
     /// What is not too old, in the ground frame, the longest first.

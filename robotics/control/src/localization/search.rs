@@ -2,15 +2,16 @@
 //!
 //! Two lines that cross at a right angle fix the pose but for which lines they are: every pair of the
 //! field's lines is tried, and what else was seen lately decides. So do the middle line and a piece of the
-//! centre circle: the circle's middle lies on both the line and the normal of the piece. The field looks
+//! centre circle: the circle's middle lies on both the line and the normal of the piece. A corner fixes the pose
+//! but for which corner it is: all of its kind are tried. The field looks
 //! the same from both goals, so each place has a twin: the one near the last belief counts, else the one in
 //! the own half, where the rules have robots put back.
 
 use nalgebra::{Isometry2, Rotation2, Vector2};
-use types::field_features::LineSegment;
+use types::field_features::{LineCorner, LineSegment, chord_distance};
 use types::field_markings::{Course, FieldLine};
 
-use super::belief::{Hypothesis, quality};
+use super::belief::{CORNER_LENGTH, Hypothesis, quality};
 use super::estimate::Estimate;
 use super::sight::{self, View};
 use crate::angle::wrap;
@@ -32,17 +33,20 @@ const LEAST_SINE: f32 = 0.3;
 const CHORD_TOLERANCE: f32 = 0.15;
 /// So many places by the circle are judged.
 const MOST_BY_CIRCLE: usize = 16;
+/// So many of the newest corners are tried.
+const MOST_CORNERS: usize = 4;
 
-/// Places that explain enough of the lines, which are in the ground frame and the longest first; the best
-/// one first.
+/// Places that explain enough of the lines, the longest first, and of the corners, the newest first, in the ground
+/// frame; the best place first.
 pub(super) fn places(
     lines: &[LineSegment],
+    corners: &[LineCorner],
     anchor: Option<&Isometry2<f32>>,
     view: &View<'_>,
 ) -> [Option<Hypothesis>; MOST_PLACES] {
     let mut found = [None; MOST_PLACES];
     let mut judge = |pose: Isometry2<f32>| {
-        if let Some(hypothesis) = judged(&resolved(pose, anchor, view), lines, view) {
+        if let Some(hypothesis) = judged(&resolved(pose, anchor, view), lines, corners, view) {
             keep(&mut found, hypothesis, view);
         }
     };
@@ -54,8 +58,24 @@ pub(super) fn places(
             }
         }
     }
-    by_circle(lines, view).take(MOST_BY_CIRCLE).for_each(judge);
+    by_circle(lines, view)
+        .take(MOST_BY_CIRCLE)
+        .for_each(&mut judge);
+    by_corner(corners, view).for_each(judge);
     found
+}
+
+/// Places from which one of the corners is one of the field.
+fn by_corner(corners: &[LineCorner], view: &View<'_>) -> impl Iterator<Item = Isometry2<f32>> {
+    let known = view.markings.corners();
+    corners.iter().take(MOST_CORNERS).flat_map(move |seen| {
+        let same = known.into_iter().filter(|corner| corner.kind == seen.kind);
+        same.map(|corner| {
+            let heading = Rotation2::rotation_between(&seen.direction, &corner.direction);
+            let position = corner.position - heading * seen.position;
+            Isometry2::new(position, heading.angle())
+        })
+    })
 }
 
 /// Places from which one of the longest lines is the middle line and another one a piece of the circle.
@@ -87,7 +107,7 @@ fn circle_middle(line: &LineSegment, piece: &LineSegment, radius: f32) -> Option
     }
     let from = nalgebra::center(&piece.start, &piece.end).coords;
     let distance = (line.start.coords - from).perp(&along) / sine;
-    let expected = sight::chord_distance(piece.length(), radius);
+    let expected = chord_distance(piece.length(), radius);
     ((distance.abs() - expected).abs() <= CHORD_TOLERANCE).then(|| from + normal * distance)
 }
 
@@ -163,7 +183,12 @@ fn resolved(
 }
 
 /// `None` where it explains too little, or lies beside the field.
-fn judged(pose: &Isometry2<f32>, lines: &[LineSegment], view: &View<'_>) -> Option<Hypothesis> {
+fn judged(
+    pose: &Isometry2<f32>,
+    lines: &[LineSegment],
+    corners: &[LineCorner],
+    view: &View<'_>,
+) -> Option<Hypothesis> {
     let parameters = view.parameters;
     let margin = parameters.greatest_distance_outside;
     if !view
@@ -179,6 +204,12 @@ fn judged(pose: &Isometry2<f32>, lines: &[LineSegment], view: &View<'_>) -> Opti
         total += length;
         if let Some(found) = view.line(&estimate, line) {
             explained += length * quality(&found, view);
+        }
+    }
+    for corner in corners {
+        total += CORNER_LENGTH;
+        if let Some(found) = view.corner(&estimate, corner) {
+            explained += CORNER_LENGTH * quality(&found, view);
         }
     }
     let share = explained / total;

@@ -7,7 +7,7 @@
 
 use framework::math;
 use nalgebra::{Isometry2, Matrix2, Point2, RowVector3, Unit, Vector2};
-use types::field_features::LineSegment;
+use types::field_features::{LineCorner, LineSegment, chord_distance};
 use types::field_markings::{FieldLine, FieldMarkings};
 
 use super::LocalizationParameters;
@@ -16,6 +16,9 @@ use crate::sight_noise::SightNoise;
 
 /// A chord longer than this share of the circle's radius is none.
 pub(super) const LONGEST_CHORD: f32 = 1.5;
+
+/// A corner that opens another way by more than 0.5 rad is another one: the cosine of that.
+const SAME_OPENING: f32 = 0.88;
 
 /// The field and what is believed of those who look at it.
 #[derive(Clone, Copy, Debug)]
@@ -46,11 +49,36 @@ impl View<'_> {
 
     /// Which penalty mark this is, seen from there; `None` where it is too far from both.
     pub(super) fn mark(&self, estimate: &Estimate, seen: Point2<f32>) -> Option<Match> {
+        self.place(estimate, seen, self.markings.penalty_marks().into_iter())
+    }
+
+    /// Whether the centre circle may have its middle there; `None` where it is too far from that of the field.
+    pub(super) fn circle(&self, estimate: &Estimate, seen: Point2<f32>) -> Option<Match> {
+        self.place(estimate, seen, [Point2::origin()].into_iter())
+    }
+
+    /// Which corner this is, seen from there; `None` where none of its kind opens that way near it.
+    pub(super) fn corner(&self, estimate: &Estimate, seen: &LineCorner) -> Option<Match> {
+        let direction = estimate.pose().rotation * seen.direction;
+        let corners = self.markings.corners().into_iter();
+        let same = corners.filter(|corner| {
+            corner.kind == seen.kind && corner.direction.dot(&direction) >= SAME_OPENING
+        });
+        self.place(estimate, seen.position, same.map(|corner| corner.position))
+    }
+
+    /// Which of these places was seen; `None` where it is too far from all.
+    fn place(
+        &self,
+        estimate: &Estimate,
+        seen: Point2<f32>,
+        places: impl Iterator<Item = Point2<f32>>,
+    ) -> Option<Match> {
         let pose = estimate.pose();
         let noise = self.noise(&pose, seen);
         let turned = pose.rotation * seen.coords;
-        let candidates = self.markings.penalty_marks().into_iter().map(|mark| {
-            let residual = mark - pose * seen;
+        let candidates = places.map(|place| {
+            let residual = place - pose * seen;
             let innovation = |axis: usize, turn: f32| {
                 let mut gradient = RowVector3::zeros();
                 gradient[axis] = 1.0;
@@ -162,11 +190,4 @@ impl View<'_> {
         };
         noise.covariance(pose.rotation * seen.coords)
     }
-}
-
-/// How far from the middle of a circle a line lies that was fitted to an arc with a chord of this length, all in m.
-pub(super) fn chord_distance(length: f32, radius: f32) -> f32 {
-    // The mean of the arc's distances along the normal.
-    let half_angle = math::asin((length / (2.0 * radius)).min(1.0)).max(1e-3);
-    radius * math::sin(half_angle) / half_angle
 }

@@ -7,7 +7,7 @@ use framework::math;
 use framework::testing::{
     AdditionalProbe, ParameterFile, at_millis, cycle_time, history, perception,
 };
-use nalgebra::Point2;
+use nalgebra::{Matrix2, Point2};
 use proptest::prelude::*;
 use types::field_markings::Course;
 
@@ -28,6 +28,8 @@ struct Moment<'a> {
     millis: u64,
     odometry: Isometry2<f32>,
     lines: &'a Vec<LineSegment>,
+    circle: Option<CenterCircle>,
+    corners: Vec<LineCorner>,
     is_settled: bool,
     primary_state: PrimaryState,
 }
@@ -52,26 +54,35 @@ fn pose(x: f32, y: f32, heading: f32) -> Isometry2<f32> {
     Isometry2::new(Vector2::new(x, y), heading)
 }
 
+/// Images by the times at which they were taken.
+type Images<'a, T> = Vec<(Timestamp, &'a T)>;
+
+/// What one image shows, as settled and as open.
+fn image<T>(at: Timestamp, seen: &T, is_settled: bool) -> (Images<'_, T>, Images<'_, T>) {
+    let shown = vec![(at, seen)];
+    if is_settled {
+        (shown, Vec::new())
+    } else {
+        (Vec::new(), shown)
+    }
+}
+
 fn cycle(node: &mut Localization, moment: &Moment<'_>) -> Cycle {
     let odometry = Odometry {
         ground_to_start: moment.odometry,
     };
     let now = at_millis(moment.millis);
-    let seen = |is_shown: bool| -> Vec<_> {
-        let image = (now, moment.lines);
-        is_shown.then_some(image).into_iter().collect()
-    };
-    let marks = |is_shown: bool| -> Vec<_> {
-        let image = (now, &None::<PenaltyMark>);
-        is_shown.then_some(image).into_iter().collect()
-    };
     let is_settled = moment.is_settled;
-    let (settled, open) = (seen(is_settled), seen(!is_settled));
-    let (settled_marks, open_marks) = (marks(is_settled), marks(!is_settled));
+    let (lines, open_lines) = image(now, moment.lines, is_settled);
+    let (marks, open_marks) = image(now, &None::<PenaltyMark>, is_settled);
+    let (circles, open_circles) = image(now, &moment.circle, is_settled);
+    let (corners, open_corners) = image(now, &moment.corners, is_settled);
     let mut hypotheses = AdditionalProbe::default();
     let context = CycleContext {
-        lines: perception(&settled, &open),
-        penalty_mark: perception(&settled_marks, &open_marks),
+        lines: perception(&lines, &open_lines),
+        penalty_mark: perception(&marks, &open_marks),
+        center_circle: perception(&circles, &open_circles),
+        corners: perception(&corners, &open_corners),
         odometry: history(&[], now, &odometry),
         fall_state: &FallState::Upright,
         primary_state: &moment.primary_state,
@@ -97,6 +108,8 @@ fn playing(millis: u64, odometry: Isometry2<f32>, lines: &Vec<LineSegment>) -> M
         millis,
         odometry,
         lines,
+        circle: None,
+        corners: Vec::new(),
         is_settled: true,
         primary_state: PrimaryState::Playing,
     }
@@ -139,6 +152,22 @@ fn view_from(ground_to_field: &Isometry2<f32>) -> Vec<LineSegment> {
         (run.len() > 6).then(|| segment(run[0], run[run.len() - 1]))
     });
     seen.collect()
+}
+
+/// Corners of the field before a robot that stands there, in its ground frame.
+fn corners_from(ground_to_field: &Isometry2<f32>) -> Vec<LineCorner> {
+    let to_ground = ground_to_field.inverse();
+    let corners = MARKINGS.corners().into_iter().map(|corner| LineCorner {
+        kind: corner.kind,
+        position: to_ground * corner.position,
+        direction: to_ground * corner.direction,
+        ..LineCorner::default()
+    });
+    let is_seen = |corner: &LineCorner| {
+        let place = corner.position;
+        (0.5..3.0).contains(&place.coords.norm()) && math::atan2(place.y, place.x).abs() < ASIDE
+    };
+    corners.filter(is_seen).collect()
 }
 
 fn assert_near(found: Option<Isometry2<f32>>, truth: &Isometry2<f32>, distance: f32, angle: f32) {
@@ -239,12 +268,13 @@ fn lines_make_up_for_what_odometry_gets_wrong() {
 }
 
 /// Stands somewhere, is put elsewhere without noticing, and turns there by so much with each of 910 images. For how many
-/// images of 33 ms it was wrong by more than 0.3 m, and where it believes itself at the end. Each image shows what `is_shown`
-/// says of the lines before it.
+/// images of 33 ms it was wrong by more than 0.3 m, and where it believes itself at the end. Each image shows what `show` leaves
+/// of the lines before it.
 fn kidnapped(
     to: &Isometry2<f32>,
     turn: f32,
-    is_shown: impl Fn(u64, &LineSegment) -> bool,
+    with_corners: bool,
+    show: impl Fn(u64, &mut Vec<LineSegment>),
 ) -> (usize, Option<Isometry2<f32>>, Isometry2<f32>) {
     let mut node = node();
     let start = pose(-3.0, 3.0, -FRAC_PI_2);
@@ -260,8 +290,12 @@ fn kidnapped(
         let odometry = pose(0.0, 0.0, turn * index as f32);
         truth = to * odometry;
         let mut lines = view_from(&truth);
-        lines.retain(|line| is_shown(index, line));
-        found = cycle(&mut node, &playing(3300 + 33 * index, odometry, &lines)).ground_to_field;
+        show(index, &mut lines);
+        let mut moment = playing(3300 + 33 * index, odometry, &lines);
+        if with_corners {
+            moment.corners = corners_from(&truth);
+        }
+        found = cycle(&mut node, &moment).ground_to_field;
         let error = found.map(|found| truth.inv_mul(&found).translation.vector.norm());
         wrong += usize::from(error.is_none_or(|error| error > 0.3));
     }
@@ -277,21 +311,87 @@ fn a_kidnapped_robot_finds_itself_again() {
         pose(-0.6, 0.4, 3.0),
         pose(-2.2, -0.3, -2.0),
     ];
+    for with_corners in [false, true] {
+        for place in places {
+            // Twice round.
+            let (wrong, found, truth) = kidnapped(&place, 0.0138, with_corners, |_, _| {});
+            println!("put to {place}, corners {with_corners}: wrong in {wrong} images");
+            assert!(wrong < 600, "put to {place}: wrong in {wrong} images");
+            assert_near(found, &truth, 0.2, 0.1);
+        }
+    }
+}
+
+#[test]
+fn a_robot_that_sees_only_short_pieces_of_lines_finds_itself_by_corners() {
+    let short = |_, lines: &mut Vec<LineSegment>| {
+        for line in lines {
+            let most = line.length().min(0.6);
+            line.end = line.start + line.direction().unwrap() * most;
+        }
+    };
+    let places = [
+        pose(-2.0, 1.0, 1.5),
+        pose(-3.2, -1.2, 0.7),
+        pose(-2.2, -0.3, -2.0),
+    ];
     for place in places {
-        // Twice round.
-        let (wrong, found, truth) = kidnapped(&place, 0.0138, |_, _| true);
-        println!("put to {place}: wrong in {wrong} images");
-        assert!(wrong < 600, "put to {place}: wrong in {wrong} images");
+        let look = |with_corners| kidnapped(&place, 0.0138, with_corners, short);
+        let ((without, ..), (wrong, found, truth)) = (look(false), look(true));
+        println!("put to {place}: wrong in {wrong} images, without corners in {without}");
+        assert!(
+            wrong < 600 && wrong < without,
+            "wrong in {wrong} images, without corners in {without}"
+        );
         assert_near(found, &truth, 0.2, 0.1);
     }
 }
 
 #[test]
+fn the_circle_says_where_the_robot_is_and_its_pieces_are_not_learnt_beside_it() {
+    let truth = pose(-1.8, 0.3, 0.2);
+    let start = pose(-3.0, 3.0, -FRAC_PI_2);
+    let seen = |off: f32| {
+        let mut node = node();
+        let to_truth = start.inverse() * pose(-1.9, 0.1, 0.2);
+        let nothing = Vec::new();
+        cycle(&mut node, &playing(12, Isometry2::identity(), &nothing));
+        let mut lines = view_from(&truth);
+        lines.retain(|line| line.length() < 0.5);
+        for line in &mut lines {
+            let off = Vector2::new(off, -off);
+            (line.start, line.end) = (line.start + off, line.end + off);
+        }
+        assert!(lines.len() > 3, "{lines:?}");
+        let circle = CenterCircle {
+            position: truth.inverse() * Point2::origin(),
+            covariance: Matrix2::identity() * 0.01,
+            chords: 5,
+        };
+        let mut found = Vec::new();
+        for index in 1..40 {
+            let mut moment = playing(12 + 33 * index, to_truth, &lines);
+            moment.circle = Some(circle);
+            found = cycle(&mut node, &moment).hypotheses;
+        }
+        (found[0], circle)
+    };
+    let (found, circle) = seen(0.0);
+    let off = (found.ground_to_field * circle.position).coords.norm();
+    assert!(
+        off < 0.03,
+        "the circle is taken to be {off} m beside the middle"
+    );
+    assert!(found.evidence > 0.9, "{found:?}");
+    assert_eq!(seen(0.1).0, found, "pieces of the circle say nothing more");
+}
+
+#[test]
 fn a_robot_that_sees_nothing_across_the_middle_line_but_the_circle_finds_itself_again() {
     // All straight lines before it go from touch line to touch line. Its head looks to the left for 2 s, to the right, ...
-    let (wrong, found, truth) = kidnapped(&pose(-0.8, 1.8, -2.0), 0.0, |index, line| {
+    let (wrong, found, truth) = kidnapped(&pose(-0.8, 1.8, -2.0), 0.0, false, |index, lines| {
         let looks_left = (index / 60).is_multiple_of(2);
-        (nalgebra::center(&line.start, &line.end).y > 0.0) == looks_left
+        lines.retain(|line| (nalgebra::center(&line.start, &line.end).y > 0.0) == looks_left);
     });
     assert!(wrong < 150, "wrong in {wrong} images");
     assert_near(found, &truth, 0.2, 0.1);
