@@ -10,6 +10,7 @@ use control::fall_state_filter::TiltLimits;
 use control::localization::LocalizationParameters;
 use control::obstacle_filter::ObstacleFilterParameters;
 use control::role_assignment::RoleParameters;
+use control::team_ball_filter::TeamBallParameters;
 use control::walking_engine::Heat;
 use framework::Reflect;
 use keyframes::Motions;
@@ -87,7 +88,7 @@ pub struct Parameters {
     pub penalty_mark_detection: PenaltyMarkDetectionParameters,
     /// control::game_controller_filter, control::game_controller_responder,
     /// control::localization, control::role_assignment, control::self_report,
-    /// spl_network::team_message_parser
+    /// control::team_ball_filter, spl_network::team_message_parser
     pub player: Player,
     /// vision::ball_detection, vision::corner_detection, vision::line_detection,
     /// vision::obstacle_detection, vision::penalty_mark_detection
@@ -99,6 +100,8 @@ pub struct Parameters {
     pub sonar_filter: SonarFilter,
     pub stand: Stand,
     pub support_foot_filter: SupportFootFilter,
+    /// control::team_ball_filter
+    pub team_ball_filter: TeamBallParameters,
     pub team_message_filter: TeamMessageFilter,
     pub team_message_sender: TeamMessageSender,
     pub tone_selector: ToneSelector,

@@ -37,6 +37,7 @@ use control::sit_down;
 use control::sonar_filter;
 use control::stand;
 use control::support_foot_filter;
+use control::team_ball_filter;
 use control::team_message_filter;
 use control::team_message_sender;
 use control::tone_player;
@@ -101,6 +102,7 @@ pub struct Nodes {
     pub sonar_filter: Guarded<sonar_filter::SonarFilter>,
     pub stand: Guarded<stand::Stand>,
     pub support_foot_filter: Guarded<support_foot_filter::SupportFootFilter>,
+    pub team_ball_filter: Guarded<team_ball_filter::TeamBallFilter>,
     pub team_message_filter: Guarded<team_message_filter::TeamMessageFilter>,
     pub team_message_sender: Guarded<team_message_sender::TeamMessageSender>,
     pub tone_player: Guarded<tone_player::TonePlayer>,
@@ -207,6 +209,11 @@ impl Nodes {
                 "control::obstacle_filter",
                 OnFailure::Stop,
                 Self::create_obstacle_filter()?,
+            ),
+            team_ball_filter: Guarded::new(
+                "control::team_ball_filter",
+                OnFailure::Stop,
+                Self::create_team_ball_filter()?,
             ),
             role_assignment: Guarded::new(
                 "control::role_assignment",
@@ -367,6 +374,7 @@ impl Nodes {
         self.localization(frame)?;
         self.ball_filter(frame)?;
         self.obstacle_filter(frame)?;
+        self.team_ball_filter(frame)?;
         self.role_assignment(frame)?;
         self.world_state_composer(frame)?;
         self.client_wishes(frame)?;
@@ -1139,8 +1147,7 @@ impl Nodes {
         Ok(())
     }
 
-    /// primary_state, game_controller_state, ground_to_field, ball, teammates -> role,
-    /// goalkeeper, team_ball
+    /// primary_state, game_controller_state, ball, team_ball, teammates -> role, goalkeeper
     #[inline(always)]
     fn role_assignment<Hardware>(
         &mut self,
@@ -1149,10 +1156,9 @@ impl Nodes {
         let context = role_assignment::CycleContext {
             primary_state: &frame.own.primary_state,
             game_controller_state: &frame.own.game_controller_state,
-            ground_to_field: &frame.own.ground_to_field,
             ball: &frame.own.ball,
+            team_ball: &frame.own.team_ball,
             teammates: &frame.own.teammates,
-            cycle_time: frame.cycle.time,
             player: &frame.parameters.player,
             parameters: &frame.parameters.role_assignment,
         };
@@ -1161,11 +1167,9 @@ impl Nodes {
             .call(&frame.cycle, |node| node.cycle(context))?;
         frame.own.role = outputs.role.value;
         frame.own.goalkeeper = outputs.goalkeeper.value;
-        frame.own.team_ball = outputs.team_ball.value;
         if let Some(injections) = frame.injections {
             injections.role.replace(&mut frame.own.role);
             injections.goalkeeper.replace(&mut frame.own.goalkeeper);
-            injections.team_ball.replace(&mut frame.own.team_ball);
         }
         Ok(())
     }
@@ -1307,6 +1311,30 @@ impl Nodes {
         frame.own.support_side = outputs.support_side.value;
         if let Some(injections) = frame.injections {
             injections.support_side.replace(&mut frame.own.support_side);
+        }
+        Ok(())
+    }
+
+    /// ground_to_field, ball, teammates -> team_ball
+    #[inline(always)]
+    fn team_ball_filter<Hardware>(
+        &mut self,
+        frame: &mut Frame<'_, Hardware>,
+    ) -> Result<()> {
+        let context = team_ball_filter::CycleContext {
+            ground_to_field: &frame.own.ground_to_field,
+            ball: &frame.own.ball,
+            teammates: &frame.own.teammates,
+            cycle_time: frame.cycle.time,
+            player: &frame.parameters.player,
+            parameters: &frame.parameters.team_ball_filter,
+        };
+        let outputs = self
+            .team_ball_filter
+            .call(&frame.cycle, |node| node.cycle(context))?;
+        frame.own.team_ball = outputs.team_ball.value;
+        if let Some(injections) = frame.injections {
+            injections.team_ball.replace(&mut frame.own.team_ball);
         }
         Ok(())
     }
@@ -1695,6 +1723,12 @@ impl Nodes {
         let context = support_foot_filter::CreationContext {};
         support_foot_filter::SupportFootFilter::new(context)
             .in_node("control::support_foot_filter")
+    }
+
+    fn create_team_ball_filter() -> Result<team_ball_filter::TeamBallFilter> {
+        let context = team_ball_filter::CreationContext {};
+        team_ball_filter::TeamBallFilter::new(context)
+            .in_node("control::team_ball_filter")
     }
 
     fn create_team_message_filter() -> Result<team_message_filter::TeamMessageFilter> {

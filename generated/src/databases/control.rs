@@ -132,7 +132,7 @@ pub struct OwnOutputs {
     pub stand_commands: Option<MotorCommands>,
     /// control::support_foot_filter
     pub support_side: Option<Side>,
-    /// control::role_assignment
+    /// control::team_ball_filter
     pub team_ball: Option<Point2<f32>>,
     /// control::self_report
     pub team_report: Option<TeamMessage>,

@@ -111,6 +111,7 @@ impl<
         self.nodes.localization.record(out)?;
         self.nodes.ball_filter.record(out)?;
         self.nodes.obstacle_filter.record(out)?;
+        self.nodes.team_ball_filter.record(out)?;
         self.nodes.role_assignment.record(out)?;
         self.nodes.world_state_composer.record(out)?;
         self.nodes.client_wishes.record(out)?;
@@ -196,6 +197,7 @@ impl<
         types.node("control::localization", |body| &body.nodes.localization);
         types.node("control::ball_filter", |body| &body.nodes.ball_filter);
         types.node("control::obstacle_filter", |body| &body.nodes.obstacle_filter);
+        types.node("control::team_ball_filter", |body| &body.nodes.team_ball_filter);
         types.node("control::role_assignment", |body| &body.nodes.role_assignment);
         types
             .node(
@@ -388,16 +390,16 @@ impl<
             digest(&self.own.previous().obstacles)?,
         );
         visit(
+            "control::team_ball_filter",
+            "team_ball",
+            digest(&self.own.previous().team_ball)?,
+        );
+        visit(
             "control::role_assignment",
             "goalkeeper",
             digest(&self.own.previous().goalkeeper)?,
         );
         visit("control::role_assignment", "role", digest(&self.own.previous().role)?);
-        visit(
-            "control::role_assignment",
-            "team_ball",
-            digest(&self.own.previous().team_ball)?,
-        );
         visit(
             "control::world_state_composer",
             "world_state",
@@ -565,6 +567,11 @@ fn load_nodes(from: &mut Loading<'_>) -> Result<Nodes> {
         ball_filter: Guarded::recorded("control::ball_filter", OnFailure::Stop, from)?,
         obstacle_filter: Guarded::recorded(
             "control::obstacle_filter",
+            OnFailure::Stop,
+            from,
+        )?,
+        team_ball_filter: Guarded::recorded(
+            "control::team_ball_filter",
             OnFailure::Stop,
             from,
         )?,

@@ -240,9 +240,9 @@ impl<
             "ground_to_field",
             "ball",
             "obstacles",
+            "team_ball",
             "goalkeeper",
             "role",
-            "team_ball",
             "world_state",
             "client_wish",
             "activity",
@@ -291,9 +291,9 @@ impl<
             "ground_to_field" => Some(&self.own.previous().ground_to_field),
             "ball" => Some(&self.own.previous().ball),
             "obstacles" => Some(&self.own.previous().obstacles),
+            "team_ball" => Some(&self.own.previous().team_ball),
             "goalkeeper" => Some(&self.own.previous().goalkeeper),
             "role" => Some(&self.own.previous().role),
-            "team_ball" => Some(&self.own.previous().team_ball),
             "world_state" => Some(&self.own.previous().world_state),
             "client_wish" => Some(&self.own.previous().client_wish),
             "activity" => Some(&self.own.previous().activity),
@@ -377,9 +377,9 @@ impl<
         visitor.output(Some(&self.own.previous().ground_to_field));
         visitor.output(Some(&self.own.previous().ball));
         visitor.output(Some(&self.own.previous().obstacles));
+        visitor.output(Some(&self.own.previous().team_ball));
         visitor.output(Some(&self.own.previous().goalkeeper));
         visitor.output(Some(&self.own.previous().role));
-        visitor.output(Some(&self.own.previous().team_ball));
         visitor.output(Some(&self.own.previous().world_state));
         visitor.output(Some(&self.own.previous().client_wish));
         visitor.output(Some(&self.own.previous().activity));
@@ -437,6 +437,7 @@ impl<
         visit(self.nodes.localization.report());
         visit(self.nodes.ball_filter.report());
         visit(self.nodes.obstacle_filter.report());
+        visit(self.nodes.team_ball_filter.report());
         visit(self.nodes.role_assignment.report());
         visit(self.nodes.world_state_composer.report());
         visit(self.nodes.client_wishes.report());
@@ -501,6 +502,7 @@ impl<
         visit("control::localization", &mut self.nodes.localization);
         visit("control::ball_filter", &mut self.nodes.ball_filter);
         visit("control::obstacle_filter", &mut self.nodes.obstacle_filter);
+        visit("control::team_ball_filter", &mut self.nodes.team_ball_filter);
         visit("control::role_assignment", &mut self.nodes.role_assignment);
         visit("control::world_state_composer", &mut self.nodes.world_state_composer);
         visit("control::client_wishes", &mut self.nodes.client_wishes);

@@ -28,6 +28,7 @@ pub mod ball_filter;
 pub mod localization;
 pub mod obstacle_filter;
 pub mod role_assignment;
+pub mod team_ball_filter;
 pub mod world_state_composer;
 
 pub mod behavior;

@@ -1,4 +1,4 @@
-//! Decides what this robot is for its team, and where the team sees the ball.
+//! Decides what this robot is for its team.
 //!
 //! Every robot decides for itself, from the last messages of the others, by the same rule: the goalkeeper's shirt guards the
 //! goal, of the others the one that is nearest to the ball plays it, the rest take their places in the order of their numbers.
@@ -7,8 +7,8 @@
 //!
 //! Whose the goalkeeper's shirt is the referee says, and whoever has been taken out has no role: `teammates` leaves others out.
 
-use framework::{CycleTime, Input, MainOutput, Parameter, Reflect, Result, Timestamp, context};
-use nalgebra::{Isometry2, Point2};
+use framework::{Input, MainOutput, Parameter, Reflect, Result, context};
+use nalgebra::Point2;
 use serde::{Deserialize, Serialize};
 use types::ball::Ball;
 use types::behavior::Role;
@@ -35,9 +35,6 @@ pub struct RoleParameters {
     /// So much nearer to the ball than it is the robot counts that plays it.
     #[reflect(unit = "m", range = 0.0..)]
     pub hysteresis: f32,
-    /// A ball that a team mate has seen longer ago is not looked for there.
-    #[reflect(unit = "s", range = 0.0..)]
-    pub ball_age: f32,
 }
 
 #[context]
@@ -47,10 +44,9 @@ pub struct CreationContext {}
 pub struct CycleContext {
     primary_state: Input<PrimaryState, "primary_state">,
     game_controller_state: Input<Option<GameControllerState>, "game_controller_state">,
-    ground_to_field: Input<Option<Isometry2<f32>>, "ground_to_field">,
     ball: Input<Option<Ball>, "ball">,
+    team_ball: Input<Option<Point2<f32>>, "team_ball">,
     teammates: Input<Vec<Teammate>, "teammates">,
-    cycle_time: CycleTime,
 
     /// Who this robot is in the game.
     player: Parameter<Player, "player">,
@@ -63,8 +59,6 @@ pub struct MainOutputs {
     role: MainOutput<Option<Role>>,
     /// Number of the own goalkeeper's shirt; no robot has it where there is none.
     goalkeeper: MainOutput<u8>,
-    /// Where a team mate has seen the ball lately, in the own ground frame, m.
-    team_ball: MainOutput<Option<Point2<f32>>>,
 }
 
 impl RoleAssignment {
@@ -78,16 +72,10 @@ impl RoleAssignment {
 
     /// From what is known now.
     pub fn cycle(&mut self, context: CycleContext) -> Result<MainOutputs> {
-        let team_ball = newest_ball(
-            context.teammates,
-            context.ground_to_field.as_ref(),
-            context.cycle_time.start,
-            context.parameters.ball_age,
-        );
         let own = context
             .ball
             .map(|ball| ball.position)
-            .or(team_ball)
+            .or(*context.team_ball)
             .map(|ball| ball.coords.norm());
         let head_start = match self.role {
             Some(Role::Striker) => context.parameters.hysteresis,
@@ -114,7 +102,6 @@ impl RoleAssignment {
         Ok(MainOutputs {
             role: self.role.into(),
             goalkeeper: goalkeeper.into(),
-            team_ball: team_ball.into(),
         })
     }
 }
@@ -171,28 +158,10 @@ fn distance_to_ball(teammate: &Teammate) -> Option<f32> {
     Some(ball.position.coords.norm())
 }
 
-/// What a team mate has seen last, of those that know where they are.
-fn newest_ball(
-    teammates: &[Teammate],
-    ground_to_field: Option<&Isometry2<f32>>,
-    now: Timestamp,
-    oldest: f32,
-) -> Option<Point2<f32>> {
-    let field_to_ground = ground_to_field?.inverse();
-    let balls = teammates.iter().filter_map(|teammate| {
-        let ball = teammate.message.ball?;
-        let age = ball.age + (now - teammate.heard_at).as_secs_f32();
-        let place = field_to_ground * teammate.message.ground_to_field? * ball.position;
-        (age <= oldest).then_some((age, place))
-    });
-    balls
-        .min_by(|(one, _), (other, _)| one.total_cmp(other))
-        .map(|(_, place)| place)
-}
-
 #[cfg(test)]
 mod tests {
-    use framework::testing::{at_millis, cycle_time};
+    use framework::testing::at_millis;
+    use nalgebra::Isometry2;
     use types::team::{TeamBall, TeamMessage};
 
     use super::*;
@@ -296,13 +265,12 @@ mod tests {
         let context = CycleContext {
             primary_state: &primary_state,
             game_controller_state: &referee,
-            ground_to_field: &Some(Isometry2::translation(-1.0, 0.0)),
             ball: &Some(Ball {
                 position: Point2::new(ball, 0.0),
                 ..Ball::default()
             }),
+            team_ball: &None,
             teammates: &teammates,
-            cycle_time: cycle_time(2000, 12),
             player: &Player {
                 number: 2,
                 team: 77,
@@ -310,7 +278,6 @@ mod tests {
             parameters: &RoleParameters {
                 keeper: 1,
                 hysteresis: 0.5,
-                ball_age: 3.0,
             },
         };
         node.cycle(context).unwrap()
@@ -391,15 +358,5 @@ mod tests {
         assert_eq!(role(playing, 0.8), Some(Role::DefenderLeft));
         assert_eq!(role(penalized, 0.8), None);
         assert_eq!(role(playing, 1.2), Some(Role::Striker));
-    }
-
-    #[test]
-    fn the_newest_sighting_of_the_team_is_seen_from_here() {
-        let mut node = RoleAssignment::new(CreationContext {}).unwrap();
-        let heard = vec![teammate(3, 0.5, 1.5, false), teammate(4, 2.0, 0.5, false)];
-        let there = cycle(&mut node, 1.0, heard).team_ball.value.unwrap();
-        assert!((there - Point2::new(4.0, 0.0)).norm() < 1e-6, "{there}");
-        let old = vec![teammate(3, 0.5, 2.5, false)];
-        assert_eq!(cycle(&mut node, 1.0, old).team_ball.value, None);
     }
 }

@@ -32,7 +32,7 @@ pub struct WorldState {
     pub ground_to_field: Option<Isometry2<f32>>,
     /// The ball; `None` where nobody has seen it lately.
     pub ball: Option<Ball>,
-    /// Where a team mate has seen the ball lately, m; `None` where nobody says so, or the own pose is not known.
+    /// Where the team sees the ball, m; `None` where nobody has seen it lately, or the own pose is not known.
     pub team_ball: Option<Point2<f32>>,
     /// What stands in the way, nearest first.
     pub obstacles: Vec<Obstacle>,
