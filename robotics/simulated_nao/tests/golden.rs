@@ -46,6 +46,22 @@ fn describe(text: &mut String, sight: &Sight) -> std::fmt::Result {
             place(line.end, &line.end_covariance)
         )?;
     }
+    if let Some(circle) = &sight.center_circle {
+        writeln!(
+            text,
+            "  circle of {} pieces about {}",
+            circle.chords,
+            place(circle.position, &circle.covariance)
+        )?;
+    }
+    for corner in &sight.corners {
+        writeln!(
+            text,
+            "  {:?} at {}",
+            corner.kind,
+            place(corner.position, &corner.covariance)
+        )?;
+    }
     if let Some(mark) = &sight.penalty_mark {
         writeln!(text, "  mark at {}", place(mark.position, &mark.covariance))?;
     }
@@ -102,7 +118,10 @@ fn covariances(sight: &Sight) -> impl Iterator<Item = Matrix2<f32>> {
         .lines
         .iter()
         .flat_map(|line| [line.start_covariance, line.end_covariance]);
+    let circle = sight.center_circle.iter().map(|circle| circle.covariance);
+    let corners = sight.corners.iter().map(|corner| corner.covariance);
     let mark = sight.penalty_mark.iter().map(|mark| mark.covariance);
     let obstacles = sight.obstacles.iter().map(|obstacle| obstacle.covariance);
-    balls.chain(lines).chain(mark).chain(obstacles)
+    let of_field = lines.chain(circle).chain(corners).chain(mark);
+    balls.chain(of_field).chain(obstacles)
 }

@@ -18,13 +18,15 @@ use simulated_nao::posture;
 use simulated_nao::scene::{Robot, RobotSettings, Team};
 use types::ball::BallCandidate;
 use types::camera::{CameraMatrix, CameraPosition, Intrinsics};
-use types::field_features::{FieldBorder, LineSegment, PenaltyMark};
+use types::field_features::{CenterCircle, FieldBorder, LineCorner, LineSegment, PenaltyMark};
 use types::image::YuyvImage;
 use types::joints::Joints;
 use types::limbs::LimbMask;
 use types::obstacles::ObstacleCandidate;
 use types::robot_kinematics::RobotKinematics;
 use vision::ball_detection::{self, BallDetection, BallProposal};
+use vision::center_circle_detection::{self, CenterCircleDetection};
+use vision::corner_detection::{self, CornerDetection};
 use vision::field_border::{self, FieldBorderDetection};
 use vision::field_color::FieldColor;
 use vision::field_color_detection::{self, FieldColorDetection};
@@ -50,6 +52,8 @@ pub(crate) struct Sight {
     pub(crate) color: FieldColor,
     pub(crate) border: FieldBorder,
     pub(crate) lines: Vec<LineSegment>,
+    pub(crate) center_circle: Option<CenterCircle>,
+    pub(crate) corners: Vec<LineCorner>,
     pub(crate) penalty_mark: Option<PenaltyMark>,
     pub(crate) balls: Vec<BallCandidate>,
     pub(crate) obstacles: Vec<ObstacleCandidate>,
@@ -64,6 +68,8 @@ pub(crate) struct Vision {
     segmenter: ImageSegmenter,
     border: FieldBorderDetection,
     lines: LineDetection,
+    circle: CenterCircleDetection,
+    corners: CornerDetection,
     mark: PenaltyMarkDetection,
     balls: BallDetection,
     obstacles: ObstacleDetection,
@@ -84,6 +90,9 @@ impl Vision {
             segmenter: ImageSegmenter::new(image_segmenter::CreationContext {}).unwrap(),
             border: FieldBorderDetection::new(field_border::CreationContext {}).unwrap(),
             lines: LineDetection::new(line_detection::CreationContext {}).unwrap(),
+            circle: CenterCircleDetection::new(center_circle_detection::CreationContext {})
+                .unwrap(),
+            corners: CornerDetection::new(corner_detection::CreationContext {}).unwrap(),
             mark: PenaltyMarkDetection::new(penalty_mark_detection::CreationContext {}).unwrap(),
             balls: BallDetection::new(ball_detection::CreationContext {}).unwrap(),
             obstacles: ObstacleDetection::new(obstacle_detection::CreationContext {}).unwrap(),
@@ -107,6 +116,7 @@ impl Vision {
         let image_segments = self.segments(look, &matrix, &limb_mask, sight.color);
         self.find_border(look, &matrix, &image_segments, &mut sight);
         self.find_lines(look, &matrix, &image_segments, &limb_mask, &mut sight);
+        self.find_circle_and_corners(look, &matrix, &limb_mask, &mut sight);
         self.find_penalty_mark(&matrix, &image_segments, &mut sight);
         self.find_balls(&matrix, &image_segments, &mut sight);
         self.find_obstacles(&matrix, &image_segments, &mut sight);
@@ -191,6 +201,43 @@ impl Vision {
                 line_points: AdditionalProbe::unsubscribed().output(),
                 image_lines: AdditionalProbe::unsubscribed().output(),
                 lines: &mut sight.lines,
+            })
+            .unwrap();
+    }
+
+    fn find_circle_and_corners(
+        &mut self,
+        look: &Look,
+        camera_matrix: &CameraMatrix,
+        limb_mask: &LimbMask,
+        sight: &mut Sight,
+    ) {
+        let radius = self
+            .parameters
+            .get("field_dimensions.markings.circle_radius");
+        sight.center_circle = self
+            .circle
+            .cycle(center_circle_detection::CycleContext {
+                lines: &sight.lines,
+                camera_matrix,
+                radius: &radius,
+                parameters: &self.parameters.get(&look.own("center_circle_detection")),
+                image_circle: AdditionalProbe::unsubscribed().output(),
+            })
+            .unwrap()
+            .center_circle
+            .value;
+        self.corners
+            .cycle(corner_detection::CycleContext {
+                image: &self.image,
+                lines: &sight.lines,
+                center_circle: sight.center_circle.as_ref(),
+                limb_mask,
+                camera_matrix,
+                radius: &radius,
+                parameters: &self.parameters.get("corner_detection"),
+                projection_noise: &self.parameters.get("projection_noise"),
+                corners: &mut sight.corners,
             })
             .unwrap();
     }
