@@ -7,7 +7,7 @@ use super::audience::Audience;
 use super::ensemble::{Ensemble, Lives, together};
 use super::file::{Call, Event, Scenario};
 use super::judge::{Judge, Verdict};
-use super::pace::{Pace, Speed};
+use super::pace::{Pace, watched};
 use super::report::Played;
 use crate::digest::Digest;
 use crate::driver::Lockstep;
@@ -67,7 +67,7 @@ pub(crate) fn play<H: Hardware + 'static, P: Send>(
     let mut actors = Vec::new();
     let seats = manner.audience.map(|audience| audience.seats(casts.len()));
     let mut seats = seats.transpose()?.unwrap_or_default().into_iter();
-    let speed = Speed::real_time();
+    let (speed, watched) = watched();
     // Servers end when the robots have lived.
     let mut served = Vec::new();
     for (number, cast) in (1..).zip(casts.iter_mut()) {
@@ -78,7 +78,7 @@ pub(crate) fn play<H: Hardware + 'static, P: Send>(
             .observed(|instance| recording.as_mut()?.observer(instance));
         if let Some(seat) = manner.audience.zip(seats.next()) {
             let mut procedures = world::procedures(&cast.hardware);
-            procedures.push(speed.procedure());
+            procedures.push(("speed", Box::new(speed.clone())));
             served.extend(seated(&mut lockstep, procedures, seat, manner.stop)?);
         }
         hardwares.push(hardware);
@@ -92,7 +92,9 @@ pub(crate) fn play<H: Hardware + 'static, P: Send>(
         }));
     }
     let (lasted, is_ended, verdicts) = together(&actors, manner.threads, |ensemble| {
-        let pace = Pace::of(manner.audience.map(|_| speed));
+        let pace = manner
+            .audience
+            .map_or(Pace::Free, |_| Pace::Watched(watched));
         let lived = live_through(scenario, seed, &hardwares, ensemble, (pace, manner.stop));
         let is_ended = manner.stop.is_requested() && lived.as_ref().is_err_and(Error::is_stopped);
         if !is_ended {
