@@ -225,13 +225,13 @@ impl Localization {
         let corners = &context.corners;
         self.belief
             .settle(context.lines.persistent, |belief, timestamp, lines| {
-                let seen = Seen {
-                    lines,
-                    mark: at(marks.persistent.iter(), timestamp).and_then(Option::as_ref),
-                    circle: at(circles.persistent.iter(), timestamp).and_then(Option::as_ref),
-                    corners: at(corners.persistent.iter(), timestamp).map_or(&[], Vec::as_slice),
-                };
-                see(belief, timestamp, seen);
+                let (marks, circles) = (marks.persistent.iter(), circles.persistent.iter());
+                let corners = corners.persistent.iter();
+                see(
+                    belief,
+                    timestamp,
+                    seen(timestamp, lines, marks, circles, corners),
+                );
             });
         let pose = ground_to_start(&odometry, now);
         if let Some(pose) = pose {
@@ -240,13 +240,13 @@ impl Localization {
         let mut newest =
             self.belief
                 .with_transient(context.lines.transient, |belief, timestamp, lines| {
-                    let seen = Seen {
-                        lines,
-                        mark: at(marks.transient.iter(), timestamp).and_then(Option::as_ref),
-                        circle: at(circles.transient.iter(), timestamp).and_then(Option::as_ref),
-                        corners: at(corners.transient.iter(), timestamp).map_or(&[], Vec::as_slice),
-                    };
-                    see(belief, timestamp, seen);
+                    let (marks, circles) = (marks.transient.iter(), circles.transient.iter());
+                    let corners = corners.transient.iter();
+                    see(
+                        belief,
+                        timestamp,
+                        seen(timestamp, lines, marks, circles, corners),
+                    );
                 });
         if let Some(pose) = pose {
             newest.predict(now, pose, is_upright, &view);
@@ -288,6 +288,21 @@ impl Localization {
 }
 
 /// What the image of that time shows.
+fn seen<'a>(
+    timestamp: Timestamp,
+    lines: &'a [LineSegment],
+    marks: impl Iterator<Item = (Timestamp, &'a Option<PenaltyMark>)>,
+    circles: impl Iterator<Item = (Timestamp, &'a Option<CenterCircle>)>,
+    corners: impl Iterator<Item = (Timestamp, &'a Vec<LineCorner>)>,
+) -> Seen<'a> {
+    Seen {
+        lines,
+        mark: at(marks, timestamp).and_then(Option::as_ref),
+        circle: at(circles, timestamp).and_then(Option::as_ref),
+        corners: at(corners, timestamp).map_or(&[], Vec::as_slice),
+    }
+}
+
 fn at<'a, T>(
     mut images: impl Iterator<Item = (Timestamp, &'a T)>,
     timestamp: Timestamp,

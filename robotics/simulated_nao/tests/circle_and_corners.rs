@@ -5,16 +5,14 @@
 mod scene;
 
 use framework::math;
-use nalgebra::{Point2, Point3, Vector2, Vector3};
+use framework::testing::ParameterFile;
+use nalgebra::{Point2, Point3};
 use scene::{Look, Vision, looks};
 use simulated_nao::camera::Exposure;
-use simulated_nao::field::{LENGTH, WIDTH};
 use simulated_nao::ground_truth::ImageTruth;
 use types::camera::CameraPosition;
-use types::field_features::{CornerKind, LineCorner};
-
-/// From the goal line into the field and along it, m.
-const AREAS: [[f32; 2]; 2] = [[0.6, 2.2], [1.65, 4.0]];
+use types::field_features::LineCorner;
+use types::field_markings::{CORNER_COUNT, FieldCorner, FieldMarkings};
 
 /// All over the field, around the centre circle, and towards every corner.
 fn looks_around() -> impl Iterator<Item = (u64, Look)> {
@@ -41,13 +39,14 @@ fn looks_around() -> impl Iterator<Item = (u64, Look)> {
     let to_corners = corners()
         .into_iter()
         .enumerate()
-        .flat_map(|(index, (_, place, _))| {
+        .flat_map(|(index, corner)| {
+            let position = corner.position;
             [0.3, 2.4, 4.5].map(|turn| {
                 let bearing = turn + 0.5 * index as f64;
                 Look {
                     robot: [
-                        f64::from(place.x) - 1.5 * math::cos(bearing),
-                        f64::from(place.y) - 1.5 * math::sin(bearing),
+                        f64::from(position.x) - 1.5 * math::cos(bearing),
+                        f64::from(position.y) - 1.5 * math::sin(bearing),
                         bearing,
                     ],
                     yaw: 0.1,
@@ -106,57 +105,36 @@ fn the_centre_circle_is_found_where_it_is_and_nowhere_else() {
     assert!(found * 10 >= shown * 8, "{found} of {shown}");
 }
 
-/// Every corner of straight lines: what it is, where, and which way it opens, in the field frame.
-fn corners() -> Vec<(CornerKind, Point2<f32>, Vector2<f32>)> {
-    let (goal, touch) = (LENGTH / 2.0, WIDTH / 2.0);
-    let mut corners = Vec::new();
-    for (x, y) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
-        let inward = Vector2::new(-x, -y).normalize();
-        corners.push((CornerKind::L, Point2::new(x * goal, y * touch), inward));
-        for [length, width] in AREAS {
-            let half = y * width / 2.0;
-            let front = Point2::new(x * (goal - length), half);
-            corners.push((CornerKind::L, front, Vector2::new(x, -y).normalize()));
-            corners.push((
-                CornerKind::T,
-                Point2::new(x * goal, half),
-                Vector2::new(-x, 0.0),
-            ));
-        }
-    }
-    for y in [1.0, -1.0] {
-        corners.push((
-            CornerKind::T,
-            Point2::new(0.0, y * touch),
-            Vector2::new(0.0, -y),
-        ));
-    }
-    corners
+fn corners() -> [FieldCorner; CORNER_COUNT] {
+    let parameters = ParameterFile::new(include_str!("../../parameters/default.toml"));
+    let markings: FieldMarkings = parameters.get("field_dimensions.markings");
+    markings.corners()
 }
 
 #[test]
 fn corners_are_those_of_the_field() {
-    let mut vision = Vision::new();
+    let (mut vision, corners) = (Vision::new(), corners());
     let (mut shown, mut found, mut seen, mut wrong) = (0, 0, 0, 0);
     for (number, look) in looks_around() {
         let exposure = look.expose(number, None);
         let sight = vision.see(&look, &exposure);
-        let known: Vec<_> = corners()
+        let known: Vec<_> = corners
             .into_iter()
-            .map(|(kind, place, opening)| {
-                let opening = Vector3::new(opening.x, opening.y, 0.0);
-                let opening = exposure.ground_to_field.inverse_transform_vector(&opening);
-                (kind, to_ground(&exposure, place), opening.xy())
+            .map(|corner| FieldCorner {
+                position: to_ground(&exposure, corner.position),
+                direction: exposure
+                    .ground_to_field
+                    .inverse_transform_vector(&corner.direction.push(0.0))
+                    .xy(),
+                ..corner
             })
             .collect();
-        let is =
-            |corner: &LineCorner,
-             (kind, place, opening): &(CornerKind, Point2<f32>, Vector2<f32>)| {
-                corner.kind == *kind
-                    && nalgebra::distance(&corner.position, place)
-                        <= 0.05 + 0.05 * place.coords.norm()
-                    && corner.direction.angle(opening) <= 0.2
-            };
+        let is = |corner: &LineCorner, known: &FieldCorner| {
+            corner.kind == known.kind
+                && nalgebra::distance(&corner.position, &known.position)
+                    <= 0.05 + 0.05 * known.position.coords.norm()
+                && corner.direction.angle(&known.direction) <= 0.2
+        };
         for corner in &sight.corners {
             seen += 1;
             if !known.iter().any(|known| is(corner, known)) {
@@ -168,8 +146,8 @@ fn corners_are_those_of_the_field() {
         for corner in &known {
             let pixel = truth
                 .camera_matrix
-                .ground_to_pixel(corner.1.coords.push(0.0).into());
-            let is_shown = corner.1.coords.norm() < 2.0
+                .ground_to_pixel(corner.position.coords.push(0.0).into());
+            let is_shown = corner.position.coords.norm() < 2.0
                 && pixel.is_some_and(|pixel| {
                     (120.0..520.0).contains(&pixel.x) && (80.0..360.0).contains(&pixel.y)
                 });

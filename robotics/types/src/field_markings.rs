@@ -92,11 +92,7 @@ impl FieldMarkings {
             from,
             to,
         };
-        let areas = [
-            (self.goal_area_length, self.goal_area_width / 2.0),
-            (self.penalty_area_length, self.penalty_area_width / 2.0),
-        ];
-        let [small, large] = areas.map(|(length, half)| {
+        let [small, large] = self.areas().map(|(length, half)| {
             let front = goal - length;
             [
                 across(front, half),
@@ -122,6 +118,14 @@ impl FieldMarkings {
         lines
     }
 
+    /// How far goal area and penalty area reach into the field and to each side, m.
+    fn areas(&self) -> [(f32, f32); 2] {
+        [
+            (self.goal_area_length, self.goal_area_width / 2.0),
+            (self.penalty_area_length, self.penalty_area_width / 2.0),
+        ]
+    }
+
     /// Every corner of straight lines; none of them is an X.
     pub fn corners(&self) -> [FieldCorner; CORNER_COUNT] {
         let (goal, touch) = (self.length / 2.0, self.width / 2.0);
@@ -130,13 +134,9 @@ impl FieldMarkings {
             position: Point2::new(x, y),
             direction: direction.normalize(),
         };
-        let areas = [
-            (self.goal_area_length, self.goal_area_width / 2.0),
-            (self.penalty_area_length, self.penalty_area_width / 2.0),
-        ];
         let quarters = [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)];
         let of_quarters = quarters.into_iter().flat_map(move |(x, y)| {
-            let of_areas = areas.into_iter().flat_map(move |(length, half)| {
+            let of_areas = self.areas().into_iter().flat_map(move |(length, half)| {
                 let front = corner(
                     CornerKind::L,
                     x * (goal - length),

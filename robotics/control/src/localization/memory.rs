@@ -20,23 +20,23 @@ const CORNERS_OF_ONE_IMAGE: usize = 2;
 /// The newest ones, in the start frame of odometry.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Serialize)]
 pub(super) struct Memory {
-    lines: [Option<Remembered>; MOST_LINES],
+    lines: [Option<Remembered<LineSegment>>; MOST_LINES],
     next: usize,
-    corners: [Option<RememberedCorner>; MOST_CORNERS],
+    corners: [Option<Remembered<LineCorner>>; MOST_CORNERS],
     next_corner: usize,
     newest: Timestamp,
 }
 
 #[derive(Clone, Copy, Debug, Deserialize, Serialize)]
-struct Remembered {
-    line: LineSegment,
+struct Remembered<T> {
+    what: T,
     seen_at: Timestamp,
 }
 
-#[derive(Clone, Copy, Debug, Deserialize, Serialize)]
-struct RememberedCorner {
-    corner: LineCorner,
-    seen_at: Timestamp,
+impl<T> Remembered<T> {
+    fn is_recent(&self, now: Timestamp, view: &View<'_>) -> bool {
+        (now - self.seen_at).as_secs_f32() <= view.parameters.memory_time
+    }
 }
 
 impl Memory {
@@ -55,14 +55,14 @@ impl Memory {
         }
         self.newest = seen_at;
         for line in seen.lines.iter().take(OF_ONE_IMAGE) {
-            let line = moved(line, ground_to_start);
-            self.lines[self.next] = Some(Remembered { line, seen_at });
+            let what = moved(line, ground_to_start);
+            self.lines[self.next] = Some(Remembered { what, seen_at });
             self.next = (self.next + 1) % MOST_LINES;
         }
         let corners = seen.corners.iter().filter(|corner| is_on_field(corner));
         for corner in corners.take(CORNERS_OF_ONE_IMAGE) {
-            let corner = moved_corner(corner, ground_to_start);
-            self.corners[self.next_corner] = Some(RememberedCorner { corner, seen_at });
+            let what = moved_corner(corner, ground_to_start);
+            self.corners[self.next_corner] = Some(Remembered { what, seen_at });
             self.next_corner = (self.next_corner + 1) % MOST_CORNERS;
         }
     }
@@ -75,15 +75,13 @@ impl Memory {
         view: &View<'_>,
     ) -> Vec<LineCorner> {
         let to_ground = ground_to_start.inverse();
-        let is_recent = |remembered: &&RememberedCorner| {
-            (now - remembered.seen_at).as_secs_f32() <= view.parameters.memory_time
-        };
         let oldest_first = self.corners[self.next_corner..]
             .iter()
             .chain(&self.corners[..self.next_corner]);
-        let recent = oldest_first.rev().flatten().filter(is_recent);
-        recent
-            .map(|remembered| moved_corner(&remembered.corner, &to_ground))
+        let newest_first = oldest_first.rev().flatten();
+        newest_first
+            .filter(|remembered| remembered.is_recent(now, view))
+            .map(|remembered| moved_corner(&remembered.what, &to_ground))
             .collect()
     }
 
@@ -95,12 +93,10 @@ impl Memory {
         view: &View<'_>,
     ) -> Vec<LineSegment> {
         let to_ground = ground_to_start.inverse();
-        let is_recent = |remembered: &&Remembered| {
-            (now - remembered.seen_at).as_secs_f32() <= view.parameters.memory_time
-        };
-        let recent = self.lines.iter().flatten().filter(is_recent);
-        let mut lines: Vec<_> = recent
-            .map(|remembered| moved(&remembered.line, &to_ground))
+        let all = self.lines.iter().flatten();
+        let mut lines: Vec<_> = all
+            .filter(|remembered| remembered.is_recent(now, view))
+            .map(|remembered| moved(&remembered.what, &to_ground))
             .collect();
         lines.sort_by(|a, b| b.length().total_cmp(&a.length()));
         lines

@@ -9,7 +9,7 @@
 
 use nalgebra::{Isometry2, Rotation2, Vector2};
 use types::field_features::{LineCorner, LineSegment, chord_distance};
-use types::field_markings::{Course, FieldLine};
+use types::field_markings::{Course, FieldCorner, FieldLine};
 
 use super::belief::{CORNER_LENGTH, Hypothesis, quality};
 use super::estimate::Estimate;
@@ -45,8 +45,10 @@ pub(super) fn places(
     view: &View<'_>,
 ) -> [Option<Hypothesis>; MOST_PLACES] {
     let mut found = [None; MOST_PLACES];
+    let known = view.markings.corners();
     let mut judge = |pose: Isometry2<f32>| {
-        if let Some(hypothesis) = judged(&resolved(pose, anchor, view), lines, corners, view) {
+        let pose = resolved(pose, anchor, view);
+        if let Some(hypothesis) = judged(&pose, lines, (corners, &known), view) {
             keep(&mut found, hypothesis, view);
         }
     };
@@ -61,15 +63,17 @@ pub(super) fn places(
     by_circle(lines, view)
         .take(MOST_BY_CIRCLE)
         .for_each(&mut judge);
-    by_corner(corners, view).for_each(judge);
+    by_corner(corners, &known).for_each(judge);
     found
 }
 
 /// Places from which one of the corners is one of the field.
-fn by_corner(corners: &[LineCorner], view: &View<'_>) -> impl Iterator<Item = Isometry2<f32>> {
-    let known = view.markings.corners();
+fn by_corner(
+    corners: &[LineCorner],
+    known: &[FieldCorner],
+) -> impl Iterator<Item = Isometry2<f32>> {
     corners.iter().take(MOST_CORNERS).flat_map(move |seen| {
-        let same = known.into_iter().filter(|corner| corner.kind == seen.kind);
+        let same = known.iter().filter(|corner| corner.kind == seen.kind);
         same.map(|corner| {
             let heading = Rotation2::rotation_between(&seen.direction, &corner.direction);
             let position = corner.position - heading * seen.position;
@@ -186,7 +190,7 @@ fn resolved(
 fn judged(
     pose: &Isometry2<f32>,
     lines: &[LineSegment],
-    corners: &[LineCorner],
+    (corners, known): (&[LineCorner], &[FieldCorner]),
     view: &View<'_>,
 ) -> Option<Hypothesis> {
     let parameters = view.parameters;
@@ -208,7 +212,7 @@ fn judged(
     }
     for corner in corners {
         total += CORNER_LENGTH;
-        if let Some(found) = view.corner(&estimate, corner) {
+        if let Some(found) = view.corner(&estimate, corner, known) {
             explained += CORNER_LENGTH * quality(&found, view);
         }
     }

@@ -8,7 +8,7 @@
 use framework::math;
 use nalgebra::{Isometry2, Matrix2, Point2, RowVector3, Unit, Vector2};
 use types::field_features::{LineCorner, LineSegment, chord_distance};
-use types::field_markings::{FieldLine, FieldMarkings};
+use types::field_markings::{FieldCorner, FieldLine, FieldMarkings};
 
 use super::LocalizationParameters;
 use super::estimate::{Estimate, Innovation};
@@ -57,11 +57,15 @@ impl View<'_> {
         self.place(estimate, seen, [Point2::origin()].into_iter())
     }
 
-    /// Which corner this is, seen from there; `None` where none of its kind opens that way near it.
-    pub(super) fn corner(&self, estimate: &Estimate, seen: &LineCorner) -> Option<Match> {
+    /// Which of the field's corners this is, seen from there; `None` where none of its kind opens that way near it.
+    pub(super) fn corner(
+        &self,
+        estimate: &Estimate,
+        seen: &LineCorner,
+        known: &[FieldCorner],
+    ) -> Option<Match> {
         let direction = estimate.pose().rotation * seen.direction;
-        let corners = self.markings.corners().into_iter();
-        let same = corners.filter(|corner| {
+        let same = known.iter().filter(|corner| {
             corner.kind == seen.kind && corner.direction.dot(&direction) >= SAME_OPENING
         });
         self.place(estimate, seen.position, same.map(|corner| corner.position))
