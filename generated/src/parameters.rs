@@ -433,6 +433,9 @@ pub struct TeamMessageFilter {
 pub struct TeamMessageSender {
     /// control::team_message_sender
     #[reflect(unit = "s", range = 0..)]
+    pub half: f32,
+    /// control::team_message_sender
+    #[reflect(unit = "s", range = 0..)]
     pub interval: f32,
     /// control::team_message_sender
     pub reserve: u16,

@@ -1381,6 +1381,7 @@ impl Nodes {
                 cycle_time: frame.cycle.time,
                 interval: &frame.parameters.team_message_sender.interval,
                 reserve: &frame.parameters.team_message_sender.reserve,
+                half: &frame.parameters.team_message_sender.half,
             };
             self.team_message_sender
                 .call_or_skip(&frame.cycle, |node| node.cycle(context))?;

@@ -1,13 +1,14 @@
 //! Tells the own team what this robot knows, as often as the referee lets a team talk.
 //!
 //! A team has a budget of messages for the game, and loses all its goals where it sends more. Only the
-//! referee's computer knows what is left: while none is heard, nothing is sent.
+//! referee's computer knows what is left: while none is heard, nothing is sent, and where less is left than
+//! the usual pace needs until the end of the game, the pace is slower.
 
 use framework::{CycleTime, HardwareInterface, Parameter, RequiredInput, Result, context};
 use hardware::MessageInterface;
 use serde::{Deserialize, Serialize};
 use spl_messages::team_message;
-use types::game::GameControllerState;
+use types::game::{GameControllerState, Penalty};
 use types::team::TeamMessage;
 
 use crate::pace::Pace;
@@ -31,11 +32,14 @@ pub struct CycleContext {
     report: RequiredInput<Option<TeamMessage>, "team_report?">,
     cycle_time: CycleTime,
 
-    /// How much time passes between two messages.
+    /// How much time passes between two messages at least.
     #[reflect(unit = "s", range = 0.0..)]
     interval: Parameter<f32, "team_message_sender.interval">,
     /// How many messages of the team's budget are never sent.
     reserve: Parameter<u16, "team_message_sender.reserve">,
+    /// How long a half lasts.
+    #[reflect(unit = "s", range = 0.0..)]
+    half: Parameter<f32, "team_message_sender.half">,
 }
 
 #[context]
@@ -52,14 +56,27 @@ impl TeamMessageSender {
     /// Called only while a referee's computer is heard and this robot is in the game.
     pub fn cycle(&mut self, context: CycleContext<impl MessageInterface>) -> Result<MainOutputs> {
         let now = context.cycle_time.start;
-        let budget = context.game_controller_state.message_budget;
-        if budget > *context.reserve && self.pace.is_due(now, *context.interval, LEAST_INTERVAL) {
+        let referee = context.game_controller_state;
+        let left = referee.message_budget.saturating_sub(*context.reserve);
+        let interval = fair_interval(referee, left, *context.half).max(*context.interval);
+        if left > 0 && self.pace.is_due(now, interval, LEAST_INTERVAL) {
             let mut room = [0; team_message::GREATEST_LENGTH];
             let bytes = team_message::encode(context.report, &mut room)?;
             context.hardware_interface.send_to_team(bytes)?;
         }
         Ok(MainOutputs {})
     }
+}
+
+/// So much time passes between two messages of a robot, s, where all of the team share what is left until the end of the game.
+///
+/// Who has been taken out comes back; substitutes do not talk.
+fn fair_interval(referee: &GameControllerState, left: u16, half: f32) -> f32 {
+    let second_half = if referee.is_first_half { half } else { 0.0 };
+    let time = f32::from(referee.seconds_remaining.max(0)) + second_half;
+    let penalties = referee.own_penalties.iter();
+    let players = penalties.filter(|penalty| **penalty != Penalty::Substitute);
+    players.count() as f32 * time / f32::from(left.max(1))
 }
 
 #[cfg(test)]
@@ -89,15 +106,20 @@ mod tests {
 
     /// What is sent in 60 s of cycles.
     fn messages(message_budget: u16, interval: f32) -> Vec<Vec<u8>> {
+        let referee = GameControllerState {
+            message_budget,
+            ..GameControllerState::default()
+        };
+        messages_in(&referee, interval)
+    }
+
+    fn messages_in(referee: &GameControllerState, interval: f32) -> Vec<Vec<u8>> {
         let mut node = TeamMessageSender::new(CreationContext {}).unwrap();
         let network = Arc::new(Network::default());
         for index in 0..5000 {
             let context = CycleContext {
                 hardware_interface: &network,
-                game_controller_state: &GameControllerState {
-                    message_budget,
-                    ..GameControllerState::default()
-                },
+                game_controller_state: referee,
                 report: &TeamMessage {
                     player_number: 3,
                     ..TeamMessage::default()
@@ -105,6 +127,7 @@ mod tests {
                 cycle_time: cycle_time(12 * index, 12),
                 interval: &interval,
                 reserve: &30,
+                half: &600.0,
             };
             node.cycle(context).unwrap();
         }
@@ -127,6 +150,35 @@ mod tests {
         assert_eq!(messages(31, 7.0).len(), 9);
         assert_eq!(messages(30, 7.0).len(), 0);
         assert_eq!(messages(0, 7.0).len(), 0);
+    }
+
+    #[test]
+    fn what_is_left_lasts_until_the_end_of_the_game() {
+        for (is_first_half, seconds_remaining, message_budget, count) in [
+            // Seven robots in 1200 s: one each 7.2 s.
+            (true, 600, 1200, 9),
+            // 60 s of the game for each robot's message, then 20 s, then 600 s.
+            (true, 0, 100, 1),
+            (false, 200, 100, 3),
+            (true, 600, 44, 1),
+            // More than enough, and the time is up.
+            (false, 60, 1200, 9),
+            (false, -20, 31, 9),
+        ] {
+            let mut referee = GameControllerState {
+                message_budget,
+                is_first_half,
+                seconds_remaining,
+                ..GameControllerState::default()
+            };
+            referee.own_penalties[7..].fill(Penalty::Substitute);
+            referee.own_penalties[3] = Penalty::PlayerPushing;
+            let sent = messages_in(&referee, 7.0).len();
+            assert_eq!(
+                sent, count,
+                "{is_first_half} {seconds_remaining} {message_budget}"
+            );
+        }
     }
 
     #[test]

@@ -166,16 +166,17 @@ impl Network {
             .map_or(Timestamp::NEVER, |flight| flight.arrives_at)
     }
 
-    /// Lets the referee's computer speak; whether something arrived at the robot.
+    /// Lets the referee's computer speak, which has heard so many messages of each team; whether something arrived at the robot.
     pub(crate) fn referee_speaks(
         &mut self,
         now: Timestamp,
         played: Option<GameControllerMessage>,
+        sent: [u32; 2],
     ) -> Result<bool> {
         let Some(referee) = &mut self.referee else {
             return Ok(false);
         };
-        let bytes = referee.speak(now, played);
+        let bytes = referee.speak(now, played, sent);
         if now < self.quiet_until {
             return Ok(false);
         }

@@ -15,6 +15,7 @@ use crate::camera::Exposure;
 use crate::ground_truth::{BodyTruth, GroundTruth, ImageTruth};
 use crate::network::{Network, Received};
 use crate::per_camera::PerCamera;
+use crate::scene::Team;
 use crate::server::LolaServer;
 use crate::settings::{CAMERA_RATE, Settings};
 use crate::silence::Silence;
@@ -70,6 +71,7 @@ pub(crate) struct Simulation {
     /// Its place in the world.
     robot: usize,
     team: u8,
+    side: Team,
     /// How many of the others' broadcasts are on their way.
     heard: usize,
     server: LolaServer,
@@ -115,6 +117,7 @@ impl Simulation {
             stage,
             robot,
             team: settings.team(),
+            side: settings.side(),
             heard: 0,
             network,
             has_cameras: settings.cameras,
@@ -170,8 +173,14 @@ impl Simulation {
             at,
             robot: self.robot,
             team: self.team,
+            side: self.side,
             bytes: bytes.to_vec(),
         });
+    }
+
+    /// The robot or the mate that only speaks has told the team something that the referee's computer hears.
+    pub(crate) fn count_message(&self) {
+        self.stage.lock().world.count_message(self.side);
     }
 
     pub(crate) fn server(&self) -> &LolaServer {
@@ -258,8 +267,11 @@ impl Simulation {
                 (!is_silent).then_some(name)
             }
             Step::RefereeSpeaks => {
-                let played = self.stage.lock().world.game_message();
-                let has_arrived = self.network.referee_speaks(at, played)?;
+                let (played, sent) = {
+                    let world = &self.stage.lock().world;
+                    (world.game_message(), world.messages())
+                };
+                let has_arrived = self.network.referee_speaks(at, played, sent)?;
                 has_arrived.then_some("SplNetwork")
             }
             Step::MateSpeaks => {
@@ -268,6 +280,7 @@ impl Simulation {
                     GroundTruth::new(&self.stage.lock().world, self.robot, harmful)
                 };
                 let has_arrived = self.network.mate_speaks(at, truth)?;
+                self.count_message();
                 has_arrived.then_some("SplNetwork")
             }
             Step::DatagramArrives => self.network.datagram_arrives(at)?.then_some("SplNetwork"),

@@ -9,6 +9,7 @@ use std::time::Duration;
 
 use framework::{Error, Result, Timestamp};
 
+use crate::scene::Team;
 use crate::settings::Settings;
 use crate::simulation::next_beat;
 use crate::world::World;
@@ -37,6 +38,7 @@ pub(crate) struct Broadcast {
     /// Its place in the world.
     pub(crate) robot: usize,
     pub(crate) team: u8,
+    pub(crate) side: Team,
     pub(crate) bytes: Vec<u8>,
 }
 
@@ -90,15 +92,17 @@ impl Scene {
         for mut broadcast in self.spoken.drain(..) {
             // Nobody can hear it before the world has come there.
             broadcast.at = (broadcast.at + AIR_LATENCY).max(horizon);
+            self.world.count_message(broadcast.side);
             self.aired.push(broadcast);
         }
         Ok(next)
     }
 
-    /// A robot tells its team something.
+    /// A robot tells its team something; with several the referee's computer counts it after the beat.
     pub(crate) fn speak(&mut self, broadcast: Broadcast) {
-        if self.horizon.is_some() {
-            self.spoken.push(broadcast);
+        match self.horizon {
+            Some(_) => self.spoken.push(broadcast),
+            None => self.world.count_message(broadcast.side),
         }
     }
 

@@ -55,6 +55,8 @@ pub(crate) struct World {
     statues: Arc<[Robot]>,
     game: Option<Game>,
     whistles: Vec<f64>,
+    /// How many messages the own team and the other one have sent.
+    messages: [u32; 2],
 }
 
 impl World {
@@ -78,6 +80,7 @@ impl World {
             physics,
             game: Game::new(&settings.game),
             whistles: Vec::new(),
+            messages: [0; 2],
         }
     }
 

@@ -153,6 +153,7 @@ fn told() -> [Vec<u8>; 2] {
         cycle_time: cycle_time(12, 12),
         interval: &7.0,
         reserve: &0,
+        half: &600.0,
     };
     sender.cycle(context).unwrap();
     [&sent.to_game_controller, &sent.to_team].map(|bytes| bytes.lock().unwrap().clone())

@@ -72,6 +72,7 @@ impl MessageInterface for Hardware {
             self.shared.lock().broadcast(now, bytes);
             return Ok(());
         }
+        self.shared.lock().count_message();
         let own = self.sockets.team_address()?;
         tolerate_absence(self.sockets.team().send_to(bytes, own)).map(drop)
     }

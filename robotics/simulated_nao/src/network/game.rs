@@ -19,8 +19,6 @@ const KICK_OFF: f64 = 10.0;
 const FREE_KICK: f64 = 30.0;
 /// A standard removal, s.
 const REMOVAL: f64 = 45.0;
-/// How many messages a team may send in a game.
-const MESSAGE_BUDGET: u16 = 1200;
 
 /// The message for so many seconds after the start, without its number.
 pub(super) fn message_at(game: &GameSettings, seconds: f64) -> GameControllerMessage {
@@ -100,7 +98,7 @@ fn own_team(game: &GameSettings, current: &Announcement) -> TeamState {
         goalkeeper_color: TeamColor::Black,
         goalkeeper: game.goalkeepers[0],
         score: current.score[0],
-        ..team_state()
+        ..team_state(game)
     }
 }
 
@@ -111,18 +109,18 @@ fn other_team(game: &GameSettings, current: &Announcement) -> TeamState {
         goalkeeper_color: TeamColor::Green,
         goalkeeper: game.goalkeepers[1],
         score: current.score[1],
-        ..team_state()
+        ..team_state(game)
     }
 }
 
 /// A team at the start: whoever is not on the field is a substitute.
-fn team_state() -> TeamState {
+fn team_state(game: &GameSettings) -> TeamState {
     let mut players = [PlayerState::default(); PLAYER_COUNT];
     for substitute in &mut players[PLAYERS_PER_TEAM.into()..] {
         substitute.penalty = Penalty::Substitute;
     }
     TeamState {
-        message_budget: MESSAGE_BUDGET,
+        message_budget: game.message_budget,
         players,
         ..TeamState::default()
     }

@@ -55,14 +55,19 @@ impl Referee {
         self.message
     }
 
-    /// What was `played` comes before what was planned.
+    /// What was `played` comes before what was planned. So many messages of each team are gone from its budget, the own one first.
     pub(super) fn speak(
         &mut self,
         now: Timestamp,
         played: Option<GameControllerMessage>,
+        sent: [u32; 2],
     ) -> [u8; control_data::LENGTH] {
         let planned = || game::message_at(&self.game, (now - Timestamp::ZERO).as_secs_f64());
-        let message = played.unwrap_or_else(planned);
+        let mut message = played.unwrap_or_else(planned);
+        for (team, sent) in message.teams.iter_mut().zip(sent) {
+            let left = u32::from(team.message_budget).saturating_sub(sent);
+            team.message_budget = left as u16;
+        }
         let message = GameControllerMessage {
             // Counts on after 255 at 0.
             packet_number: self.rhythm.advance() as u8,

@@ -138,6 +138,29 @@ fn datagrams_come_in_order_and_at_their_times() {
 }
 
 #[test]
+fn every_message_to_the_own_team_is_gone_from_its_budget() {
+    let lockstep = Lockstep::new(&["--no-cameras"]);
+    let (mut heard, mut compared) = (0, 0);
+    while compared < 40 {
+        let now = lockstep.next();
+        let (_, _, datagram) = lockstep.read(now).unwrap();
+        if datagram.channel == Channel::Team {
+            heard += 1;
+            // It hears itself; of the mate it says every third time something, too.
+            if heard % 3 == 1 {
+                lockstep.shared.lock().broadcast(now, b"own");
+            }
+            continue;
+        }
+        let message = control_data::decode(&datagram.bytes).unwrap();
+        let budgets = message.teams.map(|team| team.message_budget);
+        assert_eq!(budgets, [1200 - heard, 1200], "at {now:?}");
+        compared += 1;
+    }
+    assert!(heard > 25, "{heard}");
+}
+
+#[test]
 fn the_same_options_give_the_same_datagrams_whatever_ports_are_free() {
     let once = datagrams(&["--no-cameras"]);
     assert_eq!(once, datagrams(&["--no-cameras"]));
@@ -296,7 +319,7 @@ fn our_referee_is_silent_while_another_one_speaks_and_a_while_longer() {
     let speaks = |millis: u64| {
         let now = Timestamp::ZERO + Duration::from_millis(millis);
         let network = &mut lockstep.shared.lock().network;
-        network.referee_speaks(now, None).unwrap()
+        network.referee_speaks(now, None, [0; 2]).unwrap()
     };
     let overheard = |millis: u64, sender: &Endpoint, bytes: &[u8]| {
         let now = Timestamp::ZERO + Duration::from_millis(millis);

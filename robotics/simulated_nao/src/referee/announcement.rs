@@ -9,10 +9,7 @@ use super::{Player, Referee, index};
 use crate::scene::Team;
 use crate::settings::GameSettings;
 
-/// How many messages a team may send in a game (RoboCup SPL rules 2025).
-const MESSAGE_BUDGET: u16 = 1200;
-
-/// The message at a time (s), without its number.
+/// The message at a time (s), without its number, as long as no team has told anything.
 pub fn message(
     referee: &Referee,
     game: &GameSettings,
@@ -28,7 +25,7 @@ pub fn message(
         goalkeeper_color,
         goalkeeper: game.goalkeepers[index(team)],
         score: said.score[index(team)],
-        message_budget: MESSAGE_BUDGET,
+        message_budget: game.message_budget,
         players: states(referee, game, team, players),
         ..TeamState::default()
     };

@@ -32,6 +32,8 @@ pub struct GameSettings {
     pub mate: Option<u8>,
     /// Numbers of the goalkeepers' shirts, of the own and of the other team; 0 where there is none.
     pub goalkeepers: [u8; 2],
+    /// How many messages a team may send (RoboCup SPL rules 2025: 1200 in a game).
+    pub message_budget: u16,
     /// A referee plays a game in place of `schedule`.
     pub play: Option<PlaySettings>,
     /// What the referee's computer says, in the order of time.
@@ -85,6 +87,7 @@ impl Default for GameSettings {
             is_opponent: false,
             mate: None,
             goalkeepers: [1; 2],
+            message_budget: 1200,
             play: None,
             schedule: vec![
                 Announcement::of(0.0, GameState::Initial),

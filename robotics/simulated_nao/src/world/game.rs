@@ -9,6 +9,7 @@ use crate::field::BALL_RADIUS;
 use crate::ground_truth::GameTruth;
 use crate::physics::{Disturbance, heading};
 use crate::referee::{self, Player, Referee, Ruling};
+use crate::scene::Team;
 use crate::settings::GameSettings;
 use crate::simulation::TICK;
 
@@ -44,6 +45,15 @@ impl Game {
             held: Vec::new(),
         })
     }
+
+    /// A team that has sent more messages than it may loses all its goals.
+    fn take_goals(&mut self, messages: [u32; 2]) {
+        for (score, sent) in self.referee.score.iter_mut().zip(messages) {
+            if sent > u32::from(self.settings.message_budget) {
+                *score = 0;
+            }
+        }
+    }
 }
 
 impl World {
@@ -58,7 +68,21 @@ impl World {
             .game
             .as_mut()
             .map(|game| game.referee.look(now, ball, &players));
+        if let Some(game) = &mut self.game {
+            game.take_goals(self.messages);
+        }
         self.obey(now, rulings.unwrap_or_default());
+    }
+
+    /// One of a team has told it something.
+    pub(crate) fn count_message(&mut self, team: Team) {
+        let sent = &mut self.messages[usize::from(team == Team::Opponent)];
+        *sent = sent.saturating_add(1);
+    }
+
+    /// How many messages the own team and the other one have sent.
+    pub(crate) fn messages(&self) -> [u32; 2] {
+        self.messages
     }
 
     /// Keeps robots upright and where they are held; their joints move as they please. After every step, so that they feel
@@ -175,4 +199,25 @@ fn is_of_place(penalty: &Penalty) -> bool {
             | Penalty::IllegalMotionInSet
             | Penalty::LeavingTheField
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::settings::PlaySettings;
+
+    #[test]
+    fn more_messages_than_the_budget_cost_the_team_its_goals() {
+        let mut game = Game::new(&GameSettings {
+            message_budget: 3,
+            play: Some(PlaySettings::default()),
+            ..GameSettings::default()
+        })
+        .unwrap();
+        game.referee.score = [2, 1];
+        game.take_goals([3, 3]);
+        assert_eq!(game.referee.score, [2, 1]);
+        game.take_goals([3, 4]);
+        assert_eq!(game.referee.score, [2, 0]);
+    }
 }
