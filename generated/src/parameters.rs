@@ -181,7 +181,8 @@ pub struct FieldDimensions {
     /// vision::penalty_mark_detection
     #[reflect(unit = "m", range = 0..)]
     pub line_width: f32,
-    /// control::localization, vision::center_circle_detection, vision::corner_detection
+    /// control::localization, control::role_assignment, vision::center_circle_detection,
+    /// vision::corner_detection
     pub markings: FieldMarkings,
     /// vision::penalty_mark_detection
     #[reflect(unit = "m", range = 0..)]

@@ -1161,6 +1161,7 @@ impl Nodes {
             teammates: &frame.own.teammates,
             player: &frame.parameters.player,
             parameters: &frame.parameters.role_assignment,
+            markings: &frame.parameters.field_dimensions.markings,
         };
         let outputs = self
             .role_assignment

@@ -3,7 +3,7 @@
 //! Every robot decides for itself, from the last messages of the others, by the same rule: the goalkeeper's shirt guards the
 //! goal, of the others the one that is nearest to the ball plays it, the rest take their places in the order of their numbers.
 //! Messages come every few seconds, so that robots may disagree for as long; who plays the ball already counts as nearer than
-//! it is. Before the ball is in play numbers alone count. A robot that hears nobody plays the ball itself.
+//! it is. Where the keeper is out, taken out or far from its goal, the first of the rest stands between ball and goal. Before the ball is in play numbers alone count. A robot that hears nobody plays the ball itself.
 //!
 //! Whose the goalkeeper's shirt is the referee says, and whoever has been taken out has no role: `teammates` leaves others out.
 
@@ -12,6 +12,7 @@ use nalgebra::Point2;
 use serde::{Deserialize, Serialize};
 use types::ball::Ball;
 use types::behavior::Role;
+use types::field_markings::FieldMarkings;
 use types::game::{GameControllerState, Player, PrimaryState};
 use types::team::Teammate;
 
@@ -35,6 +36,12 @@ pub struct RoleParameters {
     /// So much nearer to the ball than it is the robot counts that plays it.
     #[reflect(unit = "m", range = 0.0..)]
     pub hysteresis: f32,
+    /// A keeper that is farther from the middle of its goal is out.
+    #[reflect(unit = "m", range = 0.0..)]
+    pub keeper_out: f32,
+    /// And is back when it is nearer.
+    #[reflect(unit = "m", range = 0.0..)]
+    pub keeper_back: f32,
 }
 
 #[context]
@@ -51,6 +58,7 @@ pub struct CycleContext {
     /// Who this robot is in the game.
     player: Parameter<Player, "player">,
     parameters: Parameter<RoleParameters, "role_assignment">,
+    markings: Parameter<FieldMarkings, "field_dimensions.markings">,
 }
 
 #[context]
@@ -96,12 +104,31 @@ impl RoleAssignment {
             PrimaryState::Penalized => None,
             state => {
                 let is_playing = *state == PrimaryState::Playing;
-                Some(role(own, others, goalkeeper, is_playing))
+                let is_out = is_playing && self.is_keeper_out(goalkeeper, &context);
+                Some(role(own, others, goalkeeper, is_playing, is_out))
             }
         };
         Ok(MainOutputs {
             role: self.role.into(),
             goalkeeper: goalkeeper.into(),
+        })
+    }
+
+    /// Whether the goal is without a keeper: nobody has its shirt who may play, or it has gone far away.
+    fn is_keeper_out(&self, goalkeeper: u8, context: &CycleContext<'_>) -> bool {
+        let goal = Point2::new(-0.5 * context.markings.length, 0.0);
+        let reach = match self.role {
+            Some(Role::Sweeper) => context.parameters.keeper_back,
+            _ => context.parameters.keeper_out,
+        };
+        let mut teammates = context.teammates.iter();
+        let keeper = teammates.find(|teammate| teammate.message.player_number == goalkeeper);
+        // One that does not know where it is stays where it is.
+        keeper.is_none_or(|keeper| {
+            keeper
+                .message
+                .ground_to_field
+                .is_some_and(|pose| (Point2::from(pose.translation.vector) - goal).norm() > reach)
         })
     }
 }
@@ -119,6 +146,7 @@ fn role(
     others: impl Iterator<Item = Candidate> + Clone,
     keeper: u8,
     is_playing: bool,
+    is_keeper_out: bool,
 ) -> Role {
     let others = others.filter(|other| other.number != own.number);
     let is_alone = others.clone().next().is_none();
@@ -149,7 +177,10 @@ fn role(
     }
     let before =
         field_players().filter(|other| other.number != striker.number && other.number < own.number);
-    PLACES[before.count() % PLACES.len()]
+    match before.count() {
+        0 if is_keeper_out => Role::Sweeper,
+        before => PLACES[before % PLACES.len()],
+    }
 }
 
 fn distance_to_ball(teammate: &Teammate) -> Option<f32> {
@@ -167,10 +198,21 @@ mod tests {
     use super::*;
 
     fn roles(distances: &[(u8, Option<f32>)], is_playing: bool) -> Vec<Role> {
+        roles_with(distances, is_playing, false)
+    }
+
+    fn roles_with(
+        distances: &[(u8, Option<f32>)],
+        is_playing: bool,
+        is_keeper_out: bool,
+    ) -> Vec<Role> {
         let candidate = |&(number, distance)| Candidate { number, distance };
         let all = distances.iter();
         all.clone()
-            .map(|own| role(candidate(own), all.clone().map(candidate), 1, is_playing))
+            .map(|own| {
+                let others = all.clone().map(candidate);
+                role(candidate(own), others, 1, is_playing, is_keeper_out)
+            })
             .collect()
     }
 
@@ -237,7 +279,7 @@ mod tests {
             message: TeamMessage {
                 player_number: number,
                 is_fallen,
-                ground_to_field: Some(Isometry2::translation(1.0, 0.0)),
+                ground_to_field: Some(Isometry2::translation(-4.2, 0.0)),
                 ball: Some(TeamBall {
                     position: Point2::new(ball, 0.0),
                     age,
@@ -275,9 +317,15 @@ mod tests {
                 number: 2,
                 team: 77,
             },
+            markings: &FieldMarkings {
+                length: 9.0,
+                ..FieldMarkings::default()
+            },
             parameters: &RoleParameters {
                 keeper: 1,
                 hysteresis: 0.5,
+                keeper_out: 1.8,
+                keeper_back: 1.2,
             },
         };
         node.cycle(context).unwrap()
@@ -288,8 +336,8 @@ mod tests {
         let mut node = RoleAssignment::new(CreationContext {}).unwrap();
         let mut role = |ball, other| cycle(&mut node, ball, vec![other]).role.value.unwrap();
         assert_eq!(role(1.0, teammate(3, 0.8, 0.0, false)), Role::Striker);
-        assert_eq!(role(1.0, teammate(3, 0.4, 0.0, false)), Role::DefenderLeft);
-        assert_eq!(role(1.0, teammate(3, 0.8, 0.0, false)), Role::DefenderLeft);
+        assert_eq!(role(1.0, teammate(3, 0.4, 0.0, false)), Role::Sweeper);
+        assert_eq!(role(1.0, teammate(3, 0.8, 0.0, false)), Role::Sweeper);
         assert_eq!(
             role(1.0, teammate(3, 0.4, 0.0, true)),
             Role::Striker,
@@ -300,7 +348,7 @@ mod tests {
     #[test]
     fn the_goalkeeper_is_whom_the_referee_names_and_where_it_names_nobody_there_is_none() {
         use PrimaryState::{Playing, Ready};
-        use Role::{DefenderLeft, Keeper, Striker, Supporter};
+        use Role::{DefenderLeft, Keeper, Striker, Supporter, Sweeper};
         for (said, state, mates, role, goalkeeper) in [
             // This robot is number 2, its file says 1; number 3 is nearer to the ball.
             (None, Playing, vec![1, 3], DefenderLeft, 1),
@@ -317,6 +365,9 @@ mod tests {
             // Nobody, a substitute that is no team mate, or a number that no shirt has.
             (Some(0), Playing, vec![1, 3], Supporter, 0),
             (Some(9), Ready, vec![3], Striker, 9),
+            // A goal without a keeper is nobody's before the game is on.
+            (Some(9), Ready, vec![1], DefenderLeft, 9),
+            (Some(9), Playing, vec![1], Sweeper, 9),
             (Some(255), Ready, vec![3], Striker, 255),
         ] {
             let mut node = RoleAssignment::new(CreationContext {}).unwrap();
@@ -328,6 +379,56 @@ mod tests {
                 (Some(role), goalkeeper),
                 "{said:?} {state:?} {mates:?}"
             );
+        }
+    }
+
+    #[test]
+    fn one_of_those_that_do_not_play_the_ball_sweeps_while_the_keeper_is_out() {
+        use Role::{DefenderLeft, DefenderRight, Striker, Supporter, Sweeper};
+        let players = [2, 3, 4, 5, 6, 7].map(|number| (number, Some(f32::from(number))));
+        assert_eq!(
+            roles_with(&players, true, true),
+            [
+                Striker,
+                Sweeper,
+                Supporter,
+                DefenderRight,
+                DefenderLeft,
+                Supporter
+            ]
+        );
+        assert_eq!(roles_with(&players[..1], true, true), [Striker]);
+    }
+
+    #[test]
+    fn the_keeper_is_out_without_a_message_or_far_from_its_goal_until_it_is_back() {
+        use PrimaryState::{Playing, Ready};
+        let mut node = RoleAssignment::new(CreationContext {}).unwrap();
+        let mut role = |state, keeper: Option<Option<f32>>| {
+            let keeper = keeper.map(|x| {
+                let mut keeper = teammate(1, 4.0, 0.0, false);
+                keeper.message.ground_to_field = x.map(|x| Isometry2::translation(x, 0.0));
+                keeper
+            });
+            let mates = keeper.into_iter().chain([teammate(3, 0.2, 0.0, false)]);
+            cycle_in(&mut node, state, Some(1), 2.0, mates.collect())
+                .role
+                .value
+        };
+        for (state, keeper, expected) in [
+            (Playing, Some(Some(-4.0)), Role::DefenderLeft),
+            // It plays a ball away, then goes further, and comes back.
+            (Playing, Some(Some(-3.0)), Role::DefenderLeft),
+            (Playing, Some(Some(-2.5)), Role::Sweeper),
+            (Playing, Some(Some(-3.0)), Role::Sweeper),
+            (Playing, Some(Some(-3.5)), Role::DefenderLeft),
+            (Playing, Some(None), Role::DefenderLeft),
+            // Taken out, or silent.
+            (Playing, None, Role::Sweeper),
+            (Ready, None, Role::Striker),
+            (Ready, Some(Some(0.0)), Role::Striker),
+        ] {
+            assert_eq!(role(state, keeper), Some(expected), "{state:?} {keeper:?}");
         }
     }
 
@@ -355,7 +456,7 @@ mod tests {
         let (playing, penalized) = (PrimaryState::Playing, PrimaryState::Penalized);
         assert_eq!(role(playing, 0.8), Some(Role::Striker));
         assert_eq!(role(penalized, 0.8), None);
-        assert_eq!(role(playing, 0.8), Some(Role::DefenderLeft));
+        assert_eq!(role(playing, 0.8), Some(Role::Sweeper));
         assert_eq!(role(penalized, 0.8), None);
         assert_eq!(role(playing, 1.2), Some(Role::Striker));
     }

@@ -18,6 +18,8 @@ pub enum Role {
     DefenderLeft,
     /// Stands between the ball and the right half of the own goal.
     DefenderRight,
+    /// Stands between ball and goal while the keeper is out.
+    Sweeper,
 }
 
 /// What a robot is doing: every decision of the behaviour has its own name.

@@ -161,6 +161,9 @@ pub struct PlaceParameters {
     /// So far beside the line from goal to ball.
     #[reflect(unit = "m", range = 0.0..)]
     pub defender_aside: f32,
+    /// So far from the goal who stands in for the keeper stays.
+    #[reflect(unit = "m", range = 0.0..)]
+    pub sweeper_ring: f32,
     /// So far behind the ball the supporter stays.
     #[reflect(unit = "m", range = 0.0..)]
     pub supporter_behind: f32,

@@ -35,7 +35,7 @@ impl PlaceParameters {
             Role::Striker if is_own => (-self.kick_off, 0.0),
             Role::Striker => (-self.other_kick_off, 0.0),
             Role::Supporter => (-self.other_kick_off, self.other_kick_off),
-            Role::DefenderLeft => (-defender, self.defender_aside),
+            Role::DefenderLeft | Role::Sweeper => (-defender, self.defender_aside),
             Role::DefenderRight => (-defender, -self.defender_aside),
         };
         let pose = Isometry2::translation(x, y);
@@ -77,6 +77,7 @@ impl PlaceParameters {
                 let side = if ball.y > 0.0 { -1.0 } else { 1.0 };
                 ball + Vector2::new(-self.supporter_behind, side * self.supporter_aside)
             }
+            Role::Sweeper => goal + to_ball * ring.min(self.sweeper_ring),
             Role::DefenderLeft => goal + to_ball * ring + to_left * self.defender_aside,
             Role::DefenderRight => goal + to_ball * ring - to_left * self.defender_aside,
         };

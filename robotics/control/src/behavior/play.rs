@@ -149,7 +149,9 @@ pub(super) fn hold(view: &View<'_>, role: Role) -> Decision {
     let places = &view.parameters.places;
     let pose = places.of_role(role, ball, &view.parameters.keeper);
     match role {
-        Role::Keeper => view.go_to_facing_ball(&pose, Activity::GuardGoal, Activity::GuardGoal),
+        Role::Keeper | Role::Sweeper => {
+            view.go_to_facing_ball(&pose, Activity::GuardGoal, Activity::GuardGoal)
+        }
         _ => view.go_to(&pose, Activity::HoldPosition, Activity::HoldPosition),
     }
 }
@@ -169,10 +171,26 @@ mod tests {
             (Role::Supporter, Activity::HoldPosition),
             (Role::DefenderLeft, Activity::HoldPosition),
             (Role::DefenderRight, Activity::HoldPosition),
+            (Role::Sweeper, Activity::GuardGoal),
         ] {
             let mut scene = Scene::at(-1.0, 0.0, 0.0).with_ball(2.0, 0.0);
             scene.world.role = Some(role);
             assert_eq!(scene.view(play).activity, activity, "{role:?}");
+        }
+    }
+
+    #[test]
+    fn who_stands_in_for_the_keeper_goes_between_ball_and_goal_and_stays_before_the_ball() {
+        for (ball, expected) in [
+            ([0.0, 0.0], [-3.5, 0.0]),
+            ([-4.5, 2.5], [-4.5, 1.0]),
+            ([-3.5, 0.0], [-3.8, 0.0]),
+        ] {
+            let mut scene = Scene::at(-2.0, 1.0, 0.0).with_ball(ball[0] + 2.0, ball[1] - 1.0);
+            scene.world.role = Some(Role::Sweeper);
+            let target = scene.view(play).plan.target.unwrap().translation.vector;
+            let place = scene.world.ground_to_field.unwrap() * Point2::from(target);
+            assert!((place - Point2::from(expected)).norm() < 1e-3, "{place}");
         }
     }
 
