@@ -161,7 +161,8 @@ impl BallDetection {
         };
         let mut grid = Grid::new(&view, context.parameters.least_radius.max(1.0));
         let pieces = context.image_segments.segments.iter();
-        grid.mark(pieces.filter(|piece| !piece.is_field && !known.explains(&view, piece)));
+        let pieces = pieces.filter(|piece| !piece.is_field);
+        grid.mark(pieces.filter_map(|piece| known.unexplained(&view, piece)));
         context.ball_candidates.fill_if_subscribed(|| {
             grid.cells()
                 .map(|(center, radius)| locate(&view, center, radius))

@@ -46,7 +46,7 @@ impl Grid {
     }
 
     /// Marks the cells that hold a good part of one of these pieces.
-    pub(super) fn mark<'a>(&mut self, segments: impl Iterator<Item = &'a Segment>) {
+    pub(super) fn mark(&mut self, segments: impl Iterator<Item = Segment>) {
         for segment in segments {
             let (start, end) = (segment.start as f32, segment.end as f32);
             for row in self

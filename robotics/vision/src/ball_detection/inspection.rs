@@ -1,6 +1,7 @@
 //! Looks at one place closely: is there a circle of the right size on the field, and is it printed like a ball?
 
 use std::f32::consts::TAU;
+use std::sync::LazyLock;
 
 use framework::math;
 use nalgebra::{Point2, Vector2};
@@ -105,7 +106,8 @@ fn find_rim(
 ) -> Option<Proposal> {
     let expected = view.expected_radius(center)?;
     let mut rim = Vec::with_capacity(RAYS);
-    rim.extend(directions().filter_map(|direction| rim_on_ray(view, center, direction, expected)));
+    let on_ray = |direction: &Vector2<f32>| rim_on_ray(view, center, *direction, expected);
+    rim.extend(DIRECTIONS.iter().filter_map(on_ray));
     let tolerance = parameters.radius_tolerance;
     let circle = circle::find(&rim, expected / tolerance..expected * tolerance)?;
     let expected = view.expected_radius(circle.center)?;
@@ -142,7 +144,7 @@ fn rim_on_ray(
 
 /// The share of a ring around the circle that is field.
 fn ring_on_field(view: &View<'_>, circle: &Circle) -> f32 {
-    let samples = directions().flat_map(|direction| {
+    let samples = DIRECTIONS.iter().flat_map(|direction| {
         [1.2, 1.4].map(|distance| circle.center + direction * (circle.radius * distance))
     });
     let (field, seen) = samples
@@ -188,18 +190,25 @@ pub(super) fn is_printed(
         && (parameters.least_dark..parameters.most_dark).contains(&(dark / (dark + light)))
 }
 
-fn directions() -> impl Iterator<Item = Vector2<f32>> {
-    (0..RAYS).map(|ray| {
+/// Of length 1, evenly around.
+static DIRECTIONS: LazyLock<[Vector2<f32>; RAYS]> = LazyLock::new(|| {
+    std::array::from_fn(|ray| {
         let (sine, cosine) = math::sin_cos(ray as f32 * TAU / RAYS as f32);
         Vector2::new(cosine, sine)
     })
-}
+});
+
+/// Offsets that cover a disc with a radius of half the samples evenly.
+static DISC: LazyLock<Vec<Vector2<f32>>> = LazyLock::new(|| {
+    let half = SAMPLES / 2;
+    (-half..=half)
+        .flat_map(|y| (-half..=half).map(move |x| Vector2::new(x as f32, y as f32)))
+        .filter(|offset| offset.norm_squared() <= (half * half) as f32)
+        .collect()
+});
 
 /// Offsets that cover a disc evenly.
 fn disc(radius: f32) -> impl Iterator<Item = Vector2<f32>> {
-    let half = SAMPLES / 2;
-    (-half..=half)
-        .flat_map(move |y| (-half..=half).map(move |x| Vector2::new(x as f32, y as f32)))
-        .filter(move |offset| offset.norm_squared() <= (half * half) as f32)
-        .map(move |offset| offset * (radius / half as f32))
+    let scale = radius / (SAMPLES / 2) as f32;
+    DISC.iter().map(move |offset| offset * scale)
 }

@@ -18,17 +18,30 @@ pub(super) struct Known<'a> {
 }
 
 impl Known<'_> {
-    /// Whether a piece of a column is beyond the border or lies flat on a line from end to end.
-    pub(super) fn explains(&self, view: &View<'_>, piece: &Segment) -> bool {
+    /// What of a piece of a column may show a ball.
+    ///
+    /// Nothing of one that is beyond the border or lies flat on a line from end to end, and nothing that is further above
+    /// the border than the top of a ball which stands on it.
+    pub(super) fn unexplained(&self, view: &View<'_>, piece: &Segment) -> Option<Segment> {
         let at = |row: u32| Point2::new(piece.column as f32, row as f32);
-        if !self.border.is_inside(at(piece.end)) {
-            return true;
-        }
         let is_on_line = |row: u32| {
             let place = view.matrix.pixel_to_ground(at(row), 0.0);
             place.is_some_and(|place| is_on_line(self.lines, self.line_width, place))
         };
-        is_on_line(piece.start) && is_on_line(piece.end)
+        let is_explained = !self.border.is_inside(at(piece.end))
+            || is_on_line(piece.start) && is_on_line(piece.end);
+        let top = self.highest(view, piece.column as f32).unwrap_or(0.0);
+        (!is_explained).then(|| Segment {
+            start: piece.start.max(top as u32).min(piece.end),
+            ..*piece
+        })
+    }
+
+    /// The row of the top of a ball that stands on the border in this column, px.
+    fn highest(&self, view: &View<'_>, column: f32) -> Option<f32> {
+        let border = self.border.row_at(column)?;
+        let radius = view.expected_radius(Point2::new(column, border))?;
+        Some(border - 2.0 * radius)
     }
 
     /// Whether a ball touches the ground beyond the border, or is the penalty mark.
@@ -52,6 +65,16 @@ mod tests {
 
     /// Whether a piece of the middle column is explained, from one place ahead to another, in m.
     fn explains(border: &FieldBorder, lines: &[LineSegment], from: f32, to: f32) -> bool {
+        unexplained(border, lines, from, to).is_none()
+    }
+
+    /// What of it is not, between rows of the image.
+    fn unexplained(
+        border: &FieldBorder,
+        lines: &[LineSegment],
+        from: f32,
+        to: f32,
+    ) -> Option<(u32, u32)> {
         let matrix = camera_matrix(0.4);
         let view = View {
             image: &YuyvImage::default(),
@@ -66,17 +89,20 @@ mod tests {
             line_width: LINE_WIDTH,
             penalty_mark: None,
         };
-        let row = |ahead: f32| {
-            let place = nalgebra::Point3::new(ahead, 0.0, 0.0);
-            matrix.ground_to_pixel(place).unwrap().y.round() as u32
-        };
         let piece = Segment {
             column: 320,
-            start: row(to),
-            end: row(from),
+            start: row(to).round() as u32,
+            end: row(from).round() as u32,
             is_field: false,
         };
-        known.explains(&view, &piece)
+        let left = known.unexplained(&view, &piece)?;
+        Some((left.start, left.end))
+    }
+
+    /// Where the middle column shows the floor so far ahead, in m.
+    fn row(ahead: f32) -> f32 {
+        let place = nalgebra::Point3::new(ahead, 0.0, 0.0);
+        camera_matrix(0.4).ground_to_pixel(place).unwrap().y
     }
 
     /// So far ahead, from one place to another.
@@ -104,14 +130,27 @@ mod tests {
 
     #[test]
     fn a_piece_that_ends_beyond_the_border_is_explained() {
-        let border = camera_matrix(0.4)
-            .ground_to_pixel(nalgebra::Point3::new(2.0, 0.0, 0.0))
-            .unwrap();
-        let border = border_at(border.y);
+        let border = border_at(row(2.0));
         assert!(explains(&border, &[], 2.2, 3.0));
         // The upper half of a ball before the border may hide what is beyond.
         assert!(!explains(&border, &[], 1.8, 3.0));
         assert!(!explains(&border, &[], 1.2, 1.8));
+    }
+
+    #[test]
+    fn what_rises_above_a_ball_on_the_border_is_left_out() {
+        let border = border_at(row(2.0));
+        let (start, end) = unexplained(&border, &[], 1.2, 6.0).unwrap();
+        assert_eq!(end, row(1.2).round() as u32);
+        // A ball of 10 cm whose middle is seen there, 1.86 m from the camera: 608 px of focal length make it 33 px wide.
+        let height = row(2.0) - start as f32;
+        assert!((32.0..35.0).contains(&height), "{height} px");
+        // Before the border nothing is cut.
+        let (start, _) = unexplained(&border, &[], 1.2, 1.8).unwrap();
+        assert_eq!(start, row(1.8).round() as u32);
+        let nothing = FieldBorder::default();
+        let (start, _) = unexplained(&nothing, &[], 1.2, 6.0).unwrap();
+        assert_eq!(start, row(6.0).round() as u32);
     }
 
     #[test]
