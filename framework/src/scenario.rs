@@ -37,6 +37,7 @@
 
 mod assertion;
 mod audience;
+mod choice;
 mod draw;
 mod ensemble;
 mod file;

@@ -322,6 +322,67 @@ fn a_simulated_world_tells_the_truth_and_is_disturbed() {
     }
 }
 
+/// A robot without eyes, and the ball at that place ahead of it.
+fn scenario(ball: f64) -> String {
+    format!(
+        "ends = 3600.0\n[world]\ncameras = false\nmicrophones = false\nball.position = [{ball}, 0.0]\n\
+         [[assertion]]\nwhat = \"it has a height\"\nvalue = \"truth.height\"\nabove = 0.0\n"
+    )
+}
+
+#[test]
+fn who_watches_a_scenario_chooses_another_one() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let write = |name: &str, text: &str| {
+        let file = folder.path().join(name);
+        std::fs::write(&file, text).expect("it is written");
+        file.to_str().expect("it is text").to_owned()
+    };
+    let near = write("near.toml", &scenario(1.0));
+    write("far.toml", &scenario(2.0));
+    write("wrong.toml", "ends = 0\n");
+    let robot = Robot::start(&["--scenario", &near, "--record", "on"]);
+    let call = |argument: &str| format!("call framework.procedures.scenario {argument}");
+    let programme = |argument: &str| {
+        let answer = robot.lines(&call(argument)).remove(0);
+        answer.get("response").unwrap_or(&answer).clone()
+    };
+    let ball = || {
+        let output = robot.hulkgen("call framework.procedures.truth --format json");
+        let truth: Value = serde_json::from_slice(&output.stdout).ok()?;
+        let truth = truth.get("response").unwrap_or(&truth);
+        truth["ball"]["x"].as_f64()
+    };
+    let choices = serde_json::json!(["far", "near", "wrong"]);
+    let is = |playing: &str| serde_json::json!({ "playing": playing, "choices": choices });
+    assert_eq!(programme("null"), is("near"));
+    for (argument, told) in [
+        (r#""nowhere""#, "there are: far, near, wrong"),
+        (r#""wrong""#, "wrong.toml"),
+    ] {
+        let refused = robot.hulkgen(&call(argument));
+        let stderr = String::from_utf8_lossy(&refused.stderr).into_owned();
+        assert_eq!(refused.status.code(), Some(1));
+        assert!(stderr.contains(told), "{stderr}");
+    }
+    assert_eq!(ball(), Some(1.0), "what is refused changes nothing");
+    // The ball is somewhere else, until the same begins anew.
+    robot.answer(r#"call framework.procedures.disturb {"ball":[1.5,0.0]}"#);
+    for (name, place) in [("near", 1.0), ("far", 2.0)] {
+        assert_eq!(programme(&format!("\"{name}\"")), is(name));
+        let begin = Instant::now();
+        while ball().is_none_or(|ball| (ball - place).abs() > 0.01) {
+            assert!(begin.elapsed() < PATIENCE, "{name} is not played");
+            std::thread::sleep(Duration::from_millis(200));
+        }
+    }
+    assert_eq!(programme("null"), is("far"));
+    for recording in ["near-seed-1.mcap", "near-seed-1-2.mcap", "far-seed-1.mcap"] {
+        let file = robot.folder.path().join(recording);
+        assert!(file.is_file(), "{recording} is missing");
+    }
+}
+
 #[test]
 fn python_reads_and_writes_with_nothing_but_websockets() {
     let name = "python_reads_and_writes_with_nothing_but_websockets";

@@ -13,8 +13,8 @@ use crate::recorded::{About, Recording, Settings};
 use crate::report::tell;
 use crate::robot::Robot;
 
-/// What the first recording of a run's folder is called.
-const FILE: &str = "recording.mcap";
+/// What the recording of a run is called in its folder, without `.mcap`.
+const NAME: &str = "recording";
 
 /// Starts it, if one is wanted.
 pub(super) fn start<P: ParameterData>(
@@ -27,7 +27,7 @@ pub(super) fn start<P: ParameterData>(
     let path = match &options.record {
         Record::Off => return Ok(None),
         Record::Simulated if !is_simulated => return Ok(None),
-        Record::Simulated | Record::On => free_place(&options.run_folder),
+        Record::Simulated | Record::On => free_place(&options.run_folder, NAME),
         Record::Into(path) => path.clone(),
     };
     start_into(&path, target, options, robot, identities).map(Some)
@@ -56,12 +56,12 @@ pub(super) fn start_into<P: ParameterData>(
     Ok(recording)
 }
 
-/// In a run folder: after an earlier run there, beside its recording.
-fn free_place(folder: &Path) -> PathBuf {
-    let again = (2_u32..).map(|number| format!("recording-{number}.mcap"));
-    let mut names = std::iter::once(FILE.to_owned()).chain(again);
-    let free = names.find(|name| !folder.join(name).exists());
-    folder.join(free.unwrap_or_else(|| FILE.to_owned()))
+/// For a recording of this name in a run folder: after an earlier one there, beside it.
+pub(super) fn free_place(folder: &Path, name: &str) -> PathBuf {
+    let first = folder.join(format!("{name}.mcap"));
+    let again = (2_u32..).map(|number| folder.join(format!("{name}-{number}.mcap")));
+    let mut places = std::iter::once(first.clone()).chain(again);
+    places.find(|place| !place.exists()).unwrap_or(first)
 }
 
 fn about<P: ParameterData>(

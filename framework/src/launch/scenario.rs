@@ -1,4 +1,4 @@
-//! `--scenario`: plays a file in place of running, and tells what came of it.
+//! `--scenario`: plays a file in place of running, and those that clients choose after it, and tells what came of each.
 
 use std::io::Write;
 use std::ops::RangeInclusive;
@@ -18,7 +18,7 @@ use crate::robot::{Robot, Start};
 use crate::scenario::{Audience, Cast, Manner, Outcome, Played, Scenario, play};
 use crate::stop::Stop;
 
-/// Plays it with every seed; gives the exit status.
+/// Plays it with every seed, and what clients choose in place of it likewise; gives the exit status, that of the last one.
 pub(super) fn run<H: Hardware + 'static, P: ParameterData>(
     target: &Target,
     options: &Options,
@@ -28,57 +28,36 @@ pub(super) fn run<H: Hardware + 'static, P: ParameterData>(
     create: &mut impl FnMut(&Arc<H>, Start<P>) -> Result<Robot<P>>,
     serve: Serve,
 ) -> Result<u8> {
-    // Nobody watches unless somebody says where: most scenarios are played to be judged.
-    let listening = options
-        .listening(target)
-        .filter(|listening| listening.address.is_some());
-    let stage = Stage {
-        audience: listening.map(|listening| Audience { serve, listening }),
-        target,
-        options,
-        scenario: Scenario::load(file)?,
-        file,
-        stop,
-    };
-    let mut runs: Vec<Played> = Vec::new();
-    for seed in seeds(options)? {
-        stop.check()?;
-        let played = stage.play(seed, create);
-        let played =
-            played.map_err(|error| error.context(format!("scenario {}", file.display())))?;
-        if options.format == Format::Text {
-            tell(format_args!("{}", played.headline()));
-        }
-        runs.push(played);
-        if stop.is_requested() {
-            break;
+    let mut file = file.to_owned();
+    loop {
+        // Nobody watches unless somebody says where: most scenarios are played to be judged.
+        let listening = options
+            .listening(target)
+            .filter(|listening| listening.address.is_some());
+        let audience = listening.map(|listening| Audience {
+            serve,
+            listening,
+            file: file.clone(),
+        });
+        let stage = Stage {
+            audience,
+            target,
+            options,
+            scenario: Scenario::load(&file)?,
+            file: &file,
+            stop,
+        };
+        let (outcome, chosen) = stage.play_all(create)?;
+        let written = match options.format {
+            Format::Json => writeln!(output, "{}", serde_json::to_string(&outcome)?),
+            Format::Text => writeln!(output, "{}", outcome.to_string().trim_end()),
+        };
+        written.map_err(|error| Error::from(error).context("cannot write the outcome"))?;
+        match chosen {
+            Some(chosen) => file = chosen,
+            None => return Ok(if outcome.passed { DONE } else { FAILED }),
         }
     }
-    // Who ends it early has not seen the others pass.
-    let asked = options.repeat.unwrap_or(1);
-    let passes = runs.iter().filter(|run| run.passed).count();
-    #[expect(
-        clippy::cast_precision_loss,
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "seeds are few"
-    )]
-    let needed = (stage.scenario.passes * asked as f64 - 1e-9).ceil() as usize;
-    let outcome = Outcome {
-        version: 1,
-        scenario: file.to_owned(),
-        about: stage.scenario.about,
-        passed: passes >= needed,
-        passes,
-        needed,
-        runs,
-    };
-    let written = match options.format {
-        Format::Json => writeln!(output, "{}", serde_json::to_string(&outcome)?),
-        Format::Text => writeln!(output, "{}", outcome.to_string().trim_end()),
-    };
-    written.map_err(|error| Error::from(error).context("cannot write the outcome"))?;
-    Ok(if outcome.passed { DONE } else { FAILED })
 }
 
 /// The seeds that are played, one at least.
@@ -103,28 +82,73 @@ struct Stage<'run> {
 }
 
 impl Stage<'_> {
+    /// Plays it with every seed, until somebody chooses another one: its file comes with the outcome.
+    fn play_all<H: Hardware + 'static, P: ParameterData>(
+        &self,
+        create: &mut impl FnMut(&Arc<H>, Start<P>) -> Result<Robot<P>>,
+    ) -> Result<(Outcome, Option<PathBuf>)> {
+        let mut runs: Vec<Played> = Vec::new();
+        let mut chosen = None;
+        for seed in seeds(self.options)? {
+            self.stop.check()?;
+            let played = self.play(seed, create);
+            let played =
+                played.map_err(|error| error.context(format!("scenario {}", self.file.display())));
+            let (played, next) = played?;
+            if self.options.format == Format::Text {
+                tell(format_args!("{}", played.headline()));
+            }
+            runs.push(played);
+            chosen = next;
+            if chosen.is_some() || self.stop.is_requested() {
+                break;
+            }
+        }
+        // Who ends it early has not seen the others pass.
+        let asked = self.options.repeat.unwrap_or(1);
+        let passes = runs.iter().filter(|run| run.passed).count();
+        #[expect(
+            clippy::cast_precision_loss,
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "seeds are few"
+        )]
+        let needed = (self.scenario.passes * asked as f64 - 1e-9).ceil() as usize;
+        let outcome = Outcome {
+            version: 1,
+            scenario: self.file.to_owned(),
+            about: self.scenario.about.clone(),
+            passed: passes >= needed,
+            passes,
+            needed,
+            runs,
+        };
+        Ok((outcome, chosen))
+    }
+
     /// Plays it once; and where it does not pass, once more for a recording: the same seed gives the same.
     fn play<H: Hardware + 'static, P: ParameterData>(
         &self,
         seed: u64,
         create: &mut impl FnMut(&Arc<H>, Start<P>) -> Result<Robot<P>>,
-    ) -> Result<Played> {
+    ) -> Result<(Played, Option<PathBuf>)> {
         let record_always = matches!(self.options.record, Record::On);
         let record_never = matches!(self.options.record, Record::Off);
-        let played = self.play_once(seed, record_always, create)?;
+        let (played, chosen) = self.play_once(seed, record_always, create)?;
         // What clients did would not come again.
         let was_watched = self.audience.is_some();
         let is_enough = record_always || record_never || was_watched || self.stop.is_requested();
         if played.passed || is_enough {
-            return Ok(played);
+            return Ok((played, chosen));
         }
-        let recorded = self.play_once(seed, true, create)?;
-        Ok(Played {
+        let (recorded, chosen) = self.play_once(seed, true, create)?;
+        let played = Played {
             recordings: recorded.recordings,
             // The same, or that somebody ended the recording.
             stopped: recorded.stopped,
             ..played
-        })
+        };
+        Ok((played, chosen))
     }
 
     fn play_once<H: Hardware + 'static, P: ParameterData>(
@@ -132,7 +156,7 @@ impl Stage<'_> {
         seed: u64,
         is_recorded: bool,
         create: &mut impl FnMut(&Arc<H>, Start<P>) -> Result<Robot<P>>,
-    ) -> Result<Played> {
+    ) -> Result<(Played, Option<PathBuf>)> {
         let mut casts = Vec::new();
         for robot in 0..self.scenario.robot_count() {
             let mut cast = self.cast(robot, seed, &casts, create)?;
@@ -148,10 +172,10 @@ impl Stage<'_> {
             stop: self.stop,
             audience: self.audience.as_ref(),
         };
-        let mut played = play(&self.scenario, seed, &mut casts, &manner)?;
+        let (mut played, chosen) = play(&self.scenario, seed, &mut casts, &manner)?;
         let recordings = casts.into_iter().filter_map(|cast| cast.recording);
         played.recordings = recordings.map(end).collect();
-        Ok(played)
+        Ok((played, chosen))
     }
 
     /// One robot in the world of those that are there already.
@@ -215,9 +239,10 @@ impl Stage<'_> {
             1 => String::new(),
             _ => format!("-robot-{}", robot + 1),
         };
-        let file = format!("{name}-seed-{seed}{number}.mcap");
+        let name = format!("{name}-seed-{seed}{number}");
         record::start_into(
-            &self.options.run_folder.join(file),
+            // Clients may choose one that was played already.
+            &record::free_place(&self.options.run_folder, &name),
             self.target,
             self.options,
             &cast.robot,

@@ -1,6 +1,7 @@
 //! Clients that watch a scenario: each of its robots is served at a port of its own.
 
 use std::net::{SocketAddr, ToSocketAddrs as _};
+use std::path::PathBuf;
 
 use crate::error::{Error, Result};
 use crate::launch::{Listening, Serve};
@@ -11,6 +12,8 @@ pub(crate) struct Audience {
     pub(crate) serve: Serve,
     /// What the server of the first robot is told; those of the others have the ports behind its.
     pub(crate) listening: Listening,
+    /// Of the scenario: those beside it may be chosen in place of it.
+    pub(crate) file: PathBuf,
 }
 
 impl Audience {
@@ -73,6 +76,7 @@ mod tests {
                 peers: vec!["nao22.local:4857".to_owned()],
                 ..Listening::default()
             },
+            file: PathBuf::new(),
         }
     }
 

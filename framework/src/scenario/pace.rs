@@ -1,11 +1,16 @@
-//! How fast the world of a scenario goes on; where clients watch it, they may change that: `framework.procedures.speed`.
+//! How fast the world of a scenario goes on, and whether it does; where clients watch it, they may change both:
+//! `framework.procedures.speed` and `.scenario`.
 
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+use super::choice::{Choice, ChoiceCaller, choice};
 use crate::error::Result;
 use crate::procedure::{Answerer, Caller, procedure};
 use crate::stop::Stop;
 use crate::time::Timestamp;
+use crate::world::Named;
 
 /// Faster than any machine.
 const GREATEST: f64 = 1000.0;
@@ -14,35 +19,54 @@ const GREATEST: f64 = 1000.0;
 const NOTICE: Duration = Duration::from_millis(20);
 
 /// Asked with a number, it is the speed from now on, in times of real time; with nothing, it stays. The answer is the speed.
-pub(super) type SpeedCaller = Caller<Option<f64>, f64>;
+type SpeedCaller = Caller<Option<f64>, f64>;
+
+/// What clients of each robot may ask of the world that all of them share.
+pub(super) struct Callers {
+    speed: SpeedCaller,
+    scenario: ChoiceCaller,
+}
 
 /// How fast the world goes on.
 pub(super) enum Pace {
     /// As fast as the machine can.
     Free,
     /// No faster than somebody wishes.
-    Watched(Watched),
+    Watched(Box<Watched>),
 }
 
 /// A world that came to a time when the wall had another, and goes on at a speed since.
 pub(super) struct Watched {
     asked: Answerer<Option<f64>, f64>,
+    choice: Choice,
     /// How many seconds of the world pass in one on the wall, at most; 0: none.
     speed: f64,
     since: (Timestamp, Instant),
     reached: Timestamp,
 }
 
-/// A world that begins now, in real time until clients wish otherwise.
-pub(super) fn watched() -> (SpeedCaller, Watched) {
-    let (caller, asked) = procedure();
+/// The world of the scenario in this file, which begins now, in real time until clients wish otherwise.
+pub(super) fn watched(file: &Path) -> (Callers, Box<Watched>) {
+    let (speed, asked) = procedure();
+    let (scenario, choice) = choice(file);
     let watched = Watched {
         asked,
+        choice,
         speed: 1.0,
         since: (Timestamp::ZERO, Instant::now()),
         reached: Timestamp::ZERO,
     };
-    (caller, watched)
+    (Callers { speed, scenario }, Box::new(watched))
+}
+
+impl Callers {
+    /// For the server of one robot.
+    pub(super) fn procedures(&self) -> [Named; 2] {
+        [
+            ("speed", Box::new(self.speed.clone())),
+            ("scenario", Box::new(self.scenario.clone())),
+        ]
+    }
 }
 
 impl Watched {
@@ -86,20 +110,27 @@ impl Watched {
 }
 
 impl Pace {
-    /// Until the world may come to this time.
+    /// Until the world may come to this time; breaks with the file of the scenario that somebody chose in place of this one.
     ///
     /// # Errors
     /// Where somebody ends the run meanwhile.
-    pub(super) fn wait_for(&mut self, time: Timestamp, stop: &Stop) -> Result<()> {
+    pub(super) fn wait_for(
+        &mut self,
+        time: Timestamp,
+        stop: &Stop,
+    ) -> Result<ControlFlow<PathBuf>> {
         let Self::Watched(watched) = self else {
-            return Ok(());
+            return Ok(ControlFlow::Continue(()));
         };
         loop {
+            if let Some(file) = watched.choice.answer() {
+                return Ok(ControlFlow::Break(file));
+            }
             watched.answer();
             let early = watched.early(time);
             if early == Some(Duration::ZERO) {
                 watched.reached = time;
-                return Ok(());
+                return Ok(ControlFlow::Continue(()));
             }
             stop.wait(early.map_or(NOTICE, |early| early.min(NOTICE)))?;
         }
@@ -115,6 +146,17 @@ mod tests {
         Timestamp::ZERO + Duration::from_millis(milliseconds)
     }
 
+    fn nowhere() -> (SpeedCaller, Box<Watched>) {
+        let (callers, watched) = watched(Path::new("nowhere.toml"));
+        (callers.speed, watched)
+    }
+
+    /// The world comes to this time.
+    fn come(pace: &mut Pace, time: Timestamp, stop: &Stop) {
+        let came = pace.wait_for(time, stop).expect("nobody stops it");
+        assert!(came.is_continue(), "nobody chose anything");
+    }
+
     /// What a client hears at once.
     fn heard(pending: &Pending<f64>) -> Result<f64, String> {
         let answer = pending.try_answer().expect("it was answered");
@@ -124,43 +166,41 @@ mod tests {
     #[test]
     fn a_world_that_is_watched_waits_for_the_wall_and_does_not_hurry() {
         let (stop, begun) = (Stop::new(), Instant::now());
-        let mut pace = Pace::Watched(watched().1);
-        pace.wait_for(at(30), &stop).expect("nobody stops it");
+        let mut pace = Pace::Watched(nowhere().1);
+        come(&mut pace, at(30), &stop);
         assert!(begun.elapsed() >= Duration::from_millis(30));
         // It was slow: what comes a little later is not at once.
         std::thread::sleep(Duration::from_millis(100));
-        pace.wait_for(at(40), &stop).expect("nobody stops it");
+        come(&mut pace, at(40), &stop);
         let late = Instant::now();
-        pace.wait_for(at(60), &stop).expect("nobody stops it");
+        come(&mut pace, at(60), &stop);
         assert!(late.elapsed() >= Duration::from_millis(19));
         stop.request();
         let stopped = pace.wait_for(at(60_000), &stop);
         assert!(stopped.is_err_and(|error| error.is_stopped()));
-        Pace::Free
-            .wait_for(at(60_000), &Stop::new())
-            .expect("it waits for nothing");
+        come(&mut Pace::Free, at(60_000), &Stop::new());
     }
 
     #[test]
     fn clients_hold_a_world_slow_it_down_and_let_it_go() {
         let stop = Stop::new();
-        let (speed, watched) = watched();
+        let (speed, watched) = nowhere();
         let mut pace = Pace::Watched(watched);
         speed.call(Some(0.25));
         let begun = Instant::now();
-        pace.wait_for(at(20), &stop).expect("nobody stops it");
+        come(&mut pace, at(20), &stop);
         assert!(begun.elapsed() >= Duration::from_millis(80));
         // A world that stands is woken, and seconds are over at once.
         speed.call(Some(0.0));
         std::thread::scope(|scope| {
-            let held = scope.spawn(|| pace.wait_for(at(50), &stop));
+            let held = scope.spawn(|| come(&mut pace, at(50), &stop));
             std::thread::sleep(Duration::from_millis(100));
             assert!(!held.is_finished(), "it stands");
             speed.call(Some(GREATEST));
-            held.join().expect("no panic").expect("nobody stops it");
+            held.join().expect("no panic");
         });
         let begun = Instant::now();
-        pace.wait_for(at(10_000), &stop).expect("nobody stops it");
+        come(&mut pace, at(10_000), &stop);
         assert!(begun.elapsed() >= Duration::from_millis(9));
         speed.call(Some(0.0));
         stop.request();
@@ -169,8 +209,24 @@ mod tests {
     }
 
     #[test]
+    fn a_world_that_stands_ends_where_another_scenario_is_chosen() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let file = folder.path().join("push.toml");
+        let text = "ends = 1.0\n[[assertion]]\nwhat = \"it is upright\"\nvalue = \"truth.tilt\"\nbelow = 1.0\n";
+        std::fs::write(&file, text).expect("it is written");
+        let (callers, watched) = watched(&file);
+        let mut pace = Pace::Watched(watched);
+        callers.speed.call(Some(0.0));
+        callers.scenario.call(Some("push".to_owned()));
+        let ended = pace
+            .wait_for(at(50), &Stop::new())
+            .expect("nobody stops it");
+        assert_eq!(ended, ControlFlow::Break(file));
+    }
+
+    #[test]
     fn who_asks_with_nothing_hears_and_what_is_no_speed_changes_nothing() {
-        let (speed, mut watched) = watched();
+        let (speed, mut watched) = nowhere();
         let mut ask = |wished| {
             let pending = speed.call(wished);
             watched.answer();

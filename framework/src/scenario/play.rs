@@ -1,5 +1,7 @@
 //! Plays a scenario once.
 
+use std::ops::ControlFlow;
+use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -7,7 +9,7 @@ use super::audience::Audience;
 use super::ensemble::{Ensemble, Lives, together};
 use super::file::{Call, Event, Scenario};
 use super::judge::{Judge, Verdict};
-use super::pace::{Pace, watched};
+use super::pace::{Callers, Pace, watched};
 use super::report::Played;
 use crate::digest::Digest;
 use crate::driver::Lockstep;
@@ -52,7 +54,7 @@ const STRETCH: Duration = Duration::from_secs(1);
 const WATCHED_STRETCH: Duration = Duration::from_millis(12);
 
 /// Lets the robots live through it. One that stops is told of; the others go on. Where somebody ends the run, that is told as well,
-/// and what was seen until then: it may have taken long.
+/// and what was seen until then: it may have taken long. The same where somebody chooses another scenario, whose file comes with it.
 ///
 /// # Errors
 /// Where the hardware does not understand an event.
@@ -61,13 +63,14 @@ pub(crate) fn play<H: Hardware + 'static, P: Send>(
     seed: u64,
     casts: &mut [Cast<H, P>],
     manner: &Manner<'_>,
-) -> Result<Played> {
+) -> Result<(Played, Option<PathBuf>)> {
     let begun = Instant::now();
     let mut hardwares: Vec<&dyn Hardware> = Vec::new();
     let mut actors = Vec::new();
     let seats = manner.audience.map(|audience| audience.seats(casts.len()));
     let mut seats = seats.transpose()?.unwrap_or_default().into_iter();
-    let (speed, watched) = watched();
+    let watched = manner.audience.map(|audience| watched(&audience.file));
+    let (callers, watched) = watched.unzip();
     // Servers end when the robots have lived.
     let mut served = Vec::new();
     for (number, cast) in (1..).zip(casts.iter_mut()) {
@@ -78,7 +81,7 @@ pub(crate) fn play<H: Hardware + 'static, P: Send>(
             .observed(|instance| recording.as_mut()?.observer(instance));
         if let Some(seat) = manner.audience.zip(seats.next()) {
             let mut procedures = world::procedures(&cast.hardware);
-            procedures.push(("speed", Box::new(speed.clone())));
+            procedures.extend(callers.iter().flat_map(Callers::procedures));
             served.extend(seated(&mut lockstep, procedures, seat, manner.stop)?);
         }
         hardwares.push(hardware);
@@ -91,28 +94,23 @@ pub(crate) fn play<H: Hardware + 'static, P: Send>(
             stopped: None,
         }));
     }
-    let (lasted, is_ended, verdicts) = together(&actors, manner.threads, |ensemble| {
-        let pace = manner
-            .audience
-            .map_or(Pace::Free, |_| Pace::Watched(watched));
-        let lived = live_through(scenario, seed, &hardwares, ensemble, (pace, manner.stop));
-        let is_ended = manner.stop.is_requested() && lived.as_ref().is_err_and(Error::is_stopped);
-        if !is_ended {
-            lived?;
-        }
+    let (lasted, end, verdicts) = together(&actors, manner.threads, |ensemble| {
+        let pace = watched.map_or(Pace::Free, Pace::Watched);
+        let end = match live_through(scenario, seed, &hardwares, ensemble, (pace, manner.stop)) {
+            Err(error) if error.is_stopped() && manner.stop.is_requested() => End::Stopped,
+            lived => lived?,
+        };
         let now = |actor: &Actor<'_, P>| actor.lockstep.robot().clock.now();
         let lasted = ensemble.all().map(|actor| now(&actor)).max();
         let verdicts = ensemble
             .all()
             .map(|mut actor| actor.judge.take().map(Judge::verdicts).unwrap_or_default());
         let lasted = lasted.map_or(0.0, |now| (now - Timestamp::ZERO).as_secs_f64());
-        Ok::<_, Error>((lasted, is_ended, in_order(scenario, verdicts.collect())))
+        Ok::<_, Error>((lasted, end, in_order(scenario, verdicts.collect())))
     })?;
     drop(served);
     let mut digests = Vec::new();
-    let ended =
-        || format!("somebody ended it after {lasted:.1} s; what follows was seen until then");
-    let mut stopped: Vec<_> = is_ended.then(ended).into_iter().collect();
+    let mut stopped: Vec<_> = end.early(lasted).into_iter().collect();
     for (number, actor) in (1..).zip(actors) {
         let actor = actor.into_inner().unwrap_or_else(PoisonError::into_inner);
         digests.extend(actor.digest.map(|digest| digest.to_string()));
@@ -125,7 +123,7 @@ pub(crate) fn play<H: Hardware + 'static, P: Send>(
     }
     let instances = casts.iter().flat_map(|cast| &cast.robot.instances);
     let failures = instances.map(|instance| instance.report().counts.failures);
-    Ok(Played {
+    let played = Played {
         seed,
         passed: stopped.is_empty() && verdicts.iter().all(|verdict| verdict.passed),
         stopped: (!stopped.is_empty()).then(|| stopped.join("; ")),
@@ -135,7 +133,35 @@ pub(crate) fn play<H: Hardware + 'static, P: Send>(
         assertions: verdicts,
         lasted,
         real_time_factor: lasted / begun.elapsed().as_secs_f64().max(1e-9),
-    })
+    };
+    let chosen = match end {
+        End::Another(file) => Some(file),
+        End::AsWritten | End::Stopped => None,
+    };
+    Ok((played, chosen))
+}
+
+/// How a scenario ended.
+enum End {
+    AsWritten,
+    /// Somebody ended the run.
+    Stopped,
+    /// Somebody chose the scenario in this file in place of it.
+    Another(PathBuf),
+}
+
+impl End {
+    /// What is told where it was early, after so many seconds.
+    fn early(&self, lasted: f64) -> Option<String> {
+        let who = match self {
+            Self::AsWritten => return None,
+            Self::Stopped => "somebody ended it".to_owned(),
+            Self::Another(file) => format!("somebody chose {}", file.display()),
+        };
+        Some(format!(
+            "{who} after {lasted:.1} s; what follows was seen until then"
+        ))
+    }
 }
 
 /// The server of one robot, with what clients may do to its world.
@@ -203,7 +229,7 @@ fn live_through<P: Send>(
     hardwares: &[&dyn Hardware],
     ensemble: &Ensemble<'_, Actor<'_, P>>,
     (mut pace, stop): (Pace, &Stop),
-) -> Result<()> {
+) -> Result<End> {
     let stretch = match pace {
         Pace::Watched(_) => WATCHED_STRETCH,
         Pace::Free => STRETCH,
@@ -221,10 +247,12 @@ fn live_through<P: Send>(
                 [first, _, ..] => first.advance()?,
                 _ => until.min(world + stretch),
             };
-            pace.wait_for(world, stop)?;
+            if let ControlFlow::Break(file) = pace.wait_for(world, stop)? {
+                return Ok(End::Another(file));
+            }
         }
         if ensemble.all().all(|actor| actor.stopped.is_some()) {
-            return Ok(());
+            return Ok(End::AsWritten);
         }
         let done = match deed {
             Deed::Event(event) => hardwares[event.robot].disturb(&event.deed),
@@ -234,7 +262,7 @@ fn live_through<P: Send>(
         let at = (until - Timestamp::ZERO).as_secs_f64();
         done.map_err(|error| error.context(format!("at {at:.3} s")))?;
     }
-    Ok(())
+    Ok(End::AsWritten)
 }
 
 /// As the file has them, from those of each robot.

@@ -6,12 +6,14 @@ import { COLORS } from "../panels/series";
 import type { Json } from "../protocol";
 import { Chart } from "./chart";
 import { RULES } from "./field";
-import { outOf, type Point } from "./geometry";
+import { fields, list, outOf, type Point } from "./geometry";
 import { disturb, DISTURB, watchTruth, type Truth } from "./truth";
 
 const PENALTIES = ["PlayerPushing", "LeavingTheField", "IllegalPosition", "LocalGameStuck", "RequestForPickup"];
 /** Robots have it whose world goes on as clients wish: those of a scenario. */
 const SPEED = "framework.procedures.speed";
+/** The same of them: what is played, what might be, and what is played from its beginning instead. */
+const SCENARIO = "framework.procedures.scenario";
 /** In times of real time; the last one is more than a machine can. */
 const SPEEDS: readonly [string, number][] = [["hold", 0], ["0.1 ×", 0.1], ["0.25 ×", 0.25], ["0.5 ×", 0.5], ["1 ×", 1], ["2 ×", 2], ["4 ×", 4], ["at full speed", 1000]];
 /** A finger is wider than a ball on a small field, px. */
@@ -27,10 +29,12 @@ class Simulator implements Panel {
   private readonly state = make("output", { class: "muted" });
   private readonly failure = make("p", { class: "failure", hidden: true });
   private readonly speed: HTMLSelectElement;
+  private readonly scenario = make("select", { "aria-label": "which scenario is played" });
+  private readonly scenarios = make("span", { hidden: true }, this.scenario, button("Play", "play this scenario from its beginning", () => void this.play(this.scenario.value)));
   private readonly strength = make("input", { type: "number", min: 0.5, max: 10, step: 0.5, value: 3, "aria-label": "strength of a push in N s" });
   private readonly stop: () => void;
   private truth: Truth | null = null;
-  private isSpeedAsked = false;
+  private isWorldAsked = false;
   private dragged: { thing: Thing; at: Point } | null = null;
 
   constructor(private readonly context: Context) {
@@ -46,7 +50,7 @@ class Simulator implements Panel {
     this.content = make(
       "div",
       { class: "map" },
-      make("div", { class: "bar" }, make("span", { class: "muted" }, "Drag the ball, the robot, or its nose."), make("span", { class: "space" }), this.state, this.speed),
+      make("div", { class: "bar" }, make("span", { class: "muted" }, "Drag the ball, the robot, or its nose."), make("span", { class: "space" }), this.state, this.scenarios, this.speed),
       this.canvas,
       make(
         "div",
@@ -67,12 +71,18 @@ class Simulator implements Panel {
       this.failure,
     );
     this.canvas.addEventListener("pointerdown", (event) => this.grasp(event));
-    this.stop = watchTruth(context.robot, (truth) => {
+    // What begins anew goes on at a speed of its own, and may be another scenario.
+    const stopState = context.robot.state.watch(() => (this.isWorldAsked = false));
+    const stopTruth = watchTruth(context.robot, (truth) => {
       this.truth = truth;
       // Who may not write hears neither.
-      if (truth !== null && !this.isSpeedAsked) void this.findSpeed();
+      if (truth !== null && !this.isWorldAsked) void this.askWorld();
       this.draw();
     });
+    this.stop = () => {
+      stopState();
+      stopTruth();
+    };
   }
 
   close(): void {
@@ -90,10 +100,25 @@ class Simulator implements Panel {
     );
   }
 
-  private async findSpeed(): Promise<void> {
-    this.isSpeedAsked = true;
+  private async askWorld(): Promise<void> {
+    this.isWorldAsked = true;
     const { paths } = this.context.robot;
-    if ((await paths.find(SPEED).catch(() => undefined)) !== undefined) await this.goOn(null);
+    const isThere = async (path: string): Promise<boolean> => (await paths.find(path).catch(() => undefined)) !== undefined;
+    if (await isThere(SPEED)) await this.goOn(null);
+    if (await isThere(SCENARIO)) await this.play(null);
+  }
+
+  /** This scenario in place of the one that is played; `null`: that one goes on. */
+  private async play(wished: string | null): Promise<void> {
+    try {
+      const programme = fields(expect(await this.context.robot.ask({ call: { path: SCENARIO, argument: wished } }), "called"));
+      const choices = list(programme?.["choices"]).map(String);
+      this.scenario.replaceChildren(...choices.map((name) => make("option", { value: name, selected: name === programme?.["playing"] }, name)));
+      this.scenarios.hidden = false;
+      complain(this.failure, null);
+    } catch (error) {
+      complain(this.failure, error);
+    }
   }
 
   /** At this speed; `null`: at the one that it has. */

@@ -173,21 +173,31 @@ async function strangersStayOutside(page, port) {
   step("the page asks no robot that was not named");
 }
 
-/** Those of a scenario share a world, which goes on as somebody wishes who has the token of one of them. */
+/** Those of a scenario share a world, which goes on as somebody wishes who has the token of one of them, and begins anew. */
 async function theWorldIsHeld(page, addresses) {
   await page.reload();
   await isConnected(page);
   await clearLayout(page);
   await add(page, "Simulator");
   await choose(page, panel(page, "simulator"), addresses[1]);
-  const speed = panel(page, "simulator").getByLabel("how fast the world goes on");
-  await speed.selectOption("hold");
+  const simulator = panel(page, "simulator");
+  const speed = simulator.getByLabel("how fast the world goes on");
   // Who reads an output waits for the next cycle.
   const goesOn = () => ask(page, { read: { path: "Control.main_outputs.primary_state" } }).then(() => true, () => false);
-  const begin = Date.now();
-  while (await goesOn()) assert(Date.now() - begin < PATIENCE, "a world that is held stands still");
+  const comes = async (isWanted, what) => {
+    const begin = Date.now();
+    while ((await goesOn()) !== isWanted) assert(Date.now() - begin < PATIENCE, what);
+  };
+  await speed.selectOption("hold");
+  await comes(false, "a world that is held stands still");
   await speed.selectOption("at full speed");
-  while (!(await goesOn())) assert(Date.now() - begin < 2 * PATIENCE, "and goes on");
-  await speed.selectOption("1 ×");
+  await comes(true, "and goes on");
   step("the world of a scenario is held, and goes on");
+  await speed.selectOption("hold");
+  await comes(false, "a world that is held stands still");
+  assert.equal(await simulator.getByLabel("which scenario is played").inputValue(), "three_robots");
+  await simulator.getByRole("button", { name: "Play" }).click();
+  await comes(true, "another world goes on in place of the one that was held");
+  await until(page, speed, (element) => element.value === "1 ×", "the speed of the world that began anew");
+  step("a scenario is played from its beginning");
 }
