@@ -339,8 +339,13 @@ fn who_watches_a_scenario_chooses_another_one() {
         file.to_str().expect("it is text").to_owned()
     };
     let near = write("near.toml", &scenario(1.0));
-    write("far.toml", &scenario(2.0));
+    write("far.toml", &scenario(0.5));
     write("wrong.toml", "ends = 0\n");
+    // What the hardware alone knows is not looked at before.
+    write(
+        "strange.toml",
+        &format!("{}[random]\nnothing = 1.0\n", scenario(0.0)),
+    );
     let robot = Robot::start(&["--scenario", &near, "--record", "on"]);
     let call = |argument: &str| format!("call framework.procedures.scenario {argument}");
     let programme = |argument: &str| {
@@ -353,11 +358,11 @@ fn who_watches_a_scenario_chooses_another_one() {
         let truth = truth.get("response").unwrap_or(&truth);
         truth["ball"]["x"].as_f64()
     };
-    let choices = serde_json::json!(["far", "near", "wrong"]);
+    let choices = serde_json::json!(["far", "near", "strange"]);
     let is = |playing: &str| serde_json::json!({ "playing": playing, "choices": choices });
     assert_eq!(programme("null"), is("near"));
     for (argument, told) in [
-        (r#""nowhere""#, "there are: far, near, wrong"),
+        (r#""nowhere""#, "there are: far, near, strange"),
         (r#""wrong""#, "wrong.toml"),
     ] {
         let refused = robot.hulkgen(&call(argument));
@@ -368,13 +373,20 @@ fn who_watches_a_scenario_chooses_another_one() {
     assert_eq!(ball(), Some(1.0), "what is refused changes nothing");
     // The ball is somewhere else, until the same begins anew.
     robot.answer(r#"call framework.procedures.disturb {"ball":[1.5,0.0]}"#);
-    for (name, place) in [("near", 1.0), ("far", 2.0)] {
+    for (name, place) in [("near", 1.0), ("far", 0.5)] {
         assert_eq!(programme(&format!("\"{name}\"")), is(name));
         let begin = Instant::now();
         while ball().is_none_or(|ball| (ball - place).abs() > 0.01) {
             assert!(begin.elapsed() < PATIENCE, "{name} is not played");
             std::thread::sleep(Duration::from_millis(200));
         }
+    }
+    robot.answer(r#"call framework.procedures.disturb {"ball":[1.5,0.0]}"#);
+    assert_eq!(programme("\"strange\""), is("strange"));
+    let begin = Instant::now();
+    while ball() != Some(0.5) {
+        assert!(begin.elapsed() < PATIENCE, "what was played before is not");
+        std::thread::sleep(Duration::from_millis(200));
     }
     assert_eq!(programme("null"), is("far"));
     for recording in ["near-seed-1.mcap", "near-seed-1-2.mcap", "far-seed-1.mcap"] {

@@ -52,6 +52,7 @@ pub(crate) async fn talk(mut socket: WebSocket, shared: Arc<Shared>) {
             () = ready(()), if is_more => {}
             () = news.notified() => {}
             _ = ending.changed() => {
+                let _ = send_some(&mut socket, client, &shared).await;
                 why = Some((close_code::AWAY, "the robot ends"));
                 break;
             }

@@ -155,6 +155,8 @@ async fn run(listener: TcpListener, shared: Arc<Shared>, is_over: oneshot::Recei
         // The sender is dropped with the server.
         _ = is_over => {}
     }
+    // What was answered until the end is told.
+    shared.hub().look();
     shared.ending.send_replace(true);
     let _ = timeout(GOODBYE, async {
         while shared.hub().has_clients() {

@@ -29,6 +29,8 @@ pub(super) fn run<H: Hardware + 'static, P: ParameterData>(
     serve: Serve,
 ) -> Result<u8> {
     let mut file = file.to_owned();
+    // Where clients chose this one: what was played before.
+    let mut before = None;
     loop {
         // Nobody watches unless somebody says where: most scenarios are played to be judged.
         let listening = options
@@ -39,22 +41,35 @@ pub(super) fn run<H: Hardware + 'static, P: ParameterData>(
             listening,
             file: file.clone(),
         });
-        let stage = Stage {
-            audience,
-            target,
-            options,
-            scenario: Scenario::load(&file)?,
-            file: &file,
-            stop,
+        let scenario = Scenario::load(&file);
+        let played = scenario.and_then(|scenario| {
+            let stage = Stage {
+                audience,
+                target,
+                options,
+                scenario,
+                file: &file,
+                stop,
+            };
+            stage.play_all(create)
+        });
+        let (outcome, chosen) = match (played, before.take()) {
+            (Err(error), Some(last)) if !stop.is_requested() => {
+                tell(format_args!(
+                    "error: {error}; what was played before begins anew"
+                ));
+                file = last;
+                continue;
+            }
+            (played, _) => played?,
         };
-        let (outcome, chosen) = stage.play_all(create)?;
         let written = match options.format {
             Format::Json => writeln!(output, "{}", serde_json::to_string(&outcome)?),
             Format::Text => writeln!(output, "{}", outcome.to_string().trim_end()),
         };
         written.map_err(|error| Error::from(error).context("cannot write the outcome"))?;
         match chosen {
-            Some(chosen) => file = chosen,
+            Some(chosen) => before = Some(std::mem::replace(&mut file, chosen)),
             None => return Ok(if outcome.passed { DONE } else { FAILED }),
         }
     }

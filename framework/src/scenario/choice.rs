@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use super::file::Scenario;
+use super::pace::ANSWERS;
 use crate::Reflect;
 use crate::error::{Error, Result};
 use crate::procedure::{Answerer, Caller, procedure};
@@ -38,7 +39,7 @@ pub(super) fn choice(file: &Path) -> (ChoiceCaller, Choice) {
 impl Choice {
     /// Answers those who ask; the file that somebody chose, once somebody did. Who comes later hears that this one has ended.
     pub(super) fn answer(&mut self) -> Option<PathBuf> {
-        loop {
+        for _ in 0..ANSWERS {
             self.asked.take();
             let call = self.asked.call()?;
             let wished = call.request().clone();
@@ -56,6 +57,7 @@ impl Choice {
                 }
             }
         }
+        None
     }
 }
 
@@ -63,56 +65,52 @@ impl Choice {
 ///
 /// # Errors
 /// Where there is none of this name, or it cannot be read: then this one had better go on.
-fn file_of(playing: &Path, name: Option<&str>) -> Result<PathBuf> {
-    let Some(name) = name else {
+fn file_of(playing: &Path, wished: Option<&str>) -> Result<PathBuf> {
+    let Some(wished) = wished else {
         return Ok(playing.to_owned());
     };
-    let names = names(playing)?;
-    if !names.iter().any(|known| known == name) {
+    let file = playing.with_file_name(format!("{wished}.toml"));
+    if name(&file) != Some(wished) || !file.is_file() {
         return Err(Error::new(format!(
-            "there is no scenario `{name}` beside {}; there are: {}",
+            "there is no scenario `{wished}` beside {}; there are: {}",
             playing.display(),
-            names.join(", ")
+            names(playing)?.join(", ")
         )));
     }
-    let file = playing.with_file_name(format!("{name}.toml"));
     Scenario::load(&file)?;
     Ok(file)
 }
 
 fn programme(file: &Path) -> Result<Programme> {
     Ok(Programme {
-        playing: name(file),
+        playing: name(file).unwrap_or_default().to_owned(),
         choices: names(file)?,
     })
 }
 
-fn name(file: &Path) -> String {
-    file.file_stem()
-        .unwrap_or_default()
-        .to_string_lossy()
-        .into_owned()
+/// `None`: it has none that can be said.
+fn name(file: &Path) -> Option<&str> {
+    file.file_stem()?.to_str()
 }
 
-/// Of all scenarios in the folder of this one; whether they can be played is not looked at.
+/// Of all files in the folder of this one that are scenarios.
 fn names(file: &Path) -> Result<Vec<String>> {
     let folder = match file.parent() {
         Some(folder) if folder != Path::new("") => folder,
         _ => Path::new("."),
     };
-    let unreadable = |error: std::io::Error| {
+    let entries = folder.read_dir().map_err(|error| {
         Error::from(error).context(format!("cannot look into {}", folder.display()))
-    };
-    let mut names = Vec::new();
-    for entry in folder.read_dir().map_err(unreadable)? {
-        let path = entry.map_err(unreadable)?.path();
-        if path
-            .extension()
+    })?;
+    let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
+    let scenarios = paths.filter(|path| {
+        path.extension()
             .is_some_and(|extension| extension == "toml")
-        {
-            names.push(name(&path));
-        }
-    }
+            && Scenario::load(path).is_ok()
+    });
+    let mut names: Vec<_> = scenarios
+        .filter_map(|path| name(&path).map(str::to_owned))
+        .collect();
     names.sort();
     Ok(names)
 }
@@ -131,7 +129,7 @@ mod tests {
             std::fs::write(folder.path().join(name), text).expect("it is written");
         };
         write("push.toml", PLAYABLE);
-        write("ball.toml", PLAYABLE);
+        write("lean.toml", PLAYABLE);
         write("broken.toml", "ends = \"never\"\n");
         write("README.md", "none\n");
         folder
@@ -150,13 +148,13 @@ mod tests {
         assert_eq!(choice.answer(), None);
         let programme = heard(&asked).expect("it is no secret");
         assert_eq!(programme.playing, "push");
-        assert_eq!(programme.choices, ["ball", "broken", "push"]);
+        assert_eq!(programme.choices, ["lean", "push"]);
     }
 
     #[test]
     fn another_scenario_or_the_same_once_more_is_chosen_and_the_rest_waits_for_it() {
         let folder = folder();
-        for name in ["ball", "push"] {
+        for name in ["lean", "push"] {
             let (caller, mut choice) = choice(&folder.path().join("push.toml"));
             let asked = caller.call(Some(name.to_owned()));
             let late = caller.call(None);
@@ -173,8 +171,9 @@ mod tests {
         let folder = folder();
         let (caller, mut choice) = choice(&folder.path().join("push.toml"));
         for (wrong, why) in [
-            ("pull", "there are: ball, broken, push"),
+            ("pull", "there are: lean, push"),
             ("../push", "there is no scenario `../push`"),
+            ("", "there is no scenario ``"),
             ("README", "there is no scenario `README`"),
             ("broken", "broken.toml"),
         ] {

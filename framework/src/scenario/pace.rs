@@ -27,6 +27,9 @@ pub(super) struct Callers {
     scenario: ChoiceCaller,
 }
 
+/// So many questions are answered before the world goes on: nobody holds it by asking.
+pub(super) const ANSWERS: usize = 16;
+
 /// How fast the world goes on.
 pub(super) enum Pace {
     /// As fast as the machine can.
@@ -42,7 +45,8 @@ pub(super) struct Watched {
     /// How many seconds of the world pass in one on the wall, at most; 0: none.
     speed: f64,
     since: (Timestamp, Instant),
-    reached: Timestamp,
+    /// Where it is on the way to.
+    next: Timestamp,
 }
 
 /// The world of the scenario in this file, which begins now, in real time until clients wish otherwise.
@@ -54,7 +58,7 @@ pub(super) fn watched(file: &Path) -> (Callers, Box<Watched>) {
         choice,
         speed: 1.0,
         since: (Timestamp::ZERO, Instant::now()),
-        reached: Timestamp::ZERO,
+        next: Timestamp::ZERO,
     };
     (Callers { speed, scenario }, Box::new(watched))
 }
@@ -72,7 +76,7 @@ impl Callers {
 impl Watched {
     /// Answers those who ask for the speed.
     fn answer(&mut self) {
-        loop {
+        for _ in 0..ANSWERS {
             self.asked.take();
             let Some(call) = self.asked.call() else {
                 return;
@@ -83,8 +87,8 @@ impl Watched {
                 )),
                 wished => {
                     if let Some(speed) = wished {
-                        // What had passed of the way to the next time is walked at the new speed: it is short.
-                        self.since = (self.reached, Instant::now());
+                        let passed = self.since.1.elapsed().mul_f64(self.speed);
+                        self.since = ((self.since.0 + passed).min(self.next), Instant::now());
                         self.speed = speed;
                     }
                     call.answer(self.speed);
@@ -122,6 +126,7 @@ impl Pace {
         let Self::Watched(watched) = self else {
             return Ok(ControlFlow::Continue(()));
         };
+        watched.next = time;
         loop {
             if let Some(file) = watched.choice.answer() {
                 return Ok(ControlFlow::Break(file));
@@ -129,7 +134,6 @@ impl Pace {
             watched.answer();
             let early = watched.early(time);
             if early == Some(Duration::ZERO) {
-                watched.reached = time;
                 return Ok(ControlFlow::Continue(()));
             }
             stop.wait(early.map_or(NOTICE, |early| early.min(NOTICE)))?;
@@ -206,6 +210,24 @@ mod tests {
         stop.request();
         let stopped = pace.wait_for(at(20_000), &stop);
         assert!(stopped.is_err_and(|error| error.is_stopped()));
+    }
+
+    #[test]
+    fn who_says_the_same_speed_again_and_again_holds_nothing() {
+        let stop = Stop::new();
+        let (speed, watched) = nowhere();
+        let mut pace = Pace::Watched(watched);
+        speed.call(Some(0.5));
+        std::thread::scope(|scope| {
+            let walk = scope.spawn(|| come(&mut pace, at(50), &stop));
+            let begun = Instant::now();
+            while !walk.is_finished() {
+                assert!(begun.elapsed() < Duration::from_secs(20), "it is held");
+                speed.call(Some(0.5));
+                std::thread::sleep(Duration::from_millis(5));
+            }
+            assert!(begun.elapsed() >= Duration::from_millis(90), "it hurries");
+        });
     }
 
     #[test]

@@ -79,6 +79,7 @@ export function ask(page, request) {
       new Promise((resolve, reject) => {
         const socket = new WebSocket(`ws://${location.host}/socket`);
         socket.onopen = () => socket.send(JSON.stringify({ id: 1, ask: request }));
+        socket.onclose = () => reject(new Error("the robot ended, or was not there"));
         socket.onmessage = ({ data }) => {
           const { answer } = JSON.parse(data);
           if (answer === undefined) return;

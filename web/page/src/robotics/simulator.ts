@@ -16,6 +16,8 @@ const SPEED = "framework.procedures.speed";
 const SCENARIO = "framework.procedures.scenario";
 /** In times of real time; the last one is more than a machine can. */
 const SPEEDS: readonly [string, number][] = [["hold", 0], ["0.1 ×", 0.1], ["0.25 ×", 0.25], ["0.5 ×", 0.5], ["1 ×", 1], ["2 ×", 2], ["4 ×", 4], ["at full speed", 1000]];
+/** Others may change the speed of a world that all its robots share: asked again after so many looks at the truth. */
+const LOOKS = 10;
 /** A finger is wider than a ball on a small field, px. */
 const REACH = 24;
 
@@ -34,7 +36,10 @@ class Simulator implements Panel {
   private readonly strength = make("input", { type: "number", min: 0.5, max: 10, step: 0.5, value: 3, "aria-label": "strength of a push in N s" });
   private readonly stop: () => void;
   private truth: Truth | null = null;
+  /** What the world said last. */
+  private confirmed = 1;
   private isWorldAsked = false;
+  private looks = 0;
   private dragged: { thing: Thing; at: Point } | null = null;
 
   constructor(private readonly context: Context) {
@@ -45,7 +50,7 @@ class Simulator implements Panel {
       });
     const press = (name: string, what: string): HTMLElement => button(name, `somebody presses it: ${what}`, () => this.deed({ press: { button: what, lasts: 0.2 } }));
     const names = SPEEDS.map(([name]) => name);
-    this.speed = select(names, "1 ×", "how fast the world goes on", () => void this.goOn((SPEEDS[this.speed.selectedIndex] as [string, number])[1]));
+    this.speed = select(names, "1 ×", "how fast the world goes on", () => void this.goOn(SPEEDS[this.speed.selectedIndex]?.[1] ?? null));
     this.speed.hidden = true;
     this.content = make(
       "div",
@@ -76,7 +81,11 @@ class Simulator implements Panel {
     const stopTruth = watchTruth(context.robot, (truth) => {
       this.truth = truth;
       // Who may not write hears neither.
-      if (truth !== null && !this.isWorldAsked) void this.askWorld();
+      if (truth !== null) {
+        this.looks += 1;
+        if (!this.isWorldAsked) void this.askWorld();
+        else if (!this.speed.hidden && this.looks % LOOKS === 0 && document.activeElement !== this.speed) void this.goOn(null);
+      }
       this.draw();
     });
     this.stop = () => {
@@ -103,9 +112,13 @@ class Simulator implements Panel {
   private async askWorld(): Promise<void> {
     this.isWorldAsked = true;
     const { paths } = this.context.robot;
-    const isThere = async (path: string): Promise<boolean> => (await paths.find(path).catch(() => undefined)) !== undefined;
-    if (await isThere(SPEED)) await this.goOn(null);
-    if (await isThere(SCENARIO)) await this.play(null);
+    try {
+      if ((await paths.find(SPEED)) !== undefined) await this.goOn(null);
+      if ((await paths.find(SCENARIO)) !== undefined) await this.play(null);
+    } catch {
+      // The next look at the truth asks again.
+      this.isWorldAsked = false;
+    }
   }
 
   /** This scenario in place of the one that is played; `null`: that one goes on. */
@@ -124,14 +137,21 @@ class Simulator implements Panel {
   /** At this speed; `null`: at the one that it has. */
   private async goOn(wished: number | null): Promise<void> {
     try {
-      const speed = Number(expect(await this.context.robot.ask({ call: { path: SPEED, argument: wished } }), "called"));
-      const at = SPEEDS.findIndex(([, known]) => known === speed);
-      this.speed.selectedIndex = at < 0 ? SPEEDS.length - 1 : at;
+      this.confirmed = Number(expect(await this.context.robot.ask({ call: { path: SPEED, argument: wished } }), "called"));
       this.speed.hidden = false;
       complain(this.failure, null);
     } catch (error) {
       complain(this.failure, error);
     }
+    this.showSpeed();
+  }
+
+  /** Somebody else may have wished one that is not offered here: it stands behind those that are. */
+  private showSpeed(): void {
+    const at = SPEEDS.findIndex(([, known]) => known === this.confirmed);
+    this.speed.options[SPEEDS.length]?.remove();
+    if (at < 0) this.speed.append(make("option", {}, `${this.confirmed} ×`));
+    this.speed.selectedIndex = at < 0 ? SPEEDS.length : at;
   }
 
   private roll(): void {

@@ -75,7 +75,8 @@ export class Subscriptions {
 
   update(update: Update): void {
     const subscription = this.byNumber.get(update.subscription);
-    if (subscription !== undefined) give(subscription, update);
+    // One that does not say its value says nothing.
+    if (subscription !== undefined && update.value !== undefined) give(subscription, update);
   }
 
   frame(frame: Frame): void {

@@ -162,7 +162,8 @@ const NONSENSE = [
   "null",
   "17",
   '{"update":null}',
-  '{"update":{"subscription":1}}',
+  // Whichever of them the panel has.
+  ...Array.from({ length: 9 }, (_, subscription) => JSON.stringify({ update: { subscription } })),
   '{"answer":null}',
   '{"answer":{"id":999999,"ok":{}}}',
   '{"log":null}',
