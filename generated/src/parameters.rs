@@ -432,13 +432,13 @@ pub struct TeamMessageFilter {
 #[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct TeamMessageSender {
-    /// control::team_message_sender
+    /// control::team_message_filter, control::team_message_sender
     #[reflect(unit = "s", range = 0..)]
     pub half: f32,
-    /// control::team_message_sender
+    /// control::team_message_filter, control::team_message_sender
     #[reflect(unit = "s", range = 0..)]
     pub interval: f32,
-    /// control::team_message_sender
+    /// control::team_message_filter, control::team_message_sender
     pub reserve: u16,
 }
 

@@ -104,6 +104,8 @@ fn some_are_played() {
         ("catch", 1),
         ("penalised_by_the_referee", 1),
         ("roles_as_the_referee_says", 1),
+        ("keeper_is_out", 1),
+        ("message_budget", 1),
         ("removed_while_it_gets_up", 1),
     ] {
         let outcome = play(name, seeds);

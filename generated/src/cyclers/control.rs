@@ -1356,6 +1356,9 @@ impl Nodes {
             game_controller_state: &frame.own.game_controller_state,
             cycle_time: frame.cycle.time,
             forget_after: &frame.parameters.team_message_filter.forget_after,
+            interval: &frame.parameters.team_message_sender.interval,
+            reserve: &frame.parameters.team_message_sender.reserve,
+            half: &frame.parameters.team_message_sender.half,
             teammates: &mut frame.own.teammates,
         };
         self.team_message_filter.call(&frame.cycle, |node| node.cycle(context))?;

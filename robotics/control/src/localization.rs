@@ -1,4 +1,5 @@
-//! Knows where the robot is on the field, from the lines, corners, centre circles and penalty marks that both cameras saw in order.
+//! Knows where the robot is on the field, from the lines, centre circles and penalty marks that both cameras saw in order.
+//! Corners say more where a lost robot may be, and nothing beyond their lines where it is not lost.
 //!
 //! A few hypotheses, each an extended Kalman filter over place and heading that odometry moves. What
 //! was seen belongs to the marking that was expected nearest; a hypothesis that explains little of it

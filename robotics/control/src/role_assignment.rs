@@ -3,7 +3,8 @@
 //! Every robot decides for itself, from the last messages of the others, by the same rule: the goalkeeper's shirt guards the
 //! goal, of the others the one that is nearest to the ball plays it, the rest take their places in the order of their numbers.
 //! Messages come every few seconds, so that robots may disagree for as long; who plays the ball already counts as nearer than
-//! it is. Where the keeper is out, taken out or far from its goal, the first of the rest stands between ball and goal. Before the ball is in play numbers alone count. A robot that hears nobody plays the ball itself.
+//! it is. Where the keeper is out, taken out or far from its goal, the first of the rest stands between ball and goal. Before
+//! the ball is in play numbers alone count. A robot that hears nobody plays the ball itself.
 //!
 //! Whose the goalkeeper's shirt is the referee says, and whoever has been taken out has no role: `teammates` leaves others out.
 
@@ -25,6 +26,8 @@ pub struct RoleAssignment {
     role: Option<Role>,
     /// Number of the goalkeeper's shirt; a referee that falls silent has not given it to somebody else.
     goalkeeper: Option<u8>,
+    /// Whether that one was out.
+    is_keeper_out: bool,
 }
 
 /// How robots of a team share the work.
@@ -75,6 +78,7 @@ impl RoleAssignment {
         Ok(Self {
             role: Some(Role::Striker),
             goalkeeper: None,
+            is_keeper_out: false,
         })
     }
 
@@ -100,11 +104,12 @@ impl RoleAssignment {
             number: context.player.number,
             distance: own.map(|distance| distance - head_start),
         };
+        self.is_keeper_out = self.is_keeper_out(goalkeeper, &context);
         self.role = match context.primary_state {
             PrimaryState::Penalized => None,
             state => {
                 let is_playing = *state == PrimaryState::Playing;
-                let is_out = is_playing && self.is_keeper_out(goalkeeper, &context);
+                let is_out = is_playing && self.is_keeper_out;
                 Some(role(own, others, goalkeeper, is_playing, is_out))
             }
         };
@@ -117,9 +122,9 @@ impl RoleAssignment {
     /// Whether the goal is without a keeper: nobody has its shirt who may play, or it has gone far away.
     fn is_keeper_out(&self, goalkeeper: u8, context: &CycleContext<'_>) -> bool {
         let goal = Point2::new(-0.5 * context.markings.length, 0.0);
-        let reach = match self.role {
-            Some(Role::Sweeper) => context.parameters.keeper_back,
-            _ => context.parameters.keeper_out,
+        let reach = match self.is_keeper_out {
+            true => context.parameters.keeper_back,
+            false => context.parameters.keeper_out,
         };
         let mut teammates = context.teammates.iter();
         let keeper = teammates.find(|teammate| teammate.message.player_number == goalkeeper);

@@ -30,13 +30,16 @@ pub struct TeamBallParameters {
     #[reflect(unit = "m", range = 0.0..)]
     pub gate: f32,
     /// So many times as heavy others have to be that take the ball elsewhere.
+    #[reflect(range = 1.0..)]
     pub head_start: f32,
     /// How wrong a robot is about its own place, one standard deviation.
     #[reflect(unit = "m", range = 0.0..)]
     pub place_noise: f32,
     /// How wrong a sighting is per m of distance, one standard deviation.
+    #[reflect(range = 0.0..)]
     pub distance_noise: f32,
     /// In m after 1 s: how far the ball gets without anybody seeing it, one standard deviation.
+    #[reflect(range = 0.0..)]
     pub age_noise: f32,
 }
 
@@ -86,6 +89,9 @@ impl TeamBallFilter {
             self.last = heaviest(recent, self.last, parameters);
             self.last.map(|ball| ground_to_field.inverse() * ball)
         });
+        if team_ball.is_none() {
+            self.last = None;
+        }
         Ok(MainOutputs {
             team_ball: team_ball.flatten().into(),
         })

@@ -10,6 +10,8 @@ use serde::{Deserialize, Serialize};
 use types::game::{GameControllerState, PLAYER_COUNT, Penalty};
 use types::team::{TeamMessage, Teammate};
 
+use crate::team_rhythm::TeamRhythm;
+
 /// By the number of the shirt, 1 first.
 type Team = [Option<Teammate>; PLAYER_COUNT];
 
@@ -28,9 +30,17 @@ pub struct CycleContext {
     game_controller_state: Input<Option<GameControllerState>, "game_controller_state">,
     cycle_time: CycleTime,
 
-    /// A robot that is silent for so long is not there.
+    /// A robot that is silent for so long is not there; where the team has to talk less, it is as many times as long.
     #[reflect(unit = "s", range = 0.0..)]
     forget_after: Parameter<f32, "team_message_filter.forget_after">,
+    /// How much time passes between two messages of a robot at least.
+    #[reflect(unit = "s", range = 0.0..)]
+    interval: Parameter<f32, "team_message_sender.interval">,
+    /// How many messages of the team's budget are never sent.
+    reserve: Parameter<u16, "team_message_sender.reserve">,
+    /// How long a half lasts.
+    #[reflect(unit = "s", range = 0.0..)]
+    half: Parameter<f32, "team_message_sender.half">,
 
     /// The other robots of the own team that were heard lately and may play, by their number.
     teammates: MainOutput<Vec<Teammate>>,
@@ -58,11 +68,17 @@ impl TeamMessageFilter {
         let newest = self.heard.with_transient(context.messages.transient, hear);
 
         let now = context.cycle_time.start;
-        let is_recent =
-            |teammate: &Teammate| (now - teammate.heard_at).as_secs_f32() <= *context.forget_after;
+        let rhythm = TeamRhythm {
+            interval: *context.interval,
+            reserve: *context.reserve,
+            half: *context.half,
+        };
+        let referee = context.game_controller_state.as_ref();
+        let slower = referee.map_or(1.0, |referee| rhythm.slowness(referee));
+        let silence = *context.forget_after * slower;
+        let is_recent = |teammate: &Teammate| (now - teammate.heard_at).as_secs_f32() <= silence;
         let may_play = |teammate: &Teammate| {
             let number = teammate.message.player_number;
-            let referee = context.game_controller_state.as_ref();
             referee.is_none_or(|referee| referee.penalty_of(number) == Penalty::None)
         };
         let recent = newest.into_iter().flatten().filter(is_recent);
@@ -124,6 +140,9 @@ mod tests {
             game_controller_state: &referee,
             cycle_time: cycle_time(now, 12),
             forget_after: &10.0,
+            interval: &5.0,
+            reserve: &30,
+            half: &600.0,
             teammates: &mut teammates,
         };
         node.cycle(context).unwrap();
@@ -163,6 +182,26 @@ mod tests {
         cycle(&mut node, 10, vec![(at_millis(10), &two)], vec![]);
         assert_eq!(numbers(&cycle(&mut node, 10_010, vec![], vec![])), [2]);
         assert_eq!(cycle(&mut node, 10_020, vec![], vec![]), []);
+    }
+
+    #[test]
+    fn where_the_team_has_to_talk_less_silence_may_last_longer() {
+        let two = message(2, false);
+        // For three players 10 s between two messages of each: 180 of 210 messages in 600 s.
+        let mut referee = GameControllerState {
+            message_budget: 210,
+            seconds_remaining: 600,
+            own_penalties: [Penalty::Substitute; PLAYER_COUNT],
+            ..GameControllerState::default()
+        };
+        referee.own_penalties[..3].fill(Penalty::None);
+        let mut node = node();
+        let heard = vec![(at_millis(0), &two)];
+        cycle_with(&mut node, Some(referee), 10, heard, vec![]);
+        let there = cycle_with(&mut node, Some(referee), 19_900, vec![], vec![]);
+        assert_eq!(numbers(&there), [2]);
+        let there = cycle_with(&mut node, Some(referee), 20_100, vec![], vec![]);
+        assert_eq!(there, []);
     }
 
     #[test]

@@ -8,10 +8,11 @@ use framework::{CycleTime, HardwareInterface, Parameter, RequiredInput, Result, 
 use hardware::MessageInterface;
 use serde::{Deserialize, Serialize};
 use spl_messages::team_message;
-use types::game::{GameControllerState, Penalty};
+use types::game::GameControllerState;
 use types::team::TeamMessage;
 
 use crate::pace::Pace;
+use crate::team_rhythm::TeamRhythm;
 
 /// Whatever the parameters say, a robot does not talk more often, in s.
 const LEAST_INTERVAL: f32 = 1.0;
@@ -57,9 +58,17 @@ impl TeamMessageSender {
     pub fn cycle(&mut self, context: CycleContext<impl MessageInterface>) -> Result<MainOutputs> {
         let now = context.cycle_time.start;
         let referee = context.game_controller_state;
-        let left = referee.message_budget.saturating_sub(*context.reserve);
-        let interval = fair_interval(referee, left, *context.half).max(*context.interval);
-        if left > 0 && self.pace.is_due(now, interval, LEAST_INTERVAL) {
+        let rhythm = TeamRhythm {
+            interval: *context.interval,
+            reserve: *context.reserve,
+            half: *context.half,
+        };
+        let is_left = rhythm.left(referee) > 0;
+        if is_left
+            && self
+                .pace
+                .is_due(now, rhythm.interval(referee), LEAST_INTERVAL)
+        {
             let mut room = [0; team_message::GREATEST_LENGTH];
             let bytes = team_message::encode(context.report, &mut room)?;
             context.hardware_interface.send_to_team(bytes)?;
@@ -68,22 +77,12 @@ impl TeamMessageSender {
     }
 }
 
-/// So much time passes between two messages of a robot, s, where all of the team share what is left until the end of the game.
-///
-/// Who has been taken out comes back; substitutes do not talk.
-fn fair_interval(referee: &GameControllerState, left: u16, half: f32) -> f32 {
-    let second_half = if referee.is_first_half { half } else { 0.0 };
-    let time = f32::from(referee.seconds_remaining.max(0)) + second_half;
-    let penalties = referee.own_penalties.iter();
-    let players = penalties.filter(|penalty| **penalty != Penalty::Substitute);
-    players.count() as f32 * time / f32::from(left.max(1))
-}
-
 #[cfg(test)]
 mod tests {
     use std::sync::{Arc, Mutex};
 
     use framework::testing::cycle_time;
+    use types::game::Penalty;
     use types::network::Endpoint;
 
     use super::*;

@@ -92,6 +92,8 @@ impl CenterCircleDetection {
                 centers: line.circle_centers(radius)?,
             })
         });
+        // A cycle that failed may have left some.
+        self.chords.clear();
         self.chords.extend(chords.take(MOST_CHORDS));
         let view = View {
             chords: &self.chords,

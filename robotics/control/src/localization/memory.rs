@@ -67,7 +67,7 @@ impl Memory {
         }
     }
 
-    /// What is not too old, in the ground frame, the newest first.
+    /// What is not too old, in the ground frame, those of the newest image first, of one image the one that was told last.
     pub(super) fn corners(
         &self,
         now: Timestamp,
