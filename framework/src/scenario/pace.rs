@@ -192,23 +192,24 @@ mod tests {
         let mut pace = Pace::Watched(watched);
         speed.call(Some(0.25));
         let begun = Instant::now();
-        come(&mut pace, at(20), &stop);
-        assert!(begun.elapsed() >= Duration::from_millis(80));
+        come(&mut pace, at(200), &stop);
+        // 800 ms but for what passed before the wish was heard, which a busy machine may make long.
+        assert!(begun.elapsed() >= Duration::from_millis(500));
         // A world that stands is woken, and seconds are over at once.
         speed.call(Some(0.0));
         std::thread::scope(|scope| {
-            let held = scope.spawn(|| come(&mut pace, at(50), &stop));
+            let held = scope.spawn(|| come(&mut pace, at(300), &stop));
             std::thread::sleep(Duration::from_millis(100));
             assert!(!held.is_finished(), "it stands");
             speed.call(Some(GREATEST));
             held.join().expect("no panic");
         });
         let begun = Instant::now();
-        come(&mut pace, at(10_000), &stop);
-        assert!(begun.elapsed() >= Duration::from_millis(9));
+        come(&mut pace, at(200_000), &stop);
+        assert!(begun.elapsed() >= Duration::from_millis(100));
         speed.call(Some(0.0));
         stop.request();
-        let stopped = pace.wait_for(at(20_000), &stop);
+        let stopped = pace.wait_for(at(300_000), &stop);
         assert!(stopped.is_err_and(|error| error.is_stopped()));
     }
 
@@ -219,14 +220,14 @@ mod tests {
         let mut pace = Pace::Watched(watched);
         speed.call(Some(0.5));
         std::thread::scope(|scope| {
-            let walk = scope.spawn(|| come(&mut pace, at(50), &stop));
+            let walk = scope.spawn(|| come(&mut pace, at(200), &stop));
             let begun = Instant::now();
             while !walk.is_finished() {
                 assert!(begun.elapsed() < Duration::from_secs(20), "it is held");
                 speed.call(Some(0.5));
                 std::thread::sleep(Duration::from_millis(5));
             }
-            assert!(begun.elapsed() >= Duration::from_millis(90), "it hurries");
+            assert!(begun.elapsed() >= Duration::from_millis(300), "it hurries");
         });
     }
 
