@@ -11,6 +11,7 @@ use control::localization::LocalizationParameters;
 use control::obstacle_filter::ObstacleFilterParameters;
 use control::role_assignment::RoleParameters;
 use control::team_ball_filter::TeamBallParameters;
+use control::team_rhythm::TeamRhythm;
 use control::walking_engine::Heat;
 use framework::Reflect;
 use keyframes::Motions;
@@ -104,6 +105,8 @@ pub struct Parameters {
     pub team_ball_filter: TeamBallParameters,
     pub team_message_filter: TeamMessageFilter,
     pub team_message_sender: TeamMessageSender,
+    /// control::team_message_filter, control::team_message_sender
+    pub team_rhythm: TeamRhythm,
     pub tone_selector: ToneSelector,
     pub vision_bottom: VisionInstance,
     pub vision_top: VisionInstance,
@@ -432,14 +435,9 @@ pub struct TeamMessageFilter {
 #[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct TeamMessageSender {
-    /// control::team_message_filter, control::team_message_sender
-    #[reflect(unit = "s", range = 0..)]
-    pub half: f32,
-    /// control::team_message_filter, control::team_message_sender
-    #[reflect(unit = "s", range = 0..)]
-    pub interval: f32,
-    /// control::team_message_filter, control::team_message_sender
-    pub reserve: u16,
+    /// control::team_message_sender
+    #[reflect(unit = "s", range = 1..)]
+    pub least_interval: f32,
 }
 
 #[derive(Clone, Debug, Deserialize, Reflect, Serialize)]

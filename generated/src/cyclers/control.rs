@@ -1356,9 +1356,7 @@ impl Nodes {
             game_controller_state: &frame.own.game_controller_state,
             cycle_time: frame.cycle.time,
             forget_after: &frame.parameters.team_message_filter.forget_after,
-            interval: &frame.parameters.team_message_sender.interval,
-            reserve: &frame.parameters.team_message_sender.reserve,
-            half: &frame.parameters.team_message_sender.half,
+            rhythm: &frame.parameters.team_rhythm,
             teammates: &mut frame.own.teammates,
         };
         self.team_message_filter.call(&frame.cycle, |node| node.cycle(context))?;
@@ -1383,9 +1381,8 @@ impl Nodes {
                 game_controller_state,
                 report,
                 cycle_time: frame.cycle.time,
-                interval: &frame.parameters.team_message_sender.interval,
-                reserve: &frame.parameters.team_message_sender.reserve,
-                half: &frame.parameters.team_message_sender.half,
+                rhythm: &frame.parameters.team_rhythm,
+                least_interval: &frame.parameters.team_message_sender.least_interval,
             };
             self.team_message_sender
                 .call_or_skip(&frame.cycle, |node| node.cycle(context))?;

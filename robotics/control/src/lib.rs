@@ -58,7 +58,7 @@ pub mod tone_selector;
 pub mod game_controller_responder;
 pub mod self_report;
 pub mod team_message_sender;
-mod team_rhythm;
+pub mod team_rhythm;
 
 pub mod command_sender;
 

@@ -33,14 +33,7 @@ pub struct CycleContext {
     /// A robot that is silent for so long is not there; where the team has to talk less, it is as many times as long.
     #[reflect(unit = "s", range = 0.0..)]
     forget_after: Parameter<f32, "team_message_filter.forget_after">,
-    /// How much time passes between two messages of a robot at least.
-    #[reflect(unit = "s", range = 0.0..)]
-    interval: Parameter<f32, "team_message_sender.interval">,
-    /// How many messages of the team's budget are never sent.
-    reserve: Parameter<u16, "team_message_sender.reserve">,
-    /// How long a half lasts.
-    #[reflect(unit = "s", range = 0.0..)]
-    half: Parameter<f32, "team_message_sender.half">,
+    rhythm: Parameter<TeamRhythm, "team_rhythm">,
 
     /// The other robots of the own team that were heard lately and may play, by their number.
     teammates: MainOutput<Vec<Teammate>>,
@@ -68,13 +61,8 @@ impl TeamMessageFilter {
         let newest = self.heard.with_transient(context.messages.transient, hear);
 
         let now = context.cycle_time.start;
-        let rhythm = TeamRhythm {
-            interval: *context.interval,
-            reserve: *context.reserve,
-            half: *context.half,
-        };
         let referee = context.game_controller_state.as_ref();
-        let slower = referee.map_or(1.0, |referee| rhythm.slowness(referee));
+        let slower = referee.map_or(1.0, |referee| context.rhythm.slowness(referee));
         let silence = *context.forget_after * slower;
         let is_recent = |teammate: &Teammate| (now - teammate.heard_at).as_secs_f32() <= silence;
         let may_play = |teammate: &Teammate| {
@@ -140,9 +128,11 @@ mod tests {
             game_controller_state: &referee,
             cycle_time: cycle_time(now, 12),
             forget_after: &10.0,
-            interval: &5.0,
-            reserve: &30,
-            half: &600.0,
+            rhythm: &TeamRhythm {
+                interval: 5.0,
+                reserve: 30,
+                half: 600.0,
+            },
             teammates: &mut teammates,
         };
         node.cycle(context).unwrap();

@@ -14,9 +14,6 @@ use types::team::TeamMessage;
 use crate::pace::Pace;
 use crate::team_rhythm::TeamRhythm;
 
-/// Whatever the parameters say, a robot does not talk more often, in s.
-const LEAST_INTERVAL: f32 = 1.0;
-
 /// When it sent last.
 #[derive(Debug, Deserialize, Serialize)]
 pub struct TeamMessageSender {
@@ -33,14 +30,10 @@ pub struct CycleContext {
     report: RequiredInput<Option<TeamMessage>, "team_report?">,
     cycle_time: CycleTime,
 
-    /// How much time passes between two messages at least.
-    #[reflect(unit = "s", range = 0.0..)]
-    interval: Parameter<f32, "team_message_sender.interval">,
-    /// How many messages of the team's budget are never sent.
-    reserve: Parameter<u16, "team_message_sender.reserve">,
-    /// How long a half lasts.
-    #[reflect(unit = "s", range = 0.0..)]
-    half: Parameter<f32, "team_message_sender.half">,
+    rhythm: Parameter<TeamRhythm, "team_rhythm">,
+    /// Whatever the rhythm of the team, this robot does not talk more often.
+    #[reflect(unit = "s", range = 1.0..)]
+    least_interval: Parameter<f32, "team_message_sender.least_interval">,
 }
 
 #[context]
@@ -58,16 +51,12 @@ impl TeamMessageSender {
     pub fn cycle(&mut self, context: CycleContext<impl MessageInterface>) -> Result<MainOutputs> {
         let now = context.cycle_time.start;
         let referee = context.game_controller_state;
-        let rhythm = TeamRhythm {
-            interval: *context.interval,
-            reserve: *context.reserve,
-            half: *context.half,
-        };
+        let rhythm = context.rhythm;
         let is_left = rhythm.left(referee) > 0;
         if is_left
             && self
                 .pace
-                .is_due(now, rhythm.interval(referee), LEAST_INTERVAL)
+                .is_due(now, rhythm.interval(referee), *context.least_interval)
         {
             let mut room = [0; team_message::GREATEST_LENGTH];
             let bytes = team_message::encode(context.report, &mut room)?;
@@ -124,9 +113,12 @@ mod tests {
                     ..TeamMessage::default()
                 },
                 cycle_time: cycle_time(12 * index, 12),
-                interval: &interval,
-                reserve: &30,
-                half: &600.0,
+                rhythm: &TeamRhythm {
+                    interval,
+                    reserve: 30,
+                    half: 600.0,
+                },
+                least_interval: &1.0,
             };
             node.cycle(context).unwrap();
         }

@@ -1,16 +1,20 @@
 //! Owns how often a robot talks to its team where all of the team share what is left of their messages.
 
+use framework::Reflect;
+use serde::{Deserialize, Serialize};
 use types::game::{GameControllerState, Penalty};
 
 /// How the team shares its messages.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct TeamRhythm {
-    /// So much time passes between two messages at least, s.
-    pub(crate) interval: f32,
-    /// How many messages of the budget are never sent.
-    pub(crate) reserve: u16,
-    /// How long a half lasts, s.
-    pub(crate) half: f32,
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
+pub struct TeamRhythm {
+    /// How much time passes between two messages of a robot at least.
+    #[reflect(unit = "s", range = 0.0..)]
+    pub interval: f32,
+    /// How many messages of the team's budget are never sent.
+    pub reserve: u16,
+    /// How long a half lasts.
+    #[reflect(unit = "s", range = 0.0..)]
+    pub half: f32,
 }
 
 impl TeamRhythm {

@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 
 use control::game_controller_responder::{self, GameControllerResponder};
 use control::team_message_sender::{self, TeamMessageSender};
+use control::team_rhythm::TeamRhythm;
 use framework::testing::{cycle_time, skip};
 use framework::{Clock, Result};
 use hardware::MessageInterface;
@@ -151,9 +152,12 @@ fn told() -> [Vec<u8>; 2] {
         game_controller_state: &game_controller_state,
         report: &report,
         cycle_time: cycle_time(12, 12),
-        interval: &7.0,
-        reserve: &0,
-        half: &600.0,
+        rhythm: &TeamRhythm {
+            interval: 7.0,
+            reserve: 0,
+            half: 600.0,
+        },
+        least_interval: &1.0,
     };
     sender.cycle(context).unwrap();
     [&sent.to_game_controller, &sent.to_team].map(|bytes| bytes.lock().unwrap().clone())
