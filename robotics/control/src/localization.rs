@@ -12,6 +12,7 @@
 
 mod belief;
 mod estimate;
+mod features;
 mod memory;
 mod search;
 mod sight;

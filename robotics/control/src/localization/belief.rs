@@ -6,9 +6,10 @@
 use framework::{Timestamp, math};
 use nalgebra::{Isometry2, Point2, Vector3};
 use serde::{Deserialize, Serialize};
-use types::field_features::{CenterCircle, CornerKind, LineCorner, LineSegment, PenaltyMark};
+use types::field_features::{CenterCircle, LineCorner, LineSegment, PenaltyMark};
 
 use super::estimate::Estimate;
+use super::features::Line;
 use super::memory::Memory;
 use super::search;
 use super::sight::{Match, View};
@@ -267,7 +268,7 @@ impl Hypothesis {
         }
         let straight = seen.lines.iter().filter(|line| !seen.is_piece(line, view));
         for line in straight {
-            let line = moved(line, to_now);
+            let line = Line::from(line).moved(to_now);
             let found = view.line(estimate, &line);
             count(found.as_ref(), line.length().min(LONG));
             learn(found, estimate);
@@ -289,32 +290,6 @@ impl Hypothesis {
 /// From 1 where something is exactly where it was expected to half of it at the gate.
 pub(super) fn quality(found: &Match, view: &View<'_>) -> f32 {
     1.0 - 0.5 * found.deviation / math::powi(view.parameters.gate, 2)
-}
-
-/// Straight lines cross in no X.
-pub(super) fn is_on_field(corner: &LineCorner) -> bool {
-    corner.kind != CornerKind::X
-}
-
-pub(super) fn moved_corner(corner: &LineCorner, by: &Isometry2<f32>) -> LineCorner {
-    let rotation = by.rotation.to_rotation_matrix();
-    LineCorner {
-        position: by * corner.position,
-        direction: by * corner.direction,
-        covariance: rotation.matrix() * corner.covariance * rotation.matrix().transpose(),
-        ..*corner
-    }
-}
-
-pub(super) fn moved(line: &LineSegment, by: &Isometry2<f32>) -> LineSegment {
-    let rotation = by.rotation.to_rotation_matrix();
-    let turned = |covariance| rotation.matrix() * covariance * rotation.matrix().transpose();
-    LineSegment {
-        start: by * line.start,
-        end: by * line.end,
-        start_covariance: turned(line.start_covariance),
-        end_covariance: turned(line.end_covariance),
-    }
 }
 
 /// Variances of x, y and heading of a movement that took so long.

@@ -3,9 +3,9 @@
 use framework::Timestamp;
 use nalgebra::Isometry2;
 use serde::{Deserialize, Serialize};
-use types::field_features::{LineCorner, LineSegment};
 
-use super::belief::{Seen, is_on_field, moved, moved_corner};
+use super::belief::Seen;
+use super::features::{Corner, Line};
 use super::sight::View;
 
 /// How many lines are remembered.
@@ -20,9 +20,9 @@ const CORNERS_OF_ONE_IMAGE: usize = 2;
 /// The newest ones, in the start frame of odometry.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Serialize)]
 pub(super) struct Memory {
-    lines: [Option<Remembered<LineSegment>>; MOST_LINES],
+    lines: [Option<Remembered<Line>>; MOST_LINES],
     next: usize,
-    corners: [Option<Remembered<LineCorner>>; MOST_CORNERS],
+    corners: [Option<Remembered<Corner>>; MOST_CORNERS],
     next_corner: usize,
     newest: Timestamp,
 }
@@ -55,13 +55,14 @@ impl Memory {
         }
         self.newest = seen_at;
         for line in seen.lines.iter().take(OF_ONE_IMAGE) {
-            let what = moved(line, ground_to_start);
+            let what = Line::from(line).moved(ground_to_start);
             self.lines[self.next] = Some(Remembered { what, seen_at });
             self.next = (self.next + 1) % MOST_LINES;
         }
-        let corners = seen.corners.iter().filter(|corner| is_on_field(corner));
+        let corners = seen.corners.iter().map(Corner::from);
+        let corners = corners.filter(Corner::is_on_field);
         for corner in corners.take(CORNERS_OF_ONE_IMAGE) {
-            let what = moved_corner(corner, ground_to_start);
+            let what = corner.moved(ground_to_start);
             self.corners[self.next_corner] = Some(Remembered { what, seen_at });
             self.next_corner = (self.next_corner + 1) % MOST_CORNERS;
         }
@@ -73,7 +74,7 @@ impl Memory {
         now: Timestamp,
         ground_to_start: &Isometry2<f32>,
         view: &View<'_>,
-    ) -> Vec<LineCorner> {
+    ) -> Vec<Corner> {
         let to_ground = ground_to_start.inverse();
         let oldest_first = self.corners[self.next_corner..]
             .iter()
@@ -81,7 +82,7 @@ impl Memory {
         let newest_first = oldest_first.rev().flatten();
         newest_first
             .filter(|remembered| remembered.is_recent(now, view))
-            .map(|remembered| moved_corner(&remembered.what, &to_ground))
+            .map(|remembered| remembered.what.moved(&to_ground))
             .collect()
     }
 
@@ -91,12 +92,12 @@ impl Memory {
         now: Timestamp,
         ground_to_start: &Isometry2<f32>,
         view: &View<'_>,
-    ) -> Vec<LineSegment> {
+    ) -> Vec<Line> {
         let to_ground = ground_to_start.inverse();
         let all = self.lines.iter().flatten();
         let mut lines: Vec<_> = all
             .filter(|remembered| remembered.is_recent(now, view))
-            .map(|remembered| moved(&remembered.what, &to_ground))
+            .map(|remembered| remembered.what.moved(&to_ground))
             .collect();
         lines.sort_by(|a, b| b.length().total_cmp(&a.length()));
         lines

@@ -8,11 +8,12 @@
 //! the own half, where the rules have robots put back.
 
 use nalgebra::{Isometry2, Rotation2, Vector2};
-use types::field_features::{LineCorner, LineSegment, chord_distance};
+use types::field_features::chord_distance;
 use types::field_markings::{Course, FieldCorner, FieldLine};
 
 use super::belief::{CORNER_LENGTH, Hypothesis, quality};
 use super::estimate::Estimate;
+use super::features::{Corner, Line};
 use super::sight::{self, View};
 use crate::angle::wrap;
 
@@ -39,8 +40,8 @@ const MOST_CORNERS: usize = 4;
 /// Places that explain enough of the lines, the longest first, and of the corners, the newest first, in the ground
 /// frame; the best place first.
 pub(super) fn places(
-    lines: &[LineSegment],
-    corners: &[LineCorner],
+    lines: &[Line],
+    corners: &[Corner],
     anchor: Option<&Isometry2<f32>>,
     view: &View<'_>,
 ) -> [Option<Hypothesis>; MOST_PLACES] {
@@ -68,10 +69,7 @@ pub(super) fn places(
 }
 
 /// Places from which one of the corners is one of the field.
-fn by_corner(
-    corners: &[LineCorner],
-    known: &[FieldCorner],
-) -> impl Iterator<Item = Isometry2<f32>> {
+fn by_corner(corners: &[Corner], known: &[FieldCorner]) -> impl Iterator<Item = Isometry2<f32>> {
     corners.iter().take(MOST_CORNERS).flat_map(move |seen| {
         let same = known.iter().filter(|corner| corner.kind == seen.kind);
         same.map(|corner| {
@@ -83,7 +81,7 @@ fn by_corner(
 }
 
 /// Places from which one of the longest lines is the middle line and another one a piece of the circle.
-fn by_circle(lines: &[LineSegment], view: &View<'_>) -> impl Iterator<Item = Isometry2<f32>> {
+fn by_circle(lines: &[Line], view: &View<'_>) -> impl Iterator<Item = Isometry2<f32>> {
     let radius = view.markings.circle_radius;
     let longest = lines.iter().filter(|line| line.length() >= LEAST_LENGTH);
     longest
@@ -102,7 +100,7 @@ fn by_circle(lines: &[LineSegment], view: &View<'_>) -> impl Iterator<Item = Iso
 }
 
 /// Where the line meets the normal of the piece, if that is as far from it as the middle of the circle is.
-fn circle_middle(line: &LineSegment, piece: &LineSegment, radius: f32) -> Option<Vector2<f32>> {
+fn circle_middle(line: &Line, piece: &Line, radius: f32) -> Option<Vector2<f32>> {
     let (along, chord) = (direction(line), direction(piece));
     let normal = Vector2::new(-chord.y, chord.x);
     let sine = normal.perp(&along);
@@ -128,7 +126,7 @@ fn pairs(view: &View<'_>) -> impl Iterator<Item = (FieldLine, FieldLine)> {
 }
 
 /// The longest two lines at a right angle.
-fn crossing(lines: &[LineSegment]) -> Option<(&LineSegment, &LineSegment)> {
+fn crossing(lines: &[Line]) -> Option<(&Line, &Line)> {
     let long = lines.iter().filter(|line| line.length() >= LEAST_LENGTH);
     long.clone().find_map(|one| {
         let direction = direction(one);
@@ -139,12 +137,12 @@ fn crossing(lines: &[LineSegment]) -> Option<(&LineSegment, &LineSegment)> {
     })
 }
 
-fn direction(line: &LineSegment) -> Vector2<f32> {
+fn direction(line: &Line) -> Vector2<f32> {
     (line.end - line.start) / line.length().max(f32::MIN_POSITIVE)
 }
 
 /// Of a robot that sees one line go across the field and one along it; the twin looks the other way.
-fn heading(across: &LineSegment, along: &LineSegment) -> Rotation2<f32> {
+fn heading(across: &Line, along: &Line) -> Rotation2<f32> {
     let (across_length, along_length) = (across.length(), along.length());
     let (across, along) = (direction(across), direction(along));
     // The line along the field turned by a right angle goes across it.
@@ -156,10 +154,10 @@ fn heading(across: &LineSegment, along: &LineSegment) -> Rotation2<f32> {
 
 fn place(
     heading: Rotation2<f32>,
-    (across, x): (&LineSegment, f32),
-    (along, y): (&LineSegment, f32),
+    (across, x): (&Line, f32),
+    (along, y): (&Line, f32),
 ) -> Isometry2<f32> {
-    let middle = |line: &LineSegment| heading * nalgebra::center(&line.start, &line.end);
+    let middle = |line: &Line| heading * nalgebra::center(&line.start, &line.end);
     let position = Vector2::new(x - middle(across).x, y - middle(along).y);
     Isometry2::new(position, heading.angle())
 }
@@ -189,8 +187,8 @@ fn resolved(
 /// `None` where it explains too little, or lies beside the field.
 fn judged(
     pose: &Isometry2<f32>,
-    lines: &[LineSegment],
-    (corners, known): (&[LineCorner], &[FieldCorner]),
+    lines: &[Line],
+    (corners, known): (&[Corner], &[FieldCorner]),
     view: &View<'_>,
 ) -> Option<Hypothesis> {
     let parameters = view.parameters;

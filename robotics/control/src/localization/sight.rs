@@ -7,11 +7,12 @@
 
 use framework::math;
 use nalgebra::{Isometry2, Matrix2, Point2, RowVector3, Unit, Vector2};
-use types::field_features::{LineCorner, LineSegment, chord_distance};
+use types::field_features::chord_distance;
 use types::field_markings::{FieldCorner, FieldLine, FieldMarkings};
 
 use super::LocalizationParameters;
 use super::estimate::{Estimate, Innovation};
+use super::features::{Corner, Line};
 use crate::sight_noise::SightNoise;
 
 /// A chord longer than this share of the circle's radius is none.
@@ -39,7 +40,7 @@ pub(super) struct Match {
 
 impl View<'_> {
     /// Which line of the field this one is, seen from there; `None` where none explains it.
-    pub(super) fn line(&self, estimate: &Estimate, seen: &LineSegment) -> Option<Match> {
+    pub(super) fn line(&self, estimate: &Estimate, seen: &Line) -> Option<Match> {
         let pose = estimate.pose();
         let straight = self.markings.lines().into_iter();
         let straight = straight.filter_map(|line| self.straight(&pose, seen, &line));
@@ -61,7 +62,7 @@ impl View<'_> {
     pub(super) fn corner(
         &self,
         estimate: &Estimate,
-        seen: &LineCorner,
+        seen: &Corner,
         known: &[FieldCorner],
     ) -> Option<Match> {
         let direction = estimate.pose().rotation * seen.direction;
@@ -129,7 +130,7 @@ impl View<'_> {
     fn straight(
         &self,
         pose: &Isometry2<f32>,
-        seen: &LineSegment,
+        seen: &Line,
         line: &FieldLine,
     ) -> Option<[Innovation; 2]> {
         let (across, along) = line.course.axes();
@@ -151,7 +152,7 @@ impl View<'_> {
     }
 
     /// As a piece of the centre circle; `None` where it is too long for one.
-    fn chord(&self, pose: &Isometry2<f32>, seen: &LineSegment) -> Option<[Innovation; 2]> {
+    fn chord(&self, pose: &Isometry2<f32>, seen: &Line) -> Option<[Innovation; 2]> {
         let radius = self.markings.circle_radius;
         let length = seen.length();
         if length > LONGEST_CHORD * radius {
