@@ -5,6 +5,7 @@ mod served;
 use camino::Utf8Path;
 
 use super::robot::{Interface, Target};
+use super::scene::OTHER_NAME;
 use crate::diagnostics::{Code, Diagnostic, Diagnostics, nearest};
 use crate::manifest::{self, Manifest};
 use crate::scan::{Library, NodeSource, range};
@@ -32,7 +33,9 @@ pub(super) fn interfaces(
                     range(signature.span),
                     "the generated crate has to write this bound, too",
                 )
-                .help(format!("bring `{name}` in with a `use` of its own"));
+                .help(format!(
+                    "bring `{name}` in with a `use` of its own; {OTHER_NAME}"
+                ));
             diagnostics.add(error);
         }
         if let Some(item) = &found.private {

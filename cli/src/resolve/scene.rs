@@ -182,6 +182,9 @@ fn declared_outputs(
         .map(|(name, data, in_place, span)| (name.to_string(), data, in_place, range(span)))
 }
 
+/// What helps where a name of the code stands nowhere in Cargo.toml.
+pub(super) const OTHER_NAME: &str = "a library that is not called as its package needs its own name in Cargo.toml: `NAME = { package = \"…\", … }`";
+
 /// Types that are declared in a node file have to be public for the generated crate, and to have names that it can write.
 pub(super) fn report_unnameable(
     data: &Resolved,
@@ -199,7 +202,7 @@ pub(super) fn report_unnameable(
                 "the generated crate has to write this type, too",
             )
             .help(format!(
-                "bring `{name}` in with a `use` of its own, or give the type a name with `pub type` and write that"
+                "bring `{name}` in with a `use` of its own, or give the type a name with `pub type` and write that; {OTHER_NAME}"
             ));
         diagnostics.add(error);
     }

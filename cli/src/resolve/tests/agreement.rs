@@ -265,6 +265,26 @@ fn a_crate_that_only_types_know_comes_with_their_dependency() {
 }
 
 #[test]
+fn a_library_that_is_not_called_as_its_package_is_named_by_its_user() {
+    let robot = |line: &str| {
+        let output = writes("x: MainOutput<Md5>,");
+        let head = "use md5::Md5;";
+        let robot = Fixture::control(&["a"]).node("a", Node { head, ..output });
+        let packages = format!("{}{line}\n", robot.text("crates/nodes/Cargo.toml"));
+        robot.file("crates/nodes/Cargo.toml", &packages)
+    };
+    let place = [
+        "`Md5` cannot be followed",
+        "needs its own name in Cargo.toml",
+    ];
+    let unknown = robot("md-5 = \"0.10\"").answer();
+    unknown.expect_error("invalid-field", &place);
+    let named = robot("md5 = { package = \"md-5\", version = \"0.10\" }").answer();
+    let named = named.robot.expect("there are no errors");
+    assert_eq!(named.cyclers[0].outputs[0].data.text, "md5::Md5");
+}
+
+#[test]
 fn a_type_of_which_nobody_can_tell_what_it_is_is_told_at_its_field() {
     for (head, written) in [
         (
