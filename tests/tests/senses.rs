@@ -341,6 +341,71 @@ fn a_ball_that_is_seen_lies_where_it_is_said_to_lie() {
     assert!(wrong.is_empty(), "{wrong:?}");
 }
 
+/// Squares of errors in standard deviations, of one range of distances; two numbers are 2 where deviations are true.
+#[derive(Default)]
+struct Calibration {
+    sum: f32,
+    count: u16,
+}
+
+#[test]
+fn sightings_of_the_ball_are_off_as_their_covariances_say() {
+    const NAMES: [&str; 3] = ["up to 1 m", "1 to 2.5 m", "beyond"];
+    let mut ranges: [Calibration; 3] = Default::default();
+    for ball in ["1.5,1.0", "-2.0,-1.5"] {
+        let options = [
+            "--ball",
+            ball,
+            "--no-sound",
+            "--game",
+            "Playing",
+            "--imperfect",
+            "1",
+        ];
+        let mut nao = Nao::dynamic(&options, &[]);
+        let (mut last, mut images_at_rest) = (None, 0);
+        nao.run(25.0, |hardware, instance| {
+            let Some(camera) = camera_of(instance) else {
+                return;
+            };
+            let truth = hardware
+                .image_truth(camera, instance.cycle().time.start)
+                .expect("every cycle of Vision is about an image that was exposed");
+            // The truth about the ball is that of now, not that of the image.
+            let field = hardware.ground_truth().ball.expect("there is one");
+            images_at_rest = if last.replace(field) == Some(field) {
+                images_at_rest + 1
+            } else {
+                0
+            };
+            if images_at_rest < 30 || !truth.ball.is_some_and(|ball| ball.is_whole) {
+                return;
+            }
+            let expected = (truth.ground_to_field.inverse() * field).xy();
+            for ball in balls(instance) {
+                let (Some(position), Some(covariance)) = (ball.position, ball.covariance) else {
+                    continue;
+                };
+                let inverse = covariance.try_inverse().expect("it is positive definite");
+                let error = position - expected;
+                let range = match expected.coords.norm() {
+                    ..1.0 => 0,
+                    1.0..2.5 => 1,
+                    _ => 2,
+                };
+                ranges[range].sum += error.dot(&(inverse * error));
+                ranges[range].count += 1;
+            }
+        });
+    }
+    for (range, name) in ranges.iter().zip(NAMES) {
+        let mean = range.sum / f32::from(range.count);
+        println!("{name}: {mean:.3} of {} sightings", range.count);
+        assert!(range.count >= 50, "{name}: {} sightings", range.count);
+        assert!((0.05..2.0).contains(&mean), "{name}: {mean}");
+    }
+}
+
 /// Whether the image of this cycle shows both feet of a robot, uncovered by the image's edge, within 3.5 m.
 fn is_in_sight(robot: &RobotTruth) -> bool {
     let feet = [robot.feet.left, robot.feet.right];
