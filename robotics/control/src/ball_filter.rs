@@ -43,12 +43,10 @@ pub struct BallFilterParameters {
     pub position_noise: f32,
     /// In m/s after 1 s: how its speed changes without anybody knowing why, one standard deviation.
     pub velocity_noise: f32,
-    /// How wrong a sighting just in front of the robot is, one standard deviation.
+    /// What a sighting is off besides what its own covariance says, just in front of the robot, one standard deviation.
     #[reflect(unit = "m", range = 0.0..)]
     pub least_noise: f32,
-    /// By how much more per m of distance, along the line of sight.
-    pub noise_along: f32,
-    /// By how much more per m of distance, across the line of sight.
+    /// By how much more per m of distance, across the line of sight: an image does not know how far the head is turned.
     pub noise_across: f32,
     /// In standard deviations: a sighting farther away from a hypothesis belongs to another one.
     pub gate: f32,
@@ -175,25 +173,29 @@ fn sightings(
     ground_to_start: Isometry2<f32>,
     parameters: &BallFilterParameters,
 ) -> impl Iterator<Item = Sighting> {
+    let turn = ground_to_start.rotation.to_rotation_matrix().into_inner();
     let places = candidates
         .iter()
-        .filter_map(|candidate| candidate.position)
-        .filter(|position| position.coords.norm().is_finite());
-    places.map(move |position| {
+        .filter_map(|candidate| candidate.position.zip(candidate.covariance))
+        .filter(|(position, covariance)| {
+            let mut numbers = position.iter().chain(covariance);
+            numbers.all(|number| number.is_finite())
+        });
+    places.map(move |(position, covariance)| {
         let sight = ground_to_start * position.coords;
         Sighting {
             position: ground_to_start * position,
-            noise: noise(sight, parameters),
+            noise: turn * covariance * turn.transpose() + noise(sight, parameters),
             seen_at,
         }
     })
 }
 
-/// Covariance of a sighting.
+/// Covariance of what an image does not know about a sighting.
 fn noise(sight: Vector2<f32>, parameters: &BallFilterParameters) -> Matrix2<f32> {
     let noise = SightNoise {
         least: parameters.least_noise,
-        along: parameters.noise_along,
+        along: 0.0,
         tilt: 0.0,
         across: parameters.noise_across,
     };
