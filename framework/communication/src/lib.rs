@@ -21,6 +21,7 @@
 pub mod limits;
 pub mod server;
 
+mod bundle;
 mod catalogue;
 mod closely;
 mod connection;

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use axum::extract::ws::Message;
 use protocol::{Log, Lost};
 
+use crate::bundle::{Bundle, Piece};
 use crate::limits::Limits;
 
 /// Bytes of a value, made once however many clients want it.
@@ -17,9 +18,16 @@ pub(crate) enum Content {
     Bytes(Arc<Vec<u8>>),
 }
 
+/// What is put into one message at most, before its last piece.
+const BUNDLE: usize = 64 << 10;
+
 /// What waits for one client.
 #[derive(Debug, Default)]
 pub(crate) struct Outbox {
+    /// The client wants what waits in as few messages as there can be.
+    is_bundling: bool,
+    /// They come behind the texts that were sent last.
+    frames: Option<Message>,
     answers: VecDeque<String>,
     answer_bytes: usize,
     /// Oldest first, by a number of their own.
@@ -109,25 +117,51 @@ impl Outbox {
         self.lost.remove(&Some(subscription));
     }
 
-    /// What to send next: answers, what was lost, updates.
+    /// From now on.
+    pub(crate) fn bundle(&mut self) {
+        self.is_bundling = true;
+    }
+
+    /// What to send next.
     pub(crate) fn next(&mut self) -> Option<Message> {
+        if self.frames.is_some() {
+            return self.frames.take();
+        }
+        let first = self.next_piece()?;
+        if !self.is_bundling {
+            return Some(first.message());
+        }
+        let mut bundle = Bundle::default();
+        bundle.add(first);
+        while bundle.length() < BUNDLE
+            && let Some(piece) = self.next_piece()
+        {
+            bundle.add(piece);
+        }
+        let [texts, frames] = bundle.messages();
+        self.frames = frames;
+        texts.or_else(|| self.frames.take())
+    }
+
+    /// Answers, what was lost, updates.
+    fn next_piece(&mut self) -> Option<Piece> {
         if let Some(answer) = self.answers.pop_front() {
             self.answer_bytes -= answer.len();
-            return Some(Message::text(answer));
+            return Some(Piece::Text(answer));
         }
         if let Some((subscription, updates)) = self.lost.pop_first() {
             let lost = protocol::Message::Lost(Lost {
                 subscription,
                 updates,
             });
-            return serde_json::to_string(&lost).ok().map(Message::text);
+            return serde_json::to_string(&lost).ok().map(Piece::Text);
         }
         let (_, (subscription, content)) = self.updates.pop_first()?;
         self.update_bytes -= content.len();
         if let Some(numbers) = self.of_subscription.get_mut(&subscription) {
             numbers.pop_front();
         }
-        Some(frame(subscription, &content))
+        Some(piece(subscription, &content))
     }
 
     fn lose_oldest(&mut self, subscription: u32) {
@@ -146,9 +180,9 @@ impl Outbox {
 }
 
 /// Puts the subscription in front of what is the same for all clients.
-fn frame(subscription: u32, content: &Content) -> Message {
+fn piece(subscription: u32, content: &Content) -> Piece {
     match content {
-        Content::Text(rest) => Message::text(format!(
+        Content::Text(rest) => Piece::Text(format!(
             r#"{{"update":{{"subscription":{subscription},{rest}"#
         )),
         Content::Bytes(rest) => {
@@ -156,7 +190,7 @@ fn frame(subscription: u32, content: &Content) -> Message {
             bytes.extend_from_slice(&protocol::BINARY_MAGIC);
             bytes.extend_from_slice(&subscription.to_le_bytes());
             bytes.extend_from_slice(rest);
-            Message::binary(bytes)
+            Piece::Frame(bytes)
         }
     }
 }
@@ -212,6 +246,42 @@ mod tests {
         let lost: Vec<_> = outbox.lost.clone().into_iter().collect();
         assert_eq!(lost, [(Some(1), 1), (Some(2), 2)]);
         assert_eq!(outbox.update_bytes, 100);
+    }
+
+    #[test]
+    fn who_wants_bundles_gets_what_waits_in_two_messages() {
+        let limits = Limits::default();
+        let text = |number| Content::Text(Arc::new(format!("{number}}}}}")));
+        let frame = |byte| Content::Bytes(Arc::new(vec![byte; 20]));
+        let mut outbox = Outbox::default();
+        outbox.bundle();
+        for number in 1..4 {
+            outbox.update(1, text(number), &limits);
+            outbox.update(3, frame(number), &limits);
+        }
+        outbox.count_lost(Some(9), 4);
+        let texts = r#"[{"lost":{"subscription":9,"updates":4}},{"update":{"subscription":1,1}},{"update":{"subscription":1,2}},{"update":{"subscription":1,3}}]"#;
+        assert_eq!(outbox.next(), Some(Message::text(texts)));
+        let mut frames = b"HKGS".to_vec();
+        for byte in 1..4 {
+            frames.extend(28_u32.to_le_bytes());
+            frames.extend(b"HKG1\x03\0\0\0");
+            frames.extend([byte; 20]);
+        }
+        assert_eq!(outbox.next(), Some(Message::binary(frames)));
+        assert_eq!(outbox.next(), None);
+        // One alone is no bundle.
+        outbox.update(1, text(6), &limits);
+        let alone = r#"{"update":{"subscription":1,6}}"#;
+        assert_eq!(outbox.next(), Some(Message::text(alone)));
+        assert_eq!(outbox.next(), None);
+        // What is large goes with what came before it, and ends the bundle.
+        let large = Content::Bytes(Arc::new(vec![7; BUNDLE]));
+        for content in [frame(1), large, frame(2)] {
+            outbox.update(4, content, &limits);
+        }
+        let lengths = [(); 2].map(|()| outbox.next().expect("it waits").into_data().len());
+        assert_eq!(lengths, [4 + 4 + 28 + 4 + 8 + BUNDLE, 28]);
     }
 
     #[test]

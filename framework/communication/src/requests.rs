@@ -83,6 +83,7 @@ fn answer(hub: &mut Hub, client: ClientId, request: Request) -> Answered {
             encoding,
         } => hub.subscribe(client, &path, rate, encoding),
         Ask::Unsubscribe { subscription } => hub.unsubscribe(client, subscription),
+        Ask::Bundle {} => hub.bundle(client),
         Ask::Write { changes } => hub.write(changes),
         Ask::Parameters { path } => {
             hub.check_path(&path)?;
@@ -144,6 +145,7 @@ fn writes(ask: &Ask) -> bool {
         | Ask::Read { .. }
         | Ask::Subscribe { .. }
         | Ask::Unsubscribe { .. }
+        | Ask::Bundle {}
         | Ask::Parameters { .. }
         | Ask::Unstored {}
         | Ask::Logs { .. }

@@ -44,6 +44,10 @@ pub const BINARY_MAGIC: [u8; 4] = *b"HKG1";
 /// number (`u64`), the timestamp (`u64`, nanoseconds of the robot's clock).
 pub const BINARY_HEADER: usize = 24;
 
+/// First four bytes of a binary message of several frames, for a client that asked for [`Ask::Bundle`]. Behind them stands each
+/// frame with its length in front (`u32`, little-endian).
+pub const BUNDLE_MAGIC: [u8; 4] = *b"HKGS";
+
 /// JSON schemas of all messages: of what clients send and of what a robot sends.
 pub fn json_schemas() -> (serde_json::Value, serde_json::Value) {
     (

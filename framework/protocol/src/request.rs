@@ -69,6 +69,9 @@ pub enum Ask {
         /// As the answer to `subscribe` said.
         subscription: u32,
     },
+    /// From now on what is sent at the same time comes in one piece: texts as a JSON array of messages, binary frames one behind
+    /// the other as [`crate::BUNDLE_MAGIC`] says. One alone comes as ever. Answer: `done`.
+    Bundle {},
     /// Changes parameters, all of them at once or none. Answer: `written`.
     Write {
         /// In this order, where they lie in each other.

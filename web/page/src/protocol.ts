@@ -61,6 +61,8 @@ export type Ask = {
     subscription: number;
   };
 } | {
+  bundle: Record<string, never>;
+} | {
   write: {
     /** In this order, where they lie in each other. */
     changes: Array<Change>;

@@ -100,6 +100,12 @@ impl Hub {
         Ok(())
     }
 
+    pub(super) fn bundle(&mut self, id: ClientId) -> Answered {
+        let client = self.clients.get_mut(&id).ok_or_else(gone)?;
+        client.outbox.bundle();
+        Ok(Some(Good::Done {}))
+    }
+
     pub(super) fn unsubscribe(&mut self, id: ClientId, number: u32) -> Answered {
         let client = self.clients.get_mut(&id).ok_or_else(gone)?;
         let Some(subscription) = client.subscriptions.remove(&number) else {

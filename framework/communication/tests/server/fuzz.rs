@@ -51,6 +51,7 @@ fn corpus() -> Vec<String> {
         json!({ "subscribe": { "path": cycles, "rate": 0.5, "encoding": "binary" } }),
         json!({ "subscribe": { "path": image, "rate": 0.5, "encoding": { "jpeg": { "quality": 50 } } } }),
         json!({ "unsubscribe": { "subscription": 1 } }),
+        json!({ "bundle": {} }),
         json!({ "write": { "changes": [{ "path": "gait.period", "value": 0.5 }] } }),
         json!({ "parameters": { "path": "gait" } }),
         json!({ "unstored": {} }),

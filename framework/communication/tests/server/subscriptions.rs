@@ -1,5 +1,6 @@
 //! Values again and again.
 
+use std::collections::BTreeMap;
 use std::thread;
 use std::time::Duration;
 
@@ -9,7 +10,7 @@ use tungstenite::protocol::frame::coding::CloseCode;
 use zune_jpeg::JpegDecoder;
 use zune_jpeg::zune_core::bytestream::ZCursor;
 
-use crate::zoo::{Zoo, eventually, number};
+use crate::zoo::{Zoo, eventually, number, pieces};
 
 #[test]
 fn every_cycle_comes_once_in_order() {
@@ -155,6 +156,59 @@ fn binary_values_are_laid_out_as_the_answer_says() {
         assert!(cycle > 0);
         let value = framework::reflect::binary::decode(&layout, value).expect("as laid out");
         assert_eq!(value.as_array().map(Vec::len), Some(3), "{value}");
+    }
+}
+
+#[test]
+fn who_asks_for_bundles_gets_all_of_a_cycle_in_one_message() {
+    let zoo = Zoo::new();
+    let mut client = zoo.client();
+    client.ok(json!({ "bundle": {} }));
+    let paths = ["cycles", "pose.heading", "joints"].map(|it| format!("Control.main_outputs.{it}"));
+    let texts = paths.each_ref().map(|path| client.subscribe(path));
+    let frames = paths.each_ref().map(|path| {
+        let ask = json!({ "subscribe": { "path": path, "encoding": "binary" } });
+        number(&client.ok(ask)["subscribed"]["subscription"])
+    });
+    let begin = client.update(texts[0])["cycle"].as_u64().expect("a number");
+    let mut messages = 0;
+    let mut cycles: BTreeMap<u32, Vec<u64>> = BTreeMap::new();
+    while cycles.len() < 6 || cycles.values().any(|seen| seen.len() < 100) {
+        let message = client.socket().read().expect("the robot speaks");
+        messages += 1;
+        for piece in pieces(message) {
+            let (subscription, cycle) = update_in(&piece);
+            cycles.entry(subscription).or_default().push(cycle);
+        }
+    }
+    for subscription in texts.into_iter().chain(frames) {
+        let seen = &cycles[&subscription];
+        assert!(
+            seen[0] <= begin + 2,
+            "{subscription}: from {begin} on: {seen:?}"
+        );
+        assert!(seen.is_sorted_by(|one, next| one + 1 == *next), "{seen:?}");
+    }
+    // Six updates of each cycle: a message of texts and one of frames, and a few with the rest of the subscriptions.
+    assert!(messages <= 2 * 105, "{messages} messages");
+}
+
+/// Whose it is, and of which cycle.
+fn update_in(piece: &Message) -> (u32, u64) {
+    match piece {
+        Message::Text(text) => {
+            let message: Value = serde_json::from_str(text.as_str()).expect("JSON");
+            let update = &message["update"];
+            let cycle = update["cycle"].as_u64();
+            (number(&update["subscription"]), cycle.expect("a number"))
+        }
+        Message::Binary(bytes) => {
+            assert!(bytes.starts_with(&protocol::BINARY_MAGIC), "{bytes:?}");
+            let subscription = bytes[4..8].try_into().expect("four bytes");
+            let cycle = bytes[8..16].try_into().expect("eight bytes");
+            (u32::from_le_bytes(subscription), u64::from_le_bytes(cycle))
+        }
+        other => panic!("{other:?}"),
     }
 }
 

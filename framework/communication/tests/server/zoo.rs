@@ -1,5 +1,6 @@
 //! The zoo on its own threads with a server, and clients on real sockets.
 
+use std::collections::VecDeque;
 use std::net::{SocketAddr, TcpStream};
 use std::sync::Arc;
 use std::thread::{self, JoinHandle};
@@ -33,6 +34,8 @@ pub(crate) struct Client {
     next: u32,
     /// Messages that came while another was waited for.
     pub(crate) waiting: Vec<Value>,
+    /// The rest of the last message, where it had several in it.
+    pieces: VecDeque<Message>,
     pub(crate) welcome: Value,
 }
 
@@ -146,6 +149,7 @@ impl Client {
             socket,
             next: 1,
             waiting: Vec::new(),
+            pieces: VecDeque::new(),
             welcome: Value::Null,
         };
         client.welcome = client.receive()["welcome"].clone();
@@ -163,7 +167,7 @@ impl Client {
 
     pub(crate) fn try_receive(&mut self) -> Result<Value, tungstenite::Error> {
         loop {
-            match self.socket.read()? {
+            match self.piece()? {
                 Message::Text(text) => {
                     return Ok(serde_json::from_str(text.as_str()).expect("JSON"));
                 }
@@ -177,10 +181,19 @@ impl Client {
         }
     }
 
+    /// The next message, or the next part of one that has several.
+    fn piece(&mut self) -> Result<Message, tungstenite::Error> {
+        if self.pieces.is_empty() {
+            let message = self.socket.read()?;
+            self.pieces.extend(pieces(message));
+        }
+        Ok(self.pieces.pop_front().expect("a message has a part"))
+    }
+
     /// The next binary frame, as its head and its value; others wait or are dropped.
     pub(crate) fn frame(&mut self) -> (Vec<u8>, Vec<u8>) {
         loop {
-            match self.socket.read().expect("the robot speaks") {
+            match self.piece().expect("the robot speaks") {
                 Message::Binary(bytes) => {
                     let (head, value) = bytes.split_at(protocol::BINARY_HEADER);
                     return (head.to_vec(), value.to_vec());
@@ -260,6 +273,30 @@ impl Client {
             }
             self.waiting.push(message);
         }
+    }
+}
+
+/// What a message has in it, for a client that asked for bundles, too.
+pub(crate) fn pieces(message: Message) -> Vec<Message> {
+    match message {
+        Message::Text(text) if text.starts_with('[') => {
+            let list: Vec<Value> = serde_json::from_str(text.as_str()).expect("JSON");
+            let texts = list.into_iter().map(|one| Message::text(one.to_string()));
+            texts.collect()
+        }
+        Message::Binary(bytes) if bytes.starts_with(&protocol::BUNDLE_MAGIC) => {
+            let mut rest = &bytes[4..];
+            let mut frames = Vec::new();
+            while let Some((length, behind)) = rest.split_first_chunk() {
+                let length = usize::try_from(u32::from_le_bytes(*length)).expect("small");
+                let (frame, behind) = behind.split_at(length);
+                frames.push(Message::binary(frame.to_vec()));
+                rest = behind;
+            }
+            assert!(rest.is_empty(), "{rest:?}");
+            frames
+        }
+        other => vec![other],
     }
 }
 
