@@ -12,17 +12,36 @@ export interface Frame {
 
 const MAGIC = 0x31474b48; // "HKG1", little-endian
 const HEADER = 24;
+const SEVERAL = 0x53474b48; // "HKGS"
 
-export function readFrame(buffer: ArrayBuffer): Frame | null {
-  if (buffer.byteLength < HEADER) return null;
+/** What a binary message has; what is no frame is left out. */
+export function readFrames(buffer: ArrayBuffer): Frame[] {
   const view = new DataView(buffer);
-  if (view.getUint32(0, true) !== MAGIC) return null;
-  return {
-    subscription: view.getUint32(4, true),
-    cycle: Number(view.getBigUint64(8, true)),
-    time: Number(view.getBigUint64(16, true)),
-    bytes: new Uint8Array(buffer, HEADER),
-  };
+  if (buffer.byteLength < 4) return [];
+  if (view.getUint32(0, true) !== SEVERAL) return frame(buffer, 0, buffer.byteLength);
+  const frames: Frame[] = [];
+  for (let at = 4; at + 4 <= buffer.byteLength; ) {
+    const length = view.getUint32(at, true);
+    at += 4;
+    if (length > buffer.byteLength - at) break;
+    frames.push(...frame(buffer, at, length));
+    at += length;
+  }
+  return frames;
+}
+
+function frame(buffer: ArrayBuffer, at: number, length: number): Frame[] {
+  if (length < HEADER) return [];
+  const view = new DataView(buffer, at);
+  if (view.getUint32(0, true) !== MAGIC) return [];
+  return [
+    {
+      subscription: view.getUint32(4, true),
+      cycle: Number(view.getBigUint64(8, true)),
+      time: Number(view.getBigUint64(16, true)),
+      bytes: new Uint8Array(buffer, at + HEADER, length - HEADER),
+    },
+  ];
 }
 
 export type Layout =

@@ -1,6 +1,6 @@
 // Owns the WebSocket: requests with their answers, messages of the robot, and coming back after it was lost.
 import type { Ask, Failure, Good, Message, Welcome } from "../protocol";
-import { readFrame, type Frame } from "./binary";
+import { readFrames, type Frame } from "./binary";
 
 /** `waiting`: there is no connection, and one is tried again and again. */
 export type State = "connecting" | "open" | "waiting";
@@ -88,13 +88,7 @@ export class Socket {
     const socket = new WebSocket(this.address);
     socket.binaryType = "arraybuffer";
     socket.onmessage = (event) => {
-      if (this.socket !== socket) return;
-      try {
-        this.hear(event.data);
-      } catch (error) {
-        // Whatever a robot says that nobody understands: what comes next may be good again.
-        console.warn("the robot sent a message that was not understood:", error);
-      }
+      if (this.socket === socket) this.hear(event.data);
     };
     socket.onclose = () => {
       if (this.socket === socket) this.lose();
@@ -127,14 +121,14 @@ export class Socket {
 
   private hear(data: unknown): void {
     this.silence = 0;
-    if (data instanceof ArrayBuffer) {
-      const frame = readFrame(data);
-      if (frame !== null) this.listener.frame(frame);
-      return;
-    }
-    const message = parse(data);
-    if (message === null) return;
+    if (data instanceof ArrayBuffer) for (const frame of readFrames(data)) tolerate(() => this.listener.frame(frame));
+    else for (const message of parse(data)) tolerate(() => this.take(message));
+  }
+
+  private take(message: Message): void {
     if ("welcome" in message) {
+      // A robot that does not know it sends each message alone.
+      this.ask({ bundle: {} }).catch(() => undefined);
       this.listener.welcome(message.welcome);
       this.listener.state("open");
     } else if ("answer" in message) {
@@ -153,14 +147,24 @@ export class Socket {
   }
 }
 
-/** What is no message is left alone: a robot of a later version may say more. */
-function parse(data: unknown): Message | null {
-  if (typeof data !== "string") return null;
+/** Whatever a robot says that nobody understands: what comes next may be good again. */
+function tolerate(deed: () => void): void {
   try {
-    const message: unknown = JSON.parse(data);
-    return typeof message === "object" && message !== null ? (message as Message) : null;
+    deed();
+  } catch (error) {
+    console.warn("the robot sent a message that was not understood:", error);
+  }
+}
+
+/** What is no message is left alone: a robot of a later version may say more. */
+function parse(data: unknown): Message[] {
+  if (typeof data !== "string") return [];
+  try {
+    const said: unknown = JSON.parse(data);
+    const messages: unknown[] = Array.isArray(said) ? said : [said];
+    return messages.filter((message): message is Message => typeof message === "object" && message !== null);
   } catch {
     console.warn("the robot sent something that is not JSON");
-    return null;
+    return [];
   }
 }

@@ -1,5 +1,4 @@
 // A panel with an image of the robot: as JPEG where the robot makes one, else as the camera's own bytes.
-import type { Decoded } from "../connection/binary";
 import type { Encoding } from "../protocol";
 import type { Settings } from "../store/layout";
 import { isImage } from "../store/paths";
@@ -7,9 +6,19 @@ import type { Sample } from "../store/subscriptions";
 import { complain, eachFrame, make, select } from "../view/dom";
 import { seconds } from "../view/format";
 import { numberSetting, textSetting, type Context, type Panel, type PanelKind } from "./panel";
+import { decode, draw, type Picture } from "./picture";
 
 const RATES = ["1 Hz", "5 Hz", "10 Hz", "15 Hz", "30 Hz"];
 const QUALITIES = ["quality 40", "quality 70", "quality 90", "raw"];
+/** Pictures that are decoded at a time: one that takes longer than the display does not hold the next one back. */
+const DECODERS = 2;
+/** What was decoded within one frame of the display is shown in this and the next one, as smoothly as it was taken. */
+const READY = 2;
+
+interface Ready {
+  sample: Sample;
+  picture: Picture | null;
+}
 
 /** Other panels draw over it: `moved`, `kept` and `drawn` are theirs. */
 export class ImagePanel implements Panel {
@@ -22,12 +31,18 @@ export class ImagePanel implements Panel {
   private readonly failure = make("p", { class: "failure", hidden: true });
   private readonly input: HTMLInputElement;
   private readonly choices = make("datalist", { id: `images-${Math.random().toString(36).slice(2)}` });
-  private readonly draw = eachFrame(() => void this.show());
+  private readonly draw = eachFrame(() => this.show());
   protected path: string;
   protected rate: number;
   private quality: string;
-  private sample: Sample | null = null;
-  private isDrawing = false;
+  private decoding = 0;
+  /** Numbers of samples in the order in which they came: of the last one, and of the last one that is shown or not wanted any more. */
+  private taken = 0;
+  private settled = 0;
+  /** The newest that no decoder was free for. */
+  private waiting: Sample | null = null;
+  /** Oldest first. */
+  private ready: Ready[] = [];
   private stop = (): void => undefined;
 
   constructor(protected readonly context: Context) {
@@ -59,6 +74,7 @@ export class ImagePanel implements Panel {
 
   close(): void {
     this.stop();
+    this.forget();
   }
 
   /** Another image is wanted, or the same more often. */
@@ -84,7 +100,7 @@ export class ImagePanel implements Panel {
 
   private subscribe(): void {
     this.stop();
-    this.sample = null;
+    this.forget();
     this.context.title(this.path);
     this.save();
     this.moved();
@@ -100,10 +116,7 @@ export class ImagePanel implements Panel {
     this.stop = this.context.robot.subscriptions.watch(
       { path: this.path, rate: this.rate, encoding },
       {
-        sample: (sample) => {
-          this.sample = sample;
-          this.draw();
-        },
+        sample: (sample) => void this.take(sample),
         refused: (reason) => {
           if (reason !== null && encoding !== "binary" && this.context.robot.state.value === "open") this.watch("binary");
           else complain(this.failure, reason);
@@ -112,72 +125,56 @@ export class ImagePanel implements Panel {
     );
   }
 
-  /** A JPEG takes the browser a while: what came meanwhile is left out, except for the newest. */
-  private async show(): Promise<void> {
-    const { sample } = this;
-    if (sample === null || this.isDrawing) return;
-    this.isDrawing = true;
+  /** Decodes at once: the display comes before a JPEG is decoded. What comes while all decoders are busy is left out but for the newest. */
+  private async take(sample: Sample): Promise<void> {
+    if (this.decoding === DECODERS) {
+      this.waiting = sample;
+      return;
+    }
+    const order = ++this.taken;
+    this.decoding += 1;
     try {
-      if (sample.value instanceof Uint8Array) await drawJpeg(this.canvas, sample.value as Uint8Array<ArrayBuffer>);
-      else drawRaw(this.canvas, sample.value);
-      this.drawn(sample);
-      complain(this.failure, null);
+      this.settle(order, { sample, picture: await decode(sample.value) });
     } catch (error) {
-      complain(this.failure, error);
+      if (order > this.settled) complain(this.failure, error);
     }
+    this.decoding -= 1;
+    const { waiting } = this;
+    this.waiting = null;
+    if (waiting !== null) void this.take(waiting);
+  }
+
+  /** One that was decoded behind a later one is left out. */
+  private settle(order: number, decoded: Ready): void {
+    if (order <= this.settled) {
+      decoded.picture?.close();
+      return;
+    }
+    this.settled = order;
+    this.ready.push(decoded);
+    if (this.ready.length > READY) this.ready.shift()?.picture?.close();
+    this.draw();
+  }
+
+  /** Whatever was asked for until now. */
+  private forget(): void {
+    this.settled = this.taken;
+    this.waiting = null;
+    for (const { picture } of this.ready.splice(0)) picture?.close();
+  }
+
+  private show(): void {
+    const next = this.ready.shift();
+    if (next === undefined) return;
+    if (this.ready.length > 0) this.draw();
+    const { sample, picture } = next;
+    // The absence of an image is no mistake: it leaves the last one.
+    if (picture !== null) draw(this.canvas, picture);
+    picture?.close();
+    this.drawn(sample);
+    complain(this.failure, null);
     this.state.textContent = `${this.canvas.width} × ${this.canvas.height}, cycle ${sample.cycle}, ${seconds(sample.time)}`;
-    this.isDrawing = false;
-    if (this.sample !== sample) this.draw();
   }
-}
-
-async function drawJpeg(canvas: HTMLCanvasElement, bytes: Uint8Array<ArrayBuffer>): Promise<void> {
-  const bitmap = await createImageBitmap(new Blob([bytes], { type: "image/jpeg" }));
-  fit(canvas, bitmap.width, bitmap.height).drawImage(bitmap, 0, 0);
-  bitmap.close();
-}
-
-/** The absence of an image is no mistake: it leaves the last one. */
-function drawRaw(canvas: HTMLCanvasElement, value: Decoded): void {
-  if (value === null) return;
-  const { width, height, bytes } = parts(value);
-  const image = new ImageData(width, height);
-  if (bytes.length === width * height * 2) fromYuyv(bytes, image.data);
-  else if (bytes.length === width * height) bytes.forEach((byte, at) => image.data.set([byte, byte, byte, 255], at * 4));
-  else throw new Error(`${bytes.length} bytes are no image of ${width} × ${height}`);
-  fit(canvas, width, height).putImageData(image, 0, 0);
-}
-
-function parts(value: Decoded): { width: number; height: number; bytes: Uint8Array } {
-  if (value !== null && typeof value === "object" && !Array.isArray(value) && !(value instanceof Uint8Array)) {
-    const { width, height } = value as Record<string, Decoded>;
-    const bytes = Object.values(value).find((part) => part instanceof Uint8Array);
-    if (typeof width === "number" && typeof height === "number" && bytes instanceof Uint8Array && width > 0 && height > 0) {
-      return { width, height, bytes };
-    }
-  }
-  throw new Error("this is no image: it has no width, height and bytes");
-}
-
-/** Full-range BT.601, bytes Y0 Cb Y1 Cr for two neighbouring pixels. */
-function fromYuyv(bytes: Uint8Array, pixels: Uint8ClampedArray): void {
-  for (let at = 0, to = 0; at + 3 < bytes.length; at += 4) {
-    const blue = (bytes[at + 1] as number) - 128;
-    const red = (bytes[at + 3] as number) - 128;
-    for (const luminance of [bytes[at] as number, bytes[at + 2] as number]) {
-      pixels[to++] = luminance + 1.402 * red;
-      pixels[to++] = luminance - 0.344136 * blue - 0.714136 * red;
-      pixels[to++] = luminance + 1.772 * blue;
-      pixels[to++] = 255;
-    }
-  }
-}
-
-function fit(canvas: HTMLCanvasElement, width: number, height: number): CanvasRenderingContext2D {
-  if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
-  const context = canvas.getContext("2d");
-  if (context === null) throw new Error("this browser draws no pictures");
-  return context;
 }
 
 export const image: PanelKind = { kind: "image", name: "Image", open: (context) => new ImagePanel(context) };

@@ -5,7 +5,7 @@ import { COLORS } from "../panels/series";
 import type { Entry } from "../protocol";
 import type { Settings } from "../store/layout";
 import type { Sample } from "../store/subscriptions";
-import { make } from "../view/dom";
+import { make, sharp } from "../view/dom";
 import { fields, list, number, pose3, rotate, point, type Point } from "./geometry";
 import { Values } from "./values";
 import type { Decoded } from "../connection/binary";
@@ -97,12 +97,15 @@ class Camera extends ImagePanel {
   protected override drawn(sample: Sample): void {
     this.cycle = sample.cycle;
     const { width, height } = this.canvas;
-    // Twice as fine as the image: lines a pixel wide are hard to see.
-    if (this.over.width !== 2 * width || this.over.height !== 2 * height) Object.assign(this.over, { width: 2 * width, height: 2 * height });
-    const context = this.over.getContext("2d");
+    // As fine as the screen, however few pixels the image has.
+    const context = sharp(this.over);
     if (context === null) return;
-    context.setTransform(2, 0, 0, 2, 0, 0);
-    context.clearRect(0, 0, width, height);
+    const { clientWidth, clientHeight } = this.over;
+    context.clearRect(0, 0, clientWidth, clientHeight);
+    // Where `object-fit: contain` has the image.
+    const scale = Math.min(clientWidth / width, clientHeight / height);
+    context.translate((clientWidth - scale * width) / 2, (clientHeight - scale * height) / 2);
+    context.scale(scale, scale);
     context.lineWidth = 2;
     if (this.shown.has("segments")) this.drawSegments(context);
     if (this.shown.has("limbs")) this.drawLimbs(context, height);
