@@ -95,7 +95,7 @@ impl fmt::Display for RecordingReport {
                 (one.lost, "not taken by the disk"),
                 (
                     one.overwritten,
-                    "left to younger ones: `--recording-budget`",
+                    "gave way to younger ones; `--recording-budget` keeps more",
                 ),
             ];
             for (count, what) in counts.into_iter().filter(|(count, _)| *count > 0) {
