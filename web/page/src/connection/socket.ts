@@ -88,7 +88,7 @@ export class Socket {
     const socket = new WebSocket(this.address);
     socket.binaryType = "arraybuffer";
     socket.onmessage = (event) => {
-      if (this.socket === socket) this.hear(event.data);
+      if (this.socket === socket) void this.hear(event.data);
     };
     socket.onclose = () => {
       if (this.socket === socket) this.lose();
@@ -119,10 +119,17 @@ export class Socket {
     }
   }
 
-  private hear(data: unknown): void {
+  private async hear(data: unknown): Promise<void> {
     this.silence = 0;
-    if (data instanceof ArrayBuffer) for (const frame of readFrames(data)) tolerate(() => this.listener.frame(frame));
-    else for (const message of parse(data)) tolerate(() => this.take(message));
+    if (data instanceof ArrayBuffer) {
+      for (const frame of readFrames(data)) tolerate(() => this.listener.frame(frame));
+      return;
+    }
+    for (const message of parse(data)) {
+      tolerate(() => this.take(message));
+      // Whoever waited for an answer goes on before what came with it is heard: the first update of a subscription.
+      await null;
+    }
   }
 
   private take(message: Message): void {
