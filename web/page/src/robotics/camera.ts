@@ -102,10 +102,19 @@ class Camera extends ImagePanel {
     if (context === null) return;
     const { clientWidth, clientHeight } = this.over;
     context.clearRect(0, 0, clientWidth, clientHeight);
+    context.save();
     // Where `object-fit: contain` has the image.
     const scale = Math.min(clientWidth / width, clientHeight / height);
     context.translate((clientWidth - scale * width) / 2, (clientHeight - scale * height) / 2);
     context.scale(scale, scale);
+    context.beginPath();
+    context.rect(0, 0, width, height);
+    context.clip();
+    this.drawShown(context, width, height);
+    context.restore();
+  }
+
+  private drawShown(context: CanvasRenderingContext2D, width: number, height: number): void {
     context.lineWidth = 2;
     if (this.shown.has("segments")) this.drawSegments(context);
     if (this.shown.has("limbs")) this.drawLimbs(context, height);

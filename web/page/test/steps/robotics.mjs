@@ -54,6 +54,11 @@ export async function theWorldIsChanged(page) {
   await changes(page, panel(page, "camera").locator("output").first(), "the number of the camera's image");
   await until(page, panel(page, "camera").locator(".stage canvas").first(), hasPicture, "the camera's image");
   await until(page, panel(page, "camera").locator("canvas.over"), hasStrokes, "what lies over the image");
+  // Not in every image is something seen that goes on beside it.
+  for (let look = 0; look < 10; look++, await page.waitForTimeout(100)) {
+    const spilt = await panel(page, "camera").locator("canvas.over").evaluate(beyondImage);
+    assert.equal(spilt, 0, "pixels that are drawn beside the image");
+  }
   step("the ball lies where a hand has put it, and the map and the camera are drawn");
 }
 
@@ -64,4 +69,19 @@ function hasStrokes(canvas) {
   const colors = new Set();
   for (let at = 0; at < data.length && colors.size < 4; at += 4) colors.add(`${data[at]} ${data[at + 1]} ${data[at + 2]} ${data[at + 3]}`);
   return colors.size >= 4;
+}
+
+/** How many pixels are drawn where the image is not. */
+function beyondImage(over) {
+  const image = over.parentElement.querySelector("canvas");
+  const { data } = over.getContext("2d").getImageData(0, 0, over.width, over.height);
+  const scale = Math.min(over.width / image.width, over.height / image.height);
+  const isOutside = (at, whole, part) => Math.abs(at + 0.5 - whole / 2) > (scale * part) / 2 + 1;
+  let drawn = 0;
+  for (let row = 0; row < over.height; row++) {
+    for (let column = 0; column < over.width; column++) {
+      if (data[4 * (row * over.width + column) + 3] > 0 && (isOutside(column, over.width, image.width) || isOutside(row, over.height, image.height))) drawn++;
+    }
+  }
+  return drawn;
 }
