@@ -19,16 +19,6 @@ pub(crate) struct Bundle {
     length: usize,
 }
 
-impl Piece {
-    /// As a message of its own.
-    pub(crate) fn message(self) -> Message {
-        match self {
-            Self::Text(text) => Message::text(text),
-            Self::Frame(bytes) => Message::binary(bytes),
-        }
-    }
-}
-
 impl Bundle {
     pub(crate) fn length(&self) -> usize {
         self.length

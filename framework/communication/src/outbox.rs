@@ -127,13 +127,10 @@ impl Outbox {
         if self.frames.is_some() {
             return self.frames.take();
         }
-        let first = self.next_piece()?;
-        if !self.is_bundling {
-            return Some(first.message());
-        }
         let mut bundle = Bundle::default();
-        bundle.add(first);
-        while bundle.length() < BUNDLE
+        bundle.add(self.next_piece()?);
+        while self.is_bundling
+            && bundle.length() < BUNDLE
             && let Some(piece) = self.next_piece()
         {
             bundle.add(piece);
