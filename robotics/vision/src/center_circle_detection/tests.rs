@@ -182,6 +182,25 @@ fn three_pieces_are_needed_and_what_the_camera_does_to_all_is_not_averaged_out()
 }
 
 #[test]
+fn a_line_inside_speaks_against_it_and_one_through_the_middle_or_near_the_edge_does_not() {
+    let center = Point2::new(2.0, 0.3);
+    let pieces = [0.3, 1.1, 2.5].map(|angle| piece(center, angle));
+    for (off, is_found) in [(0.0, true), (0.3, false), (-0.3, false), (0.65, true)] {
+        // Too short for a piece of the circle.
+        let [start, end] =
+            [-0.1, 0.1].map(|along| center + Rotation2::new(0.7) * Vector2::new(off, along));
+        let inside = LineSegment {
+            start,
+            end,
+            ..LineSegment::default()
+        };
+        let lines: Vec<_> = pieces.into_iter().chain([inside]).collect();
+        let circle = detect(&lines, &mut AdditionalProbe::unsubscribed());
+        assert_eq!(circle.is_some(), is_found, "{off}: {circle:?}");
+    }
+}
+
+#[test]
 fn the_circle_in_the_image_is_told_to_who_listens() {
     let center = Point2::new(2.0, 0.0);
     let lines = [0.3, 1.1, 2.5].map(|angle| piece(center, angle)).into();

@@ -216,6 +216,10 @@ fn where_nobody_would_see_it_go_on_there_is_no_corner() {
     let corners = look(&plain(), &lines, None, &limb(row(0.9)));
     assert_one(&corners, CornerKind::L, corner, None);
     assert_eq!(look(&plain(), &lines, None, &limb(row(1.35))), []);
+    // Where its line was seen on the other side it goes on, whatever hides the place.
+    let through = vec![lines[0], line((0.9, 0.0), (2.4, 0.0))];
+    let corners = look(&plain(), &through, None, &limb(row(1.35)));
+    assert_one(&corners, CornerKind::T, corner, Some(-Vector2::y()));
     // At the edge of the image, where the line to the left may go on.
     let half = camera_matrix(PITCH)
         .pixel_to_ground(Point2::new(20.0, row(1.5)), 0.0)
