@@ -9,6 +9,7 @@
 mod body;
 mod bytes;
 mod capture;
+mod digests;
 mod encode;
 mod ends;
 mod history;
@@ -25,6 +26,8 @@ pub use body::{Loaded, Recorded, Visit, digest};
 pub use bytes::{Loading, Reason, SaveError, Saving};
 pub(crate) use capture::{BEGUN, FINISHED, Written};
 pub use capture::{Capture, Head, PARAMETERS, Stored, VERSION, Values};
+pub(crate) use digests::DIGEST;
+pub use digests::Digests;
 pub use hulkgen_recording::{Counts, Settings};
 pub use inputs::{Foreign, Found};
 pub use output::Forms;

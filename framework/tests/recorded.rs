@@ -7,7 +7,9 @@ use framework::{
     Consumer, HistoricInput, History, Horizon, Interleaving, Reader, Series, Timestamp, Writer,
     buffer_of,
 };
-use hulkgen_recording::{Channel, ChannelId, Description, Recorded, Recorder, Recording, Settings};
+use hulkgen_recording::{
+    Channel, ChannelId, Description, Recorded, Recorder, Recording, Settings, Writing,
+};
 use proptest::prelude::*;
 
 const FRAMES: ChannelId = ChannelId(0);
@@ -136,10 +138,10 @@ impl Inputs {
         format!("{lanes:?} {:?} {newest:?} {history:?}", self.merged)
     }
 
-    fn save(&self, since: Option<Timestamp>, out: &mut Saving<'_, '_>) -> Result<(), SaveError> {
-        self.consumers.iter().try_for_each(|one| one.save(out))?;
-        self.newest.save(out)?;
-        self.history.save(since, out)
+    fn save(&self, since: Option<Timestamp>, out: &mut Saving<'_, '_>) {
+        self.consumers.iter().for_each(|one| one.save(out));
+        self.newest.save(out);
+        self.history.save(since, out);
     }
 }
 
@@ -161,6 +163,15 @@ fn description() -> Description {
         channels: channels.into(),
         ..Description::default()
     }
+}
+
+fn saved(
+    writing: &mut Writing<'_>,
+    save: impl FnOnce(&mut Saving<'_, '_>),
+) -> Result<(), SaveError> {
+    let mut saving = Saving::new(writing);
+    save(&mut saving);
+    saving.end()
 }
 
 /// Runs the steps; what each recorded cycle saw, in the order of their frames.
@@ -189,18 +200,18 @@ fn record(steps: &[Step], path: &std::path::Path) -> Vec<(Timestamp, String)> {
                 for (place, consumer) in inputs.consumers.iter().enumerate() {
                     consumer.values(&mut |cycle, _, value| {
                         frame.message(value_channel(place), cycle as u32, now, |writing| {
-                            Saving::new(writing).put(value)
+                            saved(writing, |out| out.put(value))
                         })
                     })?;
                 }
                 inputs.newest.values(&mut |cycle, _, value| {
                     frame.message(value_channel(2), cycle as u32, now, |writing| {
-                        Saving::new(writing).put(value)
+                        saved(writing, |out| out.put(value))
                     })
                 })?;
                 let since = since.filter(|_| !frame.is_first());
                 frame.message(FRAMES, now as u32, now, |writing| {
-                    inputs.save(since, &mut Saving::new(writing))
+                    saved(writing, |out| inputs.save(since, out))
                 })
             })
         });

@@ -75,7 +75,9 @@ impl Timed {
         let place = if is_fresh { self.place } else { 0 };
         let mut writing = Writing::new(&mut self.memory[place..place + SLICE]);
         let started = Instant::now();
-        let saved = instance.save_alone(self.since, &mut Saving::new(&mut writing));
+        let mut saving = Saving::new(&mut writing);
+        instance.save_alone(self.since, &mut saving);
+        let saved = saving.end();
         let took = nanos(started);
         saved.expect("the slice is longer than any frame");
         let length = writing.length();

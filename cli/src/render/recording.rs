@@ -15,6 +15,7 @@ use super::body::{argument, own, quote_generics, quote_shared};
 use super::database::database_modules;
 use super::layout::{self, doc};
 use super::spelling::{ident, path};
+use crate::model::cycler::OutputField;
 use crate::model::{CyclerModel, RuntimeModel};
 use outside::quote_outside;
 use replay::quote_replays;
@@ -86,10 +87,16 @@ fn quote_recorded(cycler: &CyclerModel) -> TokenStream {
     let save = quote_save(cycler);
     let describe = quote_describe(cycler);
     let load = quote_load(cycler);
-    let digests = quote_digests(cycler);
+    let digested = digested(cycler);
+    let names = digested
+        .iter()
+        .map(|OutputField { node, name, .. }| quote!((#node, #name)));
+    let digests = quote_digests(cycler, &digested);
     quote! {
         impl #bounded ::framework::recorded::Recorded for #name #arguments {
             type Outside = Outside;
+
+            const DIGESTED: &'static [(&'static str, &'static str)] = &[#(#names),*];
 
             #values
             #save
@@ -130,26 +137,25 @@ fn quote_values(cycler: &CyclerModel) -> TokenStream {
 fn quote_save(cycler: &CyclerModel) -> TokenStream {
     let parameters = cycler
         .has_parameters()
-        .then(|| quote!(self.parameters.save_version(out)?;));
+        .then(|| quote!(self.parameters.save_version(out);));
     let nodes = cycler.nodes.iter().map(|node| {
         let name = ident(&node.name);
-        quote!(self.nodes.#name.record(out)?;)
+        quote!(self.nodes.#name.record(out);)
     });
     let tape = quote_tape(cycler, Tape::Save);
+    let body = quote!(#parameters #(#nodes)* #tape);
     let shared = quote_shared(cycler);
     let slots = argument("slots", tape::uses_slots(cycler));
+    let out = argument("out", !body.is_empty());
     let since = argument("since", cycler.historic().next().is_some());
     quote! {
         fn save(
             &self,
             #slots: ::framework::Slots<'_, #shared>,
             #since: Option<::framework::Timestamp>,
-            out: &mut ::framework::recorded::Saving<'_, '_>,
-        ) -> Result<(), ::framework::recorded::SaveError> {
-            #parameters
-            #(#nodes)*
-            #tape
-            Ok(())
+            #out: &mut ::framework::recorded::Saving<'_, '_>,
+        ) {
+            #body
         }
     }
 }
@@ -227,39 +233,38 @@ fn quote_nodes(cycler: &CyclerModel) -> TokenStream {
     }
 }
 
-fn quote_digests(cycler: &CyclerModel) -> TokenStream {
+/// What is digested at the end of a frame, in the order of the nodes' calls.
+fn digested(cycler: &CyclerModel) -> Vec<&OutputField> {
     let called = cycler.cycle.nodes.iter().filter_map(|name| {
         let mut nodes = cycler.nodes.iter();
         nodes.find(|node| node.name == *name)
     });
-    let digests: Vec<_> = called
-        .flat_map(|node| {
-            let outputs = cycler.outputs.iter();
-            outputs.filter(|output| output.node == node.path)
-        })
-        .map(|output| {
-            let (node, name, field) = (&output.node, &output.name, ident(&output.name));
-            let value = if output.shared {
-                quote!(&shared.#field)
-            } else {
-                quote!(&self.own.previous().#field)
-            };
-            quote!(visit(#node, #name, ::framework::recorded::digest(#value)?);)
-        })
-        .collect();
-    let mut outputs = cycler.outputs.iter();
-    let uses_shared = outputs.any(|output| output.shared && !output.setup);
+    let outputs = called.flat_map(|node| {
+        let outputs = cycler.outputs.iter();
+        outputs.filter(|output| output.node == node.path)
+    });
+    outputs.collect()
+}
+
+fn quote_digests(cycler: &CyclerModel, digested: &[&OutputField]) -> TokenStream {
+    let values = digested.iter().map(|output| {
+        let field = ident(&output.name);
+        match output.shared {
+            true => quote!(digests.add(&shared.#field);),
+            false => quote!(digests.add(&self.own.previous().#field);),
+        }
+    });
+    let uses_shared = digested.iter().any(|output| output.shared);
     let shared = argument("shared", uses_shared);
-    let visit = argument("visit", !digests.is_empty());
+    let digests = argument("digests", !digested.is_empty());
     let shared_type = quote_shared(cycler);
     quote! {
         fn digests(
             &self,
             #shared: &#shared_type,
-            #visit: ::framework::recorded::Visit<'_>,
-        ) -> Result<(), ::framework::digest::DigestError> {
-            #(#digests)*
-            Ok(())
+            #digests: &mut ::framework::recorded::Digests<'_, '_>,
+        ) {
+            #(#values)*
         }
     }
 }

@@ -80,7 +80,8 @@ impl Recorder {
 pub(crate) fn bytes(instance: &mut dyn Instance, since: Option<Timestamp>) -> usize {
     let mut room = vec![0; ROOM];
     let mut writing = Writing::new(&mut room);
-    let saved = instance.save_alone(since, &mut Saving::new(&mut writing));
-    saved.expect("there is room for any frame");
-    writing.length() + DIGEST * instance.main_outputs().len()
+    let mut saving = Saving::new(&mut writing);
+    instance.save_alone(since, &mut saving);
+    saving.end().expect("there is room for any frame");
+    writing.length() + DIGEST * instance.digested().len()
 }

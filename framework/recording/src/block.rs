@@ -130,25 +130,19 @@ impl<'block> Writing<'block> {
     /// Appends so many bytes. Whether they had room, [`Self::is_full`] tells: whoever writes many asks once.
     #[inline]
     pub fn add<const BYTES: usize>(&mut self, bytes: [u8; BYTES]) {
-        match mem::take(&mut self.free).split_first_chunk_mut() {
-            Some((place, free)) => {
-                *place = bytes;
-                self.free = free;
-            }
-            None => self.refuse(),
-        }
+        self.add_all(&bytes);
     }
 
     /// As [`Self::add`].
     #[inline]
     pub fn add_all(&mut self, bytes: &[u8]) {
-        match mem::take(&mut self.free).split_at_mut_checked(bytes.len()) {
-            Some((place, free)) => {
-                place.copy_from_slice(bytes);
-                self.free = free;
-            }
-            None => self.refuse(),
+        // Asked before anything is taken, it is less code.
+        if self.free.len() < bytes.len() {
+            return self.refuse();
         }
+        let (place, free) = mem::take(&mut self.free).split_at_mut(bytes.len());
+        place.copy_from_slice(bytes);
+        self.free = free;
     }
 
     /// As [`Self::add`].

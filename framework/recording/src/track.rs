@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use crate::block::{Block, Full, Writing};
 use crate::pool::Pool;
@@ -11,6 +11,7 @@ use hulkgen_mcap::ChannelId;
 /// What became of the frames of one instance so far, to be read while it runs.
 #[derive(Debug, Default)]
 pub struct Counts {
+    wanted: AtomicU64,
     pub(crate) recorded: AtomicU64,
     pub(crate) dropped: AtomicU64,
     pub(crate) failed: AtomicU64,
@@ -19,6 +20,11 @@ pub struct Counts {
 }
 
 impl Counts {
+    /// Frames that were asked for, whatever became of them.
+    pub fn wanted(&self) -> u64 {
+        self.wanted.load(Ordering::Relaxed)
+    }
+
     /// Whole frames that were handed over, or are about to be.
     pub fn recorded(&self) -> u64 {
         self.recorded.load(Ordering::Relaxed)
@@ -57,8 +63,8 @@ pub struct Track {
     counts: Arc<Counts>,
     index: usize,
     block: Option<Block>,
-    /// When the block's first frame was written.
-    since: Instant,
+    /// The time of the block's first frame.
+    since: u64,
     longest: Duration,
 }
 
@@ -81,6 +87,13 @@ pub enum Recorded<E> {
     Failed(E),
 }
 
+/// On the track's thread alone. Relaxed: a count, and nobody else counts: no locked instruction, which would wait for all that was written before.
+#[inline]
+fn add_one(count: &AtomicU64) {
+    let more = count.load(Ordering::Relaxed) + 1;
+    count.store(more, Ordering::Relaxed);
+}
+
 impl Track {
     pub(crate) fn new(
         pool: Arc<Pool>,
@@ -93,7 +106,7 @@ impl Track {
             counts,
             index,
             block: None,
-            since: Instant::now(),
+            since: 0,
             longest,
         }
     }
@@ -101,6 +114,12 @@ impl Track {
     /// Its counts.
     pub fn counts(&self) -> &Arc<Counts> {
         &self.counts
+    }
+
+    /// Counts a frame that is asked for.
+    #[inline]
+    pub fn want(&mut self) {
+        add_one(&self.counts.wanted);
     }
 
     /// Writes one frame, at a time in nanoseconds of the run, and leaves `keep` bytes free for what its
@@ -114,14 +133,14 @@ impl Track {
         keep: usize,
         mut write: impl FnMut(&mut Frame<'_>) -> Result<(), E>,
     ) -> Recorded<E> {
-        if self.is_old() {
+        if self.is_old(time) {
             self.hand_over();
         }
         let mut is_new = false;
         loop {
             if self.block.is_none() {
                 is_new = true;
-                self.since = Instant::now();
+                self.since = time;
                 self.block = self.pool.take_empty();
             }
             let Some(block) = &mut self.block else {
@@ -139,9 +158,7 @@ impl Track {
             match written {
                 Ok(()) if !is_full => {
                     block.end_frame(time);
-                    // Relaxed: a count, and nobody else counts: no locked instruction, which would wait for all of the frame.
-                    let recorded = self.counts.recorded() + 1;
-                    self.counts.recorded.store(recorded, Ordering::Relaxed);
+                    add_one(&self.counts.recorded);
                     return Recorded::Whole;
                 }
                 Err(error) if !is_full => {
@@ -199,9 +216,10 @@ impl Track {
         Recorded::Dropped
     }
 
-    fn is_old(&self) -> bool {
-        self.block.as_ref().is_some_and(|block| !block.is_empty())
-            && self.since.elapsed() >= self.longest
+    // By the frames' own time: to look at the clock for each of them takes longer than to write some.
+    fn is_old(&self, time: u64) -> bool {
+        let lasts = Duration::from_nanos(time.saturating_sub(self.since));
+        self.block.as_ref().is_some_and(|block| !block.is_empty()) && lasts >= self.longest
     }
 
     /// Gives what is whole to the writer; the next frame is the first of a block.

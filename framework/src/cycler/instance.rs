@@ -3,11 +3,13 @@
 use std::sync::Arc;
 use std::time::Duration;
 
+use hulkgen_recording::Writing;
+
 use super::{Counters, Cycle, InstanceDescription, Reference};
 use crate::digest::DigestError;
 use crate::error::Result;
 use crate::guarded::State;
-use crate::recorded::{Capture, Forms, SaveError, Saving, Types, Visit};
+use crate::recorded::{Capture, DIGEST, Digests, Forms, SaveError, Saving, Types, Visit};
 use crate::reflect::Reflect;
 use crate::report::InstanceReport;
 use crate::subscriptions::Subscriptions;
@@ -81,23 +83,39 @@ pub trait Instance: Send {
     fn save(&mut self, capture: &mut Capture<'_, '_>) -> Result<(), SaveError>;
 
     /// Saves what stands in the frame itself, behind its head: of histories what came since that time, `None` for all of it.
-    ///
-    /// # Errors
-    /// As [`Instance::save`].
-    fn save_alone(
-        &mut self,
-        since: Option<Timestamp>,
-        out: &mut Saving<'_, '_>,
-    ) -> Result<(), SaveError>;
+    fn save_alone(&mut self, since: Option<Timestamp>, out: &mut Saving<'_, '_>);
 
     /// The types of what [`Instance::save`] writes.
     fn types(&self) -> Types;
 
-    /// Digests of what the nodes wrote in the last finished cycle, in the order of their calls.
+    /// Saves digests of what the nodes wrote in the last finished cycle, in the order of [`Instance::digested`].
+    fn save_digests(&self, digests: &mut Digests<'_, '_>);
+
+    /// What those are of: node and output, in the order of the nodes' calls.
+    fn digested(&self) -> &'static [(&'static str, &'static str)];
+
+    /// Digests of what the nodes wrote in the last finished cycle.
     ///
     /// # Errors
     /// If a value's own `Serialize` fails.
-    fn digests(&self, visit: Visit<'_>) -> Result<(), DigestError>;
+    fn digests(&self, visit: Visit<'_>) -> Result<(), DigestError> {
+        let digested = self.digested();
+        let length = digested.len() * DIGEST;
+        let mut bytes = vec![0; length];
+        let mut writing = Writing::new(&mut bytes);
+        let mut digests = Digests::new(&mut writing);
+        self.save_digests(&mut digests);
+        digests.end()?;
+        debug_assert!(
+            writing.length() == length && !writing.is_full(),
+            "what is digested is named, and nothing else"
+        );
+        let (digests, _) = bytes.as_chunks();
+        for ((node, output), digest) in digested.iter().zip(digests) {
+            visit(node, output, u64::from_le_bytes(*digest));
+        }
+        Ok(())
+    }
 }
 
 /// How a `wait` ended.

@@ -14,11 +14,10 @@ use super::{
 };
 use crate::buffer::Writer;
 use crate::clock::Clock;
-use crate::digest::DigestError;
 use crate::error::{Error, Result};
 use crate::guarded::{OnFailure, State, contain};
 use crate::logs;
-use crate::recorded::{self, Capture, Forms, Head, Recorded, SaveError, Saving, Types, Visit};
+use crate::recorded::{self, Capture, Digests, Forms, Head, Recorded, SaveError, Saving, Types};
 use crate::reflect::Reflect;
 use crate::report::{InstanceReport, NodeReport, SlotsReport};
 use crate::subscriptions::Subscriptions;
@@ -457,21 +456,21 @@ impl<B: Recorded> Instance for Cycler<B> {
         capture.frame(head, |since, out| self.save_alone(since, out))
     }
 
-    fn save_alone(
-        &mut self,
-        since: Option<Timestamp>,
-        out: &mut Saving<'_, '_>,
-    ) -> Result<(), SaveError> {
+    fn save_alone(&mut self, since: Option<Timestamp>, out: &mut Saving<'_, '_>) {
         let (current, previous) = self.writer.slots();
-        self.body.save(Slots { current, previous }, since, out)
+        self.body.save(Slots { current, previous }, since, out);
     }
 
     fn types(&self) -> Types {
         recorded::describe::<B>()
     }
 
-    fn digests(&self, visit: Visit<'_>) -> Result<(), DigestError> {
-        self.body.digests(&self.writer.newest().value, visit)
+    fn save_digests(&self, digests: &mut Digests<'_, '_>) {
+        self.body.digests(&self.writer.newest().value, digests);
+    }
+
+    fn digested(&self) -> &'static [(&'static str, &'static str)] {
+        B::DIGESTED
     }
 }
 

@@ -1,6 +1,6 @@
 //! The generated part: what a recording takes of one instance, and how a replay gives it back.
 
-use super::{Describing, Loading, SaveError, Saving, Stored, Values};
+use super::{Describing, Digests, Loading, SaveError, Saving, Stored, Values};
 use crate::cycler::{Body, Slots};
 use crate::digest::{Digest, DigestError};
 use crate::error::Result;
@@ -11,6 +11,9 @@ pub trait Recorded: Body {
     /// Writing ends of all that the body reads from elsewhere; in a replay nobody else has any.
     type Outside: Send;
 
+    /// What [`Recorded::digests`] adds a digest of: node and output, in the order of the nodes' calls.
+    const DIGESTED: &'static [(&'static str, &'static str)];
+
     /// Values that others wrote, which frames name by number.
     ///
     /// # Errors
@@ -19,15 +22,12 @@ pub trait Recorded: Body {
 
     /// The states of nodes, and all that the cycle took in `begin` or got of its setup nodes. Of historic outputs what came
     /// since that time, `None` for all of it.
-    ///
-    /// # Errors
-    /// If there is no room, or a value cannot be serialised.
     fn save(
         &self,
         slots: Slots<'_, Self::Shared>,
         since: Option<Timestamp>,
         out: &mut Saving<'_, '_>,
-    ) -> Result<(), SaveError>;
+    );
 
     /// The types of what [`Recorded::save`] writes, in its order.
     fn describe(types: &mut Describing<Self>)
@@ -46,12 +46,8 @@ pub trait Recorded: Body {
         stored: &Stored<'_>,
     ) -> Result<()>;
 
-    /// What the nodes wrote in the last finished cycle, in the order of their calls: node, output, digest.
-    /// What setup nodes wrote stands in the frame.
-    ///
-    /// # Errors
-    /// If a value's own `Serialize` fails.
-    fn digests(&self, shared: &Self::Shared, visit: Visit<'_>) -> Result<(), DigestError>;
+    /// Digests of what the nodes wrote in the last finished cycle. What setup nodes wrote stands in the frame.
+    fn digests(&self, shared: &Self::Shared, digests: &mut Digests<'_, '_>);
 }
 
 /// Is told of the digest of each output: node, output, digest.

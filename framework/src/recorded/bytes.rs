@@ -9,10 +9,12 @@ use serde::de::DeserializeOwned;
 use super::encode::{EncodeError, Encoder};
 use crate::error::{Error, Result};
 
-/// Values on their way into a frame.
+/// Values on their way into a frame. What goes wrong is told once, by [`Self::end`].
 #[derive(Debug)]
 pub struct Saving<'a, 'block> {
     writing: &'a mut Writing<'block>,
+    /// What the first value said that could not be serialised.
+    refused: Option<Reason>,
 }
 
 /// Values on their way out of a frame.
@@ -40,29 +42,48 @@ struct Text(String);
 impl<'a, 'block> Saving<'a, 'block> {
     /// Into this message.
     pub fn new(writing: &'a mut Writing<'block>) -> Self {
-        Self { writing }
+        Self {
+            writing,
+            refused: None,
+        }
     }
 
     /// Appends a value.
-    ///
-    /// # Errors
-    /// If there is no room, or the value cannot be serialised.
     #[inline(never)]
-    pub fn put<T: Serialize + ?Sized>(&mut self, value: &T) -> Result<(), SaveError> {
-        self.encode(|writing| value.serialize(Encoder(writing)))
+    pub fn put<T: Serialize + ?Sized>(&mut self, value: &T) {
+        self.put_here(value);
     }
 
-    /// Appends values, of which `write` fails as their own `Serialize` does.
+    /// As [`Self::put`], for values of which there are many types, each with little in it.
     #[inline]
-    pub(super) fn encode(
-        &mut self,
-        write: impl FnOnce(&mut Writing<'block>) -> Result<(), EncodeError>,
-    ) -> Result<(), SaveError> {
-        match write(self.writing) {
-            // Whatever the value makes of a refusal.
+    pub(super) fn put_here<T: Serialize + ?Sized>(&mut self, value: &T) {
+        if let Err(EncodeError(reason)) = value.serialize(Encoder(self.writing)) {
+            self.refuse(reason);
+        }
+    }
+
+    /// Appends these bytes.
+    #[inline]
+    pub(super) fn add<const BYTES: usize>(&mut self, bytes: [u8; BYTES]) {
+        self.writing.add(bytes);
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn refuse(&mut self, reason: Reason) {
+        self.refused.get_or_insert(reason);
+    }
+
+    /// Whether all of it was saved.
+    ///
+    /// # Errors
+    /// If there was no room, or a value could not be serialised.
+    pub fn end(self) -> Result<(), SaveError> {
+        match self.refused {
+            // Whatever a value makes of a refusal.
             _ if self.writing.is_full() => Err(SaveError::Full),
-            Err(EncodeError(reason)) => Err(SaveError::Value(reason)),
-            Ok(()) => Ok(()),
+            Some(reason) => Err(SaveError::Value(reason)),
+            None => Ok(()),
         }
     }
 }
@@ -163,7 +184,9 @@ mod tests {
     fn put(value: impl Serialize, room: usize) -> (Result<(), SaveError>, usize) {
         let mut bytes = vec![0; room];
         let mut writing = Writing::new(&mut bytes);
-        let put = Saving::new(&mut writing).put(&value);
+        let mut saving = Saving::new(&mut writing);
+        saving.put(&value);
+        let put = saving.end();
         (put, writing.length())
     }
 

@@ -46,22 +46,27 @@ pub(crate) type Channels = [(&'static str, ChannelId)];
 
 /// Which cycle of each input stands in the block, in the order of the calls of [`Values`].
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Written {
-    block: Vec<Option<u64>>,
+pub(crate) struct Written(Vec<Newest>);
+
+/// The newest cycle of one input that stands in the block.
+#[derive(Clone, Copy, Debug, Default)]
+struct Newest {
+    kept: Option<u64>,
     /// With the frame that is being written.
-    next: Vec<Option<u64>>,
+    next: Option<u64>,
 }
 
 impl Written {
     pub(crate) fn begin(&mut self, is_first: bool) {
-        self.next.clear();
-        if !is_first {
-            self.next.extend_from_slice(&self.block);
+        for input in &mut self.0 {
+            input.next = input.kept.filter(|_| !is_first);
         }
     }
 
     pub(crate) fn keep(&mut self) {
-        std::mem::swap(&mut self.block, &mut self.next);
+        for input in &mut self.0 {
+            input.kept = input.next;
+        }
     }
 }
 
@@ -112,16 +117,17 @@ impl<'block> Capture<'_, 'block> {
     pub fn frame(
         &mut self,
         mut head: Head,
-        save: impl FnOnce(Option<Timestamp>, &mut Saving<'_, '_>) -> Result<(), SaveError>,
+        save: impl FnOnce(Option<Timestamp>, &mut Saving<'_, '_>),
     ) -> Result<(), SaveError> {
         head.whole = self.frame.is_first();
         let since = self.since.filter(|_| !head.whole);
         let (sequence, time) = (head.number as u32, head.start.as_nanos());
         self.frame.message(self.own, sequence, time, |writing| {
             let mut out = Saving::new(writing);
-            out.put(&BEGUN)?;
-            out.put(&head)?;
-            save(since, &mut out)
+            out.add([BEGUN]);
+            out.put_here(&head);
+            save(since, &mut out);
+            out.end()
         })
     }
 }
@@ -162,10 +168,11 @@ impl Values<'_, '_> {
     }
 
     fn before(&mut self) -> Option<u64> {
-        if self.written.next.len() <= self.position {
-            self.written.next.resize(self.position + 1, None);
+        let Written(inputs) = &mut *self.written;
+        if inputs.len() <= self.position {
+            inputs.resize(self.position + 1, Newest::default());
         }
-        self.written.next[self.position]
+        inputs[self.position].next
     }
 
     fn put(
@@ -178,10 +185,12 @@ impl Values<'_, '_> {
         let channel = channels.find(|(known, _)| *known == name);
         let (_, channel) = channel
             .ok_or_else(|| SaveError::value(format!("`{name}` has no channel of values")))?;
-        self.written.next[self.position] = Some(cycle);
+        self.written.0[self.position].next = Some(cycle);
         let time = timestamp.as_nanos();
         self.frame.message(*channel, cycle as u32, time, |writing| {
-            Saving::new(writing).put(value)
+            let mut saving = Saving::new(writing);
+            saving.put(value);
+            saving.end()
         })
     }
 }

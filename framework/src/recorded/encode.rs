@@ -1,7 +1,7 @@
 //! Values of any type as postcard writes them, with as little code as that takes.
 //!
 //! A robot's cycle comes out of cold caches, the code that saves it included, of which every type has its own. So no number asks
-//! whether the one before had room: what had none is told behind the value, and nothing else can fail in most types.
+//! whether the one before had room: what had none is told once, at the end of the message, and nothing else can fail in most types.
 //!
 //! Invariant: the bytes are those of [`postcard::to_slice`].
 

@@ -3,8 +3,7 @@
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use super::encode::Encoder;
-use super::{Loading, SaveError, Saving, Stored};
+use super::{Loading, Saving, Stored};
 use crate::buffer::{Reader, Writer};
 use crate::error::Result;
 use crate::guarded::{Condition, Guarded, OnFailure, State};
@@ -14,22 +13,14 @@ use crate::time::Timestamp;
 
 impl<N: Serialize> Guarded<N> {
     /// Saves the node's state and what its failures left behind.
-    ///
-    /// # Errors
-    /// If there is no room, or the state cannot be serialised.
-    pub fn record(&self, out: &mut Saving<'_, '_>) -> Result<(), SaveError> {
+    #[inline]
+    pub fn record(&self, out: &mut Saving<'_, '_>) {
+        out.put_here(self.node());
         // As `Condition`, of which nothing is cloned.
         match self.failed() {
-            (broken, None, None) => out.encode(|writing| {
-                self.node().serialize(Encoder(writing))?;
-                // Nearly always: the same in less code.
-                writing.add([broken.into(), 0, 0]);
-                Ok(())
-            }),
-            condition => {
-                out.put(self.node())?;
-                out.put(&condition)
-            }
+            // Nearly always: the same in less code.
+            (broken, None, None) => out.add([broken.into(), 0, 0]),
+            condition => out.put(&condition),
         }
     }
 }
@@ -57,11 +48,8 @@ impl<N: Serialize + DeserializeOwned> Guarded<N> {
 
 impl<P> Reader<P> {
     /// Saves which version of the parameters it shows.
-    ///
-    /// # Errors
-    /// If there is no room.
-    pub fn save_version(&self, out: &mut Saving<'_, '_>) -> Result<(), SaveError> {
-        out.put(&self.view().cycle())
+    pub fn save_version(&self, out: &mut Saving<'_, '_>) {
+        out.put(&self.view().cycle());
     }
 }
 
@@ -85,11 +73,8 @@ impl<P: DeserializeOwned> Reader<P> {
 
 impl<I: Serialize> Reader<Injected<I>> {
     /// Saves what clients replace.
-    ///
-    /// # Errors
-    /// If there is no room, or a value cannot be serialised.
-    pub fn save_injected(&self, out: &mut Saving<'_, '_>) -> Result<(), SaveError> {
-        out.put(&self.view().value().get())
+    pub fn save_injected(&self, out: &mut Saving<'_, '_>) {
+        out.put(&self.view().value().get());
     }
 }
 
@@ -116,11 +101,8 @@ impl<I: Default + DeserializeOwned> Reader<Injected<I>> {
 
 impl<Request: Serialize, Response> Answerer<Request, Response> {
     /// Saves the call of this cycle.
-    ///
-    /// # Errors
-    /// If there is no room, or the request cannot be serialised.
-    pub fn save(&self, out: &mut Saving<'_, '_>) -> Result<(), SaveError> {
-        out.put(&self.request())
+    pub fn save(&self, out: &mut Saving<'_, '_>) {
+        out.put(&self.request());
     }
 }
 
@@ -158,8 +140,9 @@ mod tests {
     fn recorded(node: &Guarded<f32>) -> Vec<u8> {
         let mut room = [0; 200];
         let mut writing = Writing::new(&mut room);
-        let recorded = node.record(&mut Saving::new(&mut writing));
-        recorded.expect("there is room");
+        let mut saving = Saving::new(&mut writing);
+        node.record(&mut saving);
+        saving.end().expect("there is room");
         let length = writing.length();
         room[..length].to_vec()
     }

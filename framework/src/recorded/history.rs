@@ -3,31 +3,23 @@
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use super::{Loading, SaveError, Saving};
+use super::{Loading, Saving};
 use crate::error::Result;
 use crate::history::{History, Past};
 use crate::time::Timestamp;
 
 impl<T: Clone + Serialize> History<T> {
     /// Saves the values from `since` on, `None` for all of them.
-    ///
-    /// # Errors
-    /// If there is no room, or a value cannot be serialised.
-    pub fn save(
-        &self,
-        since: Option<Timestamp>,
-        out: &mut Saving<'_, '_>,
-    ) -> Result<(), SaveError> {
+    pub fn save(&self, since: Option<Timestamp>, out: &mut Saving<'_, '_>) {
         let all = self.project(|value| value);
         let is_newer = |index: &usize| since.is_none_or(|since| all.value(*index).0 >= since);
         let newer = (0..all.len()).rev().take_while(is_newer).count();
         let first = all.len() - newer;
-        out.put(&since.is_none())?;
-        out.put(&(newer as u32))?;
+        out.put(&since.is_none());
+        out.put(&(newer as u32));
         for index in first..all.len() {
-            out.put(&all.value(index))?;
+            out.put(&all.value(index));
         }
-        Ok(())
     }
 }
 

@@ -22,10 +22,7 @@ pub trait Foreign<T> {
     ) -> Result<(), SaveError>;
 
     /// Saves which cycles these are and how they are seen.
-    ///
-    /// # Errors
-    /// If there is no room.
-    fn save(&self, out: &mut Saving<'_, '_>) -> Result<(), SaveError>;
+    fn save(&self, out: &mut Saving<'_, '_>);
 
     /// How [`Foreign::save`] writes it.
     fn layout() -> Layout
@@ -65,14 +62,14 @@ impl<T> Foreign<T> for Reader<T> {
         }
     }
 
-    fn save(&self, out: &mut Saving<'_, '_>) -> Result<(), SaveError> {
+    fn save(&self, out: &mut Saving<'_, '_>) {
         let view = self.view();
         out.put(&Named {
             cycle: view.cycle(),
             timestamp: view.timestamp(),
             order: view.timestamp(),
-        })?;
-        out.put(&view.is_new())
+        });
+        out.put(&view.is_new());
     }
 
     fn layout() -> Layout {
@@ -111,17 +108,16 @@ impl<T> Foreign<T> for Consumer<T> {
         })
     }
 
-    fn save(&self, out: &mut Saving<'_, '_>) -> Result<(), SaveError> {
-        out.put(&(self.persistent() as u32))?;
-        out.put(&(self.visible() as u32))?;
+    fn save(&self, out: &mut Saving<'_, '_>) {
+        out.put(&(self.persistent() as u32));
+        out.put(&(self.visible() as u32));
         for (entry, order) in (0..self.visible()).filter_map(|index| self.entry(index)) {
             out.put(&Named {
                 cycle: entry.cycle,
                 timestamp: entry.timestamp,
                 order,
-            })?;
+            });
         }
-        Ok(())
     }
 
     fn layout() -> Layout {

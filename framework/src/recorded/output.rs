@@ -250,7 +250,9 @@ impl OutputRecorder {
             // Counted where it is dropped or cannot be written.
             let _: Recorded<SaveError> = self.track.frame(time, 0, |frame| {
                 frame.message(*channel, cycle.number as u32, time, |writing| {
-                    Saving::new(writing).put(value.as_serialize())
+                    let mut saving = Saving::new(writing);
+                    saving.put(value.as_serialize());
+                    saving.end()
                 })
             });
         }

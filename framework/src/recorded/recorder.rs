@@ -1,21 +1,20 @@
 //! The cycles of one instance on their way into a recording.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use hulkgen_recording::{ChannelId, Recorded, Track};
 
 use super::output::OutputRecorder;
-use super::{Capture, FINISHED, SaveError, Written};
+use super::{Capture, DIGEST, Digests, FINISHED, SaveError, Written};
 use crate::cycler::{Instance, Record};
 use crate::driver::Observer;
 use crate::reflect::{self, Path, binary};
 use crate::report::tell;
 use crate::time::Timestamp;
 
-/// Bytes of a message without its digests, and of one digest.
+/// Bytes of a message without its digests.
 const END: usize = 64;
-const DIGEST: usize = 8;
 
 /// Puts the cycles of one instance into a recording. It never waits and allocates nothing in the steady state.
 pub(super) struct CycleRecorder {
@@ -23,7 +22,8 @@ pub(super) struct CycleRecorder {
     pub(super) own: ChannelId,
     pub(super) channels: Arc<[(&'static str, ChannelId)]>,
     pub(super) wanted: Wanted,
-    pub(super) wanted_cycles: Arc<AtomicU64>,
+    /// Bytes that a frame leaves free for its end.
+    keep: usize,
     written: Written,
     /// When the last recorded cycle started.
     since: Option<Timestamp>,
@@ -101,19 +101,20 @@ impl Condition {
 }
 
 impl CycleRecorder {
+    /// Of an instance whose frames end with so many digests.
     pub(super) fn new(
         track: Track,
         own: ChannelId,
         channels: Arc<[(&'static str, ChannelId)]>,
         wanted: Wanted,
-        wanted_cycles: Arc<AtomicU64>,
+        digests: usize,
     ) -> Self {
         Self {
+            keep: END + DIGEST * digests,
             track,
             own,
             channels,
             wanted,
-            wanted_cycles,
             written: Written::default(),
             since: None,
             open: None,
@@ -137,20 +138,18 @@ impl CycleRecorder {
         if !self.wanted.next() {
             return;
         }
-        // Relaxed: a count, and nobody else counts: no locked instruction, which would wait for all that was written.
-        let wanted = self.wanted_cycles.load(Ordering::Relaxed) + 1;
-        self.wanted_cycles.store(wanted, Ordering::Relaxed);
+        self.track.want();
         let cycle = instance.cycle();
-        let keep = END + DIGEST * instance.main_outputs().len();
         let Self {
             track,
             own,
             channels,
             written,
             since,
+            keep,
             ..
         } = self;
-        let recorded = track.frame(cycle.time.start.as_nanos(), keep, |frame| {
+        let recorded = track.frame(cycle.time.start.as_nanos(), *keep, |frame| {
             instance.save(&mut Capture {
                 frame,
                 written: &mut *written,
@@ -178,9 +177,9 @@ impl CycleRecorder {
             let ended = self.track.end(time, |frame| {
                 frame.message(own, cycle.number as u32, time, |writing| {
                     writing.add([FINISHED]);
-                    let digested =
-                        instance.digests(&mut |_, _, digest| writing.add(digest.to_le_bytes()));
-                    match digested {
+                    let mut digests = Digests::new(writing);
+                    instance.save_digests(&mut digests);
+                    match digests.end() {
                         _ if writing.is_full() => Err(SaveError::Full),
                         Err(error) => Err(SaveError::value(error.to_string())),
                         Ok(()) => Ok(()),

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::atomic::AtomicBool;
 
 use hulkgen_mcap::layout::{self, Layouts};
 use hulkgen_recording::{
@@ -43,7 +43,8 @@ pub struct About {
 pub struct Recording {
     recorder: Recorder,
     observers: BTreeMap<&'static str, Box<dyn Observer>>,
-    wanted: Vec<(&'static str, Arc<AtomicU64>)>,
+    /// Those that may be recorded; behind their counts stand those of other tracks.
+    instances: Vec<&'static str>,
     logs: Option<LogRecorder>,
 }
 
@@ -111,14 +112,12 @@ impl Recording {
         let channels: Arc<[_]> = sources.zip(values).collect();
         let mut conditions = conditions(robot, &descriptions)?;
         let mut observers: BTreeMap<_, Box<dyn Observer>> = BTreeMap::new();
-        let mut wanted = Vec::new();
         for (index, (track, one)) in tracks.into_iter().zip(&descriptions).enumerate() {
-            let count = Arc::<AtomicU64>::default();
-            wanted.push((one.name, count.clone()));
             let asked = conditions.asked.remove(one.name).unwrap_or_default();
             let frames = Wanted::new(one.record, &conditions.of(one.name)).map(|which| {
                 let own = ChannelId(index as u16);
-                CycleRecorder::new(track, own, channels.clone(), which, count)
+                let digests = robot.instances[index].digested().len();
+                CycleRecorder::new(track, own, channels.clone(), which, digests)
             });
             let observer = CycleObserver {
                 frames,
@@ -132,7 +131,7 @@ impl Recording {
         Ok(Self {
             recorder,
             observers,
-            wanted,
+            instances: names,
             logs: logs.transpose()?,
         })
     }
@@ -157,11 +156,11 @@ impl Recording {
 
     /// What became of the cycles so far, to be asked while the robot runs.
     pub fn counts(&self) -> Vec<InstanceRecorded> {
-        let counts = self.recorder.counts().zip(&self.wanted);
+        let counts = self.recorder.counts().zip(&self.instances);
         counts
-            .map(|((_, counts), (instance, wanted))| InstanceRecorded {
+            .map(|((_, counts), instance)| InstanceRecorded {
                 instance,
-                wanted: wanted.load(Ordering::Relaxed),
+                wanted: counts.wanted(),
                 recorded: counts.recorded(),
                 dropped: counts.dropped(),
                 failed: counts.failed(),

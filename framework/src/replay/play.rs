@@ -68,13 +68,8 @@ pub struct Frame<'r> {
 impl<'r> Frame<'r> {
     /// Digests in the order in which the outputs were written; `None`: the cycle was not finished.
     pub fn digests(&self) -> Option<impl Iterator<Item = u64> + use<'r>> {
-        let whole = self.end?.chunks_exact(8);
-        Some(whole.map(|bytes| {
-            bytes
-                .iter()
-                .rev()
-                .fold(0, |all, byte| all << 8 | u64::from(*byte))
-        }))
+        let (whole, _) = self.end?.as_chunks();
+        Some(whole.iter().copied().map(u64::from_le_bytes))
     }
 }
 
@@ -420,7 +415,9 @@ fn left_behind(instance: &mut dyn Instance, room: &mut usize) -> Result<Vec<u8>>
     loop {
         let mut bytes = vec![0; *room];
         let mut writing = Writing::new(&mut bytes);
-        match instance.save_alone(None, &mut Saving::new(&mut writing)) {
+        let mut saving = Saving::new(&mut writing);
+        instance.save_alone(None, &mut saving);
+        match saving.end() {
             Err(SaveError::Full) => *room *= 2,
             saved => {
                 saved.map_err(|error| Error::new(error.to_string()))?;

@@ -3,9 +3,8 @@
 use std::time::Duration;
 
 use framework::cycler::Reference;
-use framework::digest::DigestError;
 use framework::recorded::{
-    self, Describing, Loaded, Loading, Recorded, SaveError, Saving, Stored, Values, Visit,
+    Describing, Digests, Loaded, Loading, Recorded, SaveError, Saving, Stored, Values,
 };
 use framework::report::Allocations;
 use framework::{
@@ -118,20 +117,17 @@ impl Body for Adding {
 impl Recorded for Adding {
     type Outside = ();
 
+    const DIGESTED: &'static [(&'static str, &'static str)] = &[("adding", "sums")];
+
     fn values(&self, _: &mut Values<'_, '_>) -> Result<(), SaveError> {
         Ok(())
     }
 
-    fn save(
-        &self,
-        slots: Slots<'_, Self::Shared>,
-        _: Option<Timestamp>,
-        out: &mut Saving<'_, '_>,
-    ) -> Result<(), SaveError> {
-        self.nodes.iter().try_for_each(|node| node.record(out))?;
-        self.injections.save_injected(out)?;
-        self.procedure.save(out)?;
-        out.put(slots.previous)
+    fn save(&self, slots: Slots<'_, Self::Shared>, _: Option<Timestamp>, out: &mut Saving<'_, '_>) {
+        self.nodes.iter().for_each(|node| node.record(out));
+        self.injections.save_injected(out);
+        self.procedure.save(out);
+        out.put(slots.previous);
     }
 
     fn describe(types: &mut Describing<Self>) {
@@ -148,9 +144,8 @@ impl Recorded for Adding {
         Err(framework::Error::new("nobody replays it"))
     }
 
-    fn digests(&self, shared: &Self::Shared, visit: Visit<'_>) -> Result<(), DigestError> {
-        visit("adding", "sums", recorded::digest(shared)?);
-        Ok(())
+    fn digests(&self, shared: &Self::Shared, digests: &mut Digests<'_, '_>) {
+        digests.add(shared);
     }
 }
 

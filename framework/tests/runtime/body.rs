@@ -5,9 +5,8 @@ use std::time::{Duration, Instant};
 
 use framework::LiveParameters;
 use framework::cycler::{Reference, ReferenceKind};
-use framework::digest::DigestError;
 use framework::recorded::{
-    Describing, Loaded, Loading, Recorded, SaveError, Saving, Stored, Values, Visit,
+    Describing, Digests, Loaded, Loading, Recorded, SaveError, Saving, Stored, Values,
 };
 use framework::{
     Access, AdditionalOutput, AdditionalSlot, Answerer, Body, Consumer, Cycle, Cycler, Guarded,
@@ -208,18 +207,13 @@ impl TestBody {
 impl Recorded for TestBody {
     type Outside = ();
 
+    const DIGESTED: &'static [(&'static str, &'static str)] = &[];
+
     fn values(&self, _: &mut Values<'_, '_>) -> Result<(), SaveError> {
         Ok(())
     }
 
-    fn save(
-        &self,
-        _: Slots<'_, SharedOutputs>,
-        _: Option<Timestamp>,
-        _: &mut Saving<'_, '_>,
-    ) -> Result<(), SaveError> {
-        Ok(())
-    }
+    fn save(&self, _: Slots<'_, SharedOutputs>, _: Option<Timestamp>, _: &mut Saving<'_, '_>) {}
 
     fn describe(_: &mut Describing<Self>) {}
 
@@ -233,9 +227,7 @@ impl Recorded for TestBody {
         Ok(())
     }
 
-    fn digests(&self, _: &SharedOutputs, _: Visit<'_>) -> Result<(), DigestError> {
-        Ok(())
-    }
+    fn digests(&self, _: &SharedOutputs, _: &mut Digests<'_, '_>) {}
 }
 
 impl Body for TestBody {

@@ -18,8 +18,8 @@ use framework::Timestamp;
 use framework::Writer;
 use framework::buffer;
 use framework::buffer_of;
-use framework::digest::DigestError;
 use framework::recorded::Describing;
+use framework::recorded::Digests;
 use framework::recorded::Loaded;
 use framework::recorded::Loading;
 use framework::recorded::Recorded;
@@ -27,8 +27,6 @@ use framework::recorded::SaveError;
 use framework::recorded::Saving;
 use framework::recorded::Stored;
 use framework::recorded::Values;
-use framework::recorded::Visit;
-use framework::recorded::digest;
 use framework::replay::Alone;
 use framework::replay::Replay;
 use hardware::MicrophoneInterface;
@@ -52,6 +50,9 @@ pub struct Outside {
 
 impl<Hardware: MicrophoneInterface + Send + Sync> Recorded for Audio<Hardware> {
     type Outside = Outside;
+    const DIGESTED: &'static [(&'static str, &'static str)] = &[
+        ("audio::whistle_detection", "whistle_evidence"),
+    ];
 
     fn values(&self, values: &mut Values<'_, '_>) -> Result<(), SaveError> {
         values.parameters(&self.parameters)?;
@@ -63,14 +64,13 @@ impl<Hardware: MicrophoneInterface + Send + Sync> Recorded for Audio<Hardware> {
         _slots: Slots<'_, SharedOutputs>,
         _since: Option<Timestamp>,
         out: &mut Saving<'_, '_>,
-    ) -> Result<(), SaveError> {
-        self.parameters.save_version(out)?;
-        self.nodes.microphone_recorder.record(out)?;
-        self.nodes.whistle_detection.record(out)?;
-        self.injections.save_injected(out)?;
-        out.put(&self.own.current().audio_block)?;
-        out.put(&self.subscribed)?;
-        Ok(())
+    ) {
+        self.parameters.save_version(out);
+        self.nodes.microphone_recorder.record(out);
+        self.nodes.whistle_detection.record(out);
+        self.injections.save_injected(out);
+        out.put(&self.own.current().audio_block);
+        out.put(&self.subscribed);
     }
 
     fn describe(types: &mut Describing<Self>) {
@@ -98,17 +98,8 @@ impl<Hardware: MicrophoneInterface + Send + Sync> Recorded for Audio<Hardware> {
         Ok(())
     }
 
-    fn digests(
-        &self,
-        shared: &SharedOutputs,
-        visit: Visit<'_>,
-    ) -> Result<(), DigestError> {
-        visit(
-            "audio::whistle_detection",
-            "whistle_evidence",
-            digest(&shared.whistle_evidence)?,
-        );
-        Ok(())
+    fn digests(&self, shared: &SharedOutputs, digests: &mut Digests<'_, '_>) {
+        digests.add(&shared.whistle_evidence);
     }
 }
 

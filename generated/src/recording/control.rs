@@ -22,9 +22,9 @@ use framework::Timestamp;
 use framework::Writer;
 use framework::buffer;
 use framework::buffer_of;
-use framework::digest::DigestError;
 use framework::procedure;
 use framework::recorded::Describing;
+use framework::recorded::Digests;
 use framework::recorded::Foreign;
 use framework::recorded::Loaded;
 use framework::recorded::Loading;
@@ -33,8 +33,6 @@ use framework::recorded::SaveError;
 use framework::recorded::Saving;
 use framework::recorded::Stored;
 use framework::recorded::Values;
-use framework::recorded::Visit;
-use framework::recorded::digest;
 use framework::replay::Alone;
 use framework::replay::Replay;
 use hardware::ActuatorInterface;
@@ -75,6 +73,49 @@ impl<
         + Send + Sync,
 > Recorded for Control<Hardware> {
     type Outside = Outside;
+    const DIGESTED: &'static [(&'static str, &'static str)] = &[
+        ("control::button_filter", "buttons"),
+        ("control::sonar_filter", "sonar_distances"),
+        ("control::orientation_filter", "orientation"),
+        ("control::foot_pressure_filter", "sole_pressures"),
+        ("control::ground_contact_filter", "has_ground_contact"),
+        ("control::support_foot_filter", "support_side"),
+        ("control::forward_kinematics", "robot_kinematics"),
+        ("control::center_of_mass", "center_of_mass"),
+        ("control::fall_state_filter", "fall_state"),
+        ("control::odometry", "odometry"),
+        ("control::camera_matrices", "camera_matrices"),
+        ("control::game_controller_filter", "game_controller_state"),
+        ("control::team_message_filter", "teammates"),
+        ("control::whistle_filter", "whistle"),
+        ("control::game_state_filter", "primary_state"),
+        ("control::localization", "ground_to_field"),
+        ("control::ball_filter", "ball"),
+        ("control::obstacle_filter", "obstacles"),
+        ("control::team_ball_filter", "team_ball"),
+        ("control::role_assignment", "goalkeeper"),
+        ("control::role_assignment", "role"),
+        ("control::world_state_composer", "world_state"),
+        ("control::client_wishes", "client_wish"),
+        ("control::behavior", "activity"),
+        ("control::behavior", "motion_command"),
+        ("control::recording_switch", "is_recording_wanted"),
+        ("control::motion_selector", "motion_selection"),
+        ("control::motion_dispatcher", "dispatch_commands"),
+        ("control::stand", "stand_commands"),
+        ("control::penalized_pose", "penalized_commands"),
+        ("control::sit_down", "sit_down_commands"),
+        ("control::walking_engine", "walk_commands"),
+        ("control::scripted_motion", "script_commands"),
+        ("control::look_around", "look_around"),
+        ("control::look_at", "look_at"),
+        ("control::head_motion", "head_command"),
+        ("control::motor_commands_collector", "motor_commands"),
+        ("control::led_status", "leds"),
+        ("control::tone_selector", "tone"),
+        ("control::self_report", "self_report"),
+        ("control::self_report", "team_report"),
+    ];
 
     fn values(&self, values: &mut Values<'_, '_>) -> Result<(), SaveError> {
         values.parameters(&self.parameters)?;
@@ -90,66 +131,65 @@ impl<
         _slots: Slots<'_, SharedOutputs>,
         since: Option<Timestamp>,
         out: &mut Saving<'_, '_>,
-    ) -> Result<(), SaveError> {
-        self.parameters.save_version(out)?;
-        self.nodes.sensor_data_receiver.record(out)?;
-        self.nodes.button_filter.record(out)?;
-        self.nodes.sonar_filter.record(out)?;
-        self.nodes.orientation_filter.record(out)?;
-        self.nodes.foot_pressure_filter.record(out)?;
-        self.nodes.ground_contact_filter.record(out)?;
-        self.nodes.support_foot_filter.record(out)?;
-        self.nodes.forward_kinematics.record(out)?;
-        self.nodes.center_of_mass.record(out)?;
-        self.nodes.fall_state_filter.record(out)?;
-        self.nodes.odometry.record(out)?;
-        self.nodes.camera_matrices.record(out)?;
-        self.nodes.game_controller_filter.record(out)?;
-        self.nodes.team_message_filter.record(out)?;
-        self.nodes.whistle_filter.record(out)?;
-        self.nodes.game_state_filter.record(out)?;
-        self.nodes.localization.record(out)?;
-        self.nodes.ball_filter.record(out)?;
-        self.nodes.obstacle_filter.record(out)?;
-        self.nodes.team_ball_filter.record(out)?;
-        self.nodes.role_assignment.record(out)?;
-        self.nodes.world_state_composer.record(out)?;
-        self.nodes.client_wishes.record(out)?;
-        self.nodes.behavior.record(out)?;
-        self.nodes.recording_switch.record(out)?;
-        self.nodes.motion_selector.record(out)?;
-        self.nodes.motion_dispatcher.record(out)?;
-        self.nodes.stand.record(out)?;
-        self.nodes.penalized_pose.record(out)?;
-        self.nodes.sit_down.record(out)?;
-        self.nodes.walking_engine.record(out)?;
-        self.nodes.scripted_motion.record(out)?;
-        self.nodes.look_around.record(out)?;
-        self.nodes.look_at.record(out)?;
-        self.nodes.head_motion.record(out)?;
-        self.nodes.motor_commands_collector.record(out)?;
-        self.nodes.led_status.record(out)?;
-        self.nodes.tone_selector.record(out)?;
-        self.nodes.tone_player.record(out)?;
-        self.nodes.self_report.record(out)?;
-        self.nodes.game_controller_responder.record(out)?;
-        self.nodes.team_message_sender.record(out)?;
-        self.nodes.command_sender.record(out)?;
-        out.put(&self.cycler_state)?;
-        self.historic.odometry.save(since, out)?;
-        self.injections.save_injected(out)?;
-        out.put(&self.own.current().sensor_data)?;
-        Foreign::save(&self.perception.vision_top, out)?;
-        Foreign::save(&self.perception.vision_bottom, out)?;
-        Foreign::save(&self.perception.spl_network, out)?;
-        Foreign::save(&self.perception.audio, out)?;
-        out.put(&self.own.previous().head_command)?;
-        out.put(&self.own.previous().motor_commands)?;
-        self.procedures.look_at.save(out)?;
-        self.procedures.motion.save(out)?;
-        self.procedures.walk.save(out)?;
-        out.put(&self.subscribed)?;
-        Ok(())
+    ) {
+        self.parameters.save_version(out);
+        self.nodes.sensor_data_receiver.record(out);
+        self.nodes.button_filter.record(out);
+        self.nodes.sonar_filter.record(out);
+        self.nodes.orientation_filter.record(out);
+        self.nodes.foot_pressure_filter.record(out);
+        self.nodes.ground_contact_filter.record(out);
+        self.nodes.support_foot_filter.record(out);
+        self.nodes.forward_kinematics.record(out);
+        self.nodes.center_of_mass.record(out);
+        self.nodes.fall_state_filter.record(out);
+        self.nodes.odometry.record(out);
+        self.nodes.camera_matrices.record(out);
+        self.nodes.game_controller_filter.record(out);
+        self.nodes.team_message_filter.record(out);
+        self.nodes.whistle_filter.record(out);
+        self.nodes.game_state_filter.record(out);
+        self.nodes.localization.record(out);
+        self.nodes.ball_filter.record(out);
+        self.nodes.obstacle_filter.record(out);
+        self.nodes.team_ball_filter.record(out);
+        self.nodes.role_assignment.record(out);
+        self.nodes.world_state_composer.record(out);
+        self.nodes.client_wishes.record(out);
+        self.nodes.behavior.record(out);
+        self.nodes.recording_switch.record(out);
+        self.nodes.motion_selector.record(out);
+        self.nodes.motion_dispatcher.record(out);
+        self.nodes.stand.record(out);
+        self.nodes.penalized_pose.record(out);
+        self.nodes.sit_down.record(out);
+        self.nodes.walking_engine.record(out);
+        self.nodes.scripted_motion.record(out);
+        self.nodes.look_around.record(out);
+        self.nodes.look_at.record(out);
+        self.nodes.head_motion.record(out);
+        self.nodes.motor_commands_collector.record(out);
+        self.nodes.led_status.record(out);
+        self.nodes.tone_selector.record(out);
+        self.nodes.tone_player.record(out);
+        self.nodes.self_report.record(out);
+        self.nodes.game_controller_responder.record(out);
+        self.nodes.team_message_sender.record(out);
+        self.nodes.command_sender.record(out);
+        out.put(&self.cycler_state);
+        self.historic.odometry.save(since, out);
+        self.injections.save_injected(out);
+        out.put(&self.own.current().sensor_data);
+        Foreign::save(&self.perception.vision_top, out);
+        Foreign::save(&self.perception.vision_bottom, out);
+        Foreign::save(&self.perception.spl_network, out);
+        Foreign::save(&self.perception.audio, out);
+        out.put(&self.own.previous().head_command);
+        out.put(&self.own.previous().motor_commands);
+        self.procedures.look_at.save(out);
+        self.procedures.motion.save(out);
+        self.procedures.walk.save(out);
+        out.put(&self.subscribed);
     }
 
     fn describe(types: &mut Describing<Self>) {
@@ -302,189 +342,48 @@ impl<
         Ok(())
     }
 
-    fn digests(
-        &self,
-        shared: &SharedOutputs,
-        visit: Visit<'_>,
-    ) -> Result<(), DigestError> {
-        visit(
-            "control::button_filter",
-            "buttons",
-            digest(&self.own.previous().buttons)?,
-        );
-        visit(
-            "control::sonar_filter",
-            "sonar_distances",
-            digest(&self.own.previous().sonar_distances)?,
-        );
-        visit(
-            "control::orientation_filter",
-            "orientation",
-            digest(&self.own.previous().orientation)?,
-        );
-        visit(
-            "control::foot_pressure_filter",
-            "sole_pressures",
-            digest(&self.own.previous().sole_pressures)?,
-        );
-        visit(
-            "control::ground_contact_filter",
-            "has_ground_contact",
-            digest(&self.own.previous().has_ground_contact)?,
-        );
-        visit(
-            "control::support_foot_filter",
-            "support_side",
-            digest(&self.own.previous().support_side)?,
-        );
-        visit(
-            "control::forward_kinematics",
-            "robot_kinematics",
-            digest(&shared.robot_kinematics)?,
-        );
-        visit(
-            "control::center_of_mass",
-            "center_of_mass",
-            digest(&self.own.previous().center_of_mass)?,
-        );
-        visit(
-            "control::fall_state_filter",
-            "fall_state",
-            digest(&self.own.previous().fall_state)?,
-        );
-        visit("control::odometry", "odometry", digest(&self.own.previous().odometry)?);
-        visit(
-            "control::camera_matrices",
-            "camera_matrices",
-            digest(&shared.camera_matrices)?,
-        );
-        visit(
-            "control::game_controller_filter",
-            "game_controller_state",
-            digest(&self.own.previous().game_controller_state)?,
-        );
-        visit(
-            "control::team_message_filter",
-            "teammates",
-            digest(&self.own.previous().teammates)?,
-        );
-        visit(
-            "control::whistle_filter",
-            "whistle",
-            digest(&self.own.previous().whistle)?,
-        );
-        visit(
-            "control::game_state_filter",
-            "primary_state",
-            digest(&self.own.previous().primary_state)?,
-        );
-        visit(
-            "control::localization",
-            "ground_to_field",
-            digest(&self.own.previous().ground_to_field)?,
-        );
-        visit("control::ball_filter", "ball", digest(&self.own.previous().ball)?);
-        visit(
-            "control::obstacle_filter",
-            "obstacles",
-            digest(&self.own.previous().obstacles)?,
-        );
-        visit(
-            "control::team_ball_filter",
-            "team_ball",
-            digest(&self.own.previous().team_ball)?,
-        );
-        visit(
-            "control::role_assignment",
-            "goalkeeper",
-            digest(&self.own.previous().goalkeeper)?,
-        );
-        visit("control::role_assignment", "role", digest(&self.own.previous().role)?);
-        visit(
-            "control::world_state_composer",
-            "world_state",
-            digest(&self.own.previous().world_state)?,
-        );
-        visit(
-            "control::client_wishes",
-            "client_wish",
-            digest(&self.own.previous().client_wish)?,
-        );
-        visit("control::behavior", "activity", digest(&self.own.previous().activity)?);
-        visit(
-            "control::behavior",
-            "motion_command",
-            digest(&self.own.previous().motion_command)?,
-        );
-        visit(
-            "control::recording_switch",
-            "is_recording_wanted",
-            digest(&self.own.previous().is_recording_wanted)?,
-        );
-        visit(
-            "control::motion_selector",
-            "motion_selection",
-            digest(&self.own.previous().motion_selection)?,
-        );
-        visit(
-            "control::motion_dispatcher",
-            "dispatch_commands",
-            digest(&self.own.previous().dispatch_commands)?,
-        );
-        visit(
-            "control::stand",
-            "stand_commands",
-            digest(&self.own.previous().stand_commands)?,
-        );
-        visit(
-            "control::penalized_pose",
-            "penalized_commands",
-            digest(&self.own.previous().penalized_commands)?,
-        );
-        visit(
-            "control::sit_down",
-            "sit_down_commands",
-            digest(&self.own.previous().sit_down_commands)?,
-        );
-        visit(
-            "control::walking_engine",
-            "walk_commands",
-            digest(&self.own.previous().walk_commands)?,
-        );
-        visit(
-            "control::scripted_motion",
-            "script_commands",
-            digest(&self.own.previous().script_commands)?,
-        );
-        visit(
-            "control::look_around",
-            "look_around",
-            digest(&self.own.previous().look_around)?,
-        );
-        visit("control::look_at", "look_at", digest(&self.own.previous().look_at)?);
-        visit(
-            "control::head_motion",
-            "head_command",
-            digest(&self.own.previous().head_command)?,
-        );
-        visit(
-            "control::motor_commands_collector",
-            "motor_commands",
-            digest(&self.own.previous().motor_commands)?,
-        );
-        visit("control::led_status", "leds", digest(&self.own.previous().leds)?);
-        visit("control::tone_selector", "tone", digest(&self.own.previous().tone)?);
-        visit(
-            "control::self_report",
-            "self_report",
-            digest(&self.own.previous().self_report)?,
-        );
-        visit(
-            "control::self_report",
-            "team_report",
-            digest(&self.own.previous().team_report)?,
-        );
-        Ok(())
+    fn digests(&self, shared: &SharedOutputs, digests: &mut Digests<'_, '_>) {
+        digests.add(&self.own.previous().buttons);
+        digests.add(&self.own.previous().sonar_distances);
+        digests.add(&self.own.previous().orientation);
+        digests.add(&self.own.previous().sole_pressures);
+        digests.add(&self.own.previous().has_ground_contact);
+        digests.add(&self.own.previous().support_side);
+        digests.add(&shared.robot_kinematics);
+        digests.add(&self.own.previous().center_of_mass);
+        digests.add(&self.own.previous().fall_state);
+        digests.add(&self.own.previous().odometry);
+        digests.add(&shared.camera_matrices);
+        digests.add(&self.own.previous().game_controller_state);
+        digests.add(&self.own.previous().teammates);
+        digests.add(&self.own.previous().whistle);
+        digests.add(&self.own.previous().primary_state);
+        digests.add(&self.own.previous().ground_to_field);
+        digests.add(&self.own.previous().ball);
+        digests.add(&self.own.previous().obstacles);
+        digests.add(&self.own.previous().team_ball);
+        digests.add(&self.own.previous().goalkeeper);
+        digests.add(&self.own.previous().role);
+        digests.add(&self.own.previous().world_state);
+        digests.add(&self.own.previous().client_wish);
+        digests.add(&self.own.previous().activity);
+        digests.add(&self.own.previous().motion_command);
+        digests.add(&self.own.previous().is_recording_wanted);
+        digests.add(&self.own.previous().motion_selection);
+        digests.add(&self.own.previous().dispatch_commands);
+        digests.add(&self.own.previous().stand_commands);
+        digests.add(&self.own.previous().penalized_commands);
+        digests.add(&self.own.previous().sit_down_commands);
+        digests.add(&self.own.previous().walk_commands);
+        digests.add(&self.own.previous().script_commands);
+        digests.add(&self.own.previous().look_around);
+        digests.add(&self.own.previous().look_at);
+        digests.add(&self.own.previous().head_command);
+        digests.add(&self.own.previous().motor_commands);
+        digests.add(&self.own.previous().leds);
+        digests.add(&self.own.previous().tone);
+        digests.add(&self.own.previous().self_report);
+        digests.add(&self.own.previous().team_report);
     }
 }
 

@@ -17,8 +17,8 @@ use framework::Timestamp;
 use framework::Writer;
 use framework::buffer;
 use framework::buffer_of;
-use framework::digest::DigestError;
 use framework::recorded::Describing;
+use framework::recorded::Digests;
 use framework::recorded::Loaded;
 use framework::recorded::Loading;
 use framework::recorded::Recorded;
@@ -26,8 +26,6 @@ use framework::recorded::SaveError;
 use framework::recorded::Saving;
 use framework::recorded::Stored;
 use framework::recorded::Values;
-use framework::recorded::Visit;
-use framework::recorded::digest;
 use framework::replay::Alone;
 use framework::replay::Replay;
 use hardware::NetworkInterface;
@@ -51,6 +49,12 @@ pub struct Outside {
 
 impl<Hardware: NetworkInterface + Send + Sync> Recorded for SplNetwork<Hardware> {
     type Outside = Outside;
+    const DIGESTED: &'static [(&'static str, &'static str)] = &[
+        ("spl_network::game_controller_parser", "game_controller_counts"),
+        ("spl_network::game_controller_parser", "game_controller_packet"),
+        ("spl_network::team_message_parser", "team_message"),
+        ("spl_network::team_message_parser", "team_message_counts"),
+    ];
 
     fn values(&self, values: &mut Values<'_, '_>) -> Result<(), SaveError> {
         values.parameters(&self.parameters)?;
@@ -62,15 +66,14 @@ impl<Hardware: NetworkInterface + Send + Sync> Recorded for SplNetwork<Hardware>
         _slots: Slots<'_, SharedOutputs>,
         _since: Option<Timestamp>,
         out: &mut Saving<'_, '_>,
-    ) -> Result<(), SaveError> {
-        self.parameters.save_version(out)?;
-        self.nodes.message_receiver.record(out)?;
-        self.nodes.game_controller_parser.record(out)?;
-        self.nodes.team_message_parser.record(out)?;
-        self.injections.save_injected(out)?;
-        out.put(&self.own.current().datagram)?;
-        out.put(&self.subscribed)?;
-        Ok(())
+    ) {
+        self.parameters.save_version(out);
+        self.nodes.message_receiver.record(out);
+        self.nodes.game_controller_parser.record(out);
+        self.nodes.team_message_parser.record(out);
+        self.injections.save_injected(out);
+        out.put(&self.own.current().datagram);
+        out.put(&self.subscribed);
     }
 
     fn describe(types: &mut Describing<Self>) {
@@ -106,32 +109,11 @@ impl<Hardware: NetworkInterface + Send + Sync> Recorded for SplNetwork<Hardware>
         Ok(())
     }
 
-    fn digests(
-        &self,
-        shared: &SharedOutputs,
-        visit: Visit<'_>,
-    ) -> Result<(), DigestError> {
-        visit(
-            "spl_network::game_controller_parser",
-            "game_controller_counts",
-            digest(&self.own.previous().game_controller_counts)?,
-        );
-        visit(
-            "spl_network::game_controller_parser",
-            "game_controller_packet",
-            digest(&shared.game_controller_packet)?,
-        );
-        visit(
-            "spl_network::team_message_parser",
-            "team_message",
-            digest(&shared.team_message)?,
-        );
-        visit(
-            "spl_network::team_message_parser",
-            "team_message_counts",
-            digest(&self.own.previous().team_message_counts)?,
-        );
-        Ok(())
+    fn digests(&self, shared: &SharedOutputs, digests: &mut Digests<'_, '_>) {
+        digests.add(&self.own.previous().game_controller_counts);
+        digests.add(&shared.game_controller_packet);
+        digests.add(&shared.team_message);
+        digests.add(&self.own.previous().team_message_counts);
     }
 }
 

@@ -17,8 +17,8 @@ use framework::Timestamp;
 use framework::Writer;
 use framework::buffer;
 use framework::buffer_of;
-use framework::digest::DigestError;
 use framework::recorded::Describing;
+use framework::recorded::Digests;
 use framework::recorded::Foreign;
 use framework::recorded::Loaded;
 use framework::recorded::Loading;
@@ -27,8 +27,6 @@ use framework::recorded::SaveError;
 use framework::recorded::Saving;
 use framework::recorded::Stored;
 use framework::recorded::Values;
-use framework::recorded::Visit;
-use framework::recorded::digest;
 use framework::replay::Alone;
 use framework::replay::Replay;
 use hardware::CameraInterface;
@@ -55,6 +53,19 @@ pub struct Outside {
 
 impl<Hardware: CameraInterface + Send + Sync> Recorded for Vision<Hardware> {
     type Outside = Outside;
+    const DIGESTED: &'static [(&'static str, &'static str)] = &[
+        ("vision::camera_matrix_extractor", "camera_matrix"),
+        ("vision::limb_projector", "limb_mask"),
+        ("vision::field_color_detection", "field_color"),
+        ("vision::image_segmenter", "image_segments"),
+        ("vision::field_border", "field_border"),
+        ("vision::line_detection", "lines"),
+        ("vision::center_circle_detection", "center_circle"),
+        ("vision::corner_detection", "corners"),
+        ("vision::penalty_mark_detection", "penalty_mark"),
+        ("vision::ball_detection", "balls"),
+        ("vision::obstacle_detection", "obstacles"),
+    ];
 
     fn values(&self, values: &mut Values<'_, '_>) -> Result<(), SaveError> {
         values.parameters(&self.parameters)?;
@@ -67,25 +78,24 @@ impl<Hardware: CameraInterface + Send + Sync> Recorded for Vision<Hardware> {
         _slots: Slots<'_, SharedOutputs>,
         _since: Option<Timestamp>,
         out: &mut Saving<'_, '_>,
-    ) -> Result<(), SaveError> {
-        self.parameters.save_version(out)?;
-        self.nodes.image_receiver.record(out)?;
-        self.nodes.camera_matrix_extractor.record(out)?;
-        self.nodes.limb_projector.record(out)?;
-        self.nodes.field_color_detection.record(out)?;
-        self.nodes.image_segmenter.record(out)?;
-        self.nodes.field_border.record(out)?;
-        self.nodes.line_detection.record(out)?;
-        self.nodes.center_circle_detection.record(out)?;
-        self.nodes.corner_detection.record(out)?;
-        self.nodes.penalty_mark_detection.record(out)?;
-        self.nodes.ball_detection.record(out)?;
-        self.nodes.obstacle_detection.record(out)?;
-        self.injections.save_injected(out)?;
-        Foreign::save(&self.control, out)?;
-        out.put(&self.own.current().image)?;
-        out.put(&self.subscribed)?;
-        Ok(())
+    ) {
+        self.parameters.save_version(out);
+        self.nodes.image_receiver.record(out);
+        self.nodes.camera_matrix_extractor.record(out);
+        self.nodes.limb_projector.record(out);
+        self.nodes.field_color_detection.record(out);
+        self.nodes.image_segmenter.record(out);
+        self.nodes.field_border.record(out);
+        self.nodes.line_detection.record(out);
+        self.nodes.center_circle_detection.record(out);
+        self.nodes.corner_detection.record(out);
+        self.nodes.penalty_mark_detection.record(out);
+        self.nodes.ball_detection.record(out);
+        self.nodes.obstacle_detection.record(out);
+        self.injections.save_injected(out);
+        Foreign::save(&self.control, out);
+        out.put(&self.own.current().image);
+        out.put(&self.subscribed);
     }
 
     fn describe(types: &mut Describing<Self>) {
@@ -145,51 +155,18 @@ impl<Hardware: CameraInterface + Send + Sync> Recorded for Vision<Hardware> {
         Ok(())
     }
 
-    fn digests(
-        &self,
-        shared: &SharedOutputs,
-        visit: Visit<'_>,
-    ) -> Result<(), DigestError> {
-        visit(
-            "vision::camera_matrix_extractor",
-            "camera_matrix",
-            digest(&self.own.previous().camera_matrix)?,
-        );
-        visit(
-            "vision::limb_projector",
-            "limb_mask",
-            digest(&self.own.previous().limb_mask)?,
-        );
-        visit(
-            "vision::field_color_detection",
-            "field_color",
-            digest(&self.own.previous().field_color)?,
-        );
-        visit(
-            "vision::image_segmenter",
-            "image_segments",
-            digest(&self.own.previous().image_segments)?,
-        );
-        visit(
-            "vision::field_border",
-            "field_border",
-            digest(&self.own.previous().field_border)?,
-        );
-        visit("vision::line_detection", "lines", digest(&shared.lines)?);
-        visit(
-            "vision::center_circle_detection",
-            "center_circle",
-            digest(&shared.center_circle)?,
-        );
-        visit("vision::corner_detection", "corners", digest(&shared.corners)?);
-        visit(
-            "vision::penalty_mark_detection",
-            "penalty_mark",
-            digest(&shared.penalty_mark)?,
-        );
-        visit("vision::ball_detection", "balls", digest(&shared.balls)?);
-        visit("vision::obstacle_detection", "obstacles", digest(&shared.obstacles)?);
-        Ok(())
+    fn digests(&self, shared: &SharedOutputs, digests: &mut Digests<'_, '_>) {
+        digests.add(&self.own.previous().camera_matrix);
+        digests.add(&self.own.previous().limb_mask);
+        digests.add(&self.own.previous().field_color);
+        digests.add(&self.own.previous().image_segments);
+        digests.add(&self.own.previous().field_border);
+        digests.add(&shared.lines);
+        digests.add(&shared.center_circle);
+        digests.add(&shared.corners);
+        digests.add(&shared.penalty_mark);
+        digests.add(&shared.balls);
+        digests.add(&shared.obstacles);
     }
 }
 

@@ -21,7 +21,7 @@ pub(super) enum Tape {
 pub(super) fn quote_tape(cycler: &CyclerModel, tape: Tape) -> TokenStream {
     // States stand first; nodes that are created anew may need them, too.
     let states = cycler.has_states().then(|| match tape {
-        Tape::Save => quote!(out.put(&self.cycler_state)?;),
+        Tape::Save => quote!(out.put(&self.cycler_state);),
         Tape::Load => quote!(self.cycler_state = from.take()?;),
         Tape::Describe => quote!(types.state(|body| &body.cycler_state);),
     });
@@ -35,7 +35,7 @@ pub(super) fn quote_tape(cycler: &CyclerModel, tape: Tape) -> TokenStream {
         FrameField::CyclerState | FrameField::Parameters | FrameField::Instance(_) => quote!(),
         FrameField::Historic => historic(cycler, tape),
         FrameField::Injections => match tape {
-            Tape::Save => quote!(self.injections.save_injected(out)?;),
+            Tape::Save => quote!(self.injections.save_injected(out);),
             Tape::Load => {
                 quote!(self.injections.load_injected(from, &mut outside.injections)?;)
             }
@@ -52,7 +52,7 @@ pub(super) fn quote_tape(cycler: &CyclerModel, tape: Tape) -> TokenStream {
         }
         FrameField::Procedures => procedures(cycler, tape),
         FrameField::Subscribed => match tape {
-            Tape::Save => quote!(out.put(&self.subscribed)?;),
+            Tape::Save => quote!(out.put(&self.subscribed);),
             Tape::Load => quote!(self.subscribed = from.take()?;),
             Tape::Describe => quote!(types.subscribed(|body| &body.subscribed);),
         },
@@ -70,7 +70,7 @@ fn historic(cycler: &CyclerModel, tape: Tape) -> TokenStream {
     let outputs = cycler.historic().map(|output| {
         let name = ident(&output.name);
         match tape {
-            Tape::Save => quote!(self.historic.#name.save(since, out)?;),
+            Tape::Save => quote!(self.historic.#name.save(since, out);),
             Tape::Load => quote!(self.historic.#name.load(from)?;),
             Tape::Describe => {
                 let text = &output.name;
@@ -115,7 +115,7 @@ fn foreign(
     writer: &proc_macro2::Ident,
 ) -> TokenStream {
     match tape {
-        Tape::Save => quote!(::framework::recorded::Foreign::save(&self.#input, out)?;),
+        Tape::Save => quote!(::framework::recorded::Foreign::save(&self.#input, out);),
         Tape::Load => quote! {
             ::framework::recorded::Foreign::load(
                 &mut self.#input,
@@ -132,7 +132,7 @@ fn procedures(cycler: &CyclerModel, tape: Tape) -> TokenStream {
     let procedures = cycler.procedures.iter().map(|procedure| {
         let name = ident(&procedure.name);
         match tape {
-            Tape::Save => quote!(self.procedures.#name.save(out)?;),
+            Tape::Save => quote!(self.procedures.#name.save(out);),
             Tape::Load => quote!(self.procedures.#name.load(from)?;),
             Tape::Describe => {
                 let text = &procedure.name;
@@ -165,7 +165,7 @@ fn outputs(
     let statements = kept.map(|output| {
         let name = ident(&output.name);
         match tape {
-            Tape::Save => quote!(out.put(&#place.#name)?;),
+            Tape::Save => quote!(out.put(&#place.#name);),
             Tape::Load => quote!(#place.#name = from.take()?;),
             Tape::Describe => {
                 let function = describe_output(shared, of == "current");

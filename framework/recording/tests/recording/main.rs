@@ -72,6 +72,34 @@ fn nothing_is_overwritten() {
 }
 
 #[test]
+fn a_block_is_handed_over_when_its_frames_are_old() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("run.mcap");
+    let settings = Settings {
+        longest: Duration::from_secs(1),
+        ..settings()
+    };
+    let (recorder, mut tracks) =
+        Recorder::start(&path, description(), &["Control"], settings).expect("it is new");
+    let mut track = tracks.pop().expect("one was asked for");
+    // By their own time, which does not go back; and if it did, nothing would be lost.
+    let times = [5.0, 5.9, 6.0, 4.0, 6.9, 7.1, 7.2];
+    let firsts = times.map(|time| {
+        let time = (time * 1e9) as u64;
+        let mut is_first = false;
+        let recorded = track.frame::<Full>(time, 0, |frame| {
+            is_first = frame.is_first();
+            frame.message(FRAMES, 0, time, |writing| writing.put(b"0"))
+        });
+        assert_eq!(recorded, Recorded::Whole);
+        is_first
+    });
+    assert_eq!(firsts, [true, false, true, false, false, true, false]);
+    drop(track);
+    assert!(recorder.end().is_complete);
+}
+
+#[test]
 fn a_frame_that_does_not_fit_begins_the_next_block() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("run.mcap");

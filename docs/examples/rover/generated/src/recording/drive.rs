@@ -20,8 +20,8 @@ use framework::Timestamp;
 use framework::Writer;
 use framework::buffer;
 use framework::buffer_of;
-use framework::digest::DigestError;
 use framework::recorded::Describing;
+use framework::recorded::Digests;
 use framework::recorded::Foreign;
 use framework::recorded::Loaded;
 use framework::recorded::Loading;
@@ -30,8 +30,6 @@ use framework::recorded::SaveError;
 use framework::recorded::Saving;
 use framework::recorded::Stored;
 use framework::recorded::Values;
-use framework::recorded::Visit;
-use framework::recorded::digest;
 use framework::replay::Alone;
 use framework::replay::Replay;
 use rover_nodes::interfaces::Encoders;
@@ -56,6 +54,10 @@ pub struct Outside {
 
 impl<Hardware: Encoders + Motors + Send + Sync> Recorded for Drive<Hardware> {
     type Outside = Outside;
+    const DIGESTED: &'static [(&'static str, &'static str)] = &[
+        ("rover_nodes::drive::odometry", "pose"),
+        ("rover_nodes::drive::steering", "speeds"),
+    ];
 
     fn values(&self, values: &mut Values<'_, '_>) -> Result<(), SaveError> {
         values.parameters(&self.parameters)?;
@@ -68,17 +70,16 @@ impl<Hardware: Encoders + Motors + Send + Sync> Recorded for Drive<Hardware> {
         _slots: Slots<'_, ()>,
         since: Option<Timestamp>,
         out: &mut Saving<'_, '_>,
-    ) -> Result<(), SaveError> {
-        self.parameters.save_version(out)?;
-        self.nodes.wheel_receiver.record(out)?;
-        self.nodes.odometry.record(out)?;
-        self.nodes.steering.record(out)?;
-        self.nodes.motor_sender.record(out)?;
-        self.historic.pose.save(since, out)?;
-        self.injections.save_injected(out)?;
-        out.put(&self.own.current().rolled)?;
-        Foreign::save(&self.perception.lidar, out)?;
-        Ok(())
+    ) {
+        self.parameters.save_version(out);
+        self.nodes.wheel_receiver.record(out);
+        self.nodes.odometry.record(out);
+        self.nodes.steering.record(out);
+        self.nodes.motor_sender.record(out);
+        self.historic.pose.save(since, out);
+        self.injections.save_injected(out);
+        out.put(&self.own.current().rolled);
+        Foreign::save(&self.perception.lidar, out);
     }
 
     fn describe(types: &mut Describing<Self>) {
@@ -118,18 +119,9 @@ impl<Hardware: Encoders + Motors + Send + Sync> Recorded for Drive<Hardware> {
         Ok(())
     }
 
-    fn digests(&self, _shared: &(), visit: Visit<'_>) -> Result<(), DigestError> {
-        visit(
-            "rover_nodes::drive::odometry",
-            "pose",
-            digest(&self.own.previous().pose)?,
-        );
-        visit(
-            "rover_nodes::drive::steering",
-            "speeds",
-            digest(&self.own.previous().speeds)?,
-        );
-        Ok(())
+    fn digests(&self, _shared: &(), digests: &mut Digests<'_, '_>) {
+        digests.add(&self.own.previous().pose);
+        digests.add(&self.own.previous().speeds);
     }
 }
 

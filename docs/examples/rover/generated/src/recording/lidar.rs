@@ -16,8 +16,8 @@ use framework::Timestamp;
 use framework::Writer;
 use framework::buffer;
 use framework::buffer_of;
-use framework::digest::DigestError;
 use framework::recorded::Describing;
+use framework::recorded::Digests;
 use framework::recorded::Loaded;
 use framework::recorded::Loading;
 use framework::recorded::Recorded;
@@ -25,8 +25,6 @@ use framework::recorded::SaveError;
 use framework::recorded::Saving;
 use framework::recorded::Stored;
 use framework::recorded::Values;
-use framework::recorded::Visit;
-use framework::recorded::digest;
 use framework::replay::Alone;
 use framework::replay::Replay;
 
@@ -47,6 +45,9 @@ pub struct Outside {
 impl<Hardware: rover_nodes::interfaces::Lidar + Send + Sync> Recorded
 for Lidar<Hardware> {
     type Outside = Outside;
+    const DIGESTED: &'static [(&'static str, &'static str)] = &[
+        ("rover_nodes::lidar::freeway_detection", "freeways"),
+    ];
 
     fn values(&self, values: &mut Values<'_, '_>) -> Result<(), SaveError> {
         values.parameters(&self.parameters)?;
@@ -58,13 +59,12 @@ for Lidar<Hardware> {
         _slots: Slots<'_, SharedOutputs>,
         _since: Option<Timestamp>,
         out: &mut Saving<'_, '_>,
-    ) -> Result<(), SaveError> {
-        self.parameters.save_version(out)?;
-        self.nodes.scan_receiver.record(out)?;
-        self.nodes.freeway_detection.record(out)?;
-        self.injections.save_injected(out)?;
-        out.put(&self.own.current().scan)?;
-        Ok(())
+    ) {
+        self.parameters.save_version(out);
+        self.nodes.scan_receiver.record(out);
+        self.nodes.freeway_detection.record(out);
+        self.injections.save_injected(out);
+        out.put(&self.own.current().scan);
     }
 
     fn describe(types: &mut Describing<Self>) {
@@ -94,17 +94,8 @@ for Lidar<Hardware> {
         Ok(())
     }
 
-    fn digests(
-        &self,
-        shared: &SharedOutputs,
-        visit: Visit<'_>,
-    ) -> Result<(), DigestError> {
-        visit(
-            "rover_nodes::lidar::freeway_detection",
-            "freeways",
-            digest(&shared.freeways)?,
-        );
-        Ok(())
+    fn digests(&self, shared: &SharedOutputs, digests: &mut Digests<'_, '_>) {
+        digests.add(&shared.freeways);
     }
 }
 

@@ -16,8 +16,8 @@ use framework::Timestamp;
 use framework::Writer;
 use framework::buffer;
 use framework::buffer_of;
-use framework::digest::DigestError;
 use framework::recorded::Describing;
+use framework::recorded::Digests;
 use framework::recorded::Foreign;
 use framework::recorded::Loaded;
 use framework::recorded::Loading;
@@ -26,8 +26,6 @@ use framework::recorded::SaveError;
 use framework::recorded::Saving;
 use framework::recorded::Stored;
 use framework::recorded::Values;
-use framework::recorded::Visit;
-use framework::recorded::digest;
 use framework::replay::Alone;
 use framework::replay::Replay;
 use sprinkler_nodes::SoilProbe;
@@ -50,6 +48,10 @@ pub struct Outside {
 
 impl<Hardware: SoilProbe + Valve + Send + Sync> Recorded for Garden<Hardware> {
     type Outside = Outside;
+    const DIGESTED: &'static [(&'static str, &'static str)] = &[
+        ("sprinkler_nodes::thirst", "thirst"),
+        ("sprinkler_nodes::valve_choice", "valve"),
+    ];
 
     fn values(&self, values: &mut Values<'_, '_>) -> Result<(), SaveError> {
         values.parameters(&self.parameters)?;
@@ -62,17 +64,16 @@ impl<Hardware: SoilProbe + Valve + Send + Sync> Recorded for Garden<Hardware> {
         _slots: Slots<'_, ()>,
         _since: Option<Timestamp>,
         out: &mut Saving<'_, '_>,
-    ) -> Result<(), SaveError> {
-        self.parameters.save_version(out)?;
-        self.nodes.soil_receiver.record(out)?;
-        self.nodes.thirst.record(out)?;
-        self.nodes.valve_choice.record(out)?;
-        self.nodes.valve_sender.record(out)?;
-        self.injections.save_injected(out)?;
-        Foreign::save(&self.weather, out)?;
-        out.put(&self.own.current().moisture)?;
-        out.put(&self.own.previous().valve)?;
-        Ok(())
+    ) {
+        self.parameters.save_version(out);
+        self.nodes.soil_receiver.record(out);
+        self.nodes.thirst.record(out);
+        self.nodes.valve_choice.record(out);
+        self.nodes.valve_sender.record(out);
+        self.injections.save_injected(out);
+        Foreign::save(&self.weather, out);
+        out.put(&self.own.current().moisture);
+        out.put(&self.own.previous().valve);
     }
 
     fn describe(types: &mut Describing<Self>) {
@@ -108,14 +109,9 @@ impl<Hardware: SoilProbe + Valve + Send + Sync> Recorded for Garden<Hardware> {
         Ok(())
     }
 
-    fn digests(&self, _shared: &(), visit: Visit<'_>) -> Result<(), DigestError> {
-        visit("sprinkler_nodes::thirst", "thirst", digest(&self.own.previous().thirst)?);
-        visit(
-            "sprinkler_nodes::valve_choice",
-            "valve",
-            digest(&self.own.previous().valve)?,
-        );
-        Ok(())
+    fn digests(&self, _shared: &(), digests: &mut Digests<'_, '_>) {
+        digests.add(&self.own.previous().thirst);
+        digests.add(&self.own.previous().valve);
     }
 }
 

@@ -16,8 +16,8 @@ use framework::Timestamp;
 use framework::Writer;
 use framework::buffer;
 use framework::buffer_of;
-use framework::digest::DigestError;
 use framework::recorded::Describing;
+use framework::recorded::Digests;
 use framework::recorded::Loaded;
 use framework::recorded::Loading;
 use framework::recorded::Recorded;
@@ -25,8 +25,6 @@ use framework::recorded::SaveError;
 use framework::recorded::Saving;
 use framework::recorded::Stored;
 use framework::recorded::Values;
-use framework::recorded::Visit;
-use framework::recorded::digest;
 use framework::replay::Alone;
 use framework::replay::Replay;
 use sprinkler_nodes::RainGauge;
@@ -47,6 +45,9 @@ pub struct Outside {
 
 impl<Hardware: RainGauge + Send + Sync> Recorded for Weather<Hardware> {
     type Outside = Outside;
+    const DIGESTED: &'static [(&'static str, &'static str)] = &[
+        ("sprinkler_nodes::rain_mean", "mean_rain"),
+    ];
 
     fn values(&self, values: &mut Values<'_, '_>) -> Result<(), SaveError> {
         values.parameters(&self.parameters)?;
@@ -58,13 +59,12 @@ impl<Hardware: RainGauge + Send + Sync> Recorded for Weather<Hardware> {
         _slots: Slots<'_, SharedOutputs>,
         _since: Option<Timestamp>,
         out: &mut Saving<'_, '_>,
-    ) -> Result<(), SaveError> {
-        self.parameters.save_version(out)?;
-        self.nodes.rain_receiver.record(out)?;
-        self.nodes.rain_mean.record(out)?;
-        self.injections.save_injected(out)?;
-        out.put(&self.own.current().rain)?;
-        Ok(())
+    ) {
+        self.parameters.save_version(out);
+        self.nodes.rain_receiver.record(out);
+        self.nodes.rain_mean.record(out);
+        self.injections.save_injected(out);
+        out.put(&self.own.current().rain);
     }
 
     fn describe(types: &mut Describing<Self>) {
@@ -89,13 +89,8 @@ impl<Hardware: RainGauge + Send + Sync> Recorded for Weather<Hardware> {
         Ok(())
     }
 
-    fn digests(
-        &self,
-        shared: &SharedOutputs,
-        visit: Visit<'_>,
-    ) -> Result<(), DigestError> {
-        visit("sprinkler_nodes::rain_mean", "mean_rain", digest(&shared.mean_rain)?);
-        Ok(())
+    fn digests(&self, shared: &SharedOutputs, digests: &mut Digests<'_, '_>) {
+        digests.add(&shared.mean_rain);
     }
 }
 

@@ -19,8 +19,8 @@ use framework::Timestamp;
 use framework::Writer;
 use framework::buffer;
 use framework::buffer_of;
-use framework::digest::DigestError;
 use framework::recorded::Describing;
+use framework::recorded::Digests;
 use framework::recorded::Foreign;
 use framework::recorded::Loaded;
 use framework::recorded::Loading;
@@ -29,8 +29,6 @@ use framework::recorded::SaveError;
 use framework::recorded::Saving;
 use framework::recorded::Stored;
 use framework::recorded::Values;
-use framework::recorded::Visit;
-use framework::recorded::digest;
 use framework::replay::Alone;
 use framework::replay::Replay;
 use timing_nodes::interfaces::Console;
@@ -58,6 +56,9 @@ pub struct Outside {
 
 impl<Hardware: Console + Pace + Send + Sync> Recorded for Localization<Hardware> {
     type Outside = Outside;
+    const DIGESTED: &'static [(&'static str, &'static str)] = &[
+        ("timing_nodes::position_filter", "sets"),
+    ];
 
     fn values(&self, values: &mut Values<'_, '_>) -> Result<(), SaveError> {
         values.parameters(&self.parameters)?;
@@ -72,16 +73,15 @@ impl<Hardware: Console + Pace + Send + Sync> Recorded for Localization<Hardware>
         _slots: Slots<'_, ()>,
         _since: Option<Timestamp>,
         out: &mut Saving<'_, '_>,
-    ) -> Result<(), SaveError> {
-        self.parameters.save_version(out)?;
-        self.nodes.pace_receiver.record(out)?;
-        self.nodes.position_filter.record(out)?;
-        self.nodes.set_printer.record(out)?;
-        self.injections.save_injected(out)?;
-        Foreign::save(&self.perception.vision, out)?;
-        Foreign::save(&self.perception.odometry, out)?;
-        Foreign::save(&self.perception.radio, out)?;
-        Ok(())
+    ) {
+        self.parameters.save_version(out);
+        self.nodes.pace_receiver.record(out);
+        self.nodes.position_filter.record(out);
+        self.nodes.set_printer.record(out);
+        self.injections.save_injected(out);
+        Foreign::save(&self.perception.vision, out);
+        Foreign::save(&self.perception.odometry, out);
+        Foreign::save(&self.perception.radio, out);
     }
 
     fn describe(types: &mut Describing<Self>) {
@@ -126,13 +126,8 @@ impl<Hardware: Console + Pace + Send + Sync> Recorded for Localization<Hardware>
         Ok(())
     }
 
-    fn digests(&self, _shared: &(), visit: Visit<'_>) -> Result<(), DigestError> {
-        visit(
-            "timing_nodes::position_filter",
-            "sets",
-            digest(&self.own.previous().sets)?,
-        );
-        Ok(())
+    fn digests(&self, _shared: &(), digests: &mut Digests<'_, '_>) {
+        digests.add(&self.own.previous().sets);
     }
 }
 

@@ -14,8 +14,8 @@ use framework::Slots;
 use framework::Timestamp;
 use framework::Writer;
 use framework::buffer;
-use framework::digest::DigestError;
 use framework::recorded::Describing;
+use framework::recorded::Digests;
 use framework::recorded::Loaded;
 use framework::recorded::Loading;
 use framework::recorded::Recorded;
@@ -23,7 +23,6 @@ use framework::recorded::SaveError;
 use framework::recorded::Saving;
 use framework::recorded::Stored;
 use framework::recorded::Values;
-use framework::recorded::Visit;
 use framework::replay::Alone;
 use framework::replay::Replay;
 
@@ -42,6 +41,7 @@ pub struct Outside {
 impl<Hardware: timing_nodes::interfaces::Radio + Send + Sync> Recorded
 for Radio<Hardware> {
     type Outside = Outside;
+    const DIGESTED: &'static [(&'static str, &'static str)] = &[];
 
     fn values(&self, _values: &mut Values<'_, '_>) -> Result<(), SaveError> {
         Ok(())
@@ -52,11 +52,10 @@ for Radio<Hardware> {
         slots: Slots<'_, SharedOutputs>,
         _since: Option<Timestamp>,
         out: &mut Saving<'_, '_>,
-    ) -> Result<(), SaveError> {
-        self.nodes.message_receiver.record(out)?;
-        self.injections.save_injected(out)?;
-        out.put(&slots.current.measurement)?;
-        Ok(())
+    ) {
+        self.nodes.message_receiver.record(out);
+        self.injections.save_injected(out);
+        out.put(&slots.current.measurement);
     }
 
     fn describe(types: &mut Describing<Self>) {
@@ -79,13 +78,7 @@ for Radio<Hardware> {
         Ok(())
     }
 
-    fn digests(
-        &self,
-        _shared: &SharedOutputs,
-        _visit: Visit<'_>,
-    ) -> Result<(), DigestError> {
-        Ok(())
-    }
+    fn digests(&self, _shared: &SharedOutputs, _digests: &mut Digests<'_, '_>) {}
 }
 
 /// The nodes as `save` wrote them, in manifest order.

@@ -16,8 +16,8 @@ use framework::Timestamp;
 use framework::Writer;
 use framework::buffer;
 use framework::buffer_of;
-use framework::digest::DigestError;
 use framework::recorded::Describing;
+use framework::recorded::Digests;
 use framework::recorded::Loaded;
 use framework::recorded::Loading;
 use framework::recorded::Recorded;
@@ -25,8 +25,6 @@ use framework::recorded::SaveError;
 use framework::recorded::Saving;
 use framework::recorded::Stored;
 use framework::recorded::Values;
-use framework::recorded::Visit;
-use framework::recorded::digest;
 use framework::replay::Alone;
 use framework::replay::Replay;
 use timing_nodes::interfaces::Camera;
@@ -48,6 +46,9 @@ pub struct Outside {
 
 impl<Hardware: Camera + Effort + Send + Sync> Recorded for Vision<Hardware> {
     type Outside = Outside;
+    const DIGESTED: &'static [(&'static str, &'static str)] = &[
+        ("timing_nodes::position_detection", "measurement"),
+    ];
 
     fn values(&self, values: &mut Values<'_, '_>) -> Result<(), SaveError> {
         values.parameters(&self.parameters)?;
@@ -59,13 +60,12 @@ impl<Hardware: Camera + Effort + Send + Sync> Recorded for Vision<Hardware> {
         _slots: Slots<'_, SharedOutputs>,
         _since: Option<Timestamp>,
         out: &mut Saving<'_, '_>,
-    ) -> Result<(), SaveError> {
-        self.parameters.save_version(out)?;
-        self.nodes.image_receiver.record(out)?;
-        self.nodes.position_detection.record(out)?;
-        self.injections.save_injected(out)?;
-        out.put(&self.own.current().image)?;
-        Ok(())
+    ) {
+        self.parameters.save_version(out);
+        self.nodes.image_receiver.record(out);
+        self.nodes.position_detection.record(out);
+        self.injections.save_injected(out);
+        out.put(&self.own.current().image);
     }
 
     fn describe(types: &mut Describing<Self>) {
@@ -94,17 +94,8 @@ impl<Hardware: Camera + Effort + Send + Sync> Recorded for Vision<Hardware> {
         Ok(())
     }
 
-    fn digests(
-        &self,
-        shared: &SharedOutputs,
-        visit: Visit<'_>,
-    ) -> Result<(), DigestError> {
-        visit(
-            "timing_nodes::position_detection",
-            "measurement",
-            digest(&shared.measurement)?,
-        );
-        Ok(())
+    fn digests(&self, shared: &SharedOutputs, digests: &mut Digests<'_, '_>) {
+        digests.add(&shared.measurement);
     }
 }
 

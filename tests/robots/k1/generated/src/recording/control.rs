@@ -16,8 +16,8 @@ use framework::Timestamp;
 use framework::Writer;
 use framework::buffer;
 use framework::buffer_of;
-use framework::digest::DigestError;
 use framework::recorded::Describing;
+use framework::recorded::Digests;
 use framework::recorded::Loaded;
 use framework::recorded::Loading;
 use framework::recorded::Recorded;
@@ -25,8 +25,6 @@ use framework::recorded::SaveError;
 use framework::recorded::Saving;
 use framework::recorded::Stored;
 use framework::recorded::Values;
-use framework::recorded::Visit;
-use framework::recorded::digest;
 use framework::replay::Alone;
 use framework::replay::Replay;
 use k1_nodes::interfaces::BodyInterface;
@@ -48,6 +46,12 @@ pub struct Outside {
 impl<Hardware: BodyInterface + MotorInterface + Send + Sync> Recorded
 for Control<Hardware> {
     type Outside = Outside;
+    const DIGESTED: &'static [(&'static str, &'static str)] = &[
+        ("k1_nodes::prepare", "standing"),
+        ("k1_nodes::look_around", "head_yaw"),
+        ("k1_nodes::wave", "arm_pitch"),
+        ("k1_nodes::motor_sender", "motor_commands"),
+    ];
 
     fn values(&self, values: &mut Values<'_, '_>) -> Result<(), SaveError> {
         values.parameters(&self.parameters)?;
@@ -59,16 +63,15 @@ for Control<Hardware> {
         _slots: Slots<'_, ()>,
         _since: Option<Timestamp>,
         out: &mut Saving<'_, '_>,
-    ) -> Result<(), SaveError> {
-        self.parameters.save_version(out)?;
-        self.nodes.body_receiver.record(out)?;
-        self.nodes.prepare.record(out)?;
-        self.nodes.look_around.record(out)?;
-        self.nodes.wave.record(out)?;
-        self.nodes.motor_sender.record(out)?;
-        self.injections.save_injected(out)?;
-        out.put(&self.own.current().body)?;
-        Ok(())
+    ) {
+        self.parameters.save_version(out);
+        self.nodes.body_receiver.record(out);
+        self.nodes.prepare.record(out);
+        self.nodes.look_around.record(out);
+        self.nodes.wave.record(out);
+        self.nodes.motor_sender.record(out);
+        self.injections.save_injected(out);
+        out.put(&self.own.current().body);
     }
 
     fn describe(types: &mut Describing<Self>) {
@@ -96,20 +99,11 @@ for Control<Hardware> {
         Ok(())
     }
 
-    fn digests(&self, _shared: &(), visit: Visit<'_>) -> Result<(), DigestError> {
-        visit("k1_nodes::prepare", "standing", digest(&self.own.previous().standing)?);
-        visit(
-            "k1_nodes::look_around",
-            "head_yaw",
-            digest(&self.own.previous().head_yaw)?,
-        );
-        visit("k1_nodes::wave", "arm_pitch", digest(&self.own.previous().arm_pitch)?);
-        visit(
-            "k1_nodes::motor_sender",
-            "motor_commands",
-            digest(&self.own.previous().motor_commands)?,
-        );
-        Ok(())
+    fn digests(&self, _shared: &(), digests: &mut Digests<'_, '_>) {
+        digests.add(&self.own.previous().standing);
+        digests.add(&self.own.previous().head_yaw);
+        digests.add(&self.own.previous().arm_pitch);
+        digests.add(&self.own.previous().motor_commands);
     }
 }
 

@@ -20,8 +20,8 @@ use framework::Timestamp;
 use framework::Writer;
 use framework::buffer;
 use framework::buffer_of;
-use framework::digest::DigestError;
 use framework::recorded::Describing;
+use framework::recorded::Digests;
 use framework::recorded::Foreign;
 use framework::recorded::Loaded;
 use framework::recorded::Loading;
@@ -30,8 +30,6 @@ use framework::recorded::SaveError;
 use framework::recorded::Saving;
 use framework::recorded::Stored;
 use framework::recorded::Values;
-use framework::recorded::Visit;
-use framework::recorded::digest;
 use framework::replay::Alone;
 use framework::replay::Replay;
 use outpost_nodes::interfaces::ClockInterface;
@@ -56,6 +54,11 @@ pub struct Outside {
 
 impl<Hardware: ClockInterface + Send + Sync> Recorded for Keeper<Hardware> {
     type Outside = Outside;
+    const DIGESTED: &'static [(&'static str, &'static str)] = &[
+        ("outpost_nodes::keeper::book", "entries"),
+        ("outpost_nodes::keeper::book", "newest_in_the_north"),
+        ("outpost_nodes::keeper::book", "provisional"),
+    ];
 
     fn values(&self, values: &mut Values<'_, '_>) -> Result<(), SaveError> {
         values.parameters(&self.parameters)?;
@@ -70,15 +73,14 @@ impl<Hardware: ClockInterface + Send + Sync> Recorded for Keeper<Hardware> {
         _slots: Slots<'_, ()>,
         _since: Option<Timestamp>,
         out: &mut Saving<'_, '_>,
-    ) -> Result<(), SaveError> {
-        self.parameters.save_version(out)?;
-        self.nodes.clock.record(out)?;
-        self.nodes.book.record(out)?;
-        self.injections.save_injected(out)?;
-        Foreign::save(&self.lookout_north, out)?;
-        Foreign::save(&self.perception.lookout_north, out)?;
-        Foreign::save(&self.perception.lookout_south, out)?;
-        Ok(())
+    ) {
+        self.parameters.save_version(out);
+        self.nodes.clock.record(out);
+        self.nodes.book.record(out);
+        self.injections.save_injected(out);
+        Foreign::save(&self.lookout_north, out);
+        Foreign::save(&self.perception.lookout_north, out);
+        Foreign::save(&self.perception.lookout_south, out);
     }
 
     fn describe(types: &mut Describing<Self>) {
@@ -125,23 +127,10 @@ impl<Hardware: ClockInterface + Send + Sync> Recorded for Keeper<Hardware> {
         Ok(())
     }
 
-    fn digests(&self, _shared: &(), visit: Visit<'_>) -> Result<(), DigestError> {
-        visit(
-            "outpost_nodes::keeper::book",
-            "entries",
-            digest(&self.own.previous().entries)?,
-        );
-        visit(
-            "outpost_nodes::keeper::book",
-            "newest_in_the_north",
-            digest(&self.own.previous().newest_in_the_north)?,
-        );
-        visit(
-            "outpost_nodes::keeper::book",
-            "provisional",
-            digest(&self.own.previous().provisional)?,
-        );
-        Ok(())
+    fn digests(&self, _shared: &(), digests: &mut Digests<'_, '_>) {
+        digests.add(&self.own.previous().entries);
+        digests.add(&self.own.previous().newest_in_the_north);
+        digests.add(&self.own.previous().provisional);
     }
 }
 

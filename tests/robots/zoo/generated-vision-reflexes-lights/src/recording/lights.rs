@@ -13,8 +13,8 @@ use framework::Slots;
 use framework::Timestamp;
 use framework::Writer;
 use framework::buffer;
-use framework::digest::DigestError;
 use framework::recorded::Describing;
+use framework::recorded::Digests;
 use framework::recorded::Foreign;
 use framework::recorded::Loaded;
 use framework::recorded::Loading;
@@ -23,7 +23,6 @@ use framework::recorded::SaveError;
 use framework::recorded::Saving;
 use framework::recorded::Stored;
 use framework::recorded::Values;
-use framework::recorded::Visit;
 use framework::replay::Alone;
 use framework::replay::Replay;
 use zoo_nodes::interfaces::LampInterface;
@@ -45,6 +44,7 @@ pub struct Outside {
 impl<Hardware: LampInterface + LegInterface + MetronomeInterface + Send + Sync> Recorded
 for Lights<Hardware> {
     type Outside = Outside;
+    const DIGESTED: &'static [(&'static str, &'static str)] = &[];
 
     fn values(&self, values: &mut Values<'_, '_>) -> Result<(), SaveError> {
         values.of("Control", &self.control)?;
@@ -56,13 +56,12 @@ for Lights<Hardware> {
         _slots: Slots<'_, ()>,
         _since: Option<Timestamp>,
         out: &mut Saving<'_, '_>,
-    ) -> Result<(), SaveError> {
-        self.nodes.setup_node.record(out)?;
-        self.nodes.lamp.record(out)?;
-        self.nodes.cycle_node.record(out)?;
-        out.put(&self.cycler_state)?;
-        Foreign::save(&self.control, out)?;
-        Ok(())
+    ) {
+        self.nodes.setup_node.record(out);
+        self.nodes.lamp.record(out);
+        self.nodes.cycle_node.record(out);
+        out.put(&self.cycler_state);
+        Foreign::save(&self.control, out);
     }
 
     fn describe(types: &mut Describing<Self>) {
@@ -91,9 +90,7 @@ for Lights<Hardware> {
         Ok(())
     }
 
-    fn digests(&self, _shared: &(), _visit: Visit<'_>) -> Result<(), DigestError> {
-        Ok(())
-    }
+    fn digests(&self, _shared: &(), _digests: &mut Digests<'_, '_>) {}
 }
 
 /// The nodes as `save` wrote them, in manifest order.

@@ -19,9 +19,9 @@ use framework::Timestamp;
 use framework::Writer;
 use framework::buffer;
 use framework::buffer_of;
-use framework::digest::DigestError;
 use framework::procedure;
 use framework::recorded::Describing;
+use framework::recorded::Digests;
 use framework::recorded::Foreign;
 use framework::recorded::Loaded;
 use framework::recorded::Loading;
@@ -30,8 +30,6 @@ use framework::recorded::SaveError;
 use framework::recorded::Saving;
 use framework::recorded::Stored;
 use framework::recorded::Values;
-use framework::recorded::Visit;
-use framework::recorded::digest;
 use framework::replay::Alone;
 use framework::replay::Replay;
 use zoo_nodes::interfaces::BumperInterface;
@@ -59,6 +57,9 @@ pub struct Outside {
 impl<Hardware: BumperInterface + LampInterface + Send + Sync> Recorded
 for Reflexes<Hardware> {
     type Outside = Outside;
+    const DIGESTED: &'static [(&'static str, &'static str)] = &[
+        ("zoo_nodes::reflexes::create", "sum"),
+    ];
 
     fn values(&self, values: &mut Values<'_, '_>) -> Result<(), SaveError> {
         values.parameters(&self.parameters)?;
@@ -72,18 +73,17 @@ for Reflexes<Hardware> {
         _slots: Slots<'_, ()>,
         _since: Option<Timestamp>,
         out: &mut Saving<'_, '_>,
-    ) -> Result<(), SaveError> {
-        self.parameters.save_version(out)?;
-        self.nodes.bumper.record(out)?;
-        self.nodes.flinch.record(out)?;
-        self.nodes.create_node2.record(out)?;
-        self.nodes.node.record(out)?;
-        self.injections.save_injected(out)?;
-        Foreign::save(&self.control, out)?;
-        out.put(&self.own.current().pressed)?;
-        Foreign::save(&self.perception.vision_bottom, out)?;
-        self.procedures.type_.save(out)?;
-        Ok(())
+    ) {
+        self.parameters.save_version(out);
+        self.nodes.bumper.record(out);
+        self.nodes.flinch.record(out);
+        self.nodes.create_node2.record(out);
+        self.nodes.node.record(out);
+        self.injections.save_injected(out);
+        Foreign::save(&self.control, out);
+        out.put(&self.own.current().pressed);
+        Foreign::save(&self.perception.vision_bottom, out);
+        self.procedures.type_.save(out);
     }
 
     fn describe(types: &mut Describing<Self>) {
@@ -126,9 +126,8 @@ for Reflexes<Hardware> {
         Ok(())
     }
 
-    fn digests(&self, _shared: &(), visit: Visit<'_>) -> Result<(), DigestError> {
-        visit("zoo_nodes::reflexes::create", "sum", digest(&self.own.previous().sum)?);
-        Ok(())
+    fn digests(&self, _shared: &(), digests: &mut Digests<'_, '_>) {
+        digests.add(&self.own.previous().sum);
     }
 }
 

@@ -17,8 +17,8 @@ use framework::Timestamp;
 use framework::Writer;
 use framework::buffer;
 use framework::buffer_of;
-use framework::digest::DigestError;
 use framework::recorded::Describing;
+use framework::recorded::Digests;
 use framework::recorded::Foreign;
 use framework::recorded::Loaded;
 use framework::recorded::Loading;
@@ -27,8 +27,6 @@ use framework::recorded::SaveError;
 use framework::recorded::Saving;
 use framework::recorded::Stored;
 use framework::recorded::Values;
-use framework::recorded::Visit;
-use framework::recorded::digest;
 use framework::replay::Alone;
 use framework::replay::Replay;
 use zoo_nodes::interfaces::EyeInterface;
@@ -57,6 +55,13 @@ pub struct Outside {
 
 impl<Hardware: EyeInterface + Send + Sync> Recorded for Vision<Hardware> {
     type Outside = Outside;
+    const DIGESTED: &'static [(&'static str, &'static str)] = &[
+        ("zoo_nodes::vision::horizon_finder", "horizon"),
+        ("zoo_nodes::vision::spot_finder", "best"),
+        ("zoo_nodes::vision::spot_finder", "spots"),
+        ("zoo_nodes::vision::other_eye", "agreement"),
+        ("zoo_nodes::shared::counter", "cycles"),
+    ];
 
     fn values(&self, values: &mut Values<'_, '_>) -> Result<(), SaveError> {
         values.parameters(&self.parameters)?;
@@ -71,25 +76,24 @@ impl<Hardware: EyeInterface + Send + Sync> Recorded for Vision<Hardware> {
         slots: Slots<'_, SharedOutputs>,
         _since: Option<Timestamp>,
         out: &mut Saving<'_, '_>,
-    ) -> Result<(), SaveError> {
-        self.parameters.save_version(out)?;
-        self.nodes.eye.record(out)?;
-        self.nodes.exposure.record(out)?;
-        self.nodes.spot_finder.record(out)?;
-        self.nodes.horizon_finder.record(out)?;
-        self.nodes.other_eye.record(out)?;
-        self.nodes.counter.record(out)?;
-        out.put(&self.cycler_state)?;
-        self.injections.save_injected(out)?;
-        Foreign::save(&self.vision_top, out)?;
-        Foreign::save(&self.vision_bottom, out)?;
-        Foreign::save(&self.control, out)?;
-        out.put(&self.own.current().exposure)?;
-        out.put(&self.own.current().image)?;
-        out.put(&self.own.previous().agreement)?;
-        out.put(&slots.previous.spots)?;
-        out.put(&self.subscribed)?;
-        Ok(())
+    ) {
+        self.parameters.save_version(out);
+        self.nodes.eye.record(out);
+        self.nodes.exposure.record(out);
+        self.nodes.spot_finder.record(out);
+        self.nodes.horizon_finder.record(out);
+        self.nodes.other_eye.record(out);
+        self.nodes.counter.record(out);
+        out.put(&self.cycler_state);
+        self.injections.save_injected(out);
+        Foreign::save(&self.vision_top, out);
+        Foreign::save(&self.vision_bottom, out);
+        Foreign::save(&self.control, out);
+        out.put(&self.own.current().exposure);
+        out.put(&self.own.current().image);
+        out.put(&self.own.previous().agreement);
+        out.put(&slots.previous.spots);
+        out.put(&self.subscribed);
     }
 
     fn describe(types: &mut Describing<Self>) {
@@ -153,29 +157,12 @@ impl<Hardware: EyeInterface + Send + Sync> Recorded for Vision<Hardware> {
         Ok(())
     }
 
-    fn digests(
-        &self,
-        shared: &SharedOutputs,
-        visit: Visit<'_>,
-    ) -> Result<(), DigestError> {
-        visit(
-            "zoo_nodes::vision::horizon_finder",
-            "horizon",
-            digest(&self.own.previous().horizon)?,
-        );
-        visit("zoo_nodes::vision::spot_finder", "best", digest(&shared.best)?);
-        visit("zoo_nodes::vision::spot_finder", "spots", digest(&shared.spots)?);
-        visit(
-            "zoo_nodes::vision::other_eye",
-            "agreement",
-            digest(&self.own.previous().agreement)?,
-        );
-        visit(
-            "zoo_nodes::shared::counter",
-            "cycles",
-            digest(&self.own.previous().cycles)?,
-        );
-        Ok(())
+    fn digests(&self, shared: &SharedOutputs, digests: &mut Digests<'_, '_>) {
+        digests.add(&self.own.previous().horizon);
+        digests.add(&shared.best);
+        digests.add(&shared.spots);
+        digests.add(&self.own.previous().agreement);
+        digests.add(&self.own.previous().cycles);
     }
 }
 

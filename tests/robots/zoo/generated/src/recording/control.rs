@@ -23,9 +23,9 @@ use framework::Timestamp;
 use framework::Writer;
 use framework::buffer;
 use framework::buffer_of;
-use framework::digest::DigestError;
 use framework::procedure;
 use framework::recorded::Describing;
+use framework::recorded::Digests;
 use framework::recorded::Foreign;
 use framework::recorded::Loaded;
 use framework::recorded::Loading;
@@ -34,8 +34,6 @@ use framework::recorded::SaveError;
 use framework::recorded::Saving;
 use framework::recorded::Stored;
 use framework::recorded::Values;
-use framework::recorded::Visit;
-use framework::recorded::digest;
 use framework::replay::Alone;
 use framework::replay::Replay;
 use zoo_nodes::interfaces::BodyInterface;
@@ -70,6 +68,15 @@ pub struct Outside {
 impl<Hardware: BodyInterface + LegInterface + Send + Sync> Recorded
 for Control<Hardware> {
     type Outside = Outside;
+    const DIGESTED: &'static [(&'static str, &'static str)] = &[
+        ("zoo_nodes::control::pose_filter", "pose"),
+        ("zoo_nodes::control::spot_filter", "report"),
+        ("zoo_nodes::control::spot_filter", "target"),
+        ("zoo_nodes::control::watcher", "seen"),
+        ("zoo_nodes::control::gait", "plan"),
+        ("zoo_nodes::control::gait", "speed"),
+        ("zoo_nodes::shared::counter", "cycles"),
+    ];
 
     fn values(&self, values: &mut Values<'_, '_>) -> Result<(), SaveError> {
         values.parameters(&self.parameters)?;
@@ -84,30 +91,29 @@ for Control<Hardware> {
         slots: Slots<'_, SharedOutputs>,
         since: Option<Timestamp>,
         out: &mut Saving<'_, '_>,
-    ) -> Result<(), SaveError> {
-        self.parameters.save_version(out)?;
-        self.nodes.body.record(out)?;
-        self.nodes.watcher.record(out)?;
-        self.nodes.pose_filter.record(out)?;
-        self.nodes.spot_filter.record(out)?;
-        self.nodes.gait.record(out)?;
-        self.nodes.legs.record(out)?;
-        self.nodes.counter.record(out)?;
-        out.put(&self.cycler_state)?;
-        self.historic.pose.save(since, out)?;
-        self.injections.save_injected(out)?;
-        out.put(&self.own.current().joints)?;
-        Foreign::save(&self.perception.vision_top, out)?;
-        Foreign::save(&self.perception.vision_bottom, out)?;
-        Foreign::save(&self.perception.hearing, out)?;
-        out.put(&self.own.previous().plan)?;
-        out.put(&self.own.previous().report)?;
-        out.put(&self.own.previous().speed)?;
-        out.put(&slots.previous.target)?;
-        self.procedures.stop.save(out)?;
-        self.procedures.walk.save(out)?;
-        out.put(&self.subscribed)?;
-        Ok(())
+    ) {
+        self.parameters.save_version(out);
+        self.nodes.body.record(out);
+        self.nodes.watcher.record(out);
+        self.nodes.pose_filter.record(out);
+        self.nodes.spot_filter.record(out);
+        self.nodes.gait.record(out);
+        self.nodes.legs.record(out);
+        self.nodes.counter.record(out);
+        out.put(&self.cycler_state);
+        self.historic.pose.save(since, out);
+        self.injections.save_injected(out);
+        out.put(&self.own.current().joints);
+        Foreign::save(&self.perception.vision_top, out);
+        Foreign::save(&self.perception.vision_bottom, out);
+        Foreign::save(&self.perception.hearing, out);
+        out.put(&self.own.previous().plan);
+        out.put(&self.own.previous().report);
+        out.put(&self.own.previous().speed);
+        out.put(&slots.previous.target);
+        self.procedures.stop.save(out);
+        self.procedures.walk.save(out);
+        out.put(&self.subscribed);
     }
 
     fn describe(types: &mut Describing<Self>) {
@@ -182,27 +188,14 @@ for Control<Hardware> {
         Ok(())
     }
 
-    fn digests(
-        &self,
-        shared: &SharedOutputs,
-        visit: Visit<'_>,
-    ) -> Result<(), DigestError> {
-        visit("zoo_nodes::control::pose_filter", "pose", digest(&shared.pose)?);
-        visit(
-            "zoo_nodes::control::spot_filter",
-            "report",
-            digest(&self.own.previous().report)?,
-        );
-        visit("zoo_nodes::control::spot_filter", "target", digest(&shared.target)?);
-        visit("zoo_nodes::control::watcher", "seen", digest(&self.own.previous().seen)?);
-        visit("zoo_nodes::control::gait", "plan", digest(&self.own.previous().plan)?);
-        visit("zoo_nodes::control::gait", "speed", digest(&self.own.previous().speed)?);
-        visit(
-            "zoo_nodes::shared::counter",
-            "cycles",
-            digest(&self.own.previous().cycles)?,
-        );
-        Ok(())
+    fn digests(&self, shared: &SharedOutputs, digests: &mut Digests<'_, '_>) {
+        digests.add(&shared.pose);
+        digests.add(&self.own.previous().report);
+        digests.add(&shared.target);
+        digests.add(&self.own.previous().seen);
+        digests.add(&self.own.previous().plan);
+        digests.add(&self.own.previous().speed);
+        digests.add(&self.own.previous().cycles);
     }
 }
 

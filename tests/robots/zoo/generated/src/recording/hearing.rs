@@ -14,8 +14,8 @@ use framework::Slots;
 use framework::Timestamp;
 use framework::Writer;
 use framework::buffer;
-use framework::digest::DigestError;
 use framework::recorded::Describing;
+use framework::recorded::Digests;
 use framework::recorded::Loaded;
 use framework::recorded::Loading;
 use framework::recorded::Recorded;
@@ -23,8 +23,6 @@ use framework::recorded::SaveError;
 use framework::recorded::Saving;
 use framework::recorded::Stored;
 use framework::recorded::Values;
-use framework::recorded::Visit;
-use framework::recorded::digest;
 use framework::replay::Alone;
 use framework::replay::Replay;
 use zoo_nodes::interfaces::EarInterface;
@@ -43,6 +41,9 @@ pub struct Outside {
 
 impl<Hardware: EarInterface + Send + Sync> Recorded for Hearing<Hardware> {
     type Outside = Outside;
+    const DIGESTED: &'static [(&'static str, &'static str)] = &[
+        ("zoo_nodes::hearing::whistle", "whistle"),
+    ];
 
     fn values(&self, _values: &mut Values<'_, '_>) -> Result<(), SaveError> {
         Ok(())
@@ -53,14 +54,13 @@ impl<Hardware: EarInterface + Send + Sync> Recorded for Hearing<Hardware> {
         slots: Slots<'_, SharedOutputs>,
         _since: Option<Timestamp>,
         out: &mut Saving<'_, '_>,
-    ) -> Result<(), SaveError> {
-        self.nodes.ear.record(out)?;
-        self.nodes.whistle.record(out)?;
-        self.injections.save_injected(out)?;
-        out.put(&slots.previous.loudness)?;
-        out.put(&slots.previous.whistle)?;
-        out.put(&slots.current.loudness)?;
-        Ok(())
+    ) {
+        self.nodes.ear.record(out);
+        self.nodes.whistle.record(out);
+        self.injections.save_injected(out);
+        out.put(&slots.previous.loudness);
+        out.put(&slots.previous.whistle);
+        out.put(&slots.current.loudness);
     }
 
     fn describe(types: &mut Describing<Self>) {
@@ -87,13 +87,8 @@ impl<Hardware: EarInterface + Send + Sync> Recorded for Hearing<Hardware> {
         Ok(())
     }
 
-    fn digests(
-        &self,
-        shared: &SharedOutputs,
-        visit: Visit<'_>,
-    ) -> Result<(), DigestError> {
-        visit("zoo_nodes::hearing::whistle", "whistle", digest(&shared.whistle)?);
-        Ok(())
+    fn digests(&self, shared: &SharedOutputs, digests: &mut Digests<'_, '_>) {
+        digests.add(&shared.whistle);
     }
 }
 
