@@ -1,5 +1,5 @@
 //! What a recording costs Control of the simulated NAO, beside postcard writing the same bytes into a slice: both of the same
-//! cycles in turns, medians.
+//! cycles in turns, medians. And how fast the writer is with what the cameras give it.
 //!
 //! `cargo bench -p hulkgen-tests --bench recording`
 
@@ -10,7 +10,9 @@ use std::time::{Duration, Instant};
 use framework::driver::{Lockstep, Observer};
 use framework::recorded::{About, Recording, Saving, Settings};
 use framework::{CountingAllocator, Instance, InstanceDescription, Record, Timestamp};
-use hulkgen_recording::Writing;
+use hulkgen_recording::{
+    Channel, ChannelId, Description, Full, Recorded, Recorder, Track, Writing,
+};
 use support::nao::Nao;
 
 #[global_allocator]
@@ -18,7 +20,7 @@ static ALLOCATOR: CountingAllocator = CountingAllocator;
 
 /// Of the robot's time.
 const LENGTH: Duration = Duration::from_secs(60);
-/// More than any frame of Control takes, in bytes.
+/// More than any frame takes, in bytes, and as much as a block has.
 const SLICE: usize = 1 << 20;
 /// As much as the recording has: it comes back to the same memory when that is in no cache.
 const MEMORY: usize = 64 << 20;
@@ -163,6 +165,97 @@ fn quantile(values: &mut [f64], share: f64) -> f64 {
     values[(last as f64 * share).round() as usize]
 }
 
+const CAMERAS: [&str; 2] = ["VisionTop", "VisionBottom"];
+/// A second, a camera.
+const IMAGES: usize = 30;
+/// Those images again and again.
+const SECONDS: usize = 20;
+
+/// Keeps the frames of a camera's instance.
+struct Seen(Arc<Mutex<Vec<Vec<u8>>>>);
+
+impl Observer for Seen {
+    fn begun(&mut self, instance: &mut dyn Instance) {
+        let mut bytes = vec![0; SLICE];
+        let mut writing = Writing::new(&mut bytes);
+        let mut saving = Saving::new(&mut writing);
+        instance.save_alone(None, &mut saving);
+        saving.end().expect("the slice is longer than any frame");
+        let length = writing.length();
+        bytes.truncate(length);
+        let mut seen = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if seen.len() < IMAGES && instance.cycle().time.start >= PLAYS {
+            seen.push(bytes);
+        }
+    }
+
+    fn finished(&mut self, _: &dyn Instance) {}
+}
+
+/// When they see more than what lies before a robot that gets up.
+const PLAYS: Timestamp = Timestamp::from_nanos(27_000_000_000);
+
+/// A second of frames of each camera, as the robot's play shows them.
+fn seen() -> [Vec<Vec<u8>>; 2] {
+    let seen = CAMERAS.map(|_| Arc::<Mutex<Vec<_>>>::default());
+    let mut nao = Nao::dynamic(&[], &[]);
+    let hardware = nao.hardware.clone();
+    let mut lockstep = Lockstep::new(&mut nao.robot, &*hardware).observed(|instance| {
+        let place = CAMERAS.iter().position(|name| *name == instance.name)?;
+        Some(Box::new(Seen(seen[place].clone())))
+    });
+    lockstep
+        .run_until(PLAYS + Duration::from_secs(2), |_| {})
+        .expect("the robot goes on");
+    drop(lockstep);
+    seen.map(|seen| std::mem::take(&mut *seen.lock().unwrap_or_else(PoisonError::into_inner)))
+}
+
+/// Hands a frame to the writer, as soon as it has a block for it.
+fn write(track: &mut Track, channel: ChannelId, time: u64, bytes: &[u8]) {
+    let mut once = || {
+        track.frame::<Full>(time, 0, |frame| {
+            frame.message(channel, 0, time, |writing| writing.put(bytes))
+        })
+    };
+    while once() != Recorded::Whole {
+        std::thread::sleep(Duration::from_micros(100));
+    }
+}
+
+/// What part of a second goes by until a second of both cameras is in the file, compressed, with check sums: at least what the
+/// writer takes for it.
+fn write_images() -> f64 {
+    let cameras = seen();
+    let folder = tempfile::tempdir().expect("a folder");
+    let description = Description {
+        channels: CAMERAS
+            .map(|name| Channel {
+                topic: name.to_owned(),
+                schema: None,
+                encoding: "bench".to_owned(),
+                metadata: Vec::new(),
+                once_per_chunk: false,
+            })
+            .into(),
+        ..Description::default()
+    };
+    let path = folder.path().join("run.mcap");
+    let started = Instant::now();
+    let (recorder, mut tracks) =
+        Recorder::start(&path, description, &CAMERAS, Settings::default()).expect("it is new");
+    for image in 0..IMAGES * SECONDS {
+        let time = image as u64 * 1_000_000_000 / IMAGES as u64;
+        for (place, (track, frames)) in tracks.iter_mut().zip(&cameras).enumerate() {
+            let frame = &frames[image % frames.len()];
+            write(track, ChannelId(place as u16), time, frame);
+        }
+    }
+    drop(tracks);
+    assert!(recorder.end().error.is_none(), "the disk takes all of it");
+    started.elapsed().as_secs_f64() / SECONDS as f64
+}
+
 /// The robot with these settings, for a minute.
 fn measure(settings: &[(&str, &str)]) -> Measured {
     let folder = tempfile::tempdir().expect("a folder");
@@ -200,6 +293,8 @@ fn main() {
             println!("a frame beside {name:<13} {:>9.2}", frame / other);
         }
     }
+    let share = write_images();
+    println!("the writer with two cameras at 30 Hz: {share:.2} of its time");
 }
 
 /// Gives the medians.
