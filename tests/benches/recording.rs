@@ -155,8 +155,8 @@ fn nanos(since: Instant) -> f64 {
     since.elapsed().as_nanos() as f64
 }
 
-fn lock(measured: &Mutex<Measured>) -> MutexGuard<'_, Measured> {
-    measured.lock().unwrap_or_else(PoisonError::into_inner)
+fn lock<T>(shared: &Mutex<T>) -> MutexGuard<'_, T> {
+    shared.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 fn quantile(values: &mut [f64], share: f64) -> f64 {
@@ -176,6 +176,10 @@ struct Seen(Arc<Mutex<Vec<Vec<u8>>>>);
 
 impl Observer for Seen {
     fn begun(&mut self, instance: &mut dyn Instance) {
+        let mut seen = lock(&self.0);
+        if seen.len() == IMAGES || instance.cycle().time.start < PLAYS {
+            return;
+        }
         let mut bytes = vec![0; SLICE];
         let mut writing = Writing::new(&mut bytes);
         let mut saving = Saving::new(&mut writing);
@@ -183,10 +187,7 @@ impl Observer for Seen {
         saving.end().expect("the slice is longer than any frame");
         let length = writing.length();
         bytes.truncate(length);
-        let mut seen = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        if seen.len() < IMAGES && instance.cycle().time.start >= PLAYS {
-            seen.push(bytes);
-        }
+        seen.push(bytes);
     }
 
     fn finished(&mut self, _: &dyn Instance) {}
@@ -208,7 +209,7 @@ fn seen() -> [Vec<Vec<u8>>; 2] {
         .run_until(PLAYS + Duration::from_secs(2), |_| {})
         .expect("the robot goes on");
     drop(lockstep);
-    seen.map(|seen| std::mem::take(&mut *seen.lock().unwrap_or_else(PoisonError::into_inner)))
+    seen.map(|seen| std::mem::take(&mut *lock(&seen)))
 }
 
 /// Hands a frame to the writer, as soon as it has a block for it.
