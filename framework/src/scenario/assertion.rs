@@ -25,6 +25,7 @@ pub struct Assertion {
     pub apart_from: Option<String>,
     equals: Option<Value>,
     is_not: Option<Value>,
+    is_there: Option<bool>,
     below: Option<f64>,
     above: Option<f64>,
     from: Option<f64>,
@@ -42,6 +43,8 @@ pub enum Condition<'a> {
     Equals(&'a Value),
     /// Anything else.
     IsNot(&'a Value),
+    /// Something (`true`), or `None` (`false`).
+    IsThere(bool),
     /// A number between these.
     Between {
         /// It is more.
@@ -84,10 +87,11 @@ pub enum Window {
 impl Assertion {
     /// What the value has to be.
     pub fn condition(&self) -> Condition<'_> {
-        match (&self.equals, &self.is_not) {
-            (Some(value), _) => Condition::Equals(value),
-            (None, Some(value)) => Condition::IsNot(value),
-            (None, None) => Condition::Between {
+        match (&self.equals, &self.is_not, self.is_there) {
+            (Some(value), _, _) => Condition::Equals(value),
+            (None, Some(value), _) => Condition::IsNot(value),
+            (None, None, Some(is_there)) => Condition::IsThere(is_there),
+            (None, None, None) => Condition::Between {
                 above: self.above,
                 below: self.below,
             },
@@ -126,10 +130,15 @@ impl Assertion {
             Err(Error::new(message).context(format!("assertion `{}`", self.what)))
         };
         let ranges = self.below.is_some() || self.above.is_some();
-        let conditions = [self.equals.is_some(), self.is_not.is_some(), ranges];
+        let conditions = [
+            self.equals.is_some(),
+            self.is_not.is_some(),
+            self.is_there.is_some(),
+            ranges,
+        ];
         if conditions.iter().filter(|it| **it).count() != 1 {
             return wrong(
-                "expected one of `equals`, `is_not`, `below` and `above` (these two may stand together)".to_owned(),
+                "expected one of `equals`, `is_not`, `is_there`, `below` and `above` (these two may stand together)".to_owned(),
             );
         }
         let windows = [self.at_end, self.before.is_some(), self.until.is_some()];
@@ -177,11 +186,12 @@ impl Assertion {
 pub(super) const TRUTH: &str = "truth";
 
 impl Condition<'_> {
-    /// Whether a value is so; no value is never so.
+    /// Whether a value is so.
     pub fn holds(&self, value: &Value) -> bool {
         match self {
             Self::Equals(wanted) => is_same(value, wanted),
             Self::IsNot(unwanted) => !is_same(value, unwanted),
+            Self::IsThere(is_there) => value.is_null() != *is_there,
             Self::Between { above, below } => value.as_f64().is_some_and(|number| {
                 above.is_none_or(|above| number > above) && below.is_none_or(|below| number < below)
             }),
@@ -190,6 +200,11 @@ impl Condition<'_> {
 }
 
 impl Condition<'_> {
+    /// Whether it is so where there is nothing to look at: that is anything but a value, but no `Option` without one.
+    pub(super) fn holds_without(&self) -> bool {
+        matches!(self, Self::IsNot(_))
+    }
+
     /// Whether one number lies nearer to an end of the range than another; both lie within.
     pub(super) fn is_nearer(&self, one: &Value, other: &Value) -> bool {
         let Self::Between { above, below } = self else {

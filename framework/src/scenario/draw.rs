@@ -16,7 +16,18 @@ impl Draw {
         f64::midpoint(self.0.signed(), 1.0)
     }
 
-    /// Moves every number that `spread` names by up to so much.
+    /// A whole number from `-spread` to `spread`.
+    fn whole(&mut self, spread: i64) -> i64 {
+        #[expect(
+            clippy::cast_precision_loss,
+            clippy::cast_possible_truncation,
+            reason = "what a world is made of is small"
+        )]
+        let drawn = (spread as f64 * self.0.signed()).round() as i64;
+        drawn
+    }
+
+    /// Moves every number that `spread` names by up to so much. Whole numbers stay whole where the spread is whole.
     pub(super) fn change(&mut self, table: &mut toml::Table, spread: &toml::Table) -> Result<()> {
         for (key, spread) in spread {
             let value = table
@@ -38,6 +49,10 @@ impl Draw {
                     .iter_mut()
                     .zip(spreads)
                     .try_for_each(|(value, spread)| self.change_value(value, spread))
+            }
+            (toml::Value::Integer(whole), toml::Value::Integer(spread)) => {
+                *whole = whole.saturating_add(self.whole(*spread));
+                Ok(())
             }
             (value, spread) => {
                 let (Some(number), Some(spread)) = (number(value), number(spread)) else {

@@ -37,6 +37,8 @@ struct Looked<'a> {
     /// What was seen within the window and counts, and when: what decided; else of numbers that always have to be in a
     /// range the one next to its end, of everything else the last.
     seen: Option<(Timestamp, Value)>,
+    /// Whether it was so when it was looked at for the last time.
+    held: bool,
     /// Decided before the end.
     decided: Option<bool>,
     /// Where a share decides.
@@ -61,6 +63,7 @@ impl<'a> Judge<'a> {
             assertion,
             window: assertion.window(),
             seen: None,
+            held: false,
             decided: None,
             counted: Counted::default(),
         });
@@ -89,13 +92,17 @@ impl<'a> Judge<'a> {
                 }
                 None => value,
             });
+            let condition = one.assertion.condition();
             // What is not there is told as what was seen.
-            let value = match value {
-                Ok(Some(value)) => value,
-                Ok(None) => Value::from(format!("there is no `{}`", one.assertion.value)),
-                Err(error) => Value::from(error.to_string()),
+            let (holds, value) = match value {
+                Ok(Some(value)) => (condition.holds(&value), value),
+                Ok(None) => {
+                    let text = format!("there is no `{}`", one.assertion.value);
+                    (condition.holds_without(), text.into())
+                }
+                Err(error) => (condition.holds_without(), error.to_string().into()),
             };
-            one.judge(now, value);
+            one.judge(now, value, holds);
         }
     }
 
@@ -116,9 +123,9 @@ impl Looked<'_> {
             }
     }
 
-    fn judge(&mut self, now: Timestamp, value: Value) {
+    fn judge(&mut self, now: Timestamp, value: Value, holds: bool) {
         let condition = self.assertion.condition();
-        let holds = condition.holds(&value);
+        self.held = holds;
         match self.window {
             Window::Always { .. } if !holds => self.decided = Some(false),
             Window::Once { .. } if holds => self.decided = Some(true),
@@ -150,7 +157,7 @@ impl Looked<'_> {
         let holds_at_last = match (&self.seen, self.window) {
             (None, _) | (_, Window::Once { .. } | Window::Mostly { .. }) => false,
             (Some(_), Window::Always { .. }) => true,
-            (Some((_, value)), Window::AtEnd) => self.assertion.condition().holds(value),
+            (Some(_), Window::AtEnd) => self.held,
         };
         let never = || Value::from("nothing: no cycle ended in that time");
         Verdict {

@@ -96,6 +96,36 @@ fn assertions_are_judged_over_outputs_and_truth() {
             "12",
         ),
         (
+            "value = 'truth.late'\nis_there = false\nuntil = 0.5",
+            true,
+            Some(0.5),
+            "null",
+        ),
+        (
+            "value = 'truth.late'\nis_there = false",
+            false,
+            Some(0.51),
+            "51",
+        ),
+        (
+            "value = 'truth.nothing'\nis_there = true\nat_end = true",
+            false,
+            Some(1.0),
+            "\"there is no `truth.nothing`\"",
+        ),
+        (
+            "value = 'truth.nothing'\nis_there = false",
+            false,
+            Some(0.01),
+            "\"there is no `truth.nothing`\"",
+        ),
+        (
+            "value = 'truth.late'\nis_there = true\nbefore = 0.7",
+            true,
+            Some(0.51),
+            "51",
+        ),
+        (
             "value = 'truth.events'\nbelow = 51\nshare = 0.5",
             true,
             Some(1.0),

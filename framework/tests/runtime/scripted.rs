@@ -240,7 +240,10 @@ impl Hardware for ScriptedHardware {
         // The driver asks for one event more before a cycle ends.
         let until = (self.clock.now() - Timestamp::ZERO).as_millis() as u64 / 10;
         let jumped = self.happened.load(Ordering::Relaxed) / 1000 * 1000;
-        serde_json::json!({ "events": jumped + until, "step": self.step, "entry": self.entry })
+        let late = (until > 50).then_some(until);
+        serde_json::json!({
+            "events": jumped + until, "late": late, "step": self.step, "entry": self.entry,
+        })
     }
 
     fn disturb(&self, deed: &toml::Table) -> Result<()> {

@@ -1,5 +1,7 @@
 //! What scenarios may say, and what they are told where they say something else.
 
+use std::collections::BTreeSet;
+
 use super::*;
 
 const ASSERTION: &str = "[[assertion]]\nwhat = 'a'\nvalue = 'truth.a'\nbelow = 1\n";
@@ -37,12 +39,26 @@ fn everything_that_can_be_said_is_read() {
     assert_eq!(one["lamp"].to_string(), "{ there = false, size = 3 }");
     let x = one["pose"][0].as_float().expect("it is a number");
     assert!((0.5..=1.5).contains(&x) && x != 1.0, "{x}");
-    assert_eq!(one["pose"][1].as_float(), Some(2.0));
+    assert_eq!(one["pose"][1].as_integer(), Some(2));
     let given = || toml::from_str("lamp = {}").expect("it is TOML");
     let again = scenario.world(given(), 1).expect("everything is there");
     assert_eq!(again["pose"], one["pose"], "the same seed");
     let other = scenario.world(given(), 2).expect("everything is there");
     assert_ne!(other["pose"], one["pose"], "another seed");
+}
+
+#[test]
+fn whole_numbers_stay_whole_where_they_are_moved_by_whole_numbers() {
+    let text = format!("ends = 2\nworld = {{ seed = 9 }}\nrandom = {{ seed = 3 }}\n{ASSERTION}");
+    let scenario = Scenario::parse(&text).expect("it is right");
+    let drawn: BTreeSet<i64> = (0..100)
+        .map(|seed| {
+            let world = scenario.world(toml::Table::new(), seed);
+            let world = world.expect("everything is there");
+            world["seed"].as_integer().expect("it is whole")
+        })
+        .collect();
+    assert_eq!(drawn, (6..=12).collect());
 }
 
 #[test]
