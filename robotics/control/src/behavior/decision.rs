@@ -4,13 +4,14 @@ use framework::Timestamp;
 use nalgebra::{Isometry2, Point2};
 use serde::{Deserialize, Serialize};
 use types::behavior::{Activity, Plan, Role};
+use types::fall_state::FallState;
 use types::game::PrimaryState;
 use types::motion::{BodyMotion, HeadMotion, MotionCommand, Step};
 use types::obstacles::ObstacleKind;
 use types::world_state::WorldState;
 
 use super::parameters::{BehaviorParameters, WalkParameters};
-use super::stuck::Progress;
+use super::stuck::{Legs, Progress};
 use super::walk_to::step_to;
 use super::way::{Circle, first_way_point};
 
@@ -89,16 +90,26 @@ impl Memory {
         if world.ground_to_field.is_some() || !is_in_game {
             self.pose_known_at = now;
         }
-        let ground_to_field = world.ground_to_field.as_ref();
-        self.progress
-            .notice(ground_to_field, self.moves(), &parameters.recovery, now);
+        self.progress.notice(
+            self.legs(world.fall_state),
+            world.ground_to_field.as_ref(),
+            &world.obstacles,
+            &parameters.recovery,
+            now,
+        );
     }
 
-    /// Whether the robot wanted to get anywhere by its own decision, also where it waits until a place becomes free.
-    fn moves(&self) -> bool {
-        match self.activity {
+    /// What they did by the robot's own decision: they move, too, where it waits until a place becomes free.
+    fn legs(&self, fall_state: FallState) -> Legs {
+        let is_up = matches!(fall_state, FallState::Upright | FallState::Sitting);
+        let moves = match self.activity {
             Activity::FollowClient => false,
             activity => activity.plays_ball() || self.is_walking,
+        };
+        match (is_up, moves) {
+            (false, _) => Legs::Down,
+            (true, true) => Legs::Move,
+            (true, false) => Legs::Wait,
         }
     }
 

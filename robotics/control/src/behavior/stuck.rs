@@ -2,6 +2,7 @@
 //!
 //! Judged by where localisation says that it is: odometry believes every step that slips.
 
+use std::mem;
 use std::time::Duration;
 
 use framework::Timestamp;
@@ -21,7 +22,9 @@ const WAITS: Duration = Duration::from_secs(1);
 pub(super) struct Progress {
     free: Option<Free>,
     moved_at: Timestamp,
-    backs_off_since: Option<Timestamp>,
+    /// When it lay where somebody had come near.
+    lay_beside_somebody_at: Option<Timestamp>,
+    retreat: Option<Retreat>,
 }
 
 /// A pose of the field frame that was not yet left.
@@ -31,41 +34,84 @@ struct Free {
     since: Timestamp,
 }
 
+/// It goes elsewhere before anything else.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
+struct Retreat {
+    since: Timestamp,
+    /// In s.
+    longest: f32,
+}
+
+/// What the robot does with its legs.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub(super) enum Legs {
+    /// It falls, lies or gets up.
+    Down,
+    /// It wants to get anywhere.
+    Move,
+    /// It wants to stay.
+    Wait,
+}
+
 impl Progress {
-    /// Where the robot is, and whether it wants to get anywhere.
+    /// Where the robot is, and what is around it, nearest first.
     pub(super) fn notice(
         &mut self,
+        legs: Legs,
         ground_to_field: Option<&Isometry2<f32>>,
-        moves: bool,
+        obstacles: &[Obstacle],
         recovery: &RecoveryParameters,
         now: Timestamp,
     ) {
-        if moves {
+        if legs != Legs::Wait {
             self.moved_at = now;
         }
-        let is_long_ago = |since: Timestamp, seconds: f32| (now - since).as_secs_f32() >= seconds;
-        let has_backed_off = self
-            .backs_off_since
-            .is_some_and(|since| is_long_ago(since, recovery.duration));
-        let waits = now - self.moved_at > WAITS;
-        let Some(&pose) = ground_to_field.filter(|_| !waits && !has_backed_off) else {
+        if legs == Legs::Down {
             self.free = None;
-            self.backs_off_since = None;
+            self.retreat = None;
+            let is_beside_somebody =
+                self.lay_beside_somebody_at.is_some() || nearest(obstacles, recovery).is_some();
+            self.lay_beside_somebody_at = is_beside_somebody.then_some(now);
+            return;
+        }
+        let waits = now - self.moved_at > WAITS;
+        let is_over = self.retreat.is_some_and(|retreat| retreat.is_over(now));
+        let Some(&pose) = ground_to_field.filter(|_| !waits && !is_over) else {
+            self.free = None;
+            self.retreat = None;
+            if waits {
+                self.lay_beside_somebody_at = None;
+            }
             return;
         };
+        // Who pushed it over pushes on: getting up is no use before it is elsewhere.
+        let lay_at = mem::take(&mut self.lay_beside_somebody_at);
+        if lay_at.is_some_and(|lay_at| !is_long_ago(lay_at, recovery.duration, now)) {
+            self.free = Some(Free { pose, since: now });
+            self.retreat = Some(Retreat {
+                since: now,
+                longest: recovery.after,
+            });
+        }
         match self.free {
             Some(free) if !free.has_been_left(&pose, recovery) => {
-                if self.backs_off_since.is_none() && is_long_ago(free.since, recovery.after) {
-                    self.backs_off_since = Some(now);
+                if self.retreat.is_none() && is_long_ago(free.since, recovery.after, now) {
+                    self.retreat = Some(Retreat {
+                        since: now,
+                        longest: recovery.duration,
+                    });
                 }
             }
-            _ => self.free = Some(Free { pose, since: now }),
+            _ => {
+                self.free = Some(Free { pose, since: now });
+                self.retreat = None;
+            }
         }
     }
 
     /// Whether it has to go elsewhere before anything else.
     pub(super) fn backs_off(&self) -> bool {
-        self.backs_off_since.is_some()
+        self.retreat.is_some()
     }
 }
 
@@ -77,17 +123,31 @@ impl Free {
     }
 }
 
+impl Retreat {
+    fn is_over(&self, now: Timestamp) -> bool {
+        is_long_ago(self.since, self.longest, now)
+    }
+}
+
+fn is_long_ago(since: Timestamp, seconds: f32, now: Timestamp) -> bool {
+    (now - since).as_secs_f32() >= seconds
+}
+
+/// Whom the robot touches.
+fn nearest<'a>(obstacles: &'a [Obstacle], recovery: &RecoveryParameters) -> Option<&'a Obstacle> {
+    obstacles
+        .first()
+        .filter(|obstacle| obstacle.position.coords.norm() < recovery.near)
+}
+
 /// Away from what is near, else back.
 pub(super) fn step_away(
     obstacles: &[Obstacle],
     recovery: &RecoveryParameters,
     walk: &WalkParameters,
 ) -> Step {
-    let away = obstacles
-        .first()
-        .map(|obstacle| -obstacle.position.coords)
-        .filter(|away| away.norm() < recovery.near)
-        .and_then(|away| away.try_normalize(f32::EPSILON))
+    let away = nearest(obstacles, recovery)
+        .and_then(|obstacle| (-obstacle.position.coords).try_normalize(f32::EPSILON))
         .unwrap_or_else(|| -Vector2::x());
     Step {
         forward: away.x * walk.forward,
@@ -113,7 +173,8 @@ mod tests {
             let seconds = 0.01 * cycle as f32;
             let pose = Isometry2::new(Vector2::new(speed * seconds, 0.0), turn * seconds);
             let now = at_millis(10_000 + 10 * cycle);
-            progress.notice(Some(&pose).filter(|_| knows), moves(cycle), &recovery, now);
+            let legs = if moves(cycle) { Legs::Move } else { Legs::Wait };
+            progress.notice(legs, Some(&pose).filter(|_| knows), &[], &recovery, now);
             cycles += f32::from(u8::from(progress.backs_off()));
         }
         0.01 * cycles
@@ -144,6 +205,51 @@ mod tests {
             let stuck = backs_off(speed, turn, |_| walks, knows);
             assert_eq!(stuck, 0.0, "{speed} {turn} {walks} {knows}");
         }
+    }
+
+    /// For how many of 15 s it backs off after 5 s on the ground, at that speed (m/s); somebody is so far ahead while it lies, m,
+    /// and it knows its place from so many ms on after it is up.
+    fn backs_off_risen(speed: f32, ahead: f32, knows_after: u64) -> f32 {
+        let recovery = parameters().recovery;
+        let mut progress = Progress::default();
+        let somebody = [Obstacle {
+            position: Point2::new(ahead, 0.0),
+            ..Obstacle::default()
+        }];
+        for cycle in 0..500 {
+            let now = at_millis(5_000 + 10 * cycle);
+            progress.notice(Legs::Down, None, &somebody, &recovery, now);
+            assert!(!progress.backs_off());
+        }
+        let mut cycles = 0.0;
+        for cycle in 0..1500 {
+            let pose = Isometry2::translation(-0.01 * cycle as f32 * speed, 0.0);
+            let now = at_millis(10_000 + 10 * cycle);
+            let pose = Some(&pose).filter(|_| 10 * cycle >= knows_after);
+            progress.notice(Legs::Move, pose, &[], &recovery, now);
+            cycles += f32::from(u8::from(progress.backs_off()));
+        }
+        0.01 * cycles
+    }
+
+    #[test]
+    fn who_was_pushed_over_gets_away_before_it_plays_on() {
+        let RecoveryParameters {
+            after,
+            distance,
+            near,
+            ..
+        } = parameters().recovery;
+        for knows_after in [0, 1_000] {
+            let away = backs_off_risen(0.1, 0.9 * near, knows_after);
+            assert!((away - distance / 0.1).abs() < 0.1, "{away} s");
+        }
+        // Held, it gives up in the end.
+        let held = backs_off_risen(0.0, 0.9 * near, 0);
+        assert!((held - after).abs() < 0.1, "{held} s");
+        assert_eq!(backs_off_risen(0.1, 1.1 * near, 0), 0.0);
+        // Whoever was there has gone by then.
+        assert_eq!(backs_off_risen(0.1, 0.9 * near, 5_000), 0.0);
     }
 
     #[test]
