@@ -28,6 +28,8 @@ impl PlaceParameters {
         let is_penalty_kick = set_play == SetPlay::PenaltyKick;
         let defender = self.goal_line - self.defender_ring;
         let (x, y) = match role {
+            // Its feet on both sides of the line.
+            Role::Keeper if is_penalty_kick && !is_own => (-self.goal_line, 0.0),
             Role::Keeper => (keeper.before_line - self.goal_line, 0.0),
             Role::Striker if is_penalty_kick && is_own => {
                 (self.goal_line - self.penalty_mark - self.kick_off, 0.0)
@@ -272,7 +274,7 @@ mod tests {
     }
 
     #[test]
-    fn at_a_penalty_kick_of_the_others_only_the_keeper_is_in_the_penalty_area() {
+    fn at_a_penalty_kick_of_the_others_only_the_keeper_is_in_the_penalty_area_on_its_line() {
         let parameters = parameters();
         for role in ROLES {
             let pose = parameters.places.before_kick(
@@ -284,6 +286,8 @@ mod tests {
             let place = pose.translation.vector;
             let is_inside = place.x < -2.85 && place.y.abs() < 2.0;
             assert_eq!(is_inside, role == Role::Keeper, "{role:?}");
+            // The rules want a foot of it on the line.
+            assert!(!is_inside || place.x == -4.5, "{place}");
         }
     }
 

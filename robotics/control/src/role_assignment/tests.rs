@@ -1,0 +1,304 @@
+//! Who is what by number, distance, and what the referee says.
+
+use framework::testing::at_millis;
+use nalgebra::Isometry2;
+use types::team::{TeamBall, TeamMessage};
+
+use super::*;
+
+fn roles(distances: &[(u8, Option<f32>)], is_playing: bool) -> Vec<Role> {
+    roles_with(distances, is_playing, false)
+}
+
+fn roles_with(distances: &[(u8, Option<f32>)], is_playing: bool, is_keeper_out: bool) -> Vec<Role> {
+    let candidate = |&(number, distance)| Candidate { number, distance };
+    let all = distances.iter();
+    all.clone()
+        .map(|own| {
+            let others = all.clone().map(candidate);
+            role(candidate(own), others, 1, is_playing, is_keeper_out)
+        })
+        .collect()
+}
+
+#[test]
+fn roles_by_who_is_there_and_how_far_the_ball_is() {
+    use Role::{DefenderLeft, DefenderRight, Keeper, Striker, Supporter};
+    let far = Some(4.0);
+    for (distances, is_playing, expected) in [
+        // Alone, the goalkeeper plays the ball, but not before the game is on.
+        (vec![(1, far)], true, vec![Striker]),
+        (vec![(1, far)], false, vec![Keeper]),
+        (vec![(4, None)], true, vec![Striker]),
+        (vec![(1, Some(0.5)), (2, far)], true, vec![Keeper, Striker]),
+        // The nearest plays it, whatever its number.
+        (
+            vec![
+                (1, None),
+                (2, far),
+                (3, Some(1.0)),
+                (4, None),
+                (5, Some(2.0)),
+            ],
+            true,
+            vec![Keeper, DefenderLeft, Striker, Supporter, DefenderRight],
+        ),
+        // Until it is in play numbers count, and so they do where nobody knows the ball.
+        (
+            vec![(1, None), (2, far), (3, Some(1.0)), (4, None), (5, None)],
+            false,
+            vec![Keeper, Striker, DefenderLeft, Supporter, DefenderRight],
+        ),
+        (
+            vec![(1, None), (2, None), (3, None)],
+            true,
+            vec![Keeper, Striker, DefenderLeft],
+        ),
+        // A sixth takes the first place again.
+        (
+            vec![
+                (1, None),
+                (2, Some(1.0)),
+                (3, None),
+                (4, None),
+                (5, None),
+                (6, None),
+            ],
+            true,
+            vec![
+                Keeper,
+                Striker,
+                DefenderLeft,
+                Supporter,
+                DefenderRight,
+                DefenderLeft,
+            ],
+        ),
+    ] {
+        assert_eq!(roles(&distances, is_playing), expected, "{distances:?}");
+    }
+}
+
+fn teammate(number: u8, ball: f32, age: f32, is_fallen: bool) -> Teammate {
+    Teammate {
+        message: TeamMessage {
+            player_number: number,
+            is_fallen,
+            ground_to_field: Some(Isometry2::translation(-4.2, 0.0)),
+            ball: Some(TeamBall {
+                position: Point2::new(ball, 0.0),
+                age,
+            }),
+        },
+        heard_at: at_millis(1000),
+    }
+}
+
+fn cycle(node: &mut RoleAssignment, ball: f32, teammates: Vec<Teammate>) -> MainOutputs {
+    cycle_in(node, PrimaryState::Playing, None, ball, teammates)
+}
+
+fn cycle_in(
+    node: &mut RoleAssignment,
+    primary_state: PrimaryState,
+    goalkeeper: Option<u8>,
+    ball: f32,
+    teammates: Vec<Teammate>,
+) -> MainOutputs {
+    let referee = goalkeeper.map(|goalkeeper| GameControllerState {
+        goalkeeper,
+        ..GameControllerState::default()
+    });
+    cycle_with(node, primary_state, &referee, ball, &teammates)
+}
+
+fn cycle_with(
+    node: &mut RoleAssignment,
+    primary_state: PrimaryState,
+    referee: &Option<GameControllerState>,
+    ball: f32,
+    teammates: &Vec<Teammate>,
+) -> MainOutputs {
+    let context = CycleContext {
+        primary_state: &primary_state,
+        game_controller_state: referee,
+        ball: &Some(Ball {
+            position: Point2::new(ball, 0.0),
+            ..Ball::default()
+        }),
+        team_ball: &None,
+        teammates,
+        player: &Player {
+            number: 2,
+            team: 77,
+        },
+        markings: &FieldMarkings {
+            length: 9.0,
+            ..FieldMarkings::default()
+        },
+        parameters: &RoleParameters {
+            keeper: 1,
+            hysteresis: 0.5,
+            keeper_out: 1.8,
+            keeper_back: 1.2,
+        },
+    };
+    node.cycle(context).unwrap()
+}
+
+#[test]
+fn who_plays_the_ball_goes_on_while_the_other_is_hardly_nearer() {
+    let mut node = RoleAssignment::new(CreationContext {}).unwrap();
+    let mut role = |ball, other| cycle(&mut node, ball, vec![other]).role.value.unwrap();
+    assert_eq!(role(1.0, teammate(3, 0.8, 0.0, false)), Role::Striker);
+    assert_eq!(role(1.0, teammate(3, 0.4, 0.0, false)), Role::Sweeper);
+    assert_eq!(role(1.0, teammate(3, 0.8, 0.0, false)), Role::Sweeper);
+    assert_eq!(
+        role(1.0, teammate(3, 0.4, 0.0, true)),
+        Role::Striker,
+        "it lies"
+    );
+}
+
+#[test]
+fn the_goalkeeper_is_whom_the_referee_names_and_where_it_names_nobody_there_is_none() {
+    use PrimaryState::{Playing, Ready};
+    use Role::{DefenderLeft, Keeper, Striker, Supporter, Sweeper};
+    for (said, state, mates, role, goalkeeper) in [
+        // This robot is number 2, its file says 1; number 3 is nearer to the ball.
+        (None, Playing, vec![1, 3], DefenderLeft, 1),
+        (Some(1), Playing, vec![1, 3], DefenderLeft, 1),
+        (Some(2), Playing, vec![1, 3], Keeper, 2),
+        (Some(2), Ready, vec![1, 3], Keeper, 2),
+        (Some(2), Ready, vec![], Keeper, 2),
+        (Some(2), Playing, vec![], Striker, 2),
+        // A goalkeeper plays no ball, and the number 1 is a player as the others are.
+        (Some(3), Playing, vec![1, 3], DefenderLeft, 3),
+        (Some(3), Playing, vec![3], Striker, 3),
+        (Some(1), Ready, vec![1, 3], Striker, 1),
+        (Some(3), Ready, vec![1, 3], DefenderLeft, 3),
+        // Nobody, a substitute that is no team mate, or a number that no shirt has.
+        (Some(0), Playing, vec![1, 3], Supporter, 0),
+        (Some(9), Ready, vec![3], Striker, 9),
+        // A goal without a keeper is nobody's before the game is on.
+        (Some(9), Ready, vec![1], DefenderLeft, 9),
+        (Some(9), Playing, vec![1], Sweeper, 9),
+        (Some(255), Ready, vec![3], Striker, 255),
+    ] {
+        let mut node = RoleAssignment::new(CreationContext {}).unwrap();
+        let nearer = |number| teammate(number, 0.2 * f32::from(4 - number), 0.0, false);
+        let mates: Vec<_> = mates.into_iter().map(nearer).collect();
+        let outputs = cycle_in(&mut node, state, said, 2.0, mates.clone());
+        assert_eq!(
+            (outputs.role.value, outputs.goalkeeper.value),
+            (Some(role), goalkeeper),
+            "{said:?} {state:?} {mates:?}"
+        );
+    }
+}
+
+#[test]
+fn a_goalkeeper_alone_leaves_its_goal_but_not_at_a_penalty_kick_of_the_others() {
+    use KickingTeam::{Nobody, Opponent, Own};
+    for (goalkeeper, set_play, kicking_team, role) in [
+        (2, SetPlay::PenaltyKick, Opponent, Role::Keeper),
+        (2, SetPlay::PenaltyKick, Own, Role::Striker),
+        (2, SetPlay::GoalKick, Opponent, Role::Striker),
+        (2, SetPlay::None, Nobody, Role::Striker),
+        (1, SetPlay::PenaltyKick, Opponent, Role::Striker),
+    ] {
+        let referee = Some(GameControllerState {
+            goalkeeper,
+            set_play,
+            kicking_team,
+            ..GameControllerState::default()
+        });
+        let mut node = RoleAssignment::new(CreationContext {}).unwrap();
+        let outputs = cycle_with(&mut node, PrimaryState::Playing, &referee, 1.0, &vec![]);
+        let seen = outputs.role.value;
+        assert_eq!(
+            seen,
+            Some(role),
+            "{goalkeeper} {set_play:?} {kicking_team:?}"
+        );
+    }
+}
+
+#[test]
+fn one_of_those_that_do_not_play_the_ball_sweeps_while_the_keeper_is_out() {
+    use Role::{DefenderLeft, DefenderRight, Striker, Supporter, Sweeper};
+    let players = [2, 3, 4, 5, 6, 7].map(|number| (number, Some(f32::from(number))));
+    assert_eq!(
+        roles_with(&players, true, true),
+        [
+            Striker,
+            Sweeper,
+            Supporter,
+            DefenderRight,
+            DefenderLeft,
+            Supporter
+        ]
+    );
+    assert_eq!(roles_with(&players[..1], true, true), [Striker]);
+}
+
+#[test]
+fn the_keeper_is_out_without_a_message_or_far_from_its_goal_until_it_is_back() {
+    use PrimaryState::{Playing, Ready};
+    let mut node = RoleAssignment::new(CreationContext {}).unwrap();
+    let mut role = |state, keeper: Option<Option<f32>>| {
+        let keeper = keeper.map(|x| {
+            let mut keeper = teammate(1, 4.0, 0.0, false);
+            keeper.message.ground_to_field = x.map(|x| Isometry2::translation(x, 0.0));
+            keeper
+        });
+        let mates = keeper.into_iter().chain([teammate(3, 0.2, 0.0, false)]);
+        cycle_in(&mut node, state, Some(1), 2.0, mates.collect())
+            .role
+            .value
+    };
+    for (state, keeper, expected) in [
+        (Playing, Some(Some(-4.0)), Role::DefenderLeft),
+        // It plays a ball away, then goes further, and comes back.
+        (Playing, Some(Some(-3.0)), Role::DefenderLeft),
+        (Playing, Some(Some(-2.5)), Role::Sweeper),
+        (Playing, Some(Some(-3.0)), Role::Sweeper),
+        (Playing, Some(Some(-3.5)), Role::DefenderLeft),
+        (Playing, Some(None), Role::DefenderLeft),
+        // Taken out, or silent.
+        (Playing, None, Role::Sweeper),
+        (Ready, None, Role::Striker),
+        (Ready, Some(Some(0.0)), Role::Striker),
+    ] {
+        assert_eq!(role(state, keeper), Some(expected), "{state:?} {keeper:?}");
+    }
+}
+
+#[test]
+fn a_referee_that_falls_silent_has_named_nobody_else() {
+    let mut node = RoleAssignment::new(CreationContext {}).unwrap();
+    let mut goalkeeper = |said| {
+        let mates = vec![teammate(3, 0.2, 0.0, false)];
+        let outputs = cycle_in(&mut node, PrimaryState::Playing, said, 2.0, mates);
+        outputs.goalkeeper.value
+    };
+    assert_eq!(goalkeeper(None), 1);
+    assert_eq!(goalkeeper(Some(2)), 2);
+    assert_eq!(goalkeeper(None), 2);
+    assert_eq!(goalkeeper(Some(3)), 3);
+}
+
+#[test]
+fn who_has_been_taken_out_has_no_role_and_begins_as_any_other() {
+    let mut node = RoleAssignment::new(CreationContext {}).unwrap();
+    let mut role = |state, other| {
+        let mates = vec![teammate(3, other, 0.0, false)];
+        cycle_in(&mut node, state, Some(1), 1.0, mates).role.value
+    };
+    let (playing, penalized) = (PrimaryState::Playing, PrimaryState::Penalized);
+    assert_eq!(role(playing, 0.8), Some(Role::Striker));
+    assert_eq!(role(penalized, 0.8), None);
+    assert_eq!(role(playing, 0.8), Some(Role::Sweeper));
+    assert_eq!(role(penalized, 0.8), None);
+    assert_eq!(role(playing, 1.2), Some(Role::Striker));
+}
