@@ -144,7 +144,7 @@ impl Deed {
 /// `x`, `y`, `heading` of the robot, `own.place` (x and y) and `own.direction` (cosine and sine) as its team sees the field,
 /// how far it `walked`, `tilt` and `height` of its torso; `stuck`, for how many seconds it has lain or moved its legs without
 /// getting anywhere; `harmful_commands`, how many wanted a joint beyond its limits; `ball.x`, `ball.y`, from the robot
-/// `ball.ahead`, `ball.aside`, `ball.distance`, and `ball_contacts` of all robots;
+/// `ball.ahead`, `ball.aside`, `ball.seen` (both), `ball.distance`, and `ball_contacts` of all robots;
 /// `robots` are the others: `x`, `y`, `heading`, `team` (`own` or `opponent`), `number`;
 /// `removed`, how often the referee has taken the robot out, and `misplaced`, how often for where it stood or walked;
 /// `score.blue`, `score.red`, and where a game is played `game.state`, `game.set_play`, `game.kicking` (`blue` or `red`).
@@ -157,7 +157,8 @@ pub(super) fn truth(truth: &GroundTruth) -> Value {
         let seen = ground.inverse() * ball;
         json!({
             "x": ball.x, "y": ball.y,
-            "ahead": seen.x, "aside": seen.y, "distance": seen.coords.xy().norm(),
+            "ahead": seen.x, "aside": seen.y, "seen": [seen.x, seen.y],
+            "distance": seen.coords.xy().norm(),
         })
     });
     let robots = truth.robots.iter().map(|robot| {
