@@ -27,7 +27,7 @@ pub struct Settings {
     pub block_bytes: usize,
     /// Bytes from which on a chunk is closed, not compressed.
     pub chunk_bytes: usize,
-    /// How long frames stay in memory while their instance has new ones, about; between them by their own time.
+    /// How long frames stay in memory while their instance has cycles, recorded or not, about; by the cycles' own time.
     pub longest: Duration,
 }
 

@@ -133,9 +133,7 @@ impl Track {
         keep: usize,
         mut write: impl FnMut(&mut Frame<'_>) -> Result<(), E>,
     ) -> Recorded<E> {
-        if self.is_old(time) {
-            self.hand_over();
-        }
+        self.pass(time);
         let mut is_new = false;
         loop {
             if self.block.is_none() {
@@ -214,6 +212,15 @@ impl Track {
     fn dropped<E>(&self) -> Recorded<E> {
         self.counts.dropped.fetch_add(1, Ordering::Relaxed);
         Recorded::Dropped
+    }
+
+    /// Told of a cycle without a frame, at a time in nanoseconds of the run: what was written before does not wait
+    /// for one that may never be wanted.
+    #[inline]
+    pub fn pass(&mut self, time: u64) {
+        if self.is_old(time) {
+            self.hand_over();
+        }
     }
 
     // By the frames' own time: to look at the clock for each of them takes longer than to write some.

@@ -5,6 +5,8 @@ mod counting;
 #[path = "recording/description.rs"]
 mod description;
 
+use std::time::Duration;
+
 use hulkgen_recording::{Recorded, Recorder, Settings};
 
 use counting::allocations;
@@ -16,6 +18,7 @@ fn frames_allocate_nothing() {
     let path = folder.path().join("run.mcap");
     let settings = Settings {
         blocks: 64,
+        longest: Duration::from_nanos(50),
         ..settings()
     };
     let (_recorder, mut tracks) =
@@ -32,6 +35,8 @@ fn frames_allocate_nothing() {
         track.end(cycle, |frame| {
             frame.message(FRAMES, cycle as u32, cycle, |writing| writing.put(b"0"))
         });
+        // Of every fiftieth cycle, it hands the block over.
+        track.pass(cycle + 1);
     }
     assert_eq!(allocations() - before, 0);
     assert!(whole > 100, "{whole} frames were recorded");

@@ -245,6 +245,7 @@ impl OutputRecorder {
         let time = cycle.time.start.as_nanos();
         for (wanted, channel) in self.outputs.iter() {
             let Some(value) = wanted.value(instance) else {
+                self.track.pass(time);
                 continue;
             };
             // Counted where it is dropped or cannot be written.

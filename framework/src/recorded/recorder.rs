@@ -135,11 +135,11 @@ impl CycleRecorder {
 impl CycleRecorder {
     fn begun(&mut self, instance: &mut dyn Instance) {
         self.open = None;
+        let cycle = instance.cycle();
         if !self.wanted.next() {
-            return;
+            return self.track.pass(cycle.time.start.as_nanos());
         }
         self.track.want();
-        let cycle = instance.cycle();
         let Self {
             track,
             own,

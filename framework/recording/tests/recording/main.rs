@@ -6,10 +6,11 @@ mod readers;
 mod support;
 
 use std::os::unix::fs::MetadataExt as _;
+use std::path::Path;
 use std::process::Command;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
-use hulkgen_recording::{Full, Recorded, Recorder, Recording, Settings, Way};
+use hulkgen_recording::{Full, Recorded, Recorder, Recording, Settings, Track, Way};
 use proptest::prelude::*;
 
 use description::{FRAMES, description, settings};
@@ -97,6 +98,70 @@ fn a_block_is_handed_over_when_its_frames_are_old() {
     assert_eq!(firsts, [true, false, true, false, false, true, false]);
     drop(track);
     assert!(recorder.end().is_complete);
+}
+
+#[test]
+fn what_was_recorded_last_is_handed_over_though_nothing_more_is_wanted() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("run.mcap");
+    let settings = Settings {
+        longest: Duration::from_secs(1),
+        // Each block is a chunk at once.
+        chunk_bytes: 1,
+        ..settings()
+    };
+    let (recorder, mut tracks) =
+        Recorder::start(&path, description(), &["Control"], settings).expect("it is new");
+    let mut track = tracks.pop().expect("one was asked for");
+    let record = |track: &mut Track, tenths: u64| {
+        let mut is_first = false;
+        let recorded = track.frame::<Full>(tenths * 100_000_000, 0, |frame| {
+            is_first = frame.is_first();
+            frame.message(FRAMES, tenths as u32, tenths, |writing| writing.put(b"0"))
+        });
+        assert_eq!(recorded, Recorded::Whole);
+        is_first
+    };
+    let pass = |track: &mut Track, tenths: u64| track.pass(tenths * 100_000_000);
+    // Nothing is there yet.
+    pass(&mut track, 49);
+    assert!(record(&mut track, 50));
+    pass(&mut track, 59);
+    assert!(!record(&mut track, 59), "it was not old");
+    pass(&mut track, 60);
+    await_frames(&path, &[&[50, 59]]);
+    // Nothing is there any more.
+    pass(&mut track, 61);
+    pass(&mut track, 90);
+    // Back in time: what waits is as old as its first frame says.
+    assert!(record(&mut track, 40));
+    pass(&mut track, 30);
+    assert!(!record(&mut track, 45));
+    pass(&mut track, 50);
+    await_frames(&path, &[&[50, 59], &[40, 45]]);
+    assert!(record(&mut track, 51));
+    drop(track);
+    assert!(recorder.end().is_complete);
+    await_frames(&path, &[&[50, 59], &[40, 45], &[51]]);
+}
+
+/// Waits until the file has these frames, by chunk, and no others.
+fn await_frames(path: &Path, expected: &[&[u32]]) {
+    let begun = Instant::now();
+    loop {
+        let recording = Recording::open(path).expect("its beginning is there");
+        let found: Vec<Vec<_>> = recording
+            .chunks
+            .iter()
+            .map(|chunk| chunk.messages().map(|message| message.sequence).collect())
+            .collect();
+        if found == expected {
+            return;
+        }
+        let is_late = begun.elapsed() > Duration::from_secs(20);
+        assert!(!is_late, "{found:?} instead of {expected:?}");
+        std::thread::sleep(Duration::from_millis(1));
+    }
 }
 
 #[test]

@@ -1,5 +1,7 @@
 //! Recordings that do not have everything: the rest is recomputed all the same.
 
+use std::time::{Duration, Instant};
+
 use framework::recorded::{About, Recording, Settings};
 use framework::{Clock, Lockstep, Record, Timestamp};
 
@@ -62,6 +64,56 @@ fn only_what_an_output_asks_for_is_recorded() {
     }
     assert_eq!(report.instances[4].wanted, 1);
     assert!(verification.is_good(), "{verification}");
+}
+
+#[test]
+fn what_an_output_asked_for_is_in_the_file_while_it_asks_for_nothing_more() {
+    let tape = Tape::new();
+    let mut zoo = Zoo::new(Clock::stepped());
+    let settings = Settings {
+        longest: Duration::from_millis(200),
+        ..SMALL
+    };
+    let record_of = |instance: &framework::InstanceDescription| match instance.name {
+        "Reflexes" => Record::While {
+            instance: "Reflexes",
+            path: "pressed",
+        },
+        _ => Record::Off,
+    };
+    let about = About::default();
+    let recording = Recording::start_with(&tape.path, &zoo.robot, about, settings, record_of);
+    let mut recording = recording.expect("the folder is empty");
+    let hardware = zoo.hardware.clone();
+    let mut lockstep =
+        Lockstep::new(&mut zoo.robot, &*hardware).observed(|instance| recording.observer(instance));
+    // A second after it began, one cycle is asked for; the next one a second later.
+    lockstep
+        .run_until(Timestamp::from_nanos(1_500_000_000), |_| {})
+        .expect("the zoo goes on");
+    let begun = Instant::now();
+    while frames_of_reflexes(&tape) == 0 {
+        let is_late = begun.elapsed() > Duration::from_secs(20);
+        assert!(!is_late, "the frame waits for a next one");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    drop(lockstep);
+    let report = recording.end();
+    assert!(report.ended.is_complete, "{report}");
+    assert_eq!(frames_of_reflexes(&tape), 1);
+}
+
+/// Beginnings of cycles that the file has by now; it is still being written.
+fn frames_of_reflexes(tape: &Tape) -> usize {
+    let file = tape.read();
+    let mut channels = file.channels.iter();
+    let (number, _) = channels
+        .find(|(_, channel)| channel.topic == "frames/Reflexes")
+        .expect("it has a channel");
+    let messages = file.chunks.iter().flat_map(|chunk| chunk.messages());
+    let own = messages.filter(|message| message.channel == *number);
+    own.filter(|message| message.data.first() == Some(&0))
+        .count()
 }
 
 #[test]
