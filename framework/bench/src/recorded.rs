@@ -21,7 +21,7 @@ const BUDGET: u64 = 64 << 20;
 
 pub(crate) struct Recorder {
     observer: Box<dyn Observer>,
-    counts: Vec<Arc<Counts>>,
+    counts: Vec<(String, Arc<Counts>)>,
     // Ends when it is dropped; the folder goes behind it.
     _recording: Recording,
     _folder: TempDir,
@@ -70,7 +70,7 @@ impl Recorder {
     /// Waits for the writer; every cycle must have found room.
     pub(crate) fn rest(&self) {
         thread::sleep(PAUSE);
-        let is_complete = self.counts.iter().all(|counts| counts.is_complete());
+        let is_complete = self.counts.iter().all(|(_, counts)| counts.is_complete());
         assert!(is_complete, "every cycle is recorded");
     }
 }

@@ -50,9 +50,14 @@ impl Counts {
         self.overwritten.load(Ordering::Relaxed)
     }
 
+    /// Frames that are not in the file and never were: dropped, failed or lost.
+    pub fn missing(&self) -> u64 {
+        self.dropped() + self.failed() + self.lost()
+    }
+
     /// Whether every frame is in the file, or was until the ring closed over it, as far as is known now.
     pub fn is_complete(&self) -> bool {
-        self.dropped() + self.failed() + self.lost() == 0
+        self.missing() == 0
     }
 }
 

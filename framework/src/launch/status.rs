@@ -1,5 +1,6 @@
 //! Looks after a run: ends it on a signal or when its time is over, and shows a line a second on standard error.
 
+use std::cmp::Reverse;
 use std::fmt::Write;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{self, JoinHandle};
@@ -17,6 +18,9 @@ use crate::stop::Stop;
 const PERIOD: Duration = Duration::from_millis(20);
 const SHOWN_EVERY: Duration = Duration::from_secs(1);
 
+/// How many of those whose frames are missing have room in a line.
+const NAMED: usize = 4;
+
 /// The thread that looks after the run. Dropping it requests the stop.
 pub(super) struct Supervisor {
     stop: Stop,
@@ -30,8 +34,8 @@ struct Watched {
     duration: Option<Duration>,
     shown: Instant,
     instances: Vec<Line>,
-    /// Frames of a recording, by instance.
-    recorded: Vec<Arc<recorded::Counts>>,
+    /// Frames of a recording, by instance and whatever else it has.
+    recorded: Vec<(String, Arc<recorded::Counts>)>,
 }
 
 struct Line {
@@ -124,12 +128,8 @@ impl Watched {
                 instance.write(since_shown, &mut line);
             }
             let missing = self.recorded.iter();
-            let missing: u64 = missing
-                .map(|one| one.dropped() + one.failed() + one.lost())
-                .sum();
-            if missing > 0 {
-                let _ = write!(line, "  |  {missing} not recorded");
-            }
+            let missing = missing.map(|(of, counts)| (&**of, counts.missing()));
+            write_missing(missing.collect(), &mut line);
             tell(format_args!("{line}"));
         }
         self.duration
@@ -158,6 +158,26 @@ impl Line {
     }
 }
 
+/// How much is not in the recording, and of whom most is.
+fn write_missing(mut missing: Vec<(&str, u64)>, line: &mut String) {
+    let sum = |some: &[(&str, u64)]| some.iter().map(|(_, count)| count).sum::<u64>();
+    missing.retain(|(_, count)| *count > 0);
+    if missing.is_empty() {
+        return;
+    }
+    missing.sort_by_key(|(_, count)| Reverse(*count));
+    let (named, others) = match missing.len() > NAMED {
+        // Room for those who share the last place.
+        true => missing.split_at(NAMED - 1),
+        false => (&*missing, &[][..]),
+    };
+    // Writing to a string cannot fail.
+    let _ = write!(line, "  |  {} not recorded: ", sum(&missing));
+    let named = named.iter().map(|(of, count)| format!("{of} {count}"));
+    let others = (!others.is_empty()).then(|| format!("{} others {}", others.len(), sum(others)));
+    let _ = write!(line, "{}", Vec::from_iter(named.chain(others)).join(", "));
+}
+
 fn lock(watched: &Mutex<Option<Watched>>) -> std::sync::MutexGuard<'_, Option<Watched>> {
     watched.lock().unwrap_or_else(PoisonError::into_inner)
 }
@@ -175,6 +195,29 @@ mod tests {
         assert!(
             message.contains("supervisor failed") && message.contains("as the test wants"),
             "{message}"
+        );
+    }
+
+    #[test]
+    fn whose_frames_are_not_recorded_stands_in_the_line() {
+        let line = |missing: &[(&str, u64)]| {
+            let mut line = "1 s".to_owned();
+            write_missing(missing.to_vec(), &mut line);
+            line
+        };
+        assert_eq!(line(&[]), "1 s");
+        assert_eq!(line(&[("Top", 0), ("Bottom", 0)]), "1 s");
+        assert_eq!(
+            line(&[("Top", 0), ("Bottom", 7), ("logs", 0)]),
+            "1 s  |  7 not recorded: Bottom 7"
+        );
+        // Most first; who has as many keeps its place.
+        let four = [("A", 2), ("B", 30), ("C", 2), ("D", 1)];
+        assert_eq!(line(&four), "1 s  |  35 not recorded: B 30, A 2, C 2, D 1");
+        let many = [("A", 2), ("B", 30), ("C", 2), ("D", 1), ("E", 0), ("F", 9)];
+        assert_eq!(
+            line(&many),
+            "1 s  |  44 not recorded: B 30, F 9, A 2, 2 others 3"
         );
     }
 

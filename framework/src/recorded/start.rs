@@ -146,11 +146,12 @@ impl Recording {
         self.recorder.path()
     }
 
-    /// What became of each instance's frames, to be read while the robot runs.
-    pub fn shared_counts(&self) -> Vec<Arc<Counts>> {
+    /// What became of each instance's frames, then of values of outputs (`INSTANCE.outputs`) and of log messages (`logs`),
+    /// to be read while the robot runs.
+    pub fn shared_counts(&self) -> Vec<(String, Arc<Counts>)> {
         self.recorder
             .counts()
-            .map(|(_, counts)| counts.clone())
+            .map(|(of, counts)| (of.to_owned(), counts.clone()))
             .collect()
     }
 
@@ -183,14 +184,11 @@ impl Recording {
                 .map(|one| (one.instance.to_owned(), one.wanted.to_string()))
                 .collect(),
         };
-        let counts = self.shared_counts();
-        let others = self.recorder.counts().skip(instances.len());
-        let others: Vec<_> = others
-            .map(|(of, counts)| (of.to_owned(), counts.clone()))
-            .collect();
+        let mut counts = self.shared_counts();
+        let others = counts.split_off(instances.len());
         let ended = self.recorder.end_with(vec![wanted]);
         // What the disk did not take, and what had to go for it, is known when all was written.
-        for (one, counts) in instances.iter_mut().zip(counts) {
+        for (one, (_, counts)) in instances.iter_mut().zip(counts) {
             one.lost = counts.lost();
             one.overwritten = counts.overwritten();
         }

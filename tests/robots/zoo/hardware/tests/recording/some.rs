@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use framework::recorded::{About, Recording, Settings};
 use framework::{Clock, Lockstep, Record, Timestamp};
 
-use super::{SMALL, Tape, Zoo, as_it_is, on, record_in_lockstep};
+use super::{INSTANCES, SMALL, Tape, Zoo, as_it_is, on, record_in_lockstep};
 
 #[test]
 fn an_instance_that_is_off_is_not_missed_and_not_needed() {
@@ -206,6 +206,12 @@ fn values_that_are_missing_beside_frames_are_named() {
         .run_until(Timestamp::from_nanos(500_000_000), |_| {})
         .expect("the zoo goes on");
     drop(lockstep);
+    // What the status line says meanwhile.
+    let counts = recording.shared_counts();
+    let names = counts.iter().map(|(of, _)| &**of);
+    assert!(names.eq(INSTANCES.into_iter().chain(["Control.outputs", "logs"])));
+    let missing = counts.iter().filter(|(_, counts)| counts.missing() >= 30);
+    assert!(missing.map(|(of, _)| of).eq(["Control.outputs"]));
     let report = recording.end();
     assert_eq!(report.state(), "INCOMPLETE");
     assert_eq!(report.missing[0].of, "Control.outputs");
