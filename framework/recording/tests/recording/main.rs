@@ -14,7 +14,7 @@ use hulkgen_recording::{Full, Recorded, Recorder, Recording, Settings, Track, Wa
 use proptest::prelude::*;
 
 use description::{FRAMES, description, settings};
-use support::{frame, record};
+use support::{drawn_places, frame, record};
 
 /// Cycles of the frames in all chunks; each chunk has every value that its frames refer to, once.
 fn cycles(recording: &Recording) -> Vec<u32> {
@@ -305,9 +305,7 @@ fn a_cut_file_has_all_chunks_before_the_cut() {
     let all = cycles(&whole);
     let boundaries = whole.chunks.iter().map(|chunk| chunk.offset as usize);
     let boundaries: Vec<_> = boundaries.collect();
-    let step = bytes.len() / 500;
-    let cuts = (8..bytes.len()).step_by(step.max(1));
-    for cut in cuts.chain(boundaries.iter().copied()) {
+    for cut in drawn_places(8..bytes.len()).chain(boundaries.iter().copied()) {
         let recording = Recording::read(&bytes[..cut]).expect("its beginning is there");
         assert_ne!(recording.way, Way::Whole);
         let found = cycles(&recording);

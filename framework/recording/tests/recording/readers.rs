@@ -6,7 +6,7 @@ use std::process::Command;
 use hulkgen_recording::{Recording, Settings};
 
 use crate::description::settings;
-use crate::support::record;
+use crate::support::{drawn_places, record};
 
 /// The lines that the script prints; `None` where it cannot run.
 fn read(arguments: &[String]) -> Option<Vec<serde_json::Value>> {
@@ -47,10 +47,9 @@ fn python_reads_what_we_write() {
         },
     );
     let bytes = std::fs::read(&path).expect("it was written");
-    let step = bytes.len() / 500;
     let recording = Recording::read(&bytes).expect("it can be read");
     let boundaries = recording.chunks.iter().map(|chunk| chunk.offset as usize);
-    let cuts: Vec<_> = (8..bytes.len()).step_by(step).chain(boundaries).collect();
+    let cuts: Vec<_> = drawn_places(8..bytes.len()).chain(boundaries).collect();
     let offsets: Vec<_> = cuts.iter().map(usize::to_string).collect();
     let [path, ring] = [path, ring].map(|path| path.to_str().expect("UTF-8").to_owned());
     let Some(lines) = read(&[

@@ -1,5 +1,6 @@
 //! A recording of counted frames, each behind a value that every third frame shares.
 
+use std::ops::Range;
 use std::path::Path;
 use std::time::Duration;
 
@@ -32,4 +33,21 @@ pub(crate) fn record(path: &Path, frames: u32, length: usize, settings: Settings
     }
     drop(track);
     recorder.end().is_complete
+}
+
+/// 500 places that a seed draws, where a file may be cut; `HULKGEN_FUZZ_SEED` is another seed.
+pub(crate) fn drawn_places(of: Range<usize>) -> impl Iterator<Item = usize> {
+    let seed = std::env::var("HULKGEN_FUZZ_SEED");
+    let seed: u64 = seed.map_or(1, |seed| seed.parse().expect("a seed is a number"));
+    // Shown where the test fails.
+    println!("cut at 500 places of HULKGEN_FUZZ_SEED={seed}");
+    let mut state = seed;
+    // SplitMix64 (Steele, Lea and Flood, 2014).
+    std::iter::repeat_with(move || {
+        state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mixed = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        of.start + (mixed ^ (mixed >> 31)) as usize % of.len()
+    })
+    .take(500)
 }
