@@ -1,13 +1,17 @@
 //! The whole NAO recorded in lockstep, and every cycle of it recomputed, whatever the recording lacks.
 
+use std::io::ErrorKind;
 use std::path::PathBuf;
+use std::process::Command;
 
 use framework::recorded::{About, Recording, RecordingReport, Settings};
 use framework::replay::{Players, Ran, Verification, value_channels, verify};
 use framework::{InstanceDescription, Lockstep, Record, Timestamp};
 use hulkgen_recording::Recording as File;
 use nao_runtime::recording;
+use serde_json::{Value, json};
 use support::nao::Nao;
+use support::skip;
 
 /// Instances that have many cycles in a second; the network waits for packets.
 const BUSY: [&str; 4] = ["VisionTop", "VisionBottom", "Control", "Audio"];
@@ -34,12 +38,21 @@ impl Tape {
         settings: Settings,
         record_of: impl Fn(&InstanceDescription) -> Record,
     ) -> Self {
+        Self::record_with(seconds, About::default(), settings, record_of)
+    }
+
+    /// The same, with this to say of it.
+    fn record_with(
+        seconds: u64,
+        about: About,
+        settings: Settings,
+        record_of: impl Fn(&InstanceDescription) -> Record,
+    ) -> Self {
         let folder = tempfile::tempdir().expect("there is room for a folder");
         let path = folder.path().join("nao.mcap");
         let mut nao = Nao::new(&["--pose", "2.0,0.0,0.0", "--ball", "2.9,0.3"], &[]);
-        let mut tape =
-            Recording::start_with(&path, &nao.robot, About::default(), settings, record_of)
-                .expect("the folder is empty");
+        let mut tape = Recording::start_with(&path, &nao.robot, about, settings, record_of)
+            .expect("the folder is empty");
         let hardware = nao.hardware.clone();
         let mut lockstep =
             Lockstep::new(&mut nao.robot, &*hardware).observed(|instance| tape.observer(instance));
@@ -47,6 +60,7 @@ impl Tape {
             .run_until(Timestamp::from_nanos(seconds * 1_000_000_000), |_| {})
             .expect("no node fails");
         drop(lockstep);
+        framework::logs::tell_warning("nao::test", &"the time is over");
         Self {
             report: tape.end(),
             path,
@@ -178,4 +192,51 @@ fn three_chunks_of_the_nao_are_recomputed_alone() {
         assert_eq!(one.verified + one.unfinished, one.frames, "{verification}");
     }
     assert!(verified(&verification, "VisionTop") > 3, "{verification}");
+}
+
+#[test]
+fn others_read_images_transforms_joints_and_logs_in_their_own_form() {
+    const NAME: &str = "others_read_images_transforms_joints_and_logs_in_their_own_form";
+    let forms = [
+        ("VisionTop.main_outputs.image", "foxglove.RawImage"),
+        (
+            "Control.main_outputs.robot_kinematics",
+            "foxglove.FrameTransforms",
+        ),
+        ("Control.main_outputs.sensor_data", "foxglove.JointStates"),
+    ];
+    let about = About {
+        outputs: forms.map(|(output, _)| output.to_owned()).into(),
+        ..About::default()
+    };
+    let tape = Tape::record_with(1, about, large(), |_| Record::Off);
+    assert!(tape.report.ended.is_complete, "{}", tape.report);
+    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/recording/foxglove.py");
+    let output = match Command::new("python3").arg(script).arg(&tape.path).output() {
+        Err(error) if error.kind() == ErrorKind::NotFound => return skip(NAME, "python3"),
+        output => output.expect("Python can be started"),
+    };
+    let error = String::from_utf8_lossy(&output.stderr);
+    if error.contains("No module named") {
+        return skip(NAME, "pip install mcap lz4 jsonschema");
+    }
+    assert!(output.status.success(), "{error}");
+    let told: Value = serde_json::from_slice(&output.stdout).expect("it prints JSON");
+    let file = tape.open();
+    for (topic, schema) in forms.into_iter().chain([("logs", "foxglove.Log")]) {
+        let mut channels = file.channels.iter();
+        let channel = channels.find(|(_, channel)| channel.topic == topic);
+        let (number, _) = channel.expect("it has a channel");
+        let messages = file.chunks.iter().flat_map(|chunk| chunk.messages());
+        let own = messages.filter(|message| message.channel == *number);
+        let messages = own.count();
+        assert!(messages > 0, "{topic}");
+        assert_eq!(
+            told[topic],
+            json!({ "schema": schema, "messages": messages }),
+            "{told}"
+        );
+    }
+    assert!(told[forms[0].0]["messages"].as_u64() > Some(20), "{told}");
+    assert!(told[forms[1].0]["messages"].as_u64() > Some(70), "{told}");
 }
