@@ -2,12 +2,13 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
-use std::io::{self, Seek, SeekFrom, Write};
+use std::io::{self, SeekFrom, Write as _};
 use std::path::Path;
 
 use crate::format::{MAGIC, Put, RECORD_HEAD, Take, opcode};
 use crate::index::RING;
 use crate::ring::Ring;
+use crate::storage::Storage;
 
 /// What there is to say before anything was recorded.
 #[derive(Clone, Debug, Default)]
@@ -94,7 +95,7 @@ impl ChunkIndex {
 /// The writing end of a file.
 #[derive(Debug)]
 pub struct Writer {
-    file: File,
+    file: Box<dyn Storage>,
     position: u64,
     description: Description,
     chunk: Vec<u8>,
@@ -113,6 +114,11 @@ impl Writer {
     /// Creates the file, which must not exist, with everything that is known before.
     pub fn create(path: &Path, description: Description, budget: u64) -> io::Result<Self> {
         let file = File::options().write(true).create_new(true).open(path)?;
+        Self::onto(Box::new(file), description, budget)
+    }
+
+    /// As [`create`](Self::create), onto what is there already and empty.
+    pub fn onto(file: Box<dyn Storage>, description: Description, budget: u64) -> io::Result<Self> {
         let mut writer = Self {
             file,
             position: 0,
@@ -241,7 +247,7 @@ impl Writer {
         let written = self.append(&buffer);
         self.buffer = buffer;
         written?;
-        self.ring.add(&mut self.file, index)
+        self.ring.add(&mut *self.file, index)
     }
 
     /// How many chunks the file has; what the ring closed over does not count.

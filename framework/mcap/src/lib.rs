@@ -14,6 +14,7 @@ mod open;
 mod read;
 mod recover;
 mod ring;
+mod storage;
 
 pub use file::{Attachment, Channel, ChannelId, Description, Metadata, Schema, Writer};
 pub use fnv::fnv;
@@ -22,3 +23,4 @@ pub use layout::Layout;
 pub use open::{ChunkPlace, Contents, RecordingFile};
 pub use read::{Chunk, Message, ReadError, Recording, Way};
 pub use recover::{Recovered, recover};
+pub use storage::Storage;

@@ -1,13 +1,11 @@
 //! A budget of bytes: the oldest chunks go, their place on the disk is given back.
 
 use std::collections::VecDeque;
-use std::fs::File;
-use std::io::{self, Seek, SeekFrom, Write};
-
-use rustix::fs::{FallocateFlags, fallocate};
+use std::io::{self, SeekFrom};
 
 use crate::file::ChunkIndex;
 use crate::format::{RECORD_HEAD, opcode};
+use crate::storage::Storage;
 
 /// The chunks that a file has, oldest first.
 #[derive(Debug)]
@@ -43,7 +41,7 @@ impl Ring {
     }
 
     /// Keeps a chunk that was just written, and removes as many old ones as the budget asks for; the newest stays.
-    pub(crate) fn add(&mut self, file: &mut File, chunk: ChunkIndex) -> io::Result<()> {
+    pub(crate) fn add(&mut self, file: &mut dyn Storage, chunk: ChunkIndex) -> io::Result<()> {
         self.bytes += chunk.bytes();
         self.chunks.push_back(chunk);
         while self.bytes > self.budget && self.chunks.len() > 1 {
@@ -59,18 +57,12 @@ impl Ring {
 }
 
 /// Makes one record of a private kind out of a chunk and the lists of its messages.
-fn remove(file: &mut File, chunk: &ChunkIndex) -> io::Result<()> {
+fn remove(file: &mut dyn Storage, chunk: &ChunkIndex) -> io::Result<()> {
     let content = chunk.bytes() - RECORD_HEAD as u64;
     let mut head = [opcode::GONE; RECORD_HEAD];
     head[1..].copy_from_slice(&content.to_le_bytes());
     file.seek(SeekFrom::Start(chunk.start))?;
     file.write_all(&head)?;
-    // Where a file system cannot punch holes, the file grows on: what is in it stays right.
-    let _ = fallocate(
-        &*file,
-        FallocateFlags::PUNCH_HOLE | FallocateFlags::KEEP_SIZE,
-        chunk.start + RECORD_HEAD as u64,
-        content,
-    );
+    file.give_back(chunk.start + RECORD_HEAD as u64, content);
     Ok(())
 }

@@ -21,7 +21,7 @@ mod track;
 pub use block::{Full, Writing};
 pub use hulkgen_mcap::{
     Attachment, Channel, ChannelId, Chunk, Contents, Description, Message, Metadata, ReadError,
-    Recording, RecordingFile, Schema, Way, layout,
+    Recording, RecordingFile, Schema, Storage, Way, Writer, layout,
 };
 pub use recorder::{Ended, Recorder, Settings};
 pub use rewrite::{Rewrite, Rewrites};

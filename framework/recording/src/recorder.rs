@@ -85,6 +85,17 @@ impl Recorder {
         rewrites: Rewrites,
     ) -> io::Result<(Self, Vec<Track>)> {
         let writer = Writer::create(path, description, settings.budget)?;
+        Self::start_writing(path, writer, instances, settings, rewrites)
+    }
+
+    /// As [`start_rewriting`](Self::start_rewriting), with a writer that has begun, and the path of what it writes.
+    pub fn start_writing(
+        path: &Path,
+        writer: Writer,
+        instances: &[&str],
+        settings: Settings,
+        rewrites: Rewrites,
+    ) -> io::Result<(Self, Vec<Track>)> {
         let pool = Arc::new(Pool::new(settings.blocks, settings.block_bytes));
         let counts: Vec<_> = instances
             .iter()

@@ -3,6 +3,7 @@
 mod description;
 mod files;
 mod readers;
+mod slow;
 mod support;
 
 use std::os::unix::fs::MetadataExt as _;
