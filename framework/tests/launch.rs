@@ -1,5 +1,8 @@
 //! From the command line to the exit status.
 
+#[path = "launch/recorded.rs"]
+mod recorded;
+
 use std::ffi::OsString;
 use std::fs;
 use std::sync::Arc;
@@ -17,6 +20,8 @@ use tempfile::TempDir;
 
 const TARGET: Target = Target {
     identities: &["body", "head"],
+    manifest: "[robot]\nname = \"test\"\n",
+    dataflow: "# Who reads what\n",
     ..testing::TARGET
 };
 

@@ -1,5 +1,6 @@
 //! What is sent to robots: a folder with the program and all that it reads, laid out as the robot's own workspace.
 
+use std::fmt;
 use std::fs::{self, Permissions};
 use std::os::unix::fs::PermissionsExt as _;
 use std::process::{Command, Stdio};
@@ -36,6 +37,8 @@ pub(crate) struct Package {
     /// What `uname -m` may say where it runs.
     pub(crate) machines: &'static [&'static str],
     name: String,
+    /// As recordings of the robot tell it; empty where there is no commit.
+    revision: String,
 }
 
 impl Package {
@@ -72,8 +75,10 @@ impl Package {
             .arg(program)
             .arg(into.join(contents.name));
         run(&mut copy)?;
+        let revision = Revision::of(contents.root);
         let package = Self {
-            version: version(contents.root)?,
+            version: version(revision.as_ref())?,
+            revision: revision.map_or_else(String::new, |it| it.to_string()),
             kibibytes: kibibytes(&into)?,
             machines,
             name: contents.name.to_owned(),
@@ -98,7 +103,7 @@ impl Package {
             .arg(text(&self.folder)?.join("."))
             .arg(&into);
         run(&mut copy)?;
-        let start = start(&self.name, options);
+        let start = start(&self.name, &self.revision, options);
         fs::write(into.join("start"), start).map_err(|error| cannot("write `start`", &error))?;
         let executable = Permissions::from_mode(0o755);
         fs::set_permissions(into.join("start"), executable)
@@ -125,28 +130,55 @@ impl ForRobot {
 }
 
 /// The script that the unit starts. It goes into its own version, wherever `current` leads meanwhile.
-fn start(program: &str, options: &[String]) -> String {
+fn start(program: &str, revision: &str, options: &[String]) -> String {
     let options: String = options
         .iter()
         .map(|it| format!(" {}", quoted(it)))
         .collect();
     format!(
         "#!/bin/sh\n# Written by `hulkgen deploy`.\ncd \"$(dirname \"$(readlink -f \"$0\")\")\" || exit 1\n\
-         exec ./{}{options} \"$@\"\n",
+         export HULKGEN_REVISION={}\nexec ./{}{options} \"$@\"\n",
+        quoted(revision),
         quoted(program)
     )
 }
 
+/// The commit that is checked out.
+#[derive(Debug)]
+struct Revision {
+    commit: String,
+    short: String,
+    is_changed: bool,
+}
+
+impl Revision {
+    /// `None`: there is no commit, or no git.
+    fn of(root: &Utf8Path) -> Option<Self> {
+        let git =
+            |arguments: &[&str]| run(Command::new("git").args(arguments).current_dir(root)).ok();
+        Some(Self {
+            commit: git(&["rev-parse", "HEAD"])?,
+            short: git(&["rev-parse", "--short", "HEAD"])?,
+            is_changed: git(&["status", "--porcelain"]).is_none_or(|changes| !changes.is_empty()),
+        })
+    }
+}
+
+impl fmt::Display for Revision {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let changed = if self.is_changed { " with changes" } else { "" };
+        write!(formatter, "{}{changed}", self.commit)
+    }
+}
+
 /// When it was made and of which commit: names that are sorted by time.
-fn version(root: &Utf8Path) -> Result<String, Refusal> {
+fn version(revision: Option<&Revision>) -> Result<String, Refusal> {
     let date = run(Command::new("date").args(["-u", "+%Y%m%d-%H%M%S"]))?;
-    let git = |arguments: &[&str]| run(Command::new("git").args(arguments).current_dir(root)).ok();
-    let Some(commit) = git(&["rev-parse", "--short", "HEAD"]) else {
+    let Some(revision) = revision else {
         return Ok(date);
     };
-    let is_changed = git(&["status", "--porcelain"]).is_none_or(|changes| !changes.is_empty());
-    let changed = if is_changed { "-changed" } else { "" };
-    Ok(format!("{date}-{commit}{changed}"))
+    let changed = if revision.is_changed { "-changed" } else { "" };
+    Ok(format!("{date}-{}{changed}", revision.short))
 }
 
 fn kibibytes(folder: &Utf8Path) -> Result<u64, Refusal> {
@@ -187,9 +219,11 @@ mod tests {
     #[test]
     fn options_are_words_whatever_is_in_them() {
         let options = ["--set".to_owned(), "name=it's $HOME".to_owned()];
-        let start = start("nao", &options);
+        let start = start("nao", "0a1b with changes", &options);
         assert!(
-            start.ends_with("exec ./'nao' '--set' 'name=it'\\''s $HOME' \"$@\"\n"),
+            start.ends_with(
+                "\nexport HULKGEN_REVISION='0a1b with changes'\nexec ./'nao' '--set' 'name=it'\\''s $HOME' \"$@\"\n"
+            ),
             "{start}"
         );
     }

@@ -27,7 +27,8 @@ static PADDING: &[u8] = include_bytes!("padding");
 fn main() {
     let parameters = std::fs::read_to_string("parameters/default.toml").expect("the parameters are there");
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    println!("{arguments:?} {} {parameters}", PADDING.iter().map(|byte| u64::from(*byte)).sum::<u64>());
+    let revision = std::env::var("HULKGEN_REVISION");
+    println!("{arguments:?} {revision:?} {} {parameters}", PADDING.iter().map(|byte| u64::from(*byte)).sum::<u64>());
     std::process::exit(i32::from(parameters.contains("wrong")));
 }
 "#;

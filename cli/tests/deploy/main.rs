@@ -81,6 +81,43 @@ fn a_version_arrives_is_started_and_can_be_taken_back() {
 }
 
 #[test]
+fn the_program_is_told_of_which_commit_it_is() {
+    let Some(field) = Field::open("the_program_is_told_of_which_commit_it_is") else {
+        return;
+    };
+    let git = |words: &str| {
+        let mut git = Command::new("git");
+        let output = git.args(words.split(' ')).current_dir(field.path("robot"));
+        let output = output.output().expect("git made this checkout");
+        assert!(output.status.success(), "git {words}: {output:?}");
+        String::from_utf8_lossy(&output.stdout).trim().to_owned()
+    };
+    let told = || {
+        let (status, answer, said) = field.deploy("a");
+        assert_eq!(status, 0, "{answer}{said}");
+        let started = Command::new(field.path("disk/current/start")).output();
+        let started = started.expect("it starts");
+        let told = String::from_utf8_lossy(&started.stdout).into_owned();
+        // Names of versions are seconds.
+        std::thread::sleep(std::time::Duration::from_millis(1100));
+        told
+    };
+    let none = told();
+    assert!(none.starts_with(r#"[] Ok("") "#), "{none}");
+    git("init --quiet");
+    git("add --all");
+    git("-c user.name=a -c user.email=a@b commit --quiet --message first");
+    let commit = git("rev-parse HEAD");
+    let clean = told();
+    let expected = format!("[] Ok({commit:?}) ");
+    assert!(clean.starts_with(&expected), "{clean}");
+    field.write("robot/motions/wave.toml", "wave twice\n");
+    let changed = told();
+    let expected = format!("[] Ok(\"{commit} with changes\") ");
+    assert!(changed.starts_with(&expected), "{changed}");
+}
+
+#[test]
 fn a_connection_that_breaks_leaves_the_old_version_running() {
     let Some(field) = Field::open("a_connection_that_breaks_leaves_the_old_version_running") else {
         return;

@@ -16,6 +16,9 @@ use crate::robot::Robot;
 /// What the recording of a run is called in its folder, without `.mcap`.
 const NAME: &str = "recording";
 
+/// The variable in which `hulkgen deploy` hands over what it sent: where a robot runs is no checkout.
+const REVISION: &str = "HULKGEN_REVISION";
+
 /// Starts it, if one is wanted.
 pub(super) fn start<P: ParameterData>(
     target: &Target,
@@ -106,8 +109,11 @@ fn about<P: ParameterData>(
     }
 }
 
-/// Of the folder in which the robot was started; empty where there is none.
+/// What was deployed; else of the folder in which the robot was started. Empty where there is none.
 fn git_revision() -> String {
+    if let Ok(revision) = std::env::var(REVISION) {
+        return revision;
+    }
     let git = |arguments: &[&str]| {
         let output = Command::new("git").args(arguments).output().ok()?;
         let text = String::from_utf8(output.stdout).ok()?;
