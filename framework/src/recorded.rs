@@ -34,5 +34,6 @@ pub use output::Forms;
 pub use report::{InstanceRecorded, Missing, RecordingReport};
 pub use start::{About, Recording};
 pub(crate) use start::{FRAMES, TYPES, VALUES};
+pub(crate) use trace::layout_of;
 pub(crate) use types::taken;
 pub use types::{Describing, Taken, Types, describe};

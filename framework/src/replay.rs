@@ -42,6 +42,7 @@ pub(crate) use difference::first_difference;
 pub use elsewhere::{Elsewhere, answer};
 pub use events::{Happened, MOST_EVENTS, What};
 pub use needed::Needed;
+pub(crate) use other::recorded_parameters;
 pub use other::{Changed, OtherParameters, first_parameters, read_in_new_alone, with_settings};
 pub use play::{Frame, Player, Players, ValueChannels, value_channels};
 pub use report::Divergence;

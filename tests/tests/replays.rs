@@ -445,3 +445,79 @@ fn a_test_brings_hardware_the_past_a_call_and_a_state_that_is_made_whole() {
         }
     }
 }
+
+/// What a robot's program says that shows the recording for a moment, and its exit status.
+fn shown(robot: &Recorded) -> (String, Option<i32>) {
+    let words = [
+        "--replay",
+        "tape.mcap",
+        "--for=10ms",
+        "--listen=127.0.0.1:0",
+    ];
+    let mut program = Command::new(target_folder().join("simulation"));
+    let output = program.args(words).current_dir(robot.path()).output();
+    let output = output.expect("it was built");
+    (text(&output), output.status.code())
+}
+
+#[test]
+fn of_another_graph_what_fits_is_replayed_and_what_does_not_is_listed() {
+    let robot = Recorded::new();
+    let add = |node: &str, file: &str, text: &str| {
+        let added = hulkgen_in(&robot.path(), &["add-node", node, "--cycler", "Control"]);
+        assert!(added.status.success(), "{}", self::text(&added));
+        fs::write(robot.path().join(file), text).expect("the folder is ours");
+    };
+    let verified = |status| -> Value {
+        let words = ["replay", "tape.mcap", "--verify", "--format", "json"];
+        let (said, _) = robot.hulkgen(&words, status);
+        serde_json::from_str(&said).expect("it is JSON")
+    };
+    add(
+        "nodes::control::everything",
+        "nodes/src/control/everything.rs",
+        EVERYTHING,
+    );
+    let other = verified(1);
+    assert!(other["graph"].is_object(), "{other}");
+    let [perception, control] = other["instances"].as_array().expect("a list").as_slice() else {
+        panic!("{other}");
+    };
+    assert_eq!(perception["good"], true, "{other}");
+    assert_eq!(perception["verified"], perception["frames"], "{other}");
+    let reason = control["unreadable"].as_str().expect("it does not fit");
+    assert!(reason.contains("`nodes::control::everything`"), "{reason}");
+    let (said, status) = shown(&robot);
+    assert_eq!(status, Some(0), "{said}");
+    assert!(said.contains("`Control` is not shown: "), "{said}");
+    assert!(said.contains("`nodes::control::everything`"), "{said}");
+    assert!(said.contains("page: http"), "{said}");
+    assert!(!said.contains("`Perception` is not shown"), "{said}");
+
+    // A further parameter: whoever reads parameters cannot read those that were recorded.
+    robot.edit_in(
+        "parameters/default.toml",
+        "cruising = 1.0",
+        "braking = 0.5\ncruising = 1.0",
+    );
+    robot.edit(
+        "    cruising: Parameter",
+        "    _braking: Parameter<f32, \"speed_choice.braking\">,\n    cruising: Parameter",
+    );
+    robot.edit(
+        "            cruising: &1.0",
+        "            _braking: &1.0,\n            cruising: &1.0",
+    );
+    let other = verified(1);
+    let (said, status) = shown(&robot);
+    assert_eq!(status, Some(1), "{said}");
+    for (place, name) in ["Perception", "Control"].into_iter().enumerate() {
+        let unreadable = other["instances"][place]["unreadable"].as_str();
+        assert!(
+            unreadable.is_some_and(|why| why.contains("of other types")),
+            "{other}"
+        );
+        assert!(said.contains(&format!("`{name}` is not shown: ")), "{said}");
+    }
+    assert!(said.contains("the field `braking`"), "{said}");
+}

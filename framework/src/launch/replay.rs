@@ -14,7 +14,7 @@ use crate::error::{Error, Result};
 use crate::recorded::Loading;
 use crate::replay::{
     Call, Comparison, Elsewhere, How, Needed, OtherParameters, Players, Timeline, answer, compare,
-    first_parameters, read_in_new_alone, snapshot, value_channels, verify_how, with_settings,
+    read_in_new_alone, recorded_parameters, snapshot, value_channels, verify_how, with_settings,
 };
 use crate::report::tell;
 use crate::stop::Stop;
@@ -117,9 +117,16 @@ fn served<P: ParameterData>(
     serve: Serve,
 ) -> Result<bool> {
     let values = value_channels(recording)?;
-    let first = first_parameters(recording, &values)
-        .ok_or_else(|| Error::new("the recording has no parameters"))?;
-    let parameters: P = Loading::new(first).take()?;
+    let parameters: P = match recorded_parameters(recording, &values) {
+        Ok(parameters) => parameters,
+        Err(why) => {
+            let files = super::layers(target, options).load();
+            let parameters = files.and_then(|files| files.deserialize());
+            let parameters = parameters.map_err(|error| error.context(why.to_string()))?;
+            tell(format_args!("{why}; those of the files are shown"));
+            parameters
+        }
+    };
     let players = Players::new(recording, &values, target.replayables)?;
     for unknown in &players.unknown {
         tell(format_args!(

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use hulkgen_recording::Recording;
 
-use super::ValueChannels;
+use super::{ValueChannels, types};
 use crate::buffer::buffer_of;
 use crate::clock::Clock;
 use crate::data::ParameterData;
@@ -65,6 +65,24 @@ pub fn first_parameters<'r>(recording: &'r Recording, values: &ValueChannels) ->
     let mut messages = recording.chunks.iter().flat_map(|chunk| chunk.messages());
     let found = messages.find(|message| message.channel == *channel)?;
     Some(found.data)
+}
+
+/// The same, as this robot has them.
+///
+/// # Errors
+/// If the recording has none, or they are of other types.
+pub(crate) fn recorded_parameters<P: ParameterData>(
+    recording: &Recording,
+    values: &ValueChannels,
+) -> Result<P> {
+    let first = first_parameters(recording, values)
+        .ok_or_else(|| Error::new("the recording has no parameters"))?;
+    match types::of_parameters::<P>(recording) {
+        Some(difference) => Err(Error::new(format!(
+            "the recorded parameters are of other types: {difference}"
+        ))),
+        None => Loading::new(first).take(),
+    }
 }
 
 /// Recorded parameters with some values replaced: paths, and values as the parameter files write them.

@@ -3,6 +3,8 @@
 //! All instances of the recording are there under their names, with their main outputs. One more, [`TIMELINE`], answers
 //! the procedure [`PROCEDURE`], which moves the time of the recording and says where it is.
 
+mod instances;
+
 use std::collections::BTreeSet;
 use std::time::{Duration, Instant};
 
@@ -12,21 +14,14 @@ use super::events::{Happened, events};
 use super::{Players, Ran};
 use crate::Reflect;
 use crate::clock::Clock;
-use crate::cycler::{Counters, InstanceDescription, Kind, Record};
 use crate::data::ParameterData;
 use crate::error::{Error, Result};
-use crate::guarded::OnFailure;
-use crate::injection::Inject;
-use crate::link::{InstanceLink, Link};
+use crate::link::Link;
 use crate::parameters::LiveParameters;
 use crate::procedure::{Answerer, procedure};
 use crate::rearm::Rearm;
 use crate::report::tell;
-use crate::robot::Access;
-use crate::scheduling::Scheduling;
 use crate::stop::Stop;
-use crate::subscriptions::Subscriptions;
-use crate::tap::Reports;
 use crate::time::Timestamp;
 
 /// The instance that clients call.
@@ -117,38 +112,27 @@ pub struct Timeline<'r> {
     unreadable: BTreeSet<(usize, usize)>,
 }
 
-/// Nothing of a recording can be replaced.
-struct Recorded;
-
 impl<'r> Timeline<'r> {
-    /// Of all instances that have a cycle; with what a server needs of them.
+    /// Of all instances that have a cycle which fits this robot; with what a server needs of them. Of the others it is told
+    /// why they are left out.
     ///
     /// # Errors
-    /// If there is none, or no frame of an instance fits this robot.
+    /// If there is none.
     pub fn new<P: ParameterData>(
         robot: &'static str,
         mut players: Players<'r>,
         parameters: P,
         stop: &Stop,
     ) -> Result<(Self, Link)> {
-        players.players.retain(|player| !player.frames.is_empty());
+        let (mut instances, unfit) = instances::fitting(&mut players);
         let moments = moments(&players);
         let first = moments.first().map(|moment| moment.at);
-        let first = first.ok_or_else(|| {
-            Error::new("the recording has no cycle that this robot can replay: `--verify` says why")
-        })?;
-        let mut instances = recorded(&mut players)?;
+        let first = first.ok_or_else(|| instances::none(&unfit))?;
+        for one in &unfit {
+            tell(format_args!("{one}"));
+        }
         let (caller, moves) = procedure();
-        let mut own = access(TIMELINE, Subscriptions::new(&[]));
-        own.procedures = vec![(PROCEDURE, Box::new(caller))];
-        instances.push(InstanceLink {
-            description: description(),
-            nodes: Vec::new(),
-            counters: std::sync::Arc::new(Counters::default()),
-            taps: Vec::new(),
-            reports: Reports::silent(),
-            access: own,
-        });
+        instances.push(instances::timeline(vec![(PROCEDURE, Box::new(caller))]));
         let clock = Clock::wall();
         let (writer, [], []) = crate::buffer::buffer_of(|| parameters.clone(), []);
         let parameters = LiveParameters::new(writer, parameters.clone(), clock.clone());
@@ -401,20 +385,6 @@ impl<'r> Timeline<'r> {
     }
 }
 
-impl Inject for Recorded {
-    fn inject(&mut self, _: &str, _: &mut dyn erased_serde::Deserializer<'_>) -> Result<()> {
-        Err(Error::new(
-            "this is a recording: nothing of it can be replaced",
-        ))
-    }
-
-    fn release(&mut self, _: &str) -> Result<()> {
-        Ok(())
-    }
-
-    fn release_all(&mut self) {}
-}
-
 /// When which cycle began, in order of time.
 fn moments(players: &Players<'_>) -> Vec<Moment> {
     let mut moments = Vec::new();
@@ -428,58 +398,4 @@ fn moments(players: &Players<'_>) -> Vec<Moment> {
     }
     moments.sort_by_key(|moment| moment.at);
     moments
-}
-
-/// What a server needs of the recorded instances; each is at its first cycle that fits this robot.
-fn recorded(players: &mut Players<'_>) -> Result<Vec<InstanceLink>> {
-    let mut instances = Vec::new();
-    for (player, chunks) in players.each() {
-        let name = player.instance;
-        let mut loaded = player.load_at(0, chunks);
-        for position in 1..player.frames.len() {
-            if loaded.is_ok() {
-                break;
-            }
-            loaded = player.load_at(position, chunks);
-        }
-        loaded.map_err(|error| error.context(format!("`{name}`")))?;
-        let instance = player.replay_mut()?.instance_mut();
-        let subscriptions = Subscriptions::new(&[]);
-        let (taps, reports) = instance.tap(&subscriptions);
-        let nodes = instance.report().nodes;
-        instances.push(InstanceLink {
-            description: *instance.description(),
-            nodes: nodes.iter().map(|node| node.node).collect(),
-            counters: instance.counters().clone(),
-            taps,
-            reports,
-            access: access(name, subscriptions),
-        });
-    }
-    Ok(instances)
-}
-
-fn access(instance: &'static str, subscriptions: Subscriptions) -> Access {
-    Access {
-        instance,
-        subscriptions,
-        injector: Box::new(Recorded),
-        procedures: Vec::new(),
-    }
-}
-
-fn description() -> InstanceDescription {
-    InstanceDescription {
-        name: TIMELINE,
-        cycler: TIMELINE,
-        kind: Kind::RealTime,
-        on_failure: OnFailure::Stop,
-        deadline: None,
-        pending_timeout: Duration::from_secs(1),
-        watchdog: Duration::from_secs(1),
-        history: Duration::from_secs(1),
-        lockstep_duration: None,
-        scheduling: Scheduling::BY_THE_SYSTEM,
-        record: Record::Off,
-    }
 }

@@ -1,15 +1,25 @@
 //! A recording that clients watch: at any speed, in both directions, from any cycle.
 
+use std::ffi::OsStr;
+use std::fs;
+use std::sync::Mutex;
 use std::time::Duration;
 
 use framework::recorded::{Loading, Settings};
 use framework::replay::{
-    Move, PROCEDURE, Players, TIMELINE, Timeline, What, first_parameters, value_channels,
+    Move, PROCEDURE, Players, TIMELINE, Timeline, ValueChannels, What, first_parameters,
+    value_channels,
 };
-use framework::{InstanceDescription, Record, Stop, Timestamp};
+use framework::{InstanceDescription, Record, Reflect, Stop, Target, Timestamp, launch};
+use hulkgen_recording::Recording as File;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use zoo_hardware::Hardware;
 use zoo_runtime::parameters::Parameters;
 use zoo_runtime::recording;
 
+use super::asked::GRAPH;
+use super::types::with_another_node;
 use super::{INSTANCES, Tape, as_it_is, on, record_in_lockstep};
 
 /// The cycles of Control whose output a client got since it last looked.
@@ -244,4 +254,111 @@ fn a_frame_that_does_not_fit_is_passed_over() {
     timeline.go(&to(before - 1)).expect("it was recorded");
     timeline.advance(Duration::from_secs(3600));
     assert_eq!(seen(&mut link), [before]);
+}
+
+/// The timeline of a recording, in which some instances are of other types.
+fn timeline_of<'r>(
+    file: &'r File,
+    values: &'r ValueChannels,
+) -> framework::Result<(Timeline<'r>, framework::link::Link)> {
+    let players = Players::new(file, values, recording::INSTANCES).expect("it is of this version");
+    let first = first_parameters(file, values).expect("they were recorded");
+    let parameters: Parameters = Loading::new(first).take().expect("they are of this robot");
+    Timeline::new("zoo", players, parameters, &Stop::default())
+}
+
+#[test]
+fn an_instance_that_does_not_fit_is_left_out_and_the_others_are_shown() {
+    let tape = Tape::new();
+    record_in_lockstep(&tape.path, Settings::default(), on, &as_it_is);
+    let mut file = tape.read();
+    let values = value_channels(&file).expect("it is of this version");
+    let node = with_another_node(&mut file, "Control");
+    let (mut timeline, link) = timeline_of(&file, &values).expect("the others fit");
+    let names = link.instances.iter().map(|one| one.description.name);
+    let fitting = INSTANCES.into_iter().filter(|name| *name != "Control");
+    assert!(names.eq(fitting.clone().chain([TIMELINE])));
+    timeline.advance(Duration::from_secs(3600));
+    let place = timeline.place();
+    assert!(!place.is_playing && place.ends > place.begins, "{place:?}");
+    let shown = place.instances.iter();
+    assert!(shown.clone().all(|one| one.cycle.is_some()), "{place:?}");
+    assert!(shown.map(|one| &*one.instance).eq(fitting.clone()));
+    let whose = Move {
+        instance: Some("Control".to_owned()),
+        step: Some(1),
+        ..Move::default()
+    };
+    let error = timeline.go(&whose).expect_err("it is left out").to_string();
+    assert!(error.contains("has no instance `Control`"), "{error}");
+
+    for name in fitting {
+        with_another_node(&mut file, name);
+    }
+    let Err(error) = timeline_of(&file, &values) else {
+        panic!("nothing fits");
+    };
+    let error = error.to_string();
+    assert!(
+        error.contains("no cycle that this robot can replay"),
+        "{error}"
+    );
+    for name in INSTANCES {
+        assert!(
+            error.contains(&format!("`{name}` is not shown: ")),
+            "{error}"
+        );
+    }
+    assert!(error.contains(&node), "{error}");
+}
+
+/// What the zoo once had in place of its parameters.
+#[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
+struct Others {
+    walking_speed: f64,
+}
+
+#[test]
+fn parameters_of_another_type_are_those_of_the_files() {
+    const TARGET: Target = Target {
+        robot: "zoo",
+        name: "loud",
+        parameters: "parameters",
+        location: None,
+        identities: &[],
+        graph: GRAPH,
+        recording_budget: 0,
+        manifest: "",
+        dataflow: "",
+        replayables: recording::INSTANCES,
+    };
+    /// What a client sees: instances, and the parameter.
+    static SEEN: Mutex<Option<(usize, Value)>> = Mutex::new(None);
+    let tape = Tape::new();
+    record_in_lockstep(&tape.path, Settings::default(), on, &as_it_is);
+    let folder = tempfile::tempdir().expect("there is room for a folder");
+    let file = folder.path().join("default.toml");
+    fs::write(file, "walking_speed = 0.75\n").expect("the folder is ours");
+    let words = [
+        "--replay".as_ref(),
+        tape.path.as_os_str(),
+        "--for=1ms".as_ref(),
+        "--parameters".as_ref(),
+        folder.path().as_os_str(),
+    ];
+    let status = launch::run::<Hardware, Others>(
+        TARGET,
+        words.map(OsStr::to_owned),
+        &mut Vec::new(),
+        |_, _| unreachable!("a replay has no robot"),
+        |link, _| {
+            let speed = link.parameters.read("walking_speed").expect("it is one");
+            let seen = (link.instances.len(), speed.value);
+            *SEEN.lock().expect("one test looks") = Some(seen);
+            Ok(None)
+        },
+    );
+    assert_eq!(status, 0);
+    let seen = SEEN.lock().expect("one test looks").take();
+    assert_eq!(seen, Some((INSTANCES.len() + 1, 0.75.into())));
 }
