@@ -49,6 +49,7 @@ pub use report::Divergence;
 pub use snapshot::{Call, ParametersAsJson, SNAPSHOT_VERSION, snapshot};
 pub use source::{Digested, Played, Source};
 pub use timeline::{InstancePlace, Move, PROCEDURE, Place, TIMELINE, Timeline};
+pub use tolerance::TOLERANCE;
 pub use verify::{How, InstanceVerified, Verification, verify, verify_how};
 
 /// An instance that can be replayed; a constant of the generated crate lists them.

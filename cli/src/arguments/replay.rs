@@ -11,8 +11,9 @@ use super::{Build, TextOrJson};
 /// any cycle. Each instance runs alone, each cycle from what was recorded of it, without hardware.
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "\
-Exit status: 0 every output has the same bits, or the two sides were compared; 1 an output differs from the recording, nothing
-             was verified or compared, errors in the robot or a failed build; 2 wrong usage.
+Exit status: 0 every output has the same bits (or is within the tolerance, for a recording from a machine that computes other bits),
+             or the two sides were compared; 1 an output differs from the recording, nothing was verified or compared, errors in
+             the robot or a failed build; 2 wrong usage.
 
 Examples:
   hulkgen replay runs/1700000000-42/recording.mcap               # on the page, until Ctrl-C
@@ -39,8 +40,8 @@ pub struct Replay {
     /// Run only what this node needs, and compare its outputs alone: its path, or the end of it
     #[arg(long, value_name = "NAME")]
     pub node: Option<String>,
-    /// How much numbers may differ where the recording comes from a machine that computes other bits, for example `1e-6`:
-    /// relative, absolute below 1
+    /// How much numbers may differ where the recording comes from a machine that computes other bits: relative, absolute
+    /// below 1; 0 compares bits [default: 1e-6]
     #[arg(long, value_name = "NUMBER", requires = "verify", conflicts_with_all = ["set", "against"])]
     pub tolerance: Option<f64>,
     /// The target [default: the first of hulk.toml]

@@ -124,6 +124,10 @@ mod tests {
                 "/a --set b.c=1 --set d=[2] --node walk --profile dev",
                 "--replay /a --set b.c=1 --set d=[2] --node walk",
             ),
+            (
+                "/a --verify --tolerance 0",
+                "--replay /a --verify --tolerance 0",
+            ),
             ("/a --node walk", "--replay /a --node walk"),
             ("/a --against main", "--replay /a"),
             ("/a", "--replay /a"),

@@ -136,7 +136,7 @@ Usage: {name} [OPTIONS] [-- HARDWARE OPTIONS]
   --replay FILE       show a recording to clients as if the robot ran, as long as --for says
   --replay FILE --verify
                       run the cycles of a recording again and compare, bit for bit
-  --tolerance NUMBER  with --verify: how much numbers may differ if it was recorded with other numerics, e.g. 1e-6
+  --tolerance NUMBER  with --verify: how much numbers may differ if it was recorded with other numerics, instead of 1e-6; 0: bits are compared
   --node NAME         with --replay: only what this node needs, and its outputs
   --replay FILE --set PATH=VALUE
                       what would change under other parameters
@@ -457,6 +457,17 @@ mod tests {
         ] {
             assert_eq!(peer(written).expect(written), expected);
         }
+    }
+
+    #[test]
+    fn a_tolerance_of_nothing_is_one_that_was_asked_for() {
+        let tolerance = |word| {
+            let options = parsed(&["--replay=old", "--verify", word]);
+            options.expect(word).replay.tolerance
+        };
+        assert_eq!(tolerance("--headless"), None);
+        assert_eq!(tolerance("--tolerance=0"), Some(0.0));
+        assert_eq!(tolerance("--tolerance=1e-3"), Some(1e-3));
     }
 
     #[test]

@@ -4,28 +4,38 @@ use serde_json::Value;
 
 /// Path of the first part that differs, empty for the whole.
 pub(crate) fn first_difference(one: &Value, other: &Value) -> String {
+    first_unlike(one, other, &|one, other| one == other)
+}
+
+/// As [`first_difference`], of two values that are not alike, where parts are that this says so of.
+pub(super) fn first_unlike(
+    one: &Value,
+    other: &Value,
+    is_alike: &dyn Fn(&Value, &Value) -> bool,
+) -> String {
     let below = match (one, other) {
         (Value::Object(one), Value::Object(other)) if one.len() == other.len() => {
             let mut parts = one.iter();
             parts.find_map(|(key, part)| match other.get(key) {
-                Some(same) if same == part => None,
-                Some(changed) => Some(Some((key.clone(), first_difference(part, changed)))),
+                Some(same) if is_alike(part, same) => None,
+                Some(changed) => Some(Some((key.clone(), part, changed))),
                 None => Some(None),
             })
         }
         (Value::Array(one), Value::Array(other)) if one.len() == other.len() => {
             let mut parts = one.iter().zip(other).enumerate();
             parts.find_map(|(index, (part, changed))| {
-                (part != changed)
-                    .then(|| Some((index.to_string(), first_difference(part, changed))))
+                (!is_alike(part, changed)).then(|| Some((index.to_string(), part, changed)))
             })
         }
         _ => None,
     };
-    match below.flatten() {
-        Some((name, rest)) if rest.is_empty() => name,
-        Some((name, rest)) => format!("{name}.{rest}"),
-        None => String::new(),
+    let Some((name, part, changed)) = below.flatten() else {
+        return String::new();
+    };
+    match first_unlike(part, changed, is_alike) {
+        rest if rest.is_empty() => name,
+        rest => format!("{name}.{rest}"),
     }
 }
 

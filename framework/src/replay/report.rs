@@ -168,6 +168,7 @@ impl Verification {
                 json!({ "instance": instance, "nodes": nodes })
             }).collect::<Vec<_>>(),
             "tolerance": self.tolerance,
+            "compared_within": self.compared_within,
             "graph": self.graph.as_ref().map(|(there, here)| json!({ "recorded": there, "here": here })),
             "numerics": self.numerics.as_ref().map(|(there, here)| json!({ "recorded": there, "here": here })),
             "numerics_of_std": self.numerics_of_std.as_ref().map(|(there, here)| json!({ "recorded": there, "here": here })),
@@ -178,21 +179,33 @@ impl Verification {
 impl Verification {
     /// What has to be said of other numerics, or of a tolerance in vain.
     fn of_numerics(&self) -> Option<String> {
-        match (&self.numerics, &self.numerics_of_std, self.tolerance) {
-            (Some((there, here)), _, None) => Some(format!(
-                "recorded with other numerics ({there}, here {here}): results may differ in their last bits, `--tolerance 1e-6` compares within a tolerance"
+        let other = |(there, here): &(String, String)| {
+            format!("recorded with other numerics ({there}, here {here})")
+        };
+        let numerics = self.numerics.as_ref().or(self.numerics_of_std.as_ref());
+        match (numerics, self.compared_within, self.tolerance) {
+            (Some(numerics), Some(within), asked) => {
+                let instead = match asked {
+                    Some(_) => "",
+                    None => " (`--tolerance NUMBER`: within another one, 0: bit for bit)",
+                };
+                Some(format!(
+                    "{}: compared within {within:e} where the recording has values, else bit for bit{instead}",
+                    other(numerics)
+                ))
+            }
+            (Some(numerics), None, Some(_)) => Some(format!(
+                "{}: compared bit for bit, as was asked for; results may differ in their last bits",
+                other(numerics)
             )),
             // Nobody need know who calls no such function.
-            (None, Some(_), None) => self.divergence.is_some().then(|| {
+            (Some(_), None, None) => self.divergence.is_some().then(|| {
                 "recorded where std's elementary functions give other bits: nodes that call them differ, those that call `framework::math` do not; `--tolerance 1e-6` compares within a tolerance".to_owned()
             }),
-            (Some((there, here)), _, Some(tolerance)) | (None, Some((there, here)), Some(tolerance)) => Some(format!(
-                "recorded with other numerics ({there}, here {here}): compared within {tolerance:e} where the recording has values, else only bits can be compared"
-            )),
-            (None, None, Some(_)) => Some(
+            (None, _, Some(_)) => Some(
                 "recorded with the same numerics: compared bit for bit, without a tolerance".to_owned(),
             ),
-            (None, None, None) => None,
+            (None, _, None) => None,
         }
     }
 }
@@ -258,10 +271,6 @@ impl fmt::Display for Remarks<'_> {
             (one.overwritten, "older ones overwritten"),
             (one.diverged, "diverged"),
             (one.within, "outputs within the tolerance"),
-            (
-                one.not_compared,
-                "outputs not compared: only their digests were recorded",
-            ),
             (one.unfinished, "unfinished"),
             (one.needs_hardware, "needing hardware"),
         ] {
@@ -269,10 +278,22 @@ impl fmt::Display for Remarks<'_> {
                 remarks.push(format!("{count} {what}"));
             }
         }
+        if one.not_compared > 0 {
+            remarks.push(not_comparable(one.not_compared));
+        }
         remarks.extend(one.unreadable.clone());
         match remarks.as_slice() {
             [] => Ok(()),
             remarks => write!(out, "  {}", remarks.join(", ")),
         }
     }
+}
+
+fn not_comparable(outputs: u64) -> String {
+    let (plural, whose) = if outputs == 1 {
+        ("", "its digest was")
+    } else {
+        ("s", "their digests were")
+    };
+    format!("{outputs} output{plural} not comparable: only {whose} recorded")
 }

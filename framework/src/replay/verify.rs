@@ -4,7 +4,7 @@ use hulkgen_recording::Recording;
 
 use super::difference::first_difference;
 use super::play::{self, Player, Players};
-use super::tolerance::is_within;
+use super::tolerance::{TOLERANCE, first_beyond, is_within};
 use super::{Divergence, Needed, Ran, Replayable};
 use crate::error::{Error, Result};
 use crate::numerics;
@@ -15,7 +15,8 @@ use crate::recorded::Stored;
 pub struct How {
     /// Of one node and what it needs; `None`: of all nodes.
     pub needed: Option<Needed>,
-    /// How much numbers may differ where it was recorded with other numerics: relative, absolute below 1.
+    /// How much numbers may differ where it was recorded with other numerics: relative, absolute below 1. 0: not at all, bits
+    /// are compared. `None`: by [`TOLERANCE`] where [`crate::math`] gave other bits, else not at all.
     pub tolerance: Option<f64>,
     /// The digest of this robot's graph, as recordings have it; `None`: it does not matter.
     pub graph: Option<String>,
@@ -38,6 +39,8 @@ pub struct Verification {
     pub graph: Option<(String, String)>,
     /// That was asked for.
     pub tolerance: Option<f64>,
+    /// Within which numbers were compared; `None`: bits were.
+    pub compared_within: Option<f64>,
     /// By instance, if not all of it: which nodes were run.
     pub recomputed: Vec<(String, Vec<String>)>,
 }
@@ -56,14 +59,14 @@ pub struct InstanceVerified {
     pub dropped: u64,
     /// Recorded, and left to younger ones when the file had its budget.
     pub overwritten: u64,
-    /// Recomputed with the same digests.
+    /// Recomputed with the same digests, or within the tolerance in all that can be compared within it.
     pub verified: u64,
     pub diverged: u64,
     /// Digests that were compared.
     pub outputs: u64,
     /// Outputs with other bits, the same within the tolerance.
     pub within: u64,
-    /// Outputs with other bits whose values the recording does not have, so that the tolerance does not help.
+    /// Outputs with other bits of which the recording has digests alone: they cannot be compared within the tolerance.
     pub not_compared: u64,
     /// Cycles that were abandoned when they were recorded: there is nothing to compare.
     pub unfinished: u64,
@@ -86,6 +89,17 @@ impl InstanceVerified {
 }
 
 impl Verification {
+    /// The tolerance that applies.
+    fn tolerance(&self) -> Option<f64> {
+        let is_of_std = self.numerics_of_std.is_some();
+        let applies = match (&self.numerics, self.tolerance) {
+            (Some(_), asked) => asked.or(Some(TOLERANCE)),
+            // Whoever calls no such function computes the same bits.
+            (None, asked) => asked.filter(|_| is_of_std),
+        };
+        applies.filter(|tolerance| *tolerance > 0.0)
+    }
+
     /// Whether every instance that is recorded was verified, and no cycle diverged.
     pub fn is_good(&self) -> bool {
         self.unknown.is_empty()
@@ -125,6 +139,7 @@ pub fn verify_how(
         tolerance: how.tolerance,
         ..Verification::default()
     };
+    verification.compared_within = verification.tolerance();
     if let Some(needed) = &how.needed {
         players = players.only(needed);
         let all = needed.all();
@@ -132,17 +147,15 @@ pub fn verify_how(
             .map(|(instance, nodes)| (instance.to_owned(), nodes.to_vec()))
             .collect();
     }
-    let may_differ = verification.numerics.is_some() || verification.numerics_of_std.is_some();
-    let tolerance = how.tolerance.filter(|_| may_differ);
     for (player, chunks) in players.each() {
         let mut comparing = Comparing {
             node: how.needed.as_ref().map(|needed| needed.node.as_str()),
-            tolerance,
+            tolerance: verification.compared_within,
             verified: described(recording, player.instance),
             first: None,
         };
+        comparing.verified.frames = player.frames.len() as u64;
         for position in 0..player.frames.len() {
-            comparing.verified.frames += 1;
             if let Err(error) = comparing.one(player, position, chunks) {
                 let cycle = player.frames[position].head.number;
                 let reason = error.context(format!("cycle {cycle}")).to_string();
@@ -199,7 +212,7 @@ impl Comparing<'_> {
         chunks: &[Stored<'_>],
     ) -> Result<()> {
         let frame = player.frames[position];
-        let Some(mut recorded) = frame.digests() else {
+        let Some(recorded) = frame.digests() else {
             self.verified.unfinished += 1;
             return Ok(());
         };
@@ -219,13 +232,14 @@ impl Comparing<'_> {
         let Some(replay) = player.replay() else {
             return Ok(());
         };
-        let (mut diverged, mut not_compared) = (false, 0);
+        let mut recorded = same_outputs(recorded.collect(), replay.instance().digested())?;
+        let (mut diverged, mut outputs, mut not_compared) = (false, 0, 0);
         let digested = replay.instance().digests(&mut |node, output, digest| {
             let wanted = recorded.next();
             if self.node.is_some_and(|asked| asked != node) {
                 return;
             }
-            self.verified.outputs += 1;
+            outputs += 1;
             // Where it diverged already, one output says enough.
             if wanted == Some(digest) || (diverged && self.tolerance.is_none()) {
                 return;
@@ -241,9 +255,12 @@ impl Comparing<'_> {
             }
         });
         digested.map_err(|error| Error::new(error.to_string()))?;
+        self.verified.outputs += outputs;
         self.verified.not_compared += not_compared;
         self.verified.diverged += u64::from(diverged);
-        self.verified.verified += u64::from(!diverged && not_compared == 0);
+        // That a cycle finishes is all there is to it where it writes nothing.
+        let is_compared = outputs == 0 || not_compared < outputs;
+        self.verified.verified += u64::from(!diverged && is_compared);
         Ok(())
     }
 
@@ -255,6 +272,12 @@ impl Comparing<'_> {
     ) -> Differs {
         if self.tolerance.is_some() || self.first.is_none() {
             compare(&mut found, replay, chunks);
+        }
+        if let (Some(recorded), Some(recomputed)) = (&found.recorded, &found.recomputed) {
+            found.path = match self.tolerance {
+                Some(tolerance) => first_beyond(recorded, recomputed, tolerance),
+                None => first_difference(recorded, recomputed),
+            };
         }
         match (self.tolerance, &found.recorded, &found.recomputed) {
             (Some(_), None, _) => Differs::Unknown,
@@ -280,9 +303,21 @@ fn compare(divergence: &mut Divergence, replay: &dyn super::Replay, chunks: &[St
         .filter_map(|chunk| chunk.bytes(divergence.instance, divergence.cycle));
     divergence.recorded =
         written.find_map(|bytes| replay.recorded(bytes, &divergence.output, wanted));
-    if let (Some(recorded), Some(recomputed)) = (&divergence.recorded, &divergence.recomputed) {
-        divergence.path = first_difference(recorded, recomputed);
+}
+
+/// The digests of a cycle, which are in the order of its outputs.
+fn same_outputs(
+    recorded: Vec<u64>,
+    here: &[(&str, &str)],
+) -> Result<impl Iterator<Item = u64> + use<>> {
+    if recorded.len() != here.len() {
+        return Err(Error::new(format!(
+            "the recording has {} outputs of it, this robot {}: it is of another graph",
+            recorded.len(),
+            here.len()
+        )));
     }
+    Ok(recorded.into_iter())
 }
 
 /// What the recording itself says of an instance.

@@ -10,6 +10,8 @@ mod carried;
 mod cost;
 #[path = "recording/divergence.rs"]
 mod divergence;
+#[path = "recording/numerics.rs"]
+mod numerics;
 #[path = "recording/outputs.rs"]
 mod outputs;
 #[path = "recording/some.rs"]
