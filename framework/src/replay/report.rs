@@ -259,8 +259,10 @@ impl fmt::Display for Remarks<'_> {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let one = self.0;
         let mut remarks = Vec::new();
-        if one.is_off() {
-            remarks.push(format!("off ({})", one.record));
+        if one.was_never_asked_for() {
+            remarks.push(format!("not recorded: never asked for ({})", one.record));
+        } else if one.is_off() {
+            remarks.push("off".to_owned());
         } else if one.verified == 0 {
             remarks.push("nothing verified".to_owned());
         }

@@ -79,7 +79,13 @@ pub struct InstanceVerified {
 impl InstanceVerified {
     /// Whether nothing of it was to be recorded.
     pub fn is_off(&self) -> bool {
-        self.record == "off" || (self.record.starts_with("while ") && self.wanted == Some(0))
+        self.record == "off" || self.was_never_asked_for()
+    }
+
+    /// Whether it is recorded while an output says so, which never did. A file that breaks off says so by having no frame.
+    pub fn was_never_asked_for(&self) -> bool {
+        let has_none = self.wanted.map_or(self.frames == 0, |wanted| wanted == 0);
+        self.record.starts_with("while ") && has_none
     }
 
     /// Whether all that could be compared is the same, and there was something.

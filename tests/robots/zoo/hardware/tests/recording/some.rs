@@ -3,7 +3,10 @@
 use std::time::{Duration, Instant};
 
 use framework::recorded::{About, Recording, Settings};
+use framework::replay::verify;
 use framework::{Clock, Lockstep, Record, Timestamp};
+use hulkgen_recording::Recording as File;
+use zoo_runtime::recording;
 
 use super::{INSTANCES, SMALL, Tape, Zoo, as_it_is, on, record_in_lockstep};
 
@@ -114,6 +117,60 @@ fn frames_of_reflexes(tape: &Tape) -> usize {
     let own = messages.filter(|message| message.channel == *number);
     own.filter(|message| message.data.first() == Some(&0))
         .count()
+}
+
+#[test]
+fn what_was_never_asked_for_is_no_failure_where_the_file_breaks_off_either() {
+    let tape = Tape::new();
+    // The hundredth cycle is the first to say so.
+    let when_pressed = Record::While {
+        instance: "Reflexes",
+        path: "pressed",
+    };
+    let record = |record_of: &dyn Fn(&str) -> Record| {
+        let mut zoo = Zoo::new(Clock::stepped());
+        let record_of = |instance: &framework::InstanceDescription| record_of(instance.name);
+        let _ = std::fs::remove_file(&tape.path);
+        let about = About::default();
+        let recording = Recording::start_with(&tape.path, &zoo.robot, about, SMALL, record_of);
+        let mut recording = recording.expect("the folder is empty");
+        let hardware = zoo.hardware.clone();
+        let mut lockstep = Lockstep::new(&mut zoo.robot, &*hardware)
+            .observed(|instance| recording.observer(instance));
+        let end = Timestamp::from_nanos(900_000_000);
+        lockstep.run_until(end, |_| {}).expect("the zoo goes on");
+        drop(lockstep);
+        recording.end();
+        std::fs::read(&tape.path).expect("it was written")
+    };
+    let bytes = record(&|name| match name {
+        "Lights" => when_pressed,
+        _ => Record::On,
+    });
+    // All chunks are there, and nothing of what the end says.
+    let mut places = bytes.windows(10);
+    let end = places.position(|place| place == b"\x06\0\0\0wanted");
+    for kept in [bytes.len(), end.expect("the end says it")] {
+        let file = File::read(&bytes[..kept]).expect("it begins as a recording");
+        let verification = verify(&file, recording::INSTANCES).expect("it is of this robot");
+        assert!(verification.is_good(), "{verification}");
+        let lights = &verification.instances[5];
+        let wanted = if kept == bytes.len() { Some(0) } else { None };
+        assert_eq!((lights.wanted, lights.frames), (wanted, 0));
+        let text = verification.to_string();
+        let said = "not recorded: never asked for (while Reflexes.pressed)";
+        assert!(text.contains(said), "{text}");
+        assert!(!text.contains("nothing verified"), "{text}");
+    }
+    // Nobody says that something was verified, or of one that is always recorded that it was not wanted.
+    let bytes = record(&|_| when_pressed);
+    let file = File::read(&bytes[..bytes.len() - 1]).expect("it begins as a recording");
+    let verification = verify(&file, recording::INSTANCES).expect("it is of this robot");
+    assert!(!verification.is_good(), "{verification}");
+    let mut one = verification.instances[5].clone();
+    assert!(one.was_never_asked_for() && one.is_good());
+    one.record = "on".to_owned();
+    assert!(!one.is_good());
 }
 
 #[test]
