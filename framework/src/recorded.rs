@@ -31,6 +31,7 @@ pub use digests::Digests;
 pub use hulkgen_recording::{Counts, Settings};
 pub use inputs::{Foreign, Found};
 pub use output::Forms;
+pub(crate) use output::JSON;
 pub use report::{InstanceRecorded, Missing, RecordingReport};
 pub use start::{About, Recording};
 pub(crate) use start::{FRAMES, TYPES, VALUES};

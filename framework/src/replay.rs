@@ -16,6 +16,7 @@ mod events;
 mod graph;
 mod needed;
 mod other;
+mod output_channels;
 mod play;
 mod report;
 mod snapshot;

@@ -3,6 +3,7 @@
 use hulkgen_recording::Recording;
 
 use super::difference::first_difference;
+use super::output_channels::OutputChannels;
 use super::play::{self, Player, Players};
 use super::tolerance::{TOLERANCE, first_beyond, is_within};
 use super::{Divergence, Needed, Ran, Replayable};
@@ -153,8 +154,10 @@ pub fn verify_how(
             .map(|(instance, nodes)| (instance.to_owned(), nodes.to_vec()))
             .collect();
     }
+    let channels = OutputChannels::of(recording);
     for (player, chunks) in players.each() {
         let mut comparing = Comparing {
+            channels: &channels,
             node: how.needed.as_ref().map(|needed| needed.node.as_str()),
             tolerance: verification.compared_within,
             verified: described(recording, player.instance),
@@ -193,6 +196,7 @@ pub fn verify_how(
 
 /// The comparison of one instance.
 struct Comparing<'a> {
+    channels: &'a OutputChannels<'a>,
     /// The only node whose outputs are compared.
     node: Option<&'a str>,
     /// If it applies.
@@ -277,7 +281,7 @@ impl Comparing<'_> {
         chunks: &[Stored<'_>],
     ) -> Differs {
         if self.tolerance.is_some() || self.first.is_none() {
-            compare(&mut found, replay, chunks);
+            compare(&mut found, replay, chunks, self.channels);
         }
         if let (Some(recorded), Some(recomputed)) = (&found.recorded, &found.recomputed) {
             found.path = match self.tolerance {
@@ -298,7 +302,12 @@ impl Comparing<'_> {
 }
 
 /// Adds both values, as far as they are known.
-fn compare(divergence: &mut Divergence, replay: &dyn super::Replay, chunks: &[Stored<'_>]) {
+fn compare(
+    divergence: &mut Divergence,
+    replay: &dyn super::Replay,
+    chunks: &[Stored<'_>],
+    channels: &OutputChannels<'_>,
+) {
     let value = replay.instance().main_output(&divergence.output);
     divergence.recomputed = value.and_then(|value| serde_json::to_value(value.as_serialize()).ok());
     let Some(wanted) = divergence.digests.0 else {
@@ -309,6 +318,16 @@ fn compare(divergence: &mut Divergence, replay: &dyn super::Replay, chunks: &[St
         .filter_map(|chunk| chunk.bytes(divergence.instance, divergence.cycle));
     divergence.recorded =
         written.find_map(|bytes| replay.recorded(bytes, &divergence.output, wanted));
+    if divergence.recorded.is_some() {
+        return;
+    }
+    let (instance, output) = (divergence.instance, &divergence.output);
+    divergence.recorded = channels.value(instance, output, divergence.cycle);
+    if divergence.recorded.is_some() {
+        // Text has another `f64` for an `f32` than the number itself: both were text.
+        let text = value.and_then(|value| serde_json::to_vec(value.as_serialize()).ok());
+        divergence.recomputed = text.and_then(|text| serde_json::from_slice(&text).ok());
+    }
 }
 
 /// The digests of a cycle, which are in the order of its outputs.

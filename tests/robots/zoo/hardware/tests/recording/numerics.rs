@@ -1,15 +1,15 @@
 //! Recordings of a machine that computes other bits: compared within a tolerance, and said so.
 
 use framework::driver::Observer;
-use framework::recorded::Settings;
+use framework::recorded::{About, Recording, Settings};
 use framework::replay::{How, TOLERANCE, Verification, verify_how};
-use framework::{Instance, State};
+use framework::{Clock, Instance, Lockstep, State, Timestamp};
 use hulkgen_recording::Recording as File;
 use serde_json::{Value, json};
 use zoo_runtime::recording;
 
 use super::divergence::Flipping;
-use super::{Tape, on, record_in_lockstep};
+use super::{Tape, Zoo, on, record_in_lockstep};
 
 /// The first cycle that differs.
 const FIRST: u64 = 40;
@@ -60,16 +60,31 @@ fn change_phase(state: &mut Value) {
 }
 
 fn record(nudge: fn(&mut Value, u64)) -> Tape {
+    record_outputs(&[], nudge)
+}
+
+/// With channels for these outputs.
+fn record_outputs(outputs: &[&str], nudge: fn(&mut Value, u64)) -> Tape {
     let tape = Tape::new();
-    record_in_lockstep(
-        &tape.path,
-        Settings::default(),
-        on,
-        &|instance, observer| match instance.name {
+    let mut zoo = Zoo::new(Clock::stepped());
+    let about = About {
+        outputs: outputs.iter().map(|output| (*output).to_owned()).collect(),
+        ..About::default()
+    };
+    let recording = Recording::start_with(&tape.path, &zoo.robot, about, Settings::default(), on);
+    let mut recording = recording.expect("the folder is empty");
+    let hardware = zoo.hardware.clone();
+    let mut lockstep = Lockstep::new(&mut zoo.robot, &*hardware).observed(|instance| {
+        let observer = recording.observer(instance)?;
+        Some(match instance.name {
             "Control" => Box::new(Nudging { observer, nudge }),
             _ => observer,
-        },
-    );
+        })
+    });
+    let end = Timestamp::from_nanos(2_000_000_000);
+    lockstep.run_until(end, |_| {}).expect("the zoo goes on");
+    drop(lockstep);
+    recording.end();
     tape
 }
 
@@ -262,4 +277,45 @@ fn an_instance_of_which_nothing_can_be_compared_was_not_verified() {
         text.contains("nothing verified, 200 outputs not comparable"),
         "{text}"
     );
+}
+
+#[test]
+fn a_value_that_stands_in_a_channel_of_its_own_is_told_where_it_differs() {
+    let outputs = ["Control.main_outputs.plan", "Control.main_outputs.pose"];
+    let change = |state: &mut Value, cycle| {
+        if cycle == FIRST {
+            change_phase(state);
+        }
+    };
+    let tape = record_outputs(&outputs, change);
+    let verification = tape.verify();
+    let found = verification.divergence.as_ref().expect("it differs");
+    // The first of the angles is always 0.
+    assert_eq!(
+        (found.cycle, &*found.output, &*found.path),
+        (FIRST, "plan", "1"),
+        "{verification}"
+    );
+    let angles = [&found.recorded, &found.recomputed].map(|value| {
+        let value = value.as_ref().expect("the recording has it");
+        value[1].as_f64().expect("a number")
+    });
+    assert!((angles[0] - angles[1]).abs() > 1e-3, "{verification}");
+    let text = verification.to_string();
+    assert!(
+        text.contains("`plan` of `zoo_nodes::control::gait`, first in `1`"),
+        "{text}"
+    );
+    assert!(!text.contains("digest"), "{text}");
+    // So it can be compared within a tolerance, too: to be the same, and not to be.
+    let control = |tolerance| {
+        let verification = verify_within(&elsewhere(&tape), tolerance);
+        let control = &verification.instances[3];
+        (control.diverged, control.within, control.not_compared)
+    };
+    assert_eq!(control(None), (1, 0, 0));
+    assert_eq!(control(Some(10.0)), (0, 1, 0));
+    // Without a channel there are digests.
+    let text = record(change).verify().to_string();
+    assert!(text.contains("recorded:   digest "), "{text}");
 }
