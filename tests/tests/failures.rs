@@ -2,8 +2,9 @@
 //!
 //! The zoo is copied, each node gets a place where it can be struck, and one robot is generated for each policy; all four are
 //! compiled into the program `tests/robots/zoo/failures`, which strikes and judges. Its second program flips one bit of one
-//! output at a time in a replay: contract section 7.
+//! output at a time in a replay, of every output and instance that the zoo's graph has: contract section 7.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -14,7 +15,7 @@ use hulkgen::diagnostics::{self, Diagnostics};
 use hulkgen::pipeline;
 use hulkgen::resolve::robot::Robot;
 use hulkgen::workspace::{Changes, Workspace};
-use serde_json::json;
+use serde_json::{Value, json};
 use support::{root, sources, target_folder};
 
 const POLICIES: [&str; 4] = ["stop", "restart", "skip", "hold"];
@@ -323,30 +324,108 @@ fn every_node_may_fail_under_every_policy() {
     assert_eq!(tried.len(), nodes * POLICIES.len() * 2);
 }
 
+/// What the graph of the zoo says of mutants.
+#[derive(Debug, Default)]
+struct Mutants {
+    /// Instance, node, main output of each that there has to be.
+    all: BTreeSet<[String; 3]>,
+    /// Nodes of which none can be: a replay does not call them.
+    setup: BTreeSet<String>,
+    /// Nodes of which none can be: they have no main output.
+    silent: BTreeSet<String>,
+}
+
+impl Mutants {
+    fn of(graph: &str) -> Self {
+        let graph: Value = serde_json::from_str(graph).expect("it is JSON");
+        let list = |value: &Value| value.as_array().expect("a list").clone();
+        let text = |value: &Value| value.as_str().expect("a text").to_owned();
+        let mut mutants = Self::default();
+        for cycler in list(&graph["cyclers"]) {
+            for node in list(&cycler["nodes"]) {
+                let fields = list(&node["fields"]).into_iter();
+                let outputs: Vec<_> = fields
+                    .filter(|field| field["kind"] == "MainOutput")
+                    .collect();
+                let path = text(&node["path"]);
+                if node["setup"] == true {
+                    mutants.setup.insert(path);
+                } else if outputs.is_empty() {
+                    mutants.silent.insert(path);
+                } else {
+                    for instance in list(&cycler["instances"]) {
+                        let all = outputs.iter();
+                        mutants.all.extend(
+                            all.map(|output| {
+                                [text(&instance), path.clone(), text(&output["name"])]
+                            }),
+                        );
+                    }
+                }
+            }
+        }
+        mutants
+    }
+}
+
 #[test]
 fn a_flipped_bit_of_any_node_is_named_by_the_verification() {
     let zoo = Zoo::new();
-    let robots = POLICIES.map(|policy| zoo.generate(policy));
-    let plan = plan(&robots[0]);
+    // All four are compiled with it.
+    let _robots = POLICIES.map(|policy| zoo.generate(policy));
+    let graph = fs::read_to_string(zoo.folder.join("stop/graph.json")).expect("it was generated");
+    let mutants = Mutants::of(&graph);
+    // Who adds a node of which there can be no mutant says so here.
+    let last = |paths: &BTreeSet<String>| -> Vec<String> {
+        let last = |path: &String| path.trim_start_matches("zoo_nodes::").to_owned();
+        paths.iter().map(last).collect()
+    };
+    assert_eq!(
+        last(&mutants.setup),
+        [
+            "control::body",
+            "hearing::ear",
+            "lights::setup",
+            "reflexes::bumper",
+            "vision::exposure",
+            "vision::eye",
+        ]
+    );
+    assert_eq!(
+        last(&mutants.silent),
+        [
+            "control::legs",
+            "lights::cycle",
+            "lights::lamp",
+            "reflexes::flinch",
+            "reflexes::node",
+        ]
+    );
     let folder = tempfile::tempdir().expect("there is room for a folder");
     let tape = folder.path().join("zoo.mcap");
     let tape = tape.to_str().expect("the path is UTF-8");
-    let output = zoo.run("zoo_mutants", &[tape, &plan.to_string()]);
+    let plan = json!(mutants.all).to_string();
+    let output = zoo.run("zoo_mutants", &[tape, &plan]);
     let (said, words) = (
         String::from_utf8_lossy(&output.stdout),
         String::from_utf8_lossy(&output.stderr),
     );
-    let tried: Vec<_> = said.lines().collect();
-    assert!(output.status.success(), "{:?}\n{words}", tried.last());
-    let nodes = plan.as_array().expect("a list").iter();
-    let outputs = nodes.filter(|node| node["setup"] == false);
-    let outputs: usize = outputs
-        .map(|node| node["outputs"].as_array().map_or(0, Vec::len))
-        .sum();
-    assert!(outputs >= 13, "only {outputs} outputs");
-    let (named, bare): (Vec<&str>, Vec<&str>) =
-        tried.iter().partition(|line| line.contains(" at `"));
-    assert_eq!(bare.len(), outputs, "{said}");
+    assert!(output.status.success(), "{words}");
+    let named: BTreeSet<_> = said
+        .lines()
+        .map(|line| {
+            let mut words = line.split(' ').map(str::to_owned);
+            [(); 3].map(|()| words.next().expect("instance, node, output"))
+        })
+        .collect();
+    assert_eq!(named, mutants.all);
+    // The same node in several instances, in each of them.
+    let counters = named
+        .iter()
+        .filter(|[_, node, _]| node == "zoo_nodes::shared::counter");
+    let counters: Vec<_> = counters.map(|[instance, ..]| instance).collect();
+    assert_eq!(counters, ["Control", "VisionBottom", "VisionTop"]);
     // What other instances read, the recording has itself: there the place in the output is named, too.
-    assert!(named.len() >= 3, "{said}");
+    let with_place = said.lines().filter(|line| line.contains(" at `")).count();
+    assert!(with_place >= 6, "{said}");
 }

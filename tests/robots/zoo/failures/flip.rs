@@ -28,9 +28,9 @@ pub fn arm(flip: Flip) {
     FLIP.set(Some(flip));
 }
 
-/// Whether no bit was flipped since it was armed.
-pub fn is_armed() -> bool {
-    FLIP.with_borrow(Option::is_some)
+/// Calls that would still leave it as it is; `None`: the bit was flipped.
+pub fn left() -> Option<u64> {
+    FLIP.with_borrow(|flip| flip.as_ref().map(|flip| flip.after))
 }
 
 pub(crate) fn flipped<O: Outputs, E>(mut outputs: O) -> Result<O, E> {
