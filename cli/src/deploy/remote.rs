@@ -62,7 +62,7 @@ impl Remote {
         Err(Failed::said(output.status.code(), &output.stderr))
     }
 
-    /// Makes a folder there equal to one here; what equals a file of `like`, a folder beside it, is not sent.
+    /// Makes a folder there equal to one here; what equals a file of `like`, the whole path of a folder there, is not sent.
     pub(crate) fn send(
         &self,
         from: &Utf8Path,
@@ -73,7 +73,8 @@ impl Remote {
         let mut command = self.rsync();
         command.args(["-az", "--delete"]);
         if let Some(like) = like {
-            command.arg(format!("--copy-dest=../{like}"));
+            // rsync 3.2.7 with Debian's mends of 2026 makes nothing new out of files that a way with `..` leads to.
+            command.arg(format!("--copy-dest={like}"));
         }
         command.args([
             "--",

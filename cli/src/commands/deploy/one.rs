@@ -30,6 +30,8 @@ struct Probed {
     kibibytes: Option<u64>,
     has_rsync: bool,
     current: Option<String>,
+    /// The whole path of that version's folder there.
+    lies: Option<String>,
     /// Files of the current version that were changed there.
     changed: Vec<String>,
 }
@@ -75,7 +77,7 @@ impl Deed<'_> {
         let sent = self.remote.send(
             &for_robot.folder()?,
             &format!("{folder}/versions/.incoming"),
-            probed.current.as_deref(),
+            probed.lies.as_deref(),
             |percent| {
                 if percent >= told + 20 {
                     told = percent;
@@ -133,6 +135,7 @@ impl Probed {
                 "free" => probed.kibibytes = value.parse().ok(),
                 "rsync" => probed.has_rsync = true,
                 "current" => probed.current = Some(value.to_owned()),
+                "lies" => probed.lies = Some(value.to_owned()),
                 "changed" => probed
                     .changed
                     .push(value.trim_start_matches("./").to_owned()),
@@ -227,13 +230,13 @@ mod tests {
 
     #[test]
     fn a_probe_is_read_whatever_a_login_prints() {
-        let said =
-            "Welcome!\nmachine x86_64\nfree 1024\nrsync yes\ncurrent 2026\nchanged ./a/b.toml\n";
+        let said = "Welcome!\nmachine x86_64\nfree 1024\nrsync yes\ncurrent 2026\nlies /home/nao/robot/versions/2026\nchanged ./a/b.toml\n";
         let expected = Probed {
             machine: "x86_64".to_owned(),
             kibibytes: Some(1024),
             has_rsync: true,
             current: Some("2026".to_owned()),
+            lies: Some("/home/nao/robot/versions/2026".to_owned()),
             changed: vec!["a/b.toml".to_owned()],
         };
         assert_eq!(Probed::read(said), expected);
