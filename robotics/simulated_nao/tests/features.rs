@@ -1,68 +1,24 @@
 //! How well vision finds lines, border and penalty marks in images of the simulated cameras, and
 //! nothing in the way but robots and goal posts.
 
+#[path = "support/field.rs"]
+mod field;
 #[path = "support/scene.rs"]
 mod scene;
 
+use field::{
+    distance_to_line, edge, is_border, is_wide, on_field, points_between, posts, shows_feet,
+    straight_lines, to_ground,
+};
 use framework::math;
-use nalgebra::{Point2, Point3, Vector2};
+use nalgebra::Point2;
 use scene::{Look, Vision, looks};
-use simulated_nao::camera::Exposure;
-use simulated_nao::field::{LENGTH, WIDTH, goal_posts};
-use simulated_nao::ground_truth::{ImageTruth, RobotTruth};
+use simulated_nao::ground_truth::ImageTruth;
 use types::camera::CameraPosition;
 use types::obstacles::ObstacleCandidate;
 
 /// Up to here every segment must be right, m.
 const REACH: f32 = 4.0;
-
-/// From the border to the lines around the field, and the areas in front of the goals, m.
-const BORDER: f32 = 0.7;
-const AREAS: [[f32; 2]; 2] = [[0.6, 2.2], [1.65, 4.0]];
-const CIRCLE_RADIUS: f32 = 0.75;
-
-/// Every straight line of the field: both ends in the field frame, m.
-fn straight_lines() -> Vec<[Point2<f32>; 2]> {
-    let (x, y) = (LENGTH / 2.0, WIDTH / 2.0);
-    let mut lines = vec![[Point2::new(0.0, -y), Point2::new(0.0, y)]];
-    for side in [-1.0, 1.0] {
-        let goal_line = side * x;
-        lines.push([Point2::new(-x, side * y), Point2::new(x, side * y)]);
-        lines.push([Point2::new(goal_line, -y), Point2::new(goal_line, y)]);
-        for [length, width] in AREAS {
-            let (front, half) = (goal_line - side * length, width / 2.0);
-            lines.push([Point2::new(front, -half), Point2::new(front, half)]);
-            for y in [-half, half] {
-                lines.push([Point2::new(front, y), Point2::new(goal_line, y)]);
-            }
-        }
-    }
-    lines
-}
-
-/// From a point of the field frame to the next line, m.
-fn distance_to_line(point: Point2<f32>) -> f32 {
-    let circle = (point.coords.norm() - CIRCLE_RADIUS).abs();
-    let distances = straight_lines().into_iter().map(|[start, end]| {
-        let line = types::field_features::LineSegment {
-            start,
-            end,
-            ..Default::default()
-        };
-        line.distance_to(point)
-    });
-    distances.fold(circle, f32::min)
-}
-
-/// A point of the ground frame in the field frame.
-fn on_field(exposure: &Exposure, point: Point2<f32>) -> Point2<f32> {
-    (exposure.ground_to_field * Point3::new(point.x, point.y, 0.0)).xy()
-}
-
-fn points_between(start: Point2<f32>, end: Point2<f32>) -> impl Iterator<Item = Point2<f32>> {
-    let count = (nalgebra::distance(&start, &end) / 0.05).ceil().max(1.0) as usize;
-    (0..=count).map(move |index| start + (end - start) * (index as f32 / count as f32))
-}
 
 fn looks_around() -> impl Iterator<Item = (u64, Look)> {
     let turned = looks().flat_map(|look| {
@@ -110,10 +66,7 @@ fn most_of_the_straight_lines_within_three_metres_are_found() {
         let lines = vision.see(&look, &exposure).lines;
         for [start, end] in straight_lines() {
             for point in points_between(start, end) {
-                let ground = exposure
-                    .ground_to_field
-                    .inverse_transform_point(&point.coords.push(0.0).into())
-                    .xy();
+                let ground = to_ground(&exposure, point);
                 let is_seen = truth.project(point.coords.push(0.0).into()).is_some();
                 if !is_seen || ground.coords.norm() > 3.0 {
                     continue;
@@ -138,23 +91,6 @@ fn most_of_the_straight_lines_within_three_metres_are_found() {
     }
 }
 
-/// The edge of the carpet from corner to corner, in the field frame.
-fn carpet() -> impl Iterator<Item = Point3<f32>> {
-    let half = Vector2::new(LENGTH / 2.0 + BORDER, WIDTH / 2.0 + BORDER);
-    let corner = move |x: f32, y: f32| Point2::new(x * half.x, y * half.y);
-    let edges = [
-        [corner(-1.0, -1.0), corner(1.0, -1.0)],
-        [corner(1.0, -1.0), corner(1.0, 1.0)],
-        [corner(1.0, 1.0), corner(-1.0, 1.0)],
-        [corner(-1.0, 1.0), corner(-1.0, -1.0)],
-    ];
-    let points = edges.map(|[start, end]| points_between(start, end));
-    points
-        .into_iter()
-        .flatten()
-        .map(|point| point.coords.push(0.0).into())
-}
-
 #[test]
 fn the_border_lies_where_the_carpet_ends() {
     let mut vision = Vision::new();
@@ -163,23 +99,17 @@ fn the_border_lies_where_the_carpet_ends() {
         let exposure = look.expose(number, None);
         let truth = ImageTruth::from(&exposure);
         let border = vision.see(&look, &exposure).border;
-        let edge: Vec<_> = carpet().filter_map(|point| truth.project(point)).collect();
+        let edge = edge(&truth);
         if edge.is_empty() {
             assert_eq!(border.lines, [], "{look:?}");
             continue;
         }
-        let columns = edge.iter().map(|pixel| pixel.x);
-        let width = columns.clone().fold(0.0, f32::max) - columns.fold(640.0, f32::min);
-        if width < 200.0 {
+        if !is_wide(&edge) {
             continue;
         }
         images += 1;
         shown += edge.len();
-        let is_right = |pixel: &&Point2<f32>| {
-            border
-                .row_at(pixel.x)
-                .is_some_and(|row| (row - pixel.y).abs() <= 4.0)
-        };
+        let is_right = |pixel: &&Point2<f32>| is_border(&border, pixel);
         let count = edge.iter().filter(is_right).count();
         right += count;
         if count * 10 < edge.len() * 8 {
@@ -220,8 +150,7 @@ fn the_penalty_mark_is_found_where_it_is_and_nowhere_else() {
     for (number, look) in (0..).zip(looks) {
         let exposure = look.expose(number, None);
         let truth = ImageTruth::from(&exposure);
-        let to_ground = exposure.ground_to_field.inverse();
-        let marks = ImageTruth::penalty_marks().map(|mark| (to_ground * mark).xy());
+        let marks = ImageTruth::penalty_marks().map(|mark| to_ground(&exposure, mark.xy()));
         let is_shown = |mark: &Point2<f32>| {
             let pixel = truth
                 .camera_matrix
@@ -253,12 +182,6 @@ fn the_penalty_mark_is_found_where_it_is_and_nowhere_else() {
     assert!(found * 10 >= shown * 9, "{found} of {shown}");
 }
 
-/// Where the goal posts stand, in the ground frame.
-fn posts(exposure: &Exposure) -> [Point2<f32>; 4] {
-    let to_ground = exposure.ground_to_field.inverse();
-    goal_posts().map(|post| (to_ground * Point3::new(post.x, post.y, 0.0)).xy())
-}
-
 #[test]
 fn on_an_empty_field_only_goal_posts_are_in_the_way() {
     let mut vision = Vision::new();
@@ -278,22 +201,6 @@ fn on_an_empty_field_only_goal_posts_are_in_the_way() {
     println!("{seen} obstacles, {wrong} of them no goal posts");
     assert!(seen >= 10, "{seen}");
     assert_eq!(wrong, 0);
-}
-
-/// Whether both feet are in the image, not cut by its edge, and no other robot can hide them.
-fn shows_feet(robot: &RobotTruth, others: &[RobotTruth]) -> bool {
-    let is_clear = |foot: Option<Point2<f32>>| {
-        foot.is_some_and(|pixel| {
-            (30.0..610.0).contains(&pixel.x) && (30.0..450.0).contains(&pixel.y)
-        })
-    };
-    let away = robot.position.coords.norm();
-    let hides = |other: &RobotTruth| {
-        let other = other.position.coords;
-        let ahead = robot.position.coords / away;
-        other.norm() < away && other.dot(&ahead) > 0.0 && other.perp(&ahead).abs() < 0.4
-    };
-    is_clear(robot.feet.left) && is_clear(robot.feet.right) && !others.iter().any(hides)
 }
 
 #[test]

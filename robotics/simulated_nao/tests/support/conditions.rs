@@ -1,6 +1,7 @@
 //! The conditions of docs/vision.md: light, cameras and carpets, in two halves, and scenes in them.
 //!
-//! Detectors are chosen and trained in the one half and scored in the other; no condition is in both.
+//! The ball's network was trained in the one half, in which the default palette lies, too; detectors are scored in both. No
+//! condition is in both.
 
 use framework::math;
 use nalgebra::{Point2, Point3, UnitQuaternion, Vector3};
@@ -14,7 +15,7 @@ use super::scene::Look;
 /// Which half of every range.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(crate) enum Half {
-    /// Where thresholds were chosen and networks trained: dim, warm, quiet, sharp.
+    /// Where the ball's network was trained, and at whose edge other thresholds were chosen: dim, warm, quiet, sharp.
     Tuned,
     /// Where nobody looked: bright, cool, noisy, smeared.
     Other,
