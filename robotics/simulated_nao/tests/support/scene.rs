@@ -61,7 +61,7 @@ pub(crate) struct Sight {
 
 /// The nodes, their parameters, and what they work on.
 pub(crate) struct Vision {
-    parameters: ParameterFile,
+    pub(crate) parameters: ParameterFile,
     field: Field,
     image: Leased<YuyvImage>,
     limb_projector: LimbProjector,
