@@ -30,8 +30,7 @@ echo "machine $(uname -m)"
 echo "free $(df -Pk "$folder" | sed -n '2s/  */ /gp' | cut -d' ' -f4)"
 command -v rsync >/dev/null && echo "rsync yes"
 cd "$folder/current" 2>/dev/null || exit 0
-echo "current $(basename "$(readlink "$folder/current")")"
-echo "lies $(pwd -P)"
+echo "current $(pwd -P)"
 sha256sum -c {SUMS} 2>/dev/null | sed -n 's/^\(.*\): FAILED.*$/changed \1/p'
 known=$(sed 's/^[^ ]*  //' {SUMS})
 find . -type f ! -name {SUMS} | grep -vxF -e "$known" | sed 's/^/changed /'

@@ -29,9 +29,8 @@ struct Probed {
     machine: String,
     kibibytes: Option<u64>,
     has_rsync: bool,
+    /// Whole path of the current version's folder there.
     current: Option<String>,
-    /// The whole path of that version's folder there.
-    lies: Option<String>,
     /// Files of the current version that were changed there.
     changed: Vec<String>,
 }
@@ -69,7 +68,7 @@ impl Deed<'_> {
         let probed = self.remote.shell(&script::probe(folder));
         let probed = Probed::read(&probed.map_err(|failed| not_reached(self.remote, &failed))?);
         probed.permits(package, self.discards_changes)?;
-        say(match &probed.current {
+        say(match probed.version() {
             Some(current) => format!("runs {current}; sending {} KiB", package.kibibytes),
             None => format!("has no version yet; sending {} KiB", package.kibibytes),
         });
@@ -77,7 +76,7 @@ impl Deed<'_> {
         let sent = self.remote.send(
             &for_robot.folder()?,
             &format!("{folder}/versions/.incoming"),
-            probed.lies.as_deref(),
+            probed.current.as_deref(),
             |percent| {
                 if percent >= told + 20 {
                     told = percent;
@@ -95,7 +94,7 @@ impl Deed<'_> {
         switched.map_err(|failed| not_switched(&failed, &probed))?;
         Ok(Done {
             version: package.version.clone(),
-            before: probed.current,
+            before: probed.version().map(str::to_owned),
             state: "is there",
         })
     }
@@ -135,7 +134,6 @@ impl Probed {
                 "free" => probed.kibibytes = value.parse().ok(),
                 "rsync" => probed.has_rsync = true,
                 "current" => probed.current = Some(value.to_owned()),
-                "lies" => probed.lies = Some(value.to_owned()),
                 "changed" => probed
                     .changed
                     .push(value.trim_start_matches("./").to_owned()),
@@ -143,6 +141,11 @@ impl Probed {
             }
         }
         probed
+    }
+
+    /// What runs there: versions are called as their folders.
+    fn version(&self) -> Option<&str> {
+        self.current.as_ref()?.rsplit('/').next()
     }
 
     fn permits(&self, package: &Package, discards_changes: bool) -> Result<(), Refusal> {
@@ -209,7 +212,7 @@ fn not_sent(failed: &Failed) -> Refusal {
 }
 
 fn not_switched(failed: &Failed, probed: &Probed) -> Refusal {
-    let message = match (failed.status, &probed.current) {
+    let message = match (failed.status, probed.version()) {
         (Some(3), Some(current)) => format!(
             "the new version did not start, {current} runs again: {}",
             failed.message
@@ -230,15 +233,15 @@ mod tests {
 
     #[test]
     fn a_probe_is_read_whatever_a_login_prints() {
-        let said = "Welcome!\nmachine x86_64\nfree 1024\nrsync yes\ncurrent 2026\nlies /home/nao/robot/versions/2026\nchanged ./a/b.toml\n";
+        let said = "Welcome!\nmachine x86_64\nfree 1024\nrsync yes\ncurrent /home/nao/robot/versions/2026\nchanged ./a/b.toml\n";
         let expected = Probed {
             machine: "x86_64".to_owned(),
             kibibytes: Some(1024),
             has_rsync: true,
-            current: Some("2026".to_owned()),
-            lies: Some("/home/nao/robot/versions/2026".to_owned()),
+            current: Some("/home/nao/robot/versions/2026".to_owned()),
             changed: vec!["a/b.toml".to_owned()],
         };
+        assert_eq!(expected.version(), Some("2026"));
         assert_eq!(Probed::read(said), expected);
         assert_eq!(Probed::read("free ?\n").kibibytes, None);
     }

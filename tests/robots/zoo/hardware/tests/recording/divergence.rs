@@ -46,10 +46,32 @@ impl Flipped {
 }
 
 /// Records an instance that flips one bit of one output in some cycles.
-pub(crate) struct Flipping {
-    pub(crate) observer: Box<dyn Observer>,
-    pub(crate) output: &'static str,
-    pub(crate) cycles: RangeInclusive<u64>,
+struct Flipping {
+    observer: Box<dyn Observer>,
+    output: &'static str,
+    cycles: RangeInclusive<u64>,
+}
+
+/// Records everybody, one of them so.
+pub(crate) fn record_flipping(
+    tape: &Tape,
+    whose: &str,
+    output: &'static str,
+    cycles: RangeInclusive<u64>,
+) {
+    record_in_lockstep(
+        &tape.path,
+        Settings::default(),
+        on,
+        &|instance, observer| match instance.name == whose {
+            true => Box::new(Flipping {
+                observer,
+                output,
+                cycles: cycles.clone(),
+            }),
+            false => observer,
+        },
+    );
 }
 
 impl Observer for Flipping {
@@ -108,22 +130,7 @@ fn a_flipped_bit_of_any_output_is_named_with_its_node_and_cycle() {
     ];
     for (whose, node, output) in outputs {
         let tape = Tape::new();
-        record_in_lockstep(
-            &tape.path,
-            Settings::default(),
-            on,
-            &|instance, observer| {
-                if instance.name == whose {
-                    Box::new(Flipping {
-                        observer,
-                        output,
-                        cycles: CYCLE..=CYCLE,
-                    })
-                } else {
-                    observer
-                }
-            },
-        );
+        record_flipping(&tape, whose, output, CYCLE..=CYCLE);
         let verification = tape.verify();
         assert!(!verification.is_good(), "{whose} {output}");
         let diverged: u64 = verification.instances.iter().map(|one| one.diverged).sum();

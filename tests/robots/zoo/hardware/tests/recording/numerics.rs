@@ -8,8 +8,8 @@ use hulkgen_recording::Recording as File;
 use serde_json::{Value, json};
 use zoo_runtime::recording;
 
-use super::divergence::Flipping;
-use super::{Tape, Zoo, on, record_in_lockstep};
+use super::divergence::record_flipping;
+use super::{Tape, Zoo, on};
 
 /// The first cycle that differs.
 const FIRST: u64 = 40;
@@ -246,23 +246,8 @@ fn an_output_of_which_there_is_a_digest_alone_is_counted_and_the_rest_is_verifie
 #[test]
 fn an_instance_of_which_nothing_can_be_compared_was_not_verified() {
     let tape = Tape::new();
-    record_in_lockstep(
-        &tape.path,
-        Settings::default(),
-        on,
-        &|instance, observer| {
-            // It writes nothing else, and nobody reads it.
-            if instance.name == "Reflexes" {
-                Box::new(Flipping {
-                    observer,
-                    output: "sum",
-                    cycles: 0..=u64::MAX,
-                })
-            } else {
-                observer
-            }
-        },
-    );
+    // It writes nothing else, and nobody reads it.
+    record_flipping(&tape, "Reflexes", "sum", 0..=u64::MAX);
     let verification = verify_within(&elsewhere(&tape), None);
     assert!(!verification.is_good(), "{verification}");
     assert_eq!(verification.divergence, None, "{verification}");
