@@ -29,6 +29,7 @@ use types::leds::ChestColors;
 use types::leds::Color;
 use types::projection_noise::ProjectionNoise;
 use vision::ball_detection::BallDetectionParameters;
+use vision::camera_matrix_extractor::CameraMatrixExtractorParameters;
 use vision::center_circle_detection::CenterCircleDetectionParameters;
 use vision::corner_detection::CornerDetectionParameters;
 use vision::field_border::FieldBorderParameters;
@@ -51,6 +52,8 @@ pub struct Parameters {
     /// control::behavior
     pub behavior: BehaviorParameters,
     pub button_filter: ButtonFilter,
+    /// vision::camera_matrix_extractor
+    pub camera_matrix_extractor: CameraMatrixExtractorParameters,
     pub cameras: Cameras,
     pub client_wishes: ClientWishes,
     /// vision::corner_detection
@@ -112,6 +115,7 @@ pub struct Parameters {
     pub vision_top: VisionInstance,
     /// control::client_wishes, control::motion_dispatcher, control::walking_engine
     pub walking_engine: walking::Parameters,
+    pub walking_feet: WalkingFeet,
     /// control::walking_engine
     pub walking_heat: Heat,
     /// audio::whistle_detection, control::tone_selector
@@ -462,6 +466,14 @@ pub struct VisionInstance {
     pub line_detection: LineDetectionParameters,
     /// vision::image_segmenter
     pub scan_steps: ScanSteps,
+}
+
+#[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct WalkingFeet {
+    /// control::walking_engine
+    #[reflect(unit = "kg", range = 0..)]
+    pub least_weight: f32,
 }
 
 #[derive(Clone, Debug, Deserialize, Reflect, Serialize)]

@@ -1454,6 +1454,7 @@ impl Nodes {
             safe_exit: &mut frame.cycler_state.safe_exits.walk,
             parameters: &frame.parameters.walking_engine,
             heat: &frame.parameters.walking_heat,
+            least_weight: &frame.parameters.walking_feet.least_weight,
         };
         let outputs = self
             .walking_engine

@@ -206,6 +206,7 @@ impl Nodes {
                 .control
                 .latest(frame.cycle.time.start, |outputs| &outputs.camera_matrices),
             cycle_time: frame.cycle.time,
+            parameters: &frame.parameters.camera_matrix_extractor,
         };
         let outputs = self
             .camera_matrix_extractor

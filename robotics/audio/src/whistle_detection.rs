@@ -39,6 +39,9 @@ pub struct WhistleDetectionParameters {
     pub highest_rival: f32,
     /// ... those at the tone's frequency divided by 2 and so on up to this number.
     pub greatest_divisor: u32,
+    /// So many bins of 21.5 Hz beside those as well: a gliding voice is not quite where its overtone says.
+    #[reflect(range = 0..=16)]
+    pub divisor_tolerance: u32,
     /// Least mean power of the tone over that of the rest of the band.
     #[reflect(unit = "dB")]
     pub least_prominence: f32,
@@ -149,6 +152,7 @@ mod tests {
              lowest_rival = 1500.0
              highest_rival = 1.7
              greatest_divisor = 5
+             divisor_tolerance = 2
              least_prominence = 12.0
              least_dominance = 3.0
              greatest_drift = 150.0

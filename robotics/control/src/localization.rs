@@ -14,6 +14,7 @@ mod belief;
 mod estimate;
 mod features;
 mod memory;
+mod parameters;
 mod search;
 mod sight;
 
@@ -33,117 +34,9 @@ use types::odometry::Odometry;
 
 use self::belief::{Belief, Hypothesis, Seen};
 use self::estimate::Estimate;
+pub use self::parameters::{FieldPose, LocalizationParameters};
 use self::sight::View;
 use crate::start_frame::ground_to_start;
-
-/// What is believed of the robot, its eyes and its legs; noises are one standard deviation.
-#[derive(Clone, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
-#[serde(deny_unknown_fields)]
-pub struct LocalizationParameters {
-    /// Where robots stand before the game, by the number of the shirt; others stand as the last one.
-    pub start_poses: Vec<FieldPose>,
-    /// How far beside the touch line robots are put after a penalty.
-    #[reflect(unit = "m", range = 0.0..)]
-    pub return_distance: f32,
-    /// How exactly people put robots down.
-    #[reflect(unit = "m", range = 0.0..)]
-    pub start_noise: f32,
-    /// Likewise.
-    #[reflect(unit = "rad", range = 0.0..)]
-    pub start_turn_noise: f32,
-    /// In m after 1 m of way.
-    pub way_noise: f32,
-    /// In rad after 1 rad of turning.
-    pub turn_noise: f32,
-    /// In rad after 1 m of way.
-    pub heading_noise: f32,
-    /// In m after 1 s.
-    pub standing_noise: f32,
-    /// In rad after 1 s.
-    pub standing_turn_noise: f32,
-    /// In m after 1 s of falling, lying and getting up.
-    pub fallen_noise: f32,
-    /// In rad after 1 s of falling, lying and getting up.
-    pub fallen_turn_noise: f32,
-    /// How wrong a place just in front of the robot is seen.
-    #[reflect(unit = "m", range = 0.0..)]
-    pub least_noise: f32,
-    /// By how much more per m of distance, along the line of sight.
-    pub noise_along: f32,
-    /// By how much more per m² of distance, along the line of sight: an error of the camera's tilt over its height.
-    pub noise_by_tilt: f32,
-    /// By how much more per m of distance, across the line of sight.
-    pub noise_across: f32,
-    /// In standard deviations: what is seen farther away from a marking is another one.
-    pub gate: f32,
-    /// In standard deviations: what another marking explains as well but for this says nothing about where.
-    pub clear_by: f32,
-    /// How far a seen line may reach beyond the end of the marking.
-    #[reflect(unit = "m", range = 0.0..)]
-    pub end_tolerance: f32,
-    /// A robot farther beside the field is elsewhere.
-    #[reflect(unit = "m", range = 0.0..)]
-    pub greatest_distance_outside: f32,
-    /// Over how many images evidence is averaged.
-    pub evidence_images: f32,
-    /// What speaks for a place where somebody put the robot, before it has seen anything.
-    #[reflect(range = 0.0..=1.0)]
-    pub start_evidence: f32,
-    /// More has to speak for another hypothesis than for the one that counts.
-    #[reflect(range = 0.0..=1.0)]
-    pub switch_margin: f32,
-    /// While less speaks for the best hypothesis, others are looked for.
-    #[reflect(range = 0.0..=1.0)]
-    pub doubted_evidence: f32,
-    /// While less speaks for the best hypothesis, the robot does not know where it is.
-    #[reflect(range = 0.0..=1.0)]
-    pub lost_evidence: f32,
-    /// How often places are looked for.
-    #[reflect(unit = "s", range = 0.0..)]
-    pub search_interval: f32,
-    /// What was seen longer ago does not count in the search.
-    #[reflect(unit = "s", range = 0.0..)]
-    pub memory_time: f32,
-    /// Lines are remembered so often.
-    #[reflect(unit = "s", range = 0.0..)]
-    pub memory_step: f32,
-    /// Share of what was seen lately that a place has to explain.
-    #[reflect(range = 0.0..=1.0)]
-    pub found_share: f32,
-    /// What speaks for a place that explains all of it.
-    #[reflect(range = 0.0..=1.0)]
-    pub found_evidence: f32,
-    /// How exactly a place is found.
-    #[reflect(unit = "m", range = 0.0..)]
-    pub found_noise: f32,
-    /// Likewise.
-    #[reflect(unit = "rad", range = 0.0..)]
-    pub found_turn_noise: f32,
-    /// Of a place and its twin in the other half the one counts that is so near to the last belief.
-    #[reflect(unit = "m", range = 0.0..)]
-    pub anchor_distance: f32,
-    /// Likewise.
-    #[reflect(unit = "rad", range = 0.0..)]
-    pub anchor_heading: f32,
-    /// Two hypotheses that are so near to each other are one.
-    #[reflect(unit = "m", range = 0.0..)]
-    pub same_place: f32,
-    /// Likewise.
-    #[reflect(unit = "rad", range = 0.0..)]
-    pub same_heading: f32,
-}
-
-/// A place and a heading in the field frame.
-#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
-#[serde(deny_unknown_fields)]
-pub struct FieldPose {
-    /// Towards the opponents' goal from the middle, m.
-    pub x: f32,
-    /// To the left, m.
-    pub y: f32,
-    /// From x to y, rad.
-    pub heading: f32,
-}
 
 /// A place where the robot may be.
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]

@@ -42,6 +42,10 @@ pub struct ObstacleFilterParameters {
     /// How wrong a touch is, one standard deviation.
     #[reflect(unit = "m", range = 0.0..)]
     pub bumper_noise: f32,
+    /// Nothing is measured more exactly, one standard deviation: the shell of a foot is no point. What a camera sees before its
+    /// own toes would else be known for certain, and whatever is perceived later would not move it.
+    #[reflect(unit = "m", range = 0.001..)]
+    pub least_noise: f32,
     /// What is perceived nearer to an obstacle than this is that obstacle.
     #[reflect(unit = "m", range = 0.0..)]
     pub same_place: f32,

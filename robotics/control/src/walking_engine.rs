@@ -13,9 +13,6 @@ use types::motion::{BodyMotion, MotionCommand, MotionSelection, Step};
 use types::motor_commands::MotorCommands;
 use walking::{Engine, Parameters, Senses};
 
-/// A robot that weighs less on its soles, in kg, is in the air: no foot carries it. The NAO V6 weighs 5.3 kg.
-const IN_THE_AIR: f32 = 1.0;
-
 /// Where the walk is.
 #[derive(Debug, Deserialize, Serialize)]
 pub struct WalkingEngine {
@@ -54,6 +51,9 @@ pub struct CycleContext {
     parameters: Parameter<Parameters, "walking_engine">,
     /// How hot motors may become.
     heat: Parameter<Heat, "walking_heat">,
+    /// A robot that weighs less on its soles is in the air: no foot carries it.
+    #[reflect(unit = "kg", range = 0.0..)]
+    least_weight: Parameter<f32, "walking_feet.least_weight">,
 }
 
 #[context]
@@ -91,7 +91,7 @@ impl WalkingEngine {
             since_last: context.cycle_time.since_last.as_secs_f32(),
             angular_velocity: [context.gyroscope.x, context.gyroscope.y],
             heading: heading(context.orientation),
-            pressures: shares(context.resistors),
+            pressures: shares(context.resistors, *context.least_weight),
         };
         let commands = self.engine.cycle(wanted, &senses, context.parameters);
         *context.safe_exit = command.body != BodyMotion::Walk && self.engine.is_standing();
@@ -122,10 +122,10 @@ fn heading(torso_to_world: &UnitQuaternion<f32>) -> f32 {
 }
 
 /// How the weight is spread over the feet, 0 to 1: resistors measure shares better than weights.
-fn shares(resistors: &Feet<[f32; 4]>) -> Feet<f32> {
+fn shares(resistors: &Feet<[f32; 4]>, least_weight: f32) -> Feet<f32> {
     let Feet { left, right } = resistors.map(|loads| loads.iter().sum::<f32>());
     let weight = left + right;
-    if weight.is_finite() && weight > IN_THE_AIR {
+    if weight.is_finite() && weight > least_weight {
         Feet {
             left: left / weight,
             right: right / weight,
@@ -160,6 +160,7 @@ mod tests {
         ParameterFile::new(include_str!("../../parameters/default.toml")).get("walking_engine")
     }
 
+    const LEAST_WEIGHT: f32 = 1.0;
     const HEAT: Heat = Heat {
         shorter_from: 70.0,
         stops_at: 75.0,
@@ -219,6 +220,7 @@ mod tests {
             safe_exit: &mut safe_exit,
             parameters: &parameters(),
             heat: &HEAT,
+            least_weight: &LEAST_WEIGHT,
         };
         let commands = node.cycle(context).unwrap().walk_commands.value;
         (commands, safe_exit)
@@ -278,6 +280,7 @@ mod tests {
             left: [left; 4],
             right: [right; 4],
         };
+        let shares = |feet: &Feet<[f32; 4]>| shares(feet, LEAST_WEIGHT);
         assert_eq!(shares(&feet(0.1, 0.1)), Feet::default());
         assert_eq!(shares(&feet(f32::NAN, 1.0)), Feet::default());
         let shares = shares(&feet(0.3, 0.9));

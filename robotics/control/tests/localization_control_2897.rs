@@ -2,6 +2,7 @@
 //!
 //! Written by `hulkgen capture`, with its values in `captured/localization_control_2897.json`.
 //! Vision of that day told neither circles nor corners: written in by hand, with the digest of the state that has room for them.
+//! So are the parameters that stood in code that day.
 
 use control::localization::{CycleContext, Localization};
 use framework::testing::{AdditionalProbe, Captured};

@@ -1,6 +1,7 @@
 //! Cycle 2000 of Control as it was recorded: `control::walking_engine` computes the same again, bit for bit.
 //!
 //! Written by `hulkgen capture`, with its values in `captured/walking_engine_control_2000.json`.
+//! The least weight stood in code that day: written in by hand.
 
 use control::walking_engine::{CycleContext, WalkingEngine};
 use framework::testing::Captured;
@@ -21,6 +22,7 @@ fn walking_engine_computes_cycle_2000_of_control_again() {
         safe_exit: &mut safe_exit,
         parameters: &captured.value("parameters"),
         heat: &captured.value("heat"),
+        least_weight: &captured.value("least_weight"),
     };
     let outputs = node
         .cycle(context)

@@ -58,6 +58,41 @@ pub struct BallNetworkParameters {
     pub least_confidence: f32,
 }
 
+/// How closely a place is looked at; lengths in radii of a ball there.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct BallInspectionParameters {
+    /// So much of the height of a cell of the grid is no field where it is looked at all.
+    #[reflect(range = 0.0..=2.0)]
+    pub least_piece: f32,
+    /// In so large a disc what is not field has its middle.
+    #[reflect(range = 0.0..=4.0)]
+    pub first_disc: f32,
+    /// So many of the samples in it, of some hundred, are not field, at least.
+    pub least_samples: u32,
+    /// A disc with more field than this is not worth a search for its rim.
+    #[reflect(range = 0.0..=1.0)]
+    pub most_field_at_first: f32,
+    /// From a middle that is not yet the circle's at least this part of the needed rim is found.
+    #[reflect(range = 0.0..=1.0)]
+    pub rim_at_first: f32,
+    /// From here on the rim is looked for.
+    #[reflect(range = 0.0..=4.0)]
+    pub nearest_rim: f32,
+    /// Up to here.
+    #[reflect(range = 0.0..=4.0)]
+    pub furthest_rim: f32,
+    /// Where around the circle field is looked for: on a ring that is so large, in radii of the circle.
+    #[reflect(range = 0.0..=4.0)]
+    pub inner_ring: f32,
+    /// And on one that is so large.
+    #[reflect(range = 0.0..=4.0)]
+    pub outer_ring: f32,
+    /// The print is looked at within so much of the circle, in radii of it.
+    #[reflect(range = 0.0..=1.0)]
+    pub print_disc: f32,
+}
+
 /// A circle that was looked at closely, for who wants to collect such.
 #[derive(Clear, Clone, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
 pub struct BallProposal {
@@ -78,8 +113,10 @@ pub struct BallProposal {
 pub struct BallDetectionParameters {
     /// Who decides.
     pub classifier: BallClassifier,
-    /// For the network; what follows is for the print, but for the radii.
+    /// For the network; what follows is for the print, but for inspection and radii.
     pub network: BallNetworkParameters,
+    /// For both.
+    pub inspection: BallInspectionParameters,
     /// Smaller balls in px are not looked for.
     pub least_radius: f32,
     /// By which factor the radius may differ from what the distance says.
@@ -162,7 +199,8 @@ impl BallDetection {
         let mut grid = Grid::new(&view, context.parameters.least_radius.max(1.0));
         let pieces = context.image_segments.segments.iter();
         let pieces = pieces.filter(|piece| !piece.is_field);
-        grid.mark(pieces.filter_map(|piece| known.unexplained(&view, piece)));
+        let pieces = pieces.filter_map(|piece| known.unexplained(&view, piece));
+        grid.mark(pieces, context.parameters.inspection.least_piece);
         context.ball_candidates.fill_if_subscribed(|| {
             grid.cells()
                 .map(|(center, radius)| locate(&view, center, radius))
@@ -272,6 +310,8 @@ mod tests {
     fn parameters() -> BallDetectionParameters {
         parameter(
             "{ classifier = \"Print\", network = { least_rim = 0.4, least_field_around = 0.4, least_confidence = 0.5 }, \
+             inspection = { least_piece = 0.4, first_disc = 1.4, least_samples = 8, most_field_at_first = 0.6, rim_at_first = 0.5, \
+             nearest_rim = 0.3, furthest_rim = 1.9, inner_ring = 1.2, outer_ring = 1.4, print_disc = 0.85 }, \
              least_radius = 3.5, radius_tolerance = 1.35, least_rim = 0.6, \
              least_field_around = 0.6, most_field_inside = 0.15, least_contrast = 35.0, \
              dark_limit = 0.4, least_dark = 0.04, most_dark = 0.6 }",

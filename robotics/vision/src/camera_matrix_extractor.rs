@@ -4,16 +4,23 @@
 //! turning head the newest pose would be off by tens of pixels. Between the poses of this cycle and
 //! the cycle before lies the exposure, so the pose at that moment is interpolated.
 
-use std::time::Duration;
-
-use framework::{CycleTime, LatestInput, MainOutput, Parameter, Result, Timestamp, context};
+use framework::{
+    CycleTime, LatestInput, MainOutput, Parameter, Reflect, Result, Timestamp, context,
+};
 use serde::{Deserialize, Serialize};
 use types::camera::{CameraMatrices, CameraMatrix, CameraPosition};
 
-/// Poses further apart than this say nothing about the time between them.
-const LONGEST_GAP: Duration = Duration::from_millis(150);
-/// How far beyond the newer pose its movement goes on, in parts of the time between the poses.
-const FURTHEST: f32 = 1.5;
+/// Between which poses a camera's movement is known.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct CameraMatrixExtractorParameters {
+    /// Poses further apart than this say nothing about the time between them.
+    #[reflect(unit = "s", range = 0.0..)]
+    pub longest_gap: f32,
+    /// How far beyond the newer pose its movement goes on, in parts of the time between the poses counted from the older.
+    #[reflect(range = 1.0..)]
+    pub furthest: f32,
+}
 
 /// Remembers the newest pose of the cycle before.
 #[derive(Debug, Deserialize, Serialize)]
@@ -29,6 +36,7 @@ pub struct CycleContext {
     camera_position: Parameter<CameraPosition, "$cycler_instance.camera_position">,
     camera_matrices: LatestInput<Option<CameraMatrices>, "Control", "camera_matrices">,
     cycle_time: CycleTime,
+    parameters: Parameter<CameraMatrixExtractorParameters, "camera_matrix_extractor">,
 }
 
 #[context]
@@ -49,7 +57,12 @@ impl CameraMatrixExtractor {
             Some((latest.timestamp, *matrices.of(*context.camera_position)))
         });
         let camera_matrix = newest.map(|newest| match self.previous {
-            Some(previous) => matrix_at(context.cycle_time.start, previous, newest),
+            Some(previous) => matrix_at(
+                context.cycle_time.start,
+                previous,
+                newest,
+                context.parameters,
+            ),
             None => newest.1,
         });
         self.previous = newest;
@@ -63,12 +76,13 @@ fn matrix_at(
     time: Timestamp,
     (earlier, from): (Timestamp, CameraMatrix),
     (later, to): (Timestamp, CameraMatrix),
+    parameters: &CameraMatrixExtractorParameters,
 ) -> CameraMatrix {
     let gap = later - earlier;
-    if gap.is_zero() || gap > LONGEST_GAP {
+    if gap.is_zero() || gap.as_secs_f32() > parameters.longest_gap {
         return to;
     }
-    let part = ((time - earlier).as_secs_f32() / gap.as_secs_f32()).min(FURTHEST);
+    let part = ((time - earlier).as_secs_f32() / gap.as_secs_f32()).min(parameters.furthest);
     // Around the camera's own place, which moves in a line where the camera turns.
     let (from, to_pose) = (
         from.ground_to_camera.inverse(),
@@ -119,6 +133,10 @@ mod tests {
             camera_position: &CameraPosition::Top,
             camera_matrices: latest(at_millis(newest), matrices, at_millis(captured)),
             cycle_time: cycle_time(captured, 33),
+            parameters: &CameraMatrixExtractorParameters {
+                longest_gap: 0.15,
+                furthest: 1.5,
+            },
         };
         node.cycle(context).unwrap().camera_matrix.value
     }

@@ -13,8 +13,6 @@ use types::field_features::{CenterCircle, LineSegment};
 
 /// So many pieces are looked at, those with the most points.
 const MOST_CHORDS: usize = 10;
-/// Nothing but the middle line comes nearer to the middle, in radii.
-const EMPTY_SHARE: f32 = 0.6;
 /// Of the corners of the polygon that is drawn for a circle.
 const OUTLINE: u16 = 36;
 
@@ -39,6 +37,9 @@ pub struct CenterCircleDetectionParameters {
     /// How far a piece lies off the circle beside what the camera's pose does, one standard deviation.
     #[reflect(unit = "m", range = 0.0..)]
     pub chord_noise: f32,
+    /// Nothing but the middle line comes nearer to the middle, in radii.
+    #[reflect(range = 0.0..=1.0)]
+    pub empty_share: f32,
 }
 
 /// Keeps its heap; empty between cycles.
@@ -172,7 +173,8 @@ impl View<'_> {
                 .map(|along| along.perp(&(middle - line.start)));
             off.is_some_and(|off| off.abs() <= self.parameters.tolerance)
         };
-        let is_inside = |line: &LineSegment| line.distance_to(middle) <= EMPTY_SHARE * self.radius;
+        let empty = self.parameters.empty_share * self.radius;
+        let is_inside = |line: &LineSegment| line.distance_to(middle) <= empty;
         if self
             .lines
             .iter()

@@ -33,9 +33,13 @@ pub struct FieldColorDetectionParameters {
     pub least_green: f32,
     /// By which factor green exceeds red and blue, at least.
     pub least_dominance: f32,
+    /// Whatever is brighter dazzles: it has no colour left.
+    pub brightest: u8,
     /// How many of the pixels have to agree.
     #[reflect(range = 0.0..=1.0)]
     pub least_agreement: f32,
+    /// And never fewer than so many.
+    pub least_votes: u32,
     /// How much of the newest image is learnt, after the first.
     #[reflect(range = 0.0..=1.0)]
     pub adaption: f32,
@@ -136,16 +140,16 @@ fn vote(context: &CycleContext<'_>) -> Option<Vector2<f32>> {
         .filter(|(row, column)| cells[row * CELLS + column].0 > 0)
         .map(|(row, column)| around(row, column))
         .max_by_key(|(votes, _)| *votes)?;
-    let needed = (count as f32 * parameters.least_agreement).max(10.0);
+    let needed = (count as f32 * parameters.least_agreement).max(parameters.least_votes as f32);
     (votes as f32 >= needed).then(|| sum / votes as f32)
 }
 
 /// Shares of red, green and blue in the pixels that are looked at: below the horizon, no limbs, neither dark nor dazzling.
 fn pixels(context: &CycleContext<'_>) -> impl Iterator<Item = [f32; 3]> {
-    const BRIGHTEST: u8 = 240;
     let image = context.image;
     let step = context.parameters.step.max(2) as usize;
     let darkest = context.initial.minimum_luminance;
+    let brightest = context.parameters.brightest;
     let horizon = context.camera_matrix.and_then(CameraMatrix::horizon);
     let limb_mask = context.limb_mask;
     (0..image.width).step_by(step).flat_map(move |column| {
@@ -154,7 +158,7 @@ fn pixels(context: &CycleContext<'_>) -> impl Iterator<Item = [f32; 3]> {
         let end = limb.map_or(image.height, |row| image.height.min(row as u32));
         (first as u32..end).step_by(step).filter_map(move |row| {
             let color = image.yuv(column, row)?;
-            (darkest..BRIGHTEST)
+            (darkest..brightest)
                 .contains(&color.y)
                 .then(|| shares(color))
         })
@@ -173,8 +177,8 @@ mod tests {
 
     fn detect(node: &mut FieldColorDetection, image: &YuyvImage) -> FieldColor {
         let parameters = parameter(
-            "{ step = 16, least_green = 0.36, least_dominance = 1.1, least_agreement = 0.1, adaption = 0.2, \
-             green_limit = 0.5, margin = 0.13 }",
+            "{ step = 16, least_green = 0.36, least_dominance = 1.1, brightest = 240, least_agreement = 0.1, \
+             least_votes = 10, adaption = 0.2, green_limit = 0.5, margin = 0.13 }",
         );
         let outputs = node.cycle(CycleContext {
             image: &Leased::of(image.clone()),

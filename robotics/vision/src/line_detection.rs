@@ -31,6 +31,9 @@ use crate::segments::ImageSegments;
 pub struct LineDetectionParameters {
     /// Distance between scanned rows in px.
     pub row_step: u32,
+    /// Distance between samples within a row.
+    #[reflect(unit = "px", range = 1..)]
+    pub sample_step: u32,
     /// How much brighter a line must get per px at its edges.
     pub least_gradient: f32,
     /// How well the edges must face each other: the cosine of the angle between them.
@@ -45,6 +48,9 @@ pub struct LineDetectionParameters {
     pub before_border: f32,
     /// How many pairs of points are tried for each line.
     pub attempts: u32,
+    /// How far the points of a pair have to be apart.
+    #[reflect(unit = "m", range = 0.0..)]
+    pub least_apart: f32,
     /// How far a point near the robot may be off its line.
     #[reflect(unit = "m", range = 0.0..)]
     pub tolerance: f32,
@@ -54,6 +60,9 @@ pub struct LineDetectionParameters {
     /// How far the edges at a point may be turned against the line.
     #[reflect(unit = "rad")]
     pub direction_tolerance: f32,
+    /// What is nearer to a line that was found belongs to no other, in tolerances.
+    #[reflect(range = 1.0..)]
+    pub taken: f32,
     /// How far apart the points of one segment may be.
     #[reflect(unit = "m", range = 0.0..)]
     pub largest_gap: f32,
@@ -166,9 +175,9 @@ mod tests {
 
     fn parameters() -> LineDetectionParameters {
         parameter(
-            "{ row_step = 6, least_gradient = 8.0, least_opposition = 0.9, width_tolerance = 0.5, \
-             greatest_distance = 4.5, before_border = 0.45, attempts = 40, tolerance = 0.02, tolerance_per_metre = 0.01, \
-             direction_tolerance = 0.3, largest_gap = 0.4, least_points = 8, least_length = 0.3, \
+            "{ row_step = 6, sample_step = 2, least_gradient = 8.0, least_opposition = 0.9, width_tolerance = 0.5, \
+             greatest_distance = 4.5, before_border = 0.45, attempts = 40, least_apart = 0.05, tolerance = 0.02, tolerance_per_metre = 0.01, \
+             direction_tolerance = 0.3, taken = 2.0, largest_gap = 0.4, least_points = 8, least_length = 0.3, \
              most_lines = 10 }",
         )
     }

@@ -34,9 +34,18 @@ pub struct PenaltyMarkDetectionParameters {
     pub area_tolerance: f32,
     /// Least ratio of the shorter to the longer extent of the white area.
     pub least_roundness: f32,
-    /// Least share of field in the ring around it.
+    /// Least share of field in the rings around it.
     #[reflect(range = 0.0..=1.0)]
     pub least_field_around: f32,
+    /// A piece of a column that is longer is no candidate, in sizes of the mark.
+    #[reflect(range = 0.0..)]
+    pub longest_piece: f32,
+    /// Around a candidate the ring is so large, in sizes of the mark: it is not yet the mark's middle.
+    #[reflect(range = 0.0..)]
+    pub ring_at_first: f32,
+    /// Around the middle it is so large.
+    #[reflect(range = 0.0..)]
+    pub ring: f32,
     /// Largest share of the patch that may be darker than the field.
     #[reflect(range = 0.0..=1.0)]
     pub most_dark: f32,
@@ -137,12 +146,14 @@ fn candidates<'a>(
         let (start, end) = (at(piece.start as f32 - 0.5), at(piece.end as f32 - 0.5));
         let (far, near) = (view.ground(start)?, view.ground(end)?);
         let place = nalgebra::center(&far, &near);
-        let is_candidate = nalgebra::distance(&far, &near) <= 2.0 * view.mark_size
+        let is_candidate = nalgebra::distance(&far, &near)
+            <= view.parameters.longest_piece * view.mark_size
             && place.coords.norm() <= view.parameters.greatest_distance
             && border.is_inside(start)
             && !is_near_border(border, view.matrix, start.x, place, before_border)
             && !is_on_line(lines, view.line_width, place)
-            && view.field_around(place, 1.6) >= view.parameters.least_field_around;
+            && view.field_around(place, view.parameters.ring_at_first)
+                >= view.parameters.least_field_around;
         is_candidate.then_some(place)
     })
 }
@@ -181,7 +192,8 @@ impl View<'_> {
         let is_mark = likeness * self.parameters.area_tolerance >= 1.0
             && roundness(&patch.spread) >= self.parameters.least_roundness
             && patch.dark <= self.parameters.most_dark
-            && self.field_around(patch.middle, 1.1) >= self.parameters.least_field_around;
+            && self.field_around(patch.middle, self.parameters.ring)
+                >= self.parameters.least_field_around;
         let mark = self.mark_at(patch.middle)?;
         is_mark.then_some((likeness, mark))
     }
@@ -283,7 +295,7 @@ mod tests {
     fn parameters() -> PenaltyMarkDetectionParameters {
         parameter(
             "{ greatest_distance = 3.0, before_border = 1.0, area_tolerance = 1.8, least_roundness = 0.55, \
-             least_field_around = 0.9, most_dark = 0.1 }",
+             least_field_around = 0.9, longest_piece = 2.0, ring_at_first = 1.6, ring = 1.1, most_dark = 0.1 }",
         )
     }
 

@@ -10,8 +10,6 @@ use super::spectrum::{BIN_COUNT, WINDOW_LENGTH};
 
 /// The loudest overtones of voices and loudspeakers are lower.
 const GREATEST_DIVISOR: u32 = 16;
-/// In bins: a gliding voice is not quite where its overtone says.
-const TOLERANCE: usize = 2;
 
 /// A tone that a microphone hears.
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
@@ -57,9 +55,10 @@ pub(super) fn strongest_peak(
         bin(parameters.lowest_rival)?..tone.start,
         tone.end..highest_rival,
     ];
+    let off = (parameters.divisor_tolerance as usize).min(BIN_COUNT);
     let fundamentals = (2..=parameters.greatest_divisor.min(GREATEST_DIVISOR)).map(|divisor| {
         let fundamental = (center as f32 / divisor as f32).round() as usize;
-        fundamental.saturating_sub(TOLERANCE)..(fundamental + TOLERANCE + 1).min(tone.start)
+        fundamental.saturating_sub(off)..(fundamental + off + 1).min(tone.start)
     });
     let rival = nearby
         .into_iter()

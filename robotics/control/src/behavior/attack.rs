@@ -14,6 +14,9 @@ use super::places::wrapped;
 use super::walk_to::{straight, within};
 use super::way::Circle;
 
+/// Nearer to the ball than this share of its place behind it the robot would never be free of the ball.
+const FREE_SHARE: f32 = 0.95;
+
 /// Where the robot is, seen from the ball along the aim.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Stance {
@@ -144,10 +147,9 @@ fn walk_behind(view: &View<'_>, ball: Point2<f32>, aim: f32, activity: Activity)
     let attack = &view.parameters.attack;
     let back = Isometry2::rotation(aim) * Vector2::new(attack.behind, 0.0);
     let target = Isometry2::new(ball.coords - back, aim);
-    // Nearer to the ball than the place itself nothing would be free.
     let around = Circle {
         middle: ball,
-        radius: attack.clearance.min(0.95 * attack.behind),
+        radius: attack.clearance.min(FREE_SHARE * attack.behind),
     };
     let mut decision = view.walk_to(&target, Some(around), activity, activity);
     // Near enough for a place, but the ball cannot be played from there yet: who stood here would stand for ever.

@@ -272,10 +272,9 @@ impl View<'_> {
             middle: obstacle.position,
             radius: obstacle.radius + walk.clearance,
         });
-        let turning = walk.forward / walk.turn.max(f32::EPSILON);
         let circles = obstacles.chain(more);
         let Some(ground_to_field) = self.world.ground_to_field else {
-            return first_way_point(place, circles, turning, |_| false);
+            return first_way_point(place, circles, walk, |_| false);
         };
         let field_to_ground = ground_to_field.inverse();
         if let Some(out) = places.way_out_of_goal(ground_to_field.translation.vector.into()) {
@@ -286,7 +285,7 @@ impl View<'_> {
             ..post
         });
         let is_closed = |point| places.is_closed(ground_to_field * point);
-        first_way_point(place, circles.chain(posts), turning, is_closed)
+        first_way_point(place, circles.chain(posts), walk, is_closed)
     }
 
     /// The same pose of the ground frame, or before the goal line where it lies in a goal.

@@ -57,6 +57,15 @@ pub struct WalkParameters {
     /// Who has come so near to whom it would not pass nearer, and who stands in its place, stops.
     #[reflect(unit = "m", range = 0.0..)]
     pub beside_occupied: f32,
+    /// Around how many obstacles after each other a way goes; behind them it is thought to be free. One more doubles the work.
+    #[reflect(range = 0..=6)]
+    pub detours: u32,
+    /// As many radii a way point lies from the middle of what it leads around, so that the next way is free of it.
+    #[reflect(range = 1.0..)]
+    pub detour_radii: f32,
+    /// As much longer counts a way through a point that another obstacle takes, or that is closed.
+    #[reflect(unit = "m", range = 0.0..)]
+    pub taken: f32,
 }
 
 /// How to play the ball.
@@ -89,6 +98,15 @@ pub struct AttackParameters {
     /// So far from the posts the aim stays.
     #[reflect(unit = "m", range = 0.0..)]
     pub post_margin: f32,
+    /// A goal that opens less is not aimed at.
+    #[reflect(unit = "rad", range = 0.0..)]
+    pub least_opening: f32,
+    /// A ball on the own goal line that is nearer to the goal's middle is pushed to the side to which the robot has turned.
+    #[reflect(unit = "m", range = 0.0..)]
+    pub goal_middle: f32,
+    /// Who faces less to one side, as the sine says, has not turned to it.
+    #[reflect(range = 0.0..=1.0)]
+    pub turned_aside: f32,
     /// A goal that is nearer is kicked at, another one is dribbled to.
     #[reflect(unit = "m", range = 0.0..)]
     pub kick_range: f32,
@@ -161,6 +179,9 @@ pub struct PlaceParameters {
     /// So far beside the line from goal to ball.
     #[reflect(unit = "m", range = 0.0..)]
     pub defender_aside: f32,
+    /// But no farther from the goal than this share of the ball's distance from it.
+    #[reflect(range = 0.0..=1.0)]
+    pub defender_share: f32,
     /// So far from the goal who stands in for the keeper stays.
     #[reflect(unit = "m", range = 0.0..)]
     pub sweeper_ring: f32,
@@ -173,6 +194,12 @@ pub struct PlaceParameters {
     /// So far from the ball while it is the other team's: more than the rules' 0.75 m.
     #[reflect(unit = "m", range = 0.0..)]
     pub distance_to_free_kick: f32,
+    /// While the ball is nearer to the own goal, the way between both is the keeper's: who waits for it stands aside.
+    #[reflect(unit = "m", range = 0.0..)]
+    pub keepers_way: f32,
+    /// So far aside of that way, seen from the ball.
+    #[reflect(unit = "rad", range = 0.0..)]
+    pub beside_keeper: f32,
     /// After their kick-off so long, or until the ball has left the centre mark.
     #[reflect(unit = "s", range = 0.0..)]
     pub kick_off_duration: f32,
@@ -250,4 +277,7 @@ pub struct RecoveryParameters {
     /// What is nearer it walks away from; where nothing is, it walks back.
     #[reflect(unit = "m", range = 0.0..)]
     pub near: f32,
+    /// Who has not walked for longer waits; who dithers between both does not.
+    #[reflect(unit = "s", range = 0.0..)]
+    pub waits: f32,
 }

@@ -60,7 +60,9 @@ impl PlaceParameters {
             .unwrap_or_else(Vector2::x);
         let to_left = Vector2::new(-to_ball.y, to_ball.x);
         // Not behind the ball's back: who defends stays on the goal's side of it.
-        let ring = self.defender_ring.min(0.7 * (ball - goal).norm());
+        let ring = self
+            .defender_ring
+            .min(self.defender_share * (ball - goal).norm());
         let place = match role {
             Role::Keeper => {
                 let place = goal + to_ball * keeper.radius;
@@ -70,8 +72,8 @@ impl PlaceParameters {
             Role::Striker => {
                 // Near the goal the keeper has that place.
                 let distance = self.distance_to_free_kick;
-                let is_near = (ball - goal).norm() < 2.0 * distance;
-                let aside = if is_near { BESIDE_KEEPER } else { 0.0 };
+                let is_near = (ball - goal).norm() < self.keepers_way;
+                let aside = if is_near { self.beside_keeper } else { 0.0 };
                 let away = Isometry2::rotation(aside.copysign(ball.y)) * -to_ball;
                 ball + away * distance
             }
@@ -107,7 +109,7 @@ impl PlaceParameters {
         let from_goal = (ball - self.own_goal())
             .try_normalize(f32::EPSILON)
             .unwrap_or_else(Vector2::x);
-        let aside = Isometry2::rotation(BESIDE_KEEPER.copysign(ball.y)) * from_goal;
+        let aside = Isometry2::rotation(self.beside_keeper.copysign(ball.y)) * from_goal;
         let place = ball + aside * keeper.clears;
         self.facing(self.on_the_field(place), ball)
     }
@@ -144,8 +146,8 @@ impl PlaceParameters {
         if ball.y.abs() < self.post + 2.0 * self.post_radius {
             // In the middle the side to which the robot has turned stays: the ball lies to its left and right in turns.
             let facing = math::sin(easy);
-            let is_in_the_middle = ball.y.abs() < self.post / 3.0;
-            let side = match is_in_the_middle && facing.abs() > ASIDE {
+            let is_in_the_middle = ball.y.abs() < attack.goal_middle;
+            let side = match is_in_the_middle && facing.abs() > attack.turned_aside {
                 true => facing,
                 false => ball.y,
             };
@@ -161,7 +163,7 @@ impl PlaceParameters {
         let post = (self.post - attack.post_margin).max(0.0);
         let to = |y: f32| math::atan2(y - ball.y, self.goal_line - ball.x);
         let (right, left) = (to(-post), to(post));
-        if ball.x < self.goal_line && left - right > NARROW {
+        if ball.x < self.goal_line && left - right > attack.least_opening {
             // Both lie within a quarter of a turn of the direction to the goal, so nothing wraps.
             let middle = to(0.0);
             let off = wrapped(easy - middle);
@@ -223,13 +225,6 @@ impl PlaceParameters {
         Isometry2::new(place.coords, math::atan2(to_ball.y, to_ball.x))
     }
 }
-
-/// So far aside of the way from ball to goal, rad, a striker waits near the own goal.
-const BESIDE_KEEPER: f32 = 1.0;
-/// Who faces less to one side, as the sine says, has not turned to it.
-const ASIDE: f32 = 0.2;
-/// A goal that opens less, rad, is not aimed at.
-const NARROW: f32 = 0.15;
 
 /// The same direction, from -π to π.
 pub(super) fn wrapped(angle: f32) -> f32 {

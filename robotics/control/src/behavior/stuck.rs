@@ -3,7 +3,6 @@
 //! Judged by where localisation says that it is: odometry believes every step that slips.
 
 use std::mem;
-use std::time::Duration;
 
 use framework::Timestamp;
 use nalgebra::{Isometry2, Vector2};
@@ -13,9 +12,6 @@ use types::obstacles::Obstacle;
 
 use super::parameters::{RecoveryParameters, WalkParameters};
 use super::places::wrapped;
-
-/// Who has not walked for longer waits; who dithers between both does not.
-const WAITS: Duration = Duration::from_secs(1);
 
 /// Where the robot last got anywhere.
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Serialize)]
@@ -74,7 +70,7 @@ impl Progress {
             self.lay_beside_somebody_at = is_beside_somebody.then_some(now);
             return;
         }
-        let waits = now - self.moved_at > WAITS;
+        let waits = (now - self.moved_at).as_secs_f32() > recovery.waits;
         let is_over = self.retreat.is_some_and(|retreat| retreat.is_over(now));
         let Some(&pose) = ground_to_field.filter(|_| !waits && !is_over) else {
             self.free = None;

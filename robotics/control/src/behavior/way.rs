@@ -3,12 +3,10 @@
 use framework::math;
 use nalgebra::{Isometry2, Point2, Vector2};
 
-/// How many obstacles after each other a way goes around; behind that it is thought to be free.
-const DETOURS: usize = 3;
-/// A way point lies so much farther from a circle's middle than its edge, so that the next way is free of it.
-const BEYOND: f32 = 1.05;
-/// As much longer, m, counts a way through a point that another obstacle takes, or that is closed: longer than any field.
-const TOLL: f32 = 20.0;
+use super::parameters::WalkParameters;
+
+/// No parameter makes a way go around more: each one doubles the work.
+const MOST_DETOURS: u32 = 6;
 
 /// What the middle of the robot must stay out of, in the ground frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,19 +20,33 @@ pub(super) struct Circle {
 /// Where a robot at the origin goes first on the shortest way that was found to a point of its ground frame, m.
 ///
 /// A circle in which the robot or the point lies does not count, but the robot leaves one before it goes through its middle.
-/// To turn by 1 rad counts as `turning` m of way: of two sides that are nearly as long the robot keeps the one that it has
+/// To turn by 1 rad counts as the way that is walked meanwhile: of two sides that are nearly as long the robot keeps the one that it has
 /// turned to, also where the circle moves. No way leads through a point that is closed while there is another one.
 pub(super) fn first_way_point(
     target: Point2<f32>,
     circles: impl Iterator<Item = Circle> + Clone,
-    turning: f32,
+    walk: &WalkParameters,
     is_closed: impl Fn(Point2<f32>) -> bool,
 ) -> Point2<f32> {
     let start = Start {
         place: Point2::origin(),
-        turning,
+        turning: walk.forward / walk.turn.max(f32::EPSILON),
     };
-    detour(start, target, &circles, &is_closed, DETOURS).0
+    let floor = Floor {
+        circles,
+        is_closed,
+        walk,
+    };
+    floor
+        .detour(start, target, walk.detours.min(MOST_DETOURS))
+        .0
+}
+
+/// What stands on the floor.
+struct Floor<'a, Circles, IsClosed> {
+    circles: Circles,
+    is_closed: IsClosed,
+    walk: &'a WalkParameters,
 }
 
 /// Where a way begins.
@@ -45,46 +57,50 @@ struct Start {
     turning: f32,
 }
 
-/// The first point of the way and how long that is, m.
-fn detour(
-    Start {
-        place: start,
-        turning,
-    }: Start,
-    target: Point2<f32>,
-    circles: &(impl Iterator<Item = Circle> + Clone),
-    is_closed: &impl Fn(Point2<f32>) -> bool,
-    detours: usize,
-) -> (Point2<f32>, f32) {
-    let straight = (target, (target - start).norm());
-    let blocking = circles
-        .clone()
-        .filter_map(|circle| Some((blocks(start, target, &circle)?, circle)))
-        .min_by(|(one, _), (other, _)| one.total_cmp(other));
-    let Some((_, circle)) = blocking.filter(|_| detours > 0) else {
-        return straight;
-    };
-    let around = [1.0, -1.0].map(|side| {
-        let way_point = beside(start, &circle, side);
-        let next = Start {
-            place: way_point,
-            turning: 0.0,
-        };
-        let (_, rest) = detour(next, target, circles, is_closed, detours - 1);
-        let is_taken = circles
+impl<Circles, IsClosed> Floor<'_, Circles, IsClosed>
+where
+    Circles: Iterator<Item = Circle> + Clone,
+    IsClosed: Fn(Point2<f32>) -> bool,
+{
+    /// The first point of the way and how long that is, m.
+    fn detour(&self, start: Start, target: Point2<f32>, detours: u32) -> (Point2<f32>, f32) {
+        let Start { place, turning } = start;
+        let straight = (target, (target - place).norm());
+        let blocking = self
+            .circles
             .clone()
-            .any(|circle| (way_point - circle.middle).norm() < circle.radius);
-        let toll = if is_taken || is_closed(way_point) {
-            TOLL
-        } else {
-            0.0
+            .filter_map(|circle| Some((blocks(place, target, &circle)?, circle)))
+            .min_by(|(one, _), (other, _)| one.total_cmp(other));
+        let Some((_, circle)) = blocking.filter(|_| detours > 0) else {
+            return straight;
         };
-        let way = way_point - start;
-        let turned = math::atan2(way.y, way.x).abs() * turning;
-        (way_point, way.norm() + rest + toll + turned)
-    });
-    let [left, right] = around;
-    if left.1 <= right.1 { left } else { right }
+        let around = [1.0, -1.0].map(|side| {
+            let way_point = beside(place, &circle, side, self.walk.detour_radii);
+            let next = Start {
+                place: way_point,
+                turning: 0.0,
+            };
+            let (_, rest) = self.detour(next, target, detours - 1);
+            let way = way_point - place;
+            let turned = math::atan2(way.y, way.x).abs() * turning;
+            let more = if self.is_taken(way_point) {
+                self.walk.taken
+            } else {
+                0.0
+            };
+            (way_point, way.norm() + rest + more + turned)
+        });
+        let [left, right] = around;
+        if left.1 <= right.1 { left } else { right }
+    }
+
+    /// Whether another obstacle takes a point, or it is closed.
+    fn is_taken(&self, point: Point2<f32>) -> bool {
+        self.circles
+            .clone()
+            .any(|circle| (point - circle.middle).norm() < circle.radius)
+            || (self.is_closed)(point)
+    }
 }
 
 /// How far along the way it comes nearest to the middle of a circle that is in the way, m.
@@ -99,11 +115,11 @@ fn blocks(start: Point2<f32>, target: Point2<f32>, circle: &Circle) -> Option<f3
     (along > 0.0 && along < length && across < circle.radius).then_some(along)
 }
 
-/// Where a way touches the circle on one side (1: left of its middle), or goes past it from inside.
-fn beside(start: Point2<f32>, circle: &Circle, side: f32) -> Point2<f32> {
+/// Where a way touches so many radii of the circle on one side (1: left of its middle), or goes past it from inside.
+fn beside(start: Point2<f32>, circle: &Circle, side: f32, radii: f32) -> Point2<f32> {
     let to_middle = circle.middle - start;
     let distance = to_middle.norm();
-    let radius = circle.radius * BEYOND;
+    let radius = circle.radius * radii;
     let direction = match distance > f32::EPSILON {
         true => to_middle / distance,
         false => Vector2::x(),
@@ -116,14 +132,19 @@ fn beside(start: Point2<f32>, circle: &Circle, side: f32) -> Point2<f32> {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::LazyLock;
+
     use super::*;
+    use crate::behavior::tests::parameters;
+
+    static WALK: LazyLock<WalkParameters> = LazyLock::new(|| parameters().walk);
 
     fn way_point(target: [f32; 2], circles: &[[f32; 3]]) -> Point2<f32> {
         let circles = circles.iter().map(|&[x, y, radius]| Circle {
             middle: Point2::new(x, y),
             radius,
         });
-        first_way_point(Point2::from(target), circles, 0.16, |_| false)
+        first_way_point(Point2::from(target), circles, &WALK, |_| false)
     }
 
     #[test]
@@ -177,7 +198,7 @@ mod tests {
         for (closed, is_left) in [(-1.0, true), (1.0, false)] {
             let is_closed = |place: Point2<f32>| place.y * closed > 0.0;
             let target = Point2::new(3.0, 0.0);
-            let around = first_way_point(target, [circle].into_iter(), 0.16, is_closed);
+            let around = first_way_point(target, [circle].into_iter(), &WALK, is_closed);
             assert_eq!(around.y > 0.0, is_left, "{around}");
         }
     }

@@ -18,17 +18,6 @@ use crate::angle::wrap;
 /// More are not kept: the one for which least speaks makes room.
 pub(super) const MOST_HYPOTHESES: usize = 8;
 
-/// A line of this length or longer counts fully, m.
-const LONG: f32 = 1.0;
-/// As how much line a penalty mark counts, m.
-const MARK_LENGTH: f32 = 0.5;
-/// As how much line the centre circle counts, m.
-const CIRCLE_LENGTH: f32 = 1.0;
-/// As how much line a corner counts, whose lines count as well, m.
-pub(super) const CORNER_LENGTH: f32 = 0.5;
-/// How far the middle of a circle may be off of which a line is a piece, m.
-const PIECE_TOLERANCE: f32 = 0.2;
-
 /// A place where the robot may be.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 pub(super) struct Hypothesis {
@@ -67,8 +56,9 @@ impl Seen<'_> {
     /// Whether the line is a piece of the circle that was seen.
     fn is_piece(&self, line: &LineSegment, view: &View<'_>) -> bool {
         let radius = view.markings.circle_radius;
+        let tolerance = view.parameters.piece_tolerance;
         self.circle
-            .is_some_and(|circle| circle.has_piece(line, radius, PIECE_TOLERANCE))
+            .is_some_and(|circle| circle.has_piece(line, radius, tolerance))
     }
 }
 
@@ -250,6 +240,7 @@ impl Hypothesis {
 
     /// `to_now` leads from the frame of what was seen to that of the robot now.
     fn learn(&mut self, seen: &Seen<'_>, to_now: &Isometry2<f32>, view: &View<'_>) {
+        let parameters = view.parameters;
         let (mut total, mut explained) = (0.0, 0.0);
         let mut count = |found: Option<&Match>, length: f32| {
             total += length;
@@ -263,33 +254,34 @@ impl Hypothesis {
         let Self { estimate, evidence } = self;
         if let Some(circle) = seen.circle {
             let found = view.circle(estimate, to_now * circle.position);
-            count(found.as_ref(), CIRCLE_LENGTH);
+            count(found.as_ref(), parameters.circle_length);
             learn(found, estimate);
         }
         let straight = seen.lines.iter().filter(|line| !seen.is_piece(line, view));
         for line in straight {
             let line = Line::from(line).moved(to_now);
             let found = view.line(estimate, &line);
-            count(found.as_ref(), line.length().min(LONG));
+            count(found.as_ref(), line.length().min(parameters.full_length));
             learn(found, estimate);
         }
         if let Some(mark) = seen.mark {
             let found = view.mark(estimate, to_now * mark.position);
-            count(found.as_ref(), MARK_LENGTH);
+            count(found.as_ref(), parameters.mark_length);
             learn(found, estimate);
         }
         if total > 0.0 {
-            let newest = 1.0 / view.parameters.evidence_images.max(1.0);
+            let newest = 1.0 / parameters.evidence_images.max(1.0);
             // An image with little to see says little.
-            let weight = newest * (total / LONG).min(1.0);
+            let weight = newest * (total / parameters.full_length).min(1.0);
             *evidence += weight * (explained / total - *evidence);
         }
     }
 }
 
-/// From 1 where something is exactly where it was expected to half of it at the gate.
+/// From 1 where something is exactly where it was expected to the gate's quality there.
 pub(super) fn quality(found: &Match, view: &View<'_>) -> f32 {
-    1.0 - 0.5 * found.deviation / math::powi(view.parameters.gate, 2)
+    let lost = 1.0 - view.parameters.gate_quality;
+    1.0 - lost * found.deviation / math::powi(view.parameters.gate, 2)
 }
 
 /// Variances of x, y and heading of a movement that took so long.

@@ -11,30 +11,18 @@ use nalgebra::{Isometry2, Rotation2, Vector2};
 use types::field_features::chord_distance;
 use types::field_markings::{Course, FieldCorner, FieldLine};
 
-use super::belief::{CORNER_LENGTH, Hypothesis, quality};
+use super::belief::{Hypothesis, quality};
 use super::estimate::Estimate;
 use super::features::{Corner, Line};
-use super::sight::{self, View};
+use super::sight::View;
 use crate::angle::wrap;
 
 /// How many places are found at most.
 pub(super) const MOST_PLACES: usize = 4;
 
-/// Two lines whose directions have a greater cosine do not cross at a right angle.
-const SQUARE: f32 = 0.17;
-/// Shorter lines may be pieces of the circle, m.
-const LEAST_LENGTH: f32 = 0.7;
-/// So many of the longest lines are tried as the middle line.
-const MOST_MIDDLE_LINES: usize = 4;
-/// As pieces of the circle shorter lines have too uncertain a direction, m.
-const LEAST_CHORD: f32 = 0.3;
-/// A piece whose normal crosses the line at a smaller angle says too little about where; the sine of that.
-const LEAST_SINE: f32 = 0.3;
-/// A piece is none of the circle if the middle lies so much nearer or farther than it has to, m.
-const CHORD_TOLERANCE: f32 = 0.15;
-/// So many places by the circle are judged.
+/// So many places by the circle are judged: a search takes no longer than that.
 const MOST_BY_CIRCLE: usize = 16;
-/// So many of the newest corners are tried.
+/// So many of the newest corners are tried, for the same reason.
 const MOST_CORNERS: usize = 4;
 
 /// Places that explain enough of the lines, the longest first, and of the corners, the newest first, in the ground
@@ -53,7 +41,7 @@ pub(super) fn places(
             keep(&mut found, hypothesis, view);
         }
     };
-    if let Some((one, other)) = crossing(lines) {
+    if let Some((one, other)) = crossing(lines, view) {
         for (across, along) in [(one, other), (other, one)] {
             let heading = heading(across, along);
             for (first, second) in pairs(view) {
@@ -83,15 +71,19 @@ fn by_corner(corners: &[Corner], known: &[FieldCorner]) -> impl Iterator<Item = 
 /// Places from which one of the longest lines is the middle line and another one a piece of the circle.
 fn by_circle(lines: &[Line], view: &View<'_>) -> impl Iterator<Item = Isometry2<f32>> {
     let radius = view.markings.circle_radius;
-    let longest = lines.iter().filter(|line| line.length() >= LEAST_LENGTH);
+    let parameters = view.parameters;
+    let longest = lines
+        .iter()
+        .filter(|line| line.length() >= parameters.least_length);
     longest
-        .take(MOST_MIDDLE_LINES)
+        .take(parameters.middle_lines as usize)
         .flat_map(move |middle_line| {
             let pieces = lines.iter().filter(move |line| {
-                (LEAST_CHORD..=sight::LONGEST_CHORD * radius).contains(&line.length())
+                (parameters.least_chord..=parameters.longest_chord * radius)
+                    .contains(&line.length())
             });
             pieces.filter_map(move |piece| {
-                let middle = circle_middle(middle_line, piece, radius)?;
+                let middle = circle_middle(middle_line, piece, view)?;
                 // The middle line goes across the field, and the circle's middle is that of the field.
                 let heading = Rotation2::rotation_between(&direction(middle_line), &Vector2::y());
                 Some(Isometry2::new(-(heading * middle), heading.angle()))
@@ -100,17 +92,19 @@ fn by_circle(lines: &[Line], view: &View<'_>) -> impl Iterator<Item = Isometry2<
 }
 
 /// Where the line meets the normal of the piece, if that is as far from it as the middle of the circle is.
-fn circle_middle(line: &Line, piece: &Line, radius: f32) -> Option<Vector2<f32>> {
+fn circle_middle(line: &Line, piece: &Line, view: &View<'_>) -> Option<Vector2<f32>> {
+    let parameters = view.parameters;
     let (along, chord) = (direction(line), direction(piece));
     let normal = Vector2::new(-chord.y, chord.x);
     let sine = normal.perp(&along);
-    if sine.abs() < LEAST_SINE {
+    if sine.abs() < parameters.least_sine {
         return None;
     }
     let from = nalgebra::center(&piece.start, &piece.end).coords;
     let distance = (line.start.coords - from).perp(&along) / sine;
-    let expected = chord_distance(piece.length(), radius);
-    ((distance.abs() - expected).abs() <= CHORD_TOLERANCE).then(|| from + normal * distance)
+    let expected = chord_distance(piece.length(), view.markings.circle_radius);
+    ((distance.abs() - expected).abs() <= parameters.chord_tolerance)
+        .then(|| from + normal * distance)
 }
 
 /// Every line across the field with every one along it that has another place; ends are judged later.
@@ -126,13 +120,16 @@ fn pairs(view: &View<'_>) -> impl Iterator<Item = (FieldLine, FieldLine)> {
 }
 
 /// The longest two lines at a right angle.
-fn crossing(lines: &[Line]) -> Option<(&Line, &Line)> {
-    let long = lines.iter().filter(|line| line.length() >= LEAST_LENGTH);
+fn crossing<'a>(lines: &'a [Line], view: &View<'_>) -> Option<(&'a Line, &'a Line)> {
+    let parameters = view.parameters;
+    let long = lines
+        .iter()
+        .filter(|line| line.length() >= parameters.least_length);
     long.clone().find_map(|one| {
         let direction = direction(one);
-        let other = long
-            .clone()
-            .find(|other| direction.dot(&self::direction(other)).abs() <= SQUARE)?;
+        let other = long.clone().find(|other| {
+            direction.dot(&self::direction(other)).abs() <= parameters.greatest_cosine
+        })?;
         Some((one, other))
     })
 }
@@ -209,9 +206,9 @@ fn judged(
         }
     }
     for corner in corners {
-        total += CORNER_LENGTH;
+        total += parameters.corner_length;
         if let Some(found) = view.corner(&estimate, corner, known) {
-            explained += CORNER_LENGTH * quality(&found, view);
+            explained += parameters.corner_length * quality(&found, view);
         }
     }
     let share = explained / total;

@@ -15,12 +15,6 @@ use super::estimate::{Estimate, Innovation};
 use super::features::{Corner, Line};
 use crate::sight_noise::SightNoise;
 
-/// A chord longer than this share of the circle's radius is none.
-pub(super) const LONGEST_CHORD: f32 = 1.5;
-
-/// A corner that opens another way by more than 0.5 rad is another one: the cosine of that.
-const SAME_OPENING: f32 = 0.88;
-
 /// The field and what is believed of those who look at it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct View<'a> {
@@ -66,9 +60,10 @@ impl View<'_> {
         known: &[FieldCorner],
     ) -> Option<Match> {
         let direction = estimate.pose().rotation * seen.direction;
-        let same = known.iter().filter(|corner| {
-            corner.kind == seen.kind && corner.direction.dot(&direction) >= SAME_OPENING
-        });
+        let least = self.parameters.same_opening;
+        let same = known
+            .iter()
+            .filter(|corner| corner.kind == seen.kind && corner.direction.dot(&direction) >= least);
         self.place(estimate, seen.position, same.map(|corner| corner.position))
     }
 
@@ -155,7 +150,7 @@ impl View<'_> {
     fn chord(&self, pose: &Isometry2<f32>, seen: &Line) -> Option<[Innovation; 2]> {
         let radius = self.markings.circle_radius;
         let length = seen.length();
-        if length > LONGEST_CHORD * radius {
+        if length > self.parameters.longest_chord * radius {
             return None;
         }
         let middle = nalgebra::center(&seen.start, &seen.end);

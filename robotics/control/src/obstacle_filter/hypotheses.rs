@@ -13,10 +13,6 @@ use crate::places::{self, Places};
 /// More are not kept: the one that least speaks for makes room.
 pub(super) const MOST_HYPOTHESES: usize = 16;
 
-/// Nothing is measured more exactly than this, one standard deviation, in m: the shell of a foot is no point. What a camera
-/// sees before its own toes would else be known for certain, and whatever is perceived later would not move it.
-const LEAST_NOISE: f32 = 0.01;
-
 /// Something that stands in the start frame.
 #[derive(Clone, Copy, Debug, Deserialize, Serialize)]
 pub(super) struct Hypothesis {
@@ -73,7 +69,7 @@ impl Hypotheses {
             Some((_, hypothesis)) => hypothesis.learn(measurement, seen_at, parameters),
             None => self.insert(Hypothesis {
                 position: measurement.position,
-                variance: measurement.variance(),
+                variance: measurement.variance(parameters),
                 evidence: measurement.evidence,
                 kind: measurement.kind,
                 seen_at,
@@ -110,7 +106,7 @@ impl Hypothesis {
         seen_at: Timestamp,
         parameters: &ObstacleFilterParameters,
     ) {
-        let noise = measurement.variance();
+        let noise = measurement.variance(parameters);
         let expected = self.variance + noise;
         if !expected.is_finite() {
             return;
@@ -129,8 +125,8 @@ impl Hypothesis {
 
 impl Measurement {
     /// Of each coordinate, in m².
-    fn variance(&self) -> f32 {
-        math::powi(self.noise.max(LEAST_NOISE), 2)
+    fn variance(&self, parameters: &ObstacleFilterParameters) -> f32 {
+        math::powi(self.noise.max(parameters.least_noise), 2)
     }
 }
 

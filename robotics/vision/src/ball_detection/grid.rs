@@ -45,8 +45,8 @@ impl Grid {
         Self { rows }
     }
 
-    /// Marks the cells that hold a good part of one of these pieces.
-    pub(super) fn mark(&mut self, segments: impl Iterator<Item = Segment>) {
+    /// Marks the cells that hold at least so much (in radii) of one of these pieces.
+    pub(super) fn mark(&mut self, segments: impl Iterator<Item = Segment>, least: f32) {
         for segment in segments {
             let (start, end) = (segment.start as f32, segment.end as f32);
             for row in self
@@ -56,7 +56,7 @@ impl Grid {
             {
                 let inside = end.min(row.bottom) - start.max(row.top);
                 let cell = (segment.column as f32 / (2.0 * row.radius)) as usize;
-                if inside >= row.radius * 0.4
+                if inside >= row.radius * least
                     && let Some(marked) = row.marked.get_mut(cell)
                 {
                     *marked = true;

@@ -8,18 +8,14 @@ use nalgebra::{Point2, Vector2};
 
 use super::circle::{self, Circle};
 use super::view::View;
-use super::{BallClassifier, BallDetectionParameters};
+use super::{BallClassifier, BallDetectionParameters, BallInspectionParameters};
 
 /// Rays on which the rim is looked for.
 const RAYS: usize = 32;
 /// Samples along the diameter of a disc.
 const SAMPLES: i32 = 13;
-/// A disc with more field than this is not worth a search for its rim: even a ball smaller than
-/// expected fills half of it, a line less than a third.
-const MOST_FIELD_AT_FIRST: f32 = 0.6;
-
-/// From a middle that is not yet the circle's at least this part of the needed rim is found.
-const RIM_AT_FIRST: f32 = 0.5;
+/// So often the middle is looked for anew.
+const MOVES: usize = 3;
 
 /// A circle that may be a ball.
 #[derive(Clone, Copy, Debug)]
@@ -51,34 +47,40 @@ pub(super) fn propose(
             parameters.network.least_field_around,
         ),
     };
-    let middle = move_to_middle(view, center, radius)?;
-    if field_inside(view, middle, radius) > MOST_FIELD_AT_FIRST {
+    let inspection = &parameters.inspection;
+    let middle = move_to_middle(view, inspection, center, radius)?;
+    if field_inside(view, middle, radius) > inspection.most_field_at_first {
         return None;
     }
     let first = find_rim(view, parameters, middle)?;
-    if first.rim < least_rim * RIM_AT_FIRST {
+    if first.rim < least_rim * inspection.rim_at_first {
         return None;
     }
     // From the middle of the circle every ray meets the rim squarely.
     let proposal = find_rim(view, parameters, first.circle.center)?;
-    let is_proposed =
-        proposal.rim >= least_rim && ring_on_field(view, &proposal.circle) >= least_field_around;
+    let is_proposed = proposal.rim >= least_rim
+        && ring_on_field(view, inspection, &proposal.circle) >= least_field_around;
     is_proposed.then_some(proposal)
 }
 
 /// Follows what is not field to its middle.
-fn move_to_middle(view: &View<'_>, start: Point2<f32>, radius: f32) -> Option<Point2<f32>> {
+fn move_to_middle(
+    view: &View<'_>,
+    inspection: &BallInspectionParameters,
+    start: Point2<f32>,
+    radius: f32,
+) -> Option<Point2<f32>> {
     let mut center = start;
-    for _ in 0..3 {
+    for _ in 0..MOVES {
         let mut sum = Vector2::zeros();
         let mut count = 0.0;
-        for offset in disc(radius * 1.4) {
+        for offset in disc(radius * inspection.first_disc) {
             if view.is_field(center + offset) == Some(false) {
                 sum += offset;
                 count += 1.0;
             }
         }
-        if count < 8.0 {
+        if count < inspection.least_samples.max(1) as f32 {
             return None;
         }
         center += sum / count;
@@ -106,7 +108,9 @@ fn find_rim(
 ) -> Option<Proposal> {
     let expected = view.expected_radius(center)?;
     let mut rim = Vec::with_capacity(RAYS);
-    let on_ray = |direction: &Vector2<f32>| rim_on_ray(view, center, *direction, expected);
+    let on_ray = |direction: &Vector2<f32>| {
+        rim_on_ray(view, &parameters.inspection, center, *direction, expected)
+    };
     rim.extend(DIRECTIONS.iter().filter_map(on_ray));
     let tolerance = parameters.radius_tolerance;
     let circle = circle::find(&rim, expected / tolerance..expected * tolerance)?;
@@ -121,12 +125,14 @@ fn find_rim(
 /// The outermost place on a ray where field is followed by two pixels that are not.
 fn rim_on_ray(
     view: &View<'_>,
+    inspection: &BallInspectionParameters,
     center: Point2<f32>,
     direction: Vector2<f32>,
     expected: f32,
 ) -> Option<Point2<f32>> {
     let at = |distance: f32| view.is_field(center + direction * distance);
-    let (furthest, nearest) = ((expected * 1.9).ceil() as i32, (expected * 0.3) as i32);
+    let furthest = (expected * inspection.furthest_rim).ceil() as i32;
+    let nearest = (expected * inspection.nearest_rim) as i32;
     let mut outside_was_field = false;
     for distance in (nearest..furthest).rev() {
         let distance = distance as f32;
@@ -143,9 +149,10 @@ fn rim_on_ray(
 }
 
 /// The share of a ring around the circle that is field.
-fn ring_on_field(view: &View<'_>, circle: &Circle) -> f32 {
+fn ring_on_field(view: &View<'_>, inspection: &BallInspectionParameters, circle: &Circle) -> f32 {
+    let rings = [inspection.inner_ring, inspection.outer_ring];
     let samples = DIRECTIONS.iter().flat_map(|direction| {
-        [1.2, 1.4].map(|distance| circle.center + direction * (circle.radius * distance))
+        rings.map(|distance| circle.center + direction * (circle.radius * distance))
     });
     let (field, seen) = samples
         .filter_map(|point| view.is_field(point))
@@ -161,7 +168,9 @@ pub(super) fn is_printed(
     parameters: &BallDetectionParameters,
     circle: &Circle,
 ) -> bool {
-    let inside = || disc(circle.radius * 0.85).map(|offset| circle.center + offset);
+    let inside = || {
+        disc(circle.radius * parameters.inspection.print_disc).map(|offset| circle.center + offset)
+    };
     let count = inside().count() as f32;
     let field = inside()
         .filter(|point| view.is_field(*point) == Some(true))

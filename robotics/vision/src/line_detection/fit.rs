@@ -116,7 +116,7 @@ fn propose(
     let rays = sampler::attempts(parameters.attempts).filter_map(|_| {
         let (one, other) = sampler.pair(points.len());
         let (one, other) = (&points[one], &points[other]);
-        let direction = (other.position - one.position).try_normalize(0.05)?;
+        let direction = (other.position - one.position).try_normalize(parameters.least_apart)?;
         let ray = Ray {
             through: one.position,
             direction,
@@ -151,7 +151,7 @@ fn remove(
 ) {
     points.retain(|point| {
         let turned = ray.direction.perp(&point.direction).abs();
-        ray.distance(point) > 2.0 * point.tolerance
+        ray.distance(point) > parameters.taken * point.tolerance
             || turned > parameters.direction_tolerance
             || !group.contains(&ray.along(point))
     });
@@ -197,7 +197,9 @@ mod tests {
     fn parameters(most_lines: u32) -> LineDetectionParameters {
         LineDetectionParameters {
             attempts: 40,
+            least_apart: 0.05,
             direction_tolerance: 0.3,
+            taken: 2.0,
             largest_gap: 0.4,
             least_points: 8,
             least_length: 0.3,

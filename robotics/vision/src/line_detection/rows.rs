@@ -6,9 +6,6 @@ use types::limbs::LimbMask;
 use super::points::View;
 use crate::field_color::FieldColor;
 
-/// Distance between samples within a row in px.
-const SAMPLE_STEP: u32 = 2;
-
 /// Calls `found` with the first and the last pixel of every piece between two pieces of field.
 pub(super) fn scan(
     view: &View<'_>,
@@ -18,6 +15,7 @@ pub(super) fn scan(
 ) {
     let width = view.image.width;
     let step = view.parameters.row_step.max(1);
+    let sample_step = view.parameters.sample_step.max(1);
     for row in (first_row(view)..view.image.height).step_by(step as usize) {
         let is_field = |column: u32| {
             let color_there = view.image.yuv(column, row);
@@ -26,15 +24,15 @@ pub(super) fn scan(
         // Where the piece that is not field began, if field came before it.
         let mut start = None;
         let mut was_field = false;
-        for column in (0..width).step_by(SAMPLE_STEP as usize) {
+        for column in (0..width).step_by(sample_step as usize) {
             let now_field = is_field(column);
             if was_field && !now_field {
-                start = Some(first_like(column, false, is_field));
+                start = Some(first_like(column, sample_step, false, is_field));
             } else if !was_field
                 && now_field
                 && let Some(start) = start.take()
             {
-                let end = first_like(column, true, is_field) - 1;
+                let end = first_like(column, sample_step, true, is_field) - 1;
                 let at = |column: u32| Point2::new(column as f32, row as f32);
                 let middle = nalgebra::center(&at(start), &at(end));
                 if !limb_mask.covers(middle) {
@@ -47,8 +45,8 @@ pub(super) fn scan(
 }
 
 /// The first column after the sample before `column` that is like it.
-fn first_like(column: u32, wanted: bool, is_field: impl Fn(u32) -> bool) -> u32 {
-    let before = column.saturating_sub(SAMPLE_STEP) + 1;
+fn first_like(column: u32, step: u32, wanted: bool, is_field: impl Fn(u32) -> bool) -> u32 {
+    let before = column.saturating_sub(step) + 1;
     (before..column)
         .find(|&between| is_field(between) == wanted)
         .unwrap_or(column)
