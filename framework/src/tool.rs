@@ -24,6 +24,13 @@ pub trait Bench<H> {
     /// Where there is no such instance or output, or the instance finished no cycle: why the last one failed stands in the
     /// log of the node.
     fn try_out(&mut self, trial: &Trial<'_, H>) -> Result<BTreeMap<String, serde_json::Value>>;
+
+    /// The value that nodes of a robot on this hardware get for the parameter at this path, with the layers of the hardware's
+    /// identities and of the command line.
+    ///
+    /// # Errors
+    /// Where the layers cannot be read, or have nothing at the path.
+    fn parameter(&mut self, hardware: &H, path: &str) -> Result<serde_json::Value>;
 }
 
 /// One instance under known circumstances.

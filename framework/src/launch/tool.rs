@@ -8,7 +8,7 @@ use super::options::Options;
 use super::{DONE, Target, WRONG_USAGE, known_identities, layers};
 use crate::clock::Clock;
 use crate::data::ParameterData;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::hardware::{Hardware, HardwareContext};
 use crate::report::tell;
 use crate::robot::{Robot, Start};
@@ -61,16 +61,30 @@ struct Workbench<'run, H, P> {
     create: &'run mut Create<'run, H, P>,
 }
 
+impl<H: Hardware, P: ParameterData> Workbench<'_, H, P> {
+    /// As the layers for this hardware say.
+    fn parameters(&self, hardware: &H) -> Result<P> {
+        let mut layers = layers(self.target, self.options);
+        layers.identities = known_identities(self.target, hardware.identities());
+        layers.load()?.deserialize()
+    }
+}
+
 impl<H: Hardware, P: ParameterData> Bench<H> for Workbench<'_, H, P> {
     fn try_out(&mut self, trial: &Trial<'_, H>) -> Result<BTreeMap<String, serde_json::Value>> {
-        let mut layers = layers(self.target, self.options);
-        layers.identities = known_identities(self.target, trial.hardware.identities());
         let start = Start {
             clock: trial.clock.clone(),
             stop: Stop::new(),
-            parameters: layers.load()?.deserialize()?,
+            parameters: self.parameters(&trial.hardware)?,
         };
         let mut robot = (self.create)(&trial.hardware, start)?;
         trial.run(&mut robot)
+    }
+
+    fn parameter(&mut self, hardware: &H, path: &str) -> Result<serde_json::Value> {
+        let parameters = serde_json::to_value(self.parameters(hardware)?)?;
+        let pointer = format!("/{}", path.replace('.', "/"));
+        let value = parameters.pointer(&pointer).cloned();
+        value.ok_or_else(|| Error::new(format!("this robot has no parameter `{path}`")))
     }
 }

@@ -1,6 +1,7 @@
 //! The tool `vision`: photographs in place of what the cameras would see, for the nodes of one instance of Vision.
 
 mod arguments;
+mod calibration;
 mod file;
 mod overlay;
 
@@ -10,8 +11,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use framework::tool::{Bench, Trial};
 use framework::{Clock, Error, Event, HardwareContext, Leased, Result, Timestamp};
-use nalgebra::Vector2;
-use types::camera::{CameraMatrix, CameraPosition, Intrinsics};
+use types::camera::{CameraMatrix, CameraPosition};
 use types::image::YuyvImage;
 
 use self::arguments::Arguments;
@@ -65,10 +65,7 @@ pub(crate) fn look(
     let arguments = Arguments::read(&context.options)?;
     for path in &arguments.images {
         let image = file::read(path, arguments.is_ycbcr)?;
-        let matrix = CameraMatrix {
-            ground_to_camera: arguments.camera_to_ground.inverse(),
-            intrinsics: intrinsics(&image),
-        };
+        let size = [image.width as f32, image.height as f32];
         let drawing = arguments
             .overlay
             .as_ref()
@@ -85,14 +82,21 @@ pub(crate) fn look(
             clock: clock.clone(),
             ..context.clone()
         };
+        let hardware = Hardware::of_photograph(photograph, context)?;
+        let named = |error: Error| error.context(path.display().to_string());
+        let matrix = CameraMatrix {
+            ground_to_camera: arguments.camera_to_ground.inverse(),
+            intrinsics: calibration::of(bench, &hardware, arguments.camera, size)
+                .map_err(named)?
+                .intrinsics(),
+        };
         let trial = Trial {
-            hardware: Arc::new(Hardware::of_photograph(photograph, context)?),
+            hardware: Arc::new(hardware),
             clock,
             instance: arguments.instance,
             injected: vec![("camera_matrix", serde_json::to_value(Some(matrix))?)],
             left_out: &["image", "image_segments", "camera_matrix"],
         };
-        let named = |error: Error| error.context(path.display().to_string());
         let seen = bench.try_out(&trial).map_err(named)?;
         if arguments.is_json {
             let line =
@@ -107,16 +111,6 @@ pub(crate) fn look(
         }
     }
     Ok(())
-}
-
-/// Those of an uncalibrated camera, for images of any size.
-fn intrinsics(image: &YuyvImage) -> Intrinsics {
-    let size = Vector2::new(image.width as f32, image.height as f32);
-    let of_size = |shares: [f64; 2]| Vector2::from(shares).cast().component_mul(&size);
-    Intrinsics {
-        focal: of_size(kinematics::cameras::FOCAL_LENGTH),
-        center: of_size(kinematics::cameras::OPTICAL_CENTER),
-    }
 }
 
 /// One line for the image, and one for each thing in it.

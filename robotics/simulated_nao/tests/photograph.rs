@@ -80,12 +80,20 @@ fn pose() -> String {
 
 /// Exit status, and what was said.
 fn vision(arguments: &[&str]) -> (u8, String) {
+    vision_with(&[], arguments)
+}
+
+/// Likewise, with other parameters.
+fn vision_with(set: &[&str], arguments: &[&str]) -> (u8, String) {
     let parameters = concat!(env!("CARGO_MANIFEST_DIR"), "/../parameters");
-    let program = ["--tool", "vision", "--parameters", parameters, "--"];
+    let program = ["--tool", "vision", "--parameters", parameters];
+    let set = set.iter().flat_map(|assignment| ["--set", assignment]);
     let arguments = program
-        .iter()
-        .chain(arguments)
-        .map(|&argument| argument.into());
+        .into_iter()
+        .chain(set)
+        .chain(["--"])
+        .chain(arguments.iter().copied())
+        .map(Into::into);
     let mut output = Vec::new();
     let status =
         launch::run::<Hardware, _>(TARGET, arguments, &mut output, runtime::create, nobody);
@@ -127,6 +135,34 @@ fn a_ball_is_found_where_it_is_and_drawn() {
         .read_info()
         .unwrap();
     assert_eq!((reader.info().width, reader.info().height), (640, 480));
+}
+
+/// Where a ball lies, m.
+fn ball(output: &str) -> Point2<f32> {
+    let answer: Value = serde_json::from_str(output).unwrap();
+    serde_json::from_value(answer["seen"]["balls"][0]["position"].clone()).unwrap()
+}
+
+#[test]
+fn the_calibration_is_that_of_the_parameters() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = photograph(folder.path(), false);
+    let path = path.to_str().unwrap();
+    let pose = pose();
+    let arguments = [path, "--camera-pose", &pose, "--json"];
+    let usual = ball(&vision(&arguments).1);
+    // The optical axis meets the image further to the right: all that is seen lies further to the left.
+    let (status, output) = vision_with(&["cameras.top.center_x=0.55"], &arguments);
+    assert_eq!(status, 0, "{output}");
+    let moved = 0.05 / 0.95 * usual.x;
+    let off = ball(&output).y - usual.y - moved;
+    assert!(off.abs() < 0.02, "{usual} and {output}");
+    // The other camera's calibration says nothing.
+    let (status, output) = vision_with(&["cameras.bottom.center_x=0.55"], &arguments);
+    assert_eq!((status, ball(&output)), (0, usual));
+    for wrong in ["cameras.top.height=360.0", "cameras.top.focal_x=0.0"] {
+        assert_eq!(vision_with(&[wrong], &arguments).0, 1, "{wrong}");
+    }
 }
 
 #[test]
