@@ -32,6 +32,8 @@ pub struct GroundTruth {
     pub walked: f64,
     /// For how long it has been stuck, s: it lies, or its legs move, and it gets nowhere.
     pub stuck: f64,
+    /// For how long it has stood still, s: within 0.05 m and 0.15 rad.
+    pub still: f64,
     /// How often the feet of any robot have come to the ball.
     pub ball_contacts: u64,
     /// How many commands have come until now that want a joint beyond its limits.
@@ -137,6 +139,7 @@ impl GroundTruth {
             ground_to_field: body.ground_to_field().cast(),
             walked: world.walked(robot),
             stuck: world.stuck(robot),
+            still: world.still(robot),
             ball_contacts: world.ball_contacts(),
             harmful_commands,
             ball: world.ball().map(|ball| ball.cast()),

@@ -10,6 +10,7 @@ mod power;
 mod progress;
 mod sensors;
 mod sonar;
+mod stillness;
 mod touch;
 mod way;
 
@@ -142,6 +143,11 @@ impl World {
         self.inhabitants[robot].progress.stuck()
     }
 
+    /// For how long a robot has stood still, s.
+    pub(crate) fn still(&self, robot: usize) -> f64 {
+        self.inhabitants[robot].stillness.seconds()
+    }
+
     /// How often the feet of any robot have come to the ball.
     pub(crate) fn ball_contacts(&self) -> u64 {
         let contacts = self.inhabitants.iter().map(|robot| robot.contacts.count());
@@ -191,6 +197,7 @@ impl World {
         for (body, inhabitant) in self.physics.bodies().iter().zip(&mut self.inhabitants) {
             inhabitant.way.go(time, body);
             inhabitant.progress.go(time, body);
+            inhabitant.stillness.go(time, body);
             let soles = [body.soles_to_field.left, body.soles_to_field.right];
             let soles = soles.map(|sole| sole.translation.vector.xy().into());
             inhabitant.contacts.look(ball, soles);

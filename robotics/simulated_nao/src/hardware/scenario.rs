@@ -143,8 +143,9 @@ impl Deed {
 ///
 /// `x`, `y`, `heading` of the robot, `own.place` (x and y) and `own.direction` (cosine and sine) as its team sees the field,
 /// how far it `walked`, `tilt` and `height` of its torso; `stuck`, for how many seconds it has lain or moved its legs without
-/// getting anywhere; `harmful_commands`, how many wanted a joint beyond its limits; `ball.x`, `ball.y`, from the robot
-/// `ball.ahead`, `ball.aside`, `ball.seen` (both), `ball.distance`, and `ball_contacts` of all robots;
+/// getting anywhere; `still`, for how many it has stayed within 0.05 m and 0.15 rad; `harmful_commands`, how many wanted a joint
+/// beyond its limits; `ball.x`, `ball.y`, from the robot `ball.ahead`, `ball.aside`, `ball.seen` (both), `ball.distance`, and
+/// `ball_contacts` of all robots;
 /// `robots` are the others: `x`, `y`, `heading`, `team` (`own` or `opponent`), `number`;
 /// `removed`, how often the referee has taken the robot out, and `misplaced`, how often for where it stood or walked;
 /// `score.blue`, `score.red`, and where a game is played `game.state`, `game.set_play`, `game.kicking` (`blue` or `red`).
@@ -196,6 +197,7 @@ pub(super) fn truth(truth: &GroundTruth) -> Value {
         "heading": heading,
         "walked": truth.walked,
         "stuck": truth.stuck,
+        "still": truth.still,
         "ball_contacts": truth.ball_contacts,
         "harmful_commands": truth.harmful_commands,
         "tilt": math::acos(up.z.clamp(-1.0, 1.0)),

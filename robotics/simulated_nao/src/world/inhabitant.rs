@@ -13,6 +13,7 @@ use super::inertial::InertialUnit;
 use super::motor_boards::MotorBoards;
 use super::power::{self, Power};
 use super::progress::Progress;
+use super::stillness::Stillness;
 use super::way::Way;
 use super::{sensors, touch};
 use crate::physics::Body;
@@ -24,6 +25,7 @@ use crate::settings::{Press, Settings};
 pub(super) struct Inhabitant {
     pub(super) way: Way,
     pub(super) progress: Progress,
+    pub(super) stillness: Stillness,
     pub(super) contacts: Contacts,
     pub(super) inertial: InertialUnit,
     imperfections: Imperfections,
@@ -43,6 +45,7 @@ impl Inhabitant {
         Self {
             way: Way::new(body),
             progress: Progress::default(),
+            stillness: Stillness::default(),
             contacts: Contacts::default(),
             inertial: InertialUnit::default(),
             imperfections: Imperfections::new(&settings.imperfections),
