@@ -1,8 +1,10 @@
 //! The parameters are ones that a robot survives.
 
+use control::localization::FieldPose;
 use framework::testing::ParameterFile;
 use kinematics::{cameras, forward_kinematics, limits};
 use nalgebra::{Point2, Vector3};
+use serde::Deserialize;
 use types::camera::CameraCalibration;
 use types::feet::Side;
 use types::head::HeadAngles;
@@ -96,5 +98,25 @@ fn uncalibrated_cameras_see_as_the_manufacturer_says() {
         assert_eq!([calibration.focal_x, calibration.focal_y], expected);
         let center = Point2::from(calibration.intrinsics().center);
         assert_eq!(center, Point2::new(320.0, 240.0));
+    }
+}
+
+/// A robot of a scenario, m, m and rad.
+#[derive(Deserialize)]
+struct Placed {
+    number: usize,
+    pose: [f32; 3],
+}
+
+#[test]
+fn the_scenario_that_walks_in_starts_where_the_robot_believes_to_start() {
+    let file = include_str!("../../scenarios/walk_in_from_the_touch_line.toml");
+    let scenario = ParameterFile::new(file);
+    let start_poses: Vec<FieldPose> = parameters().get("localization.start_poses");
+    let of_scenario: Vec<FieldPose> = scenario.get("parameters.localization.start_poses");
+    assert_eq!(start_poses, of_scenario);
+    for Placed { number, pose } in scenario.get::<Vec<Placed>>("robot") {
+        let start = start_poses[number - 1];
+        assert_eq!(pose, [start.x, start.y, start.heading], "{number}");
     }
 }
