@@ -5,12 +5,13 @@
 //! ends = 20.0                                # s
 //! passes = 0.8                               # of the seeds; all of them where it is left out
 //! parameters = { filter.gain = 0.5 }         # above all layers
+//! durations = { Camera = "100ms" }            # of cycles of this instance; left out: as the manifest says
 //! world = { robot_pose = [0.0, 0.0, 0.0] }   # over the parameters' [hardware.<target>]
 //! random = { robot_pose = [0.1, 0.1, 0.5] }  # drawn from the seed, up to so much more or less
 //!
 //! [[robot]]                                  # one for each robot, if there are several
 //! place = "left"                             # the key `robot` of its hardware's table, in the hardware's own words
-//! parameters = { name = "a" }                # above those of the scenario
+//! parameters = { name = "a" }                # above those of the scenario; `durations` likewise
 //! random = { pose = [0.1, 0.1, 0.5] }        # as above, of the numbers that stand here
 //!
 //! [[event]]
@@ -39,6 +40,7 @@ mod assertion;
 mod audience;
 mod choice;
 mod draw;
+mod durations;
 mod ensemble;
 mod file;
 mod judge;
@@ -48,6 +50,7 @@ mod report;
 
 pub use assertion::{Assertion, Condition, Window};
 pub(crate) use audience::Audience;
+pub use durations::Durations;
 pub use file::{Call, Event, Participant, Scenario};
 pub use judge::{Judge, Verdict};
 pub(crate) use play::{Cast, Manner, play};

@@ -1,10 +1,14 @@
 //! Time as the framework gives it: one clock, nanoseconds, real or virtual.
 
+mod written;
+
 use std::fmt;
 use std::ops::{Add, Sub};
 use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
+
+pub(crate) use written::duration;
 
 /// A point in time, in nanoseconds since the robot started.
 #[derive(

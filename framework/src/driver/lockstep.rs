@@ -2,13 +2,15 @@
 //!
 //! ```text
 //! time  t: wait, begin, run                of the instance whose event it is
-//!   t + d: finish                          others see the cycle from here on; d from the manifest
+//!   t + d: finish                          others see the cycle from here on; d from the manifest, unless somebody says it
 //! ```
 //! At equal times: every `finish`, then restarts, then every `wait`, each in manifest order. An event of an instance that
 //! has not finished stays due. An event of an instance that a partial robot does without is only told: who feeds its stub
 //! does it then. Same events, same bits.
 
 mod together;
+
+use std::time::Duration;
 
 pub use together::Together;
 
@@ -89,6 +91,8 @@ struct Track {
     state: State,
     /// Its data is ready since then, and it could not begin.
     due: Option<Timestamp>,
+    /// How long its cycles take, unless chaos draws that.
+    lasts: Duration,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -135,9 +139,10 @@ impl Deed {
 impl<'robot, P> Lockstep<'robot, P> {
     /// For a robot that was created with [`crate::Clock::stepped`].
     pub fn new(robot: &'robot mut Robot<P>, hardware: &'robot dyn Hardware) -> Self {
-        let tracks = robot.instances.iter().map(|_| Track {
+        let tracks = robot.instances.iter().map(|instance| Track {
             state: State::Idle,
             due: None,
+            lasts: instance.description().duration_in_lockstep(),
         });
         Self {
             tracks: tracks.collect(),
@@ -164,6 +169,20 @@ impl<'robot, P> Lockstep<'robot, P> {
     #[must_use]
     pub fn chaotic(mut self, seed: u64) -> Self {
         self.chaos = Some(Chaos::new(seed));
+        self
+    }
+
+    /// The same where cycles of some instances take as long as `duration_of` says, and not as long as the manifest does. Chaos
+    /// draws its own durations nevertheless.
+    #[must_use]
+    pub fn lasting(
+        mut self,
+        mut duration_of: impl FnMut(&InstanceDescription) -> Option<Duration>,
+    ) -> Self {
+        for (track, instance) in self.tracks.iter_mut().zip(&self.robot.instances) {
+            let description = instance.description();
+            track.lasts = duration_of(description).unwrap_or(track.lasts);
+        }
         self
     }
 
@@ -400,7 +419,7 @@ impl<'robot, P> Lockstep<'robot, P> {
                 let description = instance.description();
                 let duration = match &mut self.chaos {
                     Some(chaos) => chaos.cycle(description),
-                    None => description.duration_in_lockstep(),
+                    None => track.lasts,
                 };
                 let until = at + duration;
                 track.state = State::Running { until };

@@ -7,6 +7,7 @@ use serde::Deserialize;
 
 use super::assertion::Assertion;
 use super::draw::Draw;
+use super::durations::Durations;
 use crate::error::{Error, Result};
 use crate::time::Timestamp;
 
@@ -24,6 +25,8 @@ pub struct Scenario {
     pub passes: f64,
     /// Parameters above all layers: path and value, as on a command line.
     pub settings: Vec<(String, String)>,
+    /// How long cycles take in virtual time, of every robot.
+    pub durations: Durations,
     /// What stands over the parameters' `[hardware.<target>]`.
     pub world: toml::Table,
     /// Numbers of the world that a seed changes, with how far.
@@ -43,6 +46,8 @@ pub struct Scenario {
 pub struct Participant {
     /// Parameters above those of the scenario: path and value.
     pub settings: Vec<(String, String)>,
+    /// How long its cycles take, above those of the scenario.
+    pub durations: Durations,
     /// The key `robot` of its hardware's table, in the words of the hardware.
     pub entry: toml::Table,
     /// Numbers of the entry that a seed changes, with how far.
@@ -93,6 +98,8 @@ struct Written {
     passes: f64,
     #[serde(default)]
     parameters: toml::Table,
+    #[serde(default)]
+    durations: toml::Table,
     #[serde(default)]
     world: toml::Table,
     #[serde(default)]
@@ -199,6 +206,7 @@ impl Scenario {
             ends,
             passes: written.passes,
             settings,
+            durations: Durations::read(&written.durations)?,
             world: written.world,
             random: written.random,
             robots,
@@ -254,6 +262,15 @@ impl Scenario {
         events
     }
 
+    /// How long cycles of one of the robots take, counted from 0.
+    pub fn durations_of(&self, robot: usize) -> Durations {
+        let own = self.robots.get(robot);
+        own.map_or_else(
+            || self.durations.clone(),
+            |own| self.durations.under(&own.durations),
+        )
+    }
+
     /// How many robots there are.
     pub fn robot_count(&self) -> usize {
         self.robots.len().max(1)
@@ -277,9 +294,11 @@ impl Participant {
         };
         let mut settings = Vec::new();
         flatten(&take("parameters")?, "", &mut settings);
+        let durations = Durations::read(&take("durations")?)?;
         let random = take("random")?;
         Ok(Self {
             settings,
+            durations,
             entry: table,
             random,
         })

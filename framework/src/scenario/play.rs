@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
+use super::assertion::Assertion;
 use super::audience::Audience;
 use super::ensemble::{Ensemble, Lives, together};
 use super::file::{Call, Event, Scenario};
@@ -77,7 +78,7 @@ pub(crate) fn play<H: Hardware + 'static, P: Send>(
         let hardware: &dyn Hardware = cast.hardware.as_ref();
         let recording = &mut cast.recording;
         let procedures = share_procedures(&mut cast.robot);
-        let mut lockstep = Lockstep::new(&mut cast.robot, hardware)
+        let mut lockstep = beginning(&mut cast.robot, hardware, scenario, number)?
             .observed(|instance| recording.as_mut()?.observer(instance));
         if let Some(seat) = manner.audience.zip(seats.next()) {
             let mut procedures = world::procedures(&cast.hardware);
@@ -139,6 +140,44 @@ pub(crate) fn play<H: Hardware + 'static, P: Send>(
         End::AsWritten | End::Stopped => None,
     };
     Ok((played, chosen))
+}
+
+/// The robot with this number, counted from 1, whose cycles take as long as the scenario says.
+fn beginning<'run, P>(
+    robot: &'run mut Robot<P>,
+    hardware: &'run dyn Hardware,
+    scenario: &Scenario,
+    number: usize,
+) -> Result<Lockstep<'run, P>> {
+    subscribe(robot, &scenario.assertions, number);
+    let durations = scenario.durations_of(number - 1);
+    let instances = robot.instances.iter();
+    let names: Vec<_> = instances
+        .map(|instance| instance.description().name)
+        .collect();
+    durations.check(&names)?;
+    Ok(Lockstep::new(robot, hardware).lasting(|instance| durations.of(instance)))
+}
+
+/// Subscribes to the additional outputs of which something is asserted: nobody else may, and then they are not computed.
+fn subscribe<P>(robot: &Robot<P>, assertions: &[Assertion], number: usize) {
+    let own = assertions.iter().filter(|one| one.robot == number);
+    let additional = own.filter_map(|one| one.value.split_once(".additional_outputs."));
+    for (instance, path) in additional {
+        let mut access = robot.access.iter();
+        let Some(access) = access.find(|access| access.instance == instance) else {
+            continue;
+        };
+        let names = access.subscriptions.names().iter();
+        let known = names.filter(|name| {
+            let below = path.strip_prefix(**name);
+            below.is_some_and(|below| below.is_empty() || below.starts_with('.'))
+        });
+        // Names of outputs may have dots themselves, so the longest is the output.
+        if let Some(name) = known.max_by_key(|name| name.len()) {
+            access.subscriptions.subscribe(name);
+        }
+    }
 }
 
 /// How a scenario ended.

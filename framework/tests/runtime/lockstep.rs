@@ -90,6 +90,35 @@ fn an_event_of_a_busy_instance_stays_due_and_a_replaced_one_is_missed() {
 }
 
 #[test]
+fn cycles_take_as_long_as_somebody_says_and_others_as_the_manifest_does() {
+    let setting = Setting {
+        eye_takes: Some(Duration::from_millis(10)),
+        ear_takes: Some(Duration::from_millis(7)),
+        ..Setting::default()
+    };
+    let hardware = ScriptedHardware::lockstep([(0, "Eye"), (0, "Ear")]);
+    let mut robot = robot(&hardware, &setting);
+    let finishes = |lockstep: &mut Lockstep<'_, _>| {
+        let mut finishes = Vec::new();
+        while let Some(stepped) = lockstep.step().expect("nothing stops the robot") {
+            if stepped.step == COMPLETED {
+                finishes.push((stepped.instance, stepped.at));
+            }
+        }
+        finishes
+    };
+    let mut lockstep = Lockstep::new(&mut robot, hardware.as_ref())
+        .lasting(|instance| (instance.name == "Eye").then_some(Duration::from_millis(100)));
+    let begun = lockstep.step().expect("nothing stops the robot");
+    assert_eq!(begun.map(|stepped| stepped.step), Some(Step::Began));
+    // Where it was left, cycles go on as they were told to last.
+    let paused = lockstep.pause();
+    let mut lockstep = Lockstep::new(&mut robot, hardware.as_ref()).after(paused);
+    let expected = [("Ear", millis(7)), ("Eye", millis(100))];
+    assert_eq!(finishes(&mut lockstep), expected);
+}
+
+#[test]
 fn an_event_at_the_very_finish_begins_then_and_none_is_missed() {
     let setting = Setting {
         eye_takes: Some(Duration::from_millis(10)),

@@ -219,6 +219,46 @@ fn events_happen_and_clients_call_when_the_file_says() {
 }
 
 #[test]
+fn cycles_take_as_long_as_the_file_says() {
+    // Data every 10 ms: 4 events when the first cycle ends, and those that came meanwhile are one.
+    let scenario = |durations: &str| {
+        let what = "value = 'Legs.main_outputs.clock'\nabove = -1\nbefore = 1.0";
+        format!("{durations}\n{}", assertion(what))
+    };
+    for (durations, first) in [("", 0.01), ("durations = { Legs = '35ms' }", 0.045)] {
+        let (status, outcome) = play(&scenario(durations), &[]);
+        assert_eq!(status, 0, "{outcome:#}");
+        let verdict = &outcome["runs"][0]["assertions"][0];
+        assert_eq!(verdict["at"].as_f64(), Some(first), "{outcome:#}");
+    }
+    for wrong in [
+        "durations = { Leg = '35ms' }",
+        "durations = { Legs = 35 }",
+        "durations = { Ear = '35ms' }",
+    ] {
+        assert_eq!(play(&scenario(wrong), &[]), (1, Value::Null), "{wrong}");
+    }
+}
+
+#[test]
+fn an_additional_output_is_computed_for_who_asserts_something_of_it() {
+    let asserted = |value: &str| {
+        let what = format!("value = 'Legs.additional_outputs.{value}'\nabove = -1");
+        let (status, outcome) = play(&assertion(&what), &[]);
+        let seen = outcome["runs"][0]["assertions"][0]["seen"].clone();
+        (status, seen)
+    };
+    assert_eq!(asserted("debug.raw").0, 0);
+    let (status, seen) = asserted("debug.rwa");
+    assert_eq!(status, 1);
+    let seen = seen.as_str().expect("it is told what is not there");
+    assert!(
+        seen.starts_with("`Legs` has no additional output"),
+        "{seen}"
+    );
+}
+
+#[test]
 fn every_seed_is_a_run_and_enough_of_them_must_pass() {
     let scenario = |passes: f64| {
         format!(

@@ -17,7 +17,9 @@ fn everything_that_can_be_said_is_read() {
     let text = format!(
         "about = 'x'\nends = 2\npasses = 0.9\nparameters = {{ a.b = [1, 2], 'c.d' = 'e' }}\n\
          world = {{ pose = [1.0, 2], lamp = {{ there = false }} }}\nrandom = {{ pose = [0.5, 0] }}\n\
-         [[event]]\nat = 1.5\npush = [1]\n[[event]]\nat = 1\nwithin = 0\nkick = true\n{ASSERTION}"
+         durations = {{ Eye = '100ms', Ear = '1s' }}\n\
+         [[event]]\nat = 1.5\npush = [1]\n[[event]]\nat = 1\nwithin = 0\nkick = true\n\
+         [[robot]]\ndurations = {{ Ear = '2s' }}\nplace = 3\n{ASSERTION}"
     );
     let scenario = Scenario::parse(&text).expect("it is right");
     assert_eq!(scenario.ends, Duration::from_secs(2));
@@ -27,6 +29,11 @@ fn everything_that_can_be_said_is_read() {
         .map(|(path, value)| format!("{path}={value}"))
         .collect();
     assert_eq!(settings, ["a.b=[1, 2]", "c.d=\"e\""]);
+    let durations = |text: &str| Durations::read(&toml::from_str(text).expect("it is TOML"));
+    let own = durations("Eye = '0.1s'\nEar = '2s'").expect("they are durations");
+    assert_eq!(scenario.durations_of(0), own);
+    let entry: Vec<_> = scenario.robots[0].entry.keys().collect();
+    assert_eq!(entry, ["place"], "the rest is the hardware's");
     let times: Vec<_> = scenario
         .events
         .iter()
