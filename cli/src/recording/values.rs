@@ -63,14 +63,16 @@ pub fn cat(
         let sources = sources(channel, &layouts);
         channels.insert(*number, Read::new(channel, sources));
     }
-    // What has a channel of its own need not be read twice.
+    // What has a channel of its own is not shown twice.
     let own: BTreeSet<String> = channels
         .values()
         .filter(|read| read.encoding == JSON)
         .flat_map(|read| read.sources.iter().map(|source| source.path.clone()))
         .collect();
     for read in channels.values_mut().filter(|read| read.encoding != JSON) {
-        read.sources.retain(|source| !own.contains(&source.path));
+        for source in &mut read.sources {
+            source.is_elsewhere = own.contains(&source.path);
+        }
     }
     let known: Vec<&Source> = channels.values().flat_map(|read| &read.sources).collect();
     check(&selection.paths, &known)?;
@@ -177,6 +179,8 @@ struct Source {
     path: String,
     /// Whether it is shown where no path is named.
     is_output: bool,
+    /// Whether another channel is for it: here its bytes are passed over.
+    is_elsewhere: bool,
     layout: Layout,
 }
 
@@ -187,6 +191,7 @@ fn sources(channel: &Channel, layouts: &Layouts) -> Vec<Source> {
         JSON => vec![Source {
             path: channel.topic.clone(),
             is_output: channel.topic != LOGS,
+            is_elsewhere: false,
             layout: Layout::Unknown,
         }],
         VALUES => match layouts.values.get(instance) {
@@ -196,12 +201,14 @@ fn sources(channel: &Channel, layouts: &Layouts) -> Vec<Source> {
                 .map(|(name, layout)| Source {
                     path: format!("{instance}.main_outputs.{name}"),
                     is_output: true,
+                    is_elsewhere: false,
                     layout: layout.clone(),
                 })
                 .collect(),
             Some(layout) => vec![Source {
                 path: instance.to_owned(),
                 is_output: false,
+                is_elsewhere: false,
                 layout: layout.clone(),
             }],
             None => Vec::new(),
@@ -233,6 +240,7 @@ fn frame_source(instance: &str, part: &Part) -> Source {
     Source {
         path,
         is_output: part.kind == PartKind::Output,
+        is_elsewhere: false,
         layout: part.layout.clone(),
     }
 }
@@ -336,10 +344,11 @@ impl Read {
 
 fn is_wanted(source: &Source, selection: &Selection) -> bool {
     let mut paths = selection.paths.iter();
-    match selection.paths.is_empty() {
+    let is_asked_for = match selection.paths.is_empty() {
         true => source.is_output,
         false => paths.any(|path| below(path, &source.path) || below(&source.path, path)),
-    }
+    };
+    is_asked_for && !source.is_elsewhere
 }
 
 /// The parts of a value that paths name.
