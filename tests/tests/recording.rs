@@ -1,5 +1,8 @@
 //! The whole NAO recorded in lockstep, and every cycle of it recomputed, whatever the recording lacks.
 
+#[path = "recording/python.rs"]
+mod python;
+
 use std::io::ErrorKind;
 use std::path::PathBuf;
 use std::process::Command;

@@ -109,6 +109,10 @@ pub struct Layouts {
     pub frames: BTreeMap<String, Vec<Part>>,
     /// What others read of an instance, and the parameters, by name.
     pub values: BTreeMap<String, Layout>,
+    /// What the ends of an instance's frames have digests of: node and output, in their order. Recordings of earlier builds have
+    /// none.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub digests: BTreeMap<String, Vec<(String, String)>>,
     /// Outputs whose values are images, as clients name them, and of which pixels: `gray`, `rgb` or `yuyv`, rows from the top
     /// without gaps, in the fields `width`, `height` and `data`. Recordings of earlier builds have none.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]

@@ -86,7 +86,7 @@ impl Recording {
         let types = robot.instances.iter().map(|instance| instance.types());
         let types: Vec<_> = types.collect();
         let outputs = output::find(&about.outputs, described(robot))?;
-        let types_file = types_file(&types, output::images(described(robot)));
+        let types_file = types_file(robot, &types);
         let digests: Vec<_> = types.iter().map(Types::digest).collect();
         let mut description = describe(&descriptions, &digests, &written, about, types_file);
         let outputs = OutputChannels::add(outputs, &mut description);
@@ -313,10 +313,16 @@ fn describe(
     }
 }
 
-/// All types, once; which outputs are images.
-fn types_file(types: &[Types], images: BTreeMap<String, String>) -> (String, String, String) {
+/// All types, once; which outputs are images, and which have digests.
+fn types_file<P>(robot: &Robot<P>, types: &[Types]) -> (String, String, String) {
+    let digested = robot.instances.iter().map(|instance| {
+        let names = instance.digested().iter();
+        let names = names.map(|(node, output)| ((*node).to_owned(), (*output).to_owned()));
+        (instance.description().name.to_owned(), names.collect())
+    });
     let mut layouts = Layouts {
-        images,
+        digests: digested.collect(),
+        images: output::images(described(robot)),
         ..Layouts::default()
     };
     for one in types {

@@ -2,6 +2,7 @@
 
 mod description;
 mod files;
+mod layouts;
 mod readers;
 mod slow;
 mod support;

@@ -14,6 +14,8 @@ mod divergence;
 mod numerics;
 #[path = "recording/outputs.rs"]
 mod outputs;
+#[path = "recording/python.rs"]
+mod python;
 #[path = "recording/some.rs"]
 mod some;
 #[path = "recording/timeline.rs"]
