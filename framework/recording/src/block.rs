@@ -16,6 +16,8 @@ pub(crate) struct Block {
     pub(crate) frames: u64,
     /// The track whose frames these are.
     pub(crate) track: usize,
+    /// Its place among the blocks of the track.
+    pub(crate) number: u64,
     /// Times of the first and the last message, in nanoseconds of the run.
     pub(crate) times: Option<(u64, u64)>,
 }
@@ -43,6 +45,7 @@ impl Block {
             frame: 0,
             frames: 0,
             track: 0,
+            number: 0,
             times: None,
         }
     }
@@ -50,6 +53,11 @@ impl Block {
     /// Of whole frames.
     pub(crate) fn whole(&self) -> &[u8] {
         &self.bytes[..self.frame]
+    }
+
+    /// Whether the same track wrote it before the other one.
+    pub(crate) fn is_before(&self, other: &Self) -> bool {
+        self.track == other.track && self.number < other.number
     }
 
     pub(crate) fn is_empty(&self) -> bool {

@@ -11,6 +11,29 @@ pub(crate) struct Pool {
     full: ArrayQueue<Block>,
 }
 
+/// Where a track leaves the block that it has begun, whenever it writes nothing: a cycle that hangs keeps no frame to itself.
+#[derive(Debug)]
+pub(crate) struct Place(ArrayQueue<Block>);
+
+impl Default for Place {
+    fn default() -> Self {
+        Self(ArrayQueue::new(1))
+    }
+}
+
+impl Place {
+    /// For the track, or for the writer where the track has nothing more for long.
+    pub(crate) fn take(&self) -> Option<Block> {
+        self.0.pop()
+    }
+
+    pub(crate) fn leave(&self, block: Block) {
+        // The track has one block at a time.
+        let left = self.0.push(block);
+        debug_assert!(left.is_ok(), "two blocks of one track");
+    }
+}
+
 impl Pool {
     /// So many blocks of so many bytes, whose memory is touched now and not in a cycle.
     pub(crate) fn new(blocks: usize, bytes: usize) -> Self {

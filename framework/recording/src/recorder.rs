@@ -8,7 +8,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-use crate::pool::Pool;
+use crate::block::Block;
+use crate::pool::{Place, Pool};
 use crate::rewrite::{Rewrites, rewritten};
 use crate::track::{Counts, Track};
 use hulkgen_mcap::{Description, Metadata, Writer};
@@ -27,7 +28,8 @@ pub struct Settings {
     pub block_bytes: usize,
     /// Bytes from which on a chunk is closed, not compressed.
     pub chunk_bytes: usize,
-    /// How long frames stay in memory while their instance has cycles, recorded or not, about; by the cycles' own time.
+    /// How long frames stay in memory, about: by the cycles' own time while their instance has cycles, recorded or not, else by
+    /// the clock on the wall.
     pub longest: Duration,
 }
 
@@ -101,8 +103,11 @@ impl Recorder {
             .iter()
             .map(|instance| ((*instance).to_owned(), Arc::<Counts>::default()))
             .collect();
-        let tracks = counts.iter().enumerate().map(|(index, (_, counts))| {
-            Track::new(pool.clone(), counts.clone(), index, settings.longest)
+        let begun: Vec<_> = counts.iter().map(|_| Begun::new()).collect();
+        let tracks = counts.iter().zip(&begun).enumerate();
+        let tracks = tracks.map(|(index, ((_, counts), begun))| {
+            let place = begun.place.clone();
+            Track::new(pool.clone(), counts.clone(), index, place, settings.longest)
         });
         let tracks = tracks.collect();
         let is_ending = Arc::new(AtomicBool::new(false));
@@ -112,6 +117,7 @@ impl Recorder {
             pool,
             settings,
             counts: counts.clone(),
+            begun,
             is_ending: is_ending.clone(),
             last: last.clone(),
             open: Frames::new(),
@@ -182,11 +188,41 @@ impl Drop for Recorder {
 /// How many frames of which track, by its place.
 type Frames = Vec<(usize, u64)>;
 
+/// The block that a track has begun.
+struct Begun {
+    place: Arc<Place>,
+    /// Frames of the track, when they were counted last.
+    recorded: u64,
+    /// When that number was another one.
+    since: Instant,
+}
+
+impl Begun {
+    fn new() -> Self {
+        Self {
+            place: Arc::default(),
+            recorded: 0,
+            since: Instant::now(),
+        }
+    }
+
+    /// The block, if the track has had no frame for so long: its instance waits, or its cycle hangs.
+    fn take_left(&mut self, recorded: u64, longest: Duration) -> Option<Block> {
+        if self.recorded != recorded {
+            (self.recorded, self.since) = (recorded, Instant::now());
+        }
+        let is_left = self.since.elapsed() >= longest;
+        is_left.then(|| self.place.take()).flatten()
+    }
+}
+
 struct Thread {
     writer: Writer,
     pool: Arc<Pool>,
     settings: Settings,
     counts: Vec<(String, Arc<Counts>)>,
+    /// Of each track.
+    begun: Vec<Begun>,
     is_ending: Arc<AtomicBool>,
     last: Arc<Mutex<Vec<Metadata>>>,
     /// Tracks and frames in the chunk that is open.
@@ -206,8 +242,10 @@ impl Thread {
         loop {
             // Acquire, and before the blocks: what was handed over before the end is found.
             let is_ending = self.is_ending.load(Ordering::Acquire);
-            let is_idle = !self.take_blocks();
+            let is_idle = !self.take_blocks(self.settings.longest);
             let is_old = !self.open.is_empty() && self.since.elapsed() >= self.settings.longest;
+            // Whoever still has a track hands nothing over any more.
+            while is_ending && self.take_blocks(Duration::ZERO) {}
             if is_old || is_ending {
                 self.close_chunk();
             }
@@ -221,28 +259,42 @@ impl Thread {
         self.finish()
     }
 
-    /// Whether there were any.
-    fn take_blocks(&mut self) -> bool {
-        let mut is_any = false;
+    /// Whether there were any, with that of a track that has had no frame for so long and did not hand it over.
+    fn take_blocks(&mut self, longest: Duration) -> bool {
+        let mut begun = self.begun.iter_mut().zip(&self.counts);
+        let mut left =
+            begun.find_map(|(begun, (_, counts))| begun.take_left(counts.recorded(), longest));
+        let mut is_any = left.is_some();
         while let Some(block) = self.pool.take_full() {
             is_any = true;
-            if self.open.is_empty() {
-                self.since = Instant::now();
+            // What the track handed over before it is here, and what it did since may be.
+            if let Some(left) = left.take_if(|left| left.is_before(&block)) {
+                self.add(left);
             }
-            self.open.push((block.track, block.frames));
-            match self.rewrites.is_empty() {
-                true => self.writer.add(block.whole()),
-                false => {
-                    rewritten(block.whole(), &self.rewrites, &mut self.rewritten);
-                    self.writer.add(&self.rewritten);
-                }
-            }
-            self.pool.give_back(block);
-            if self.writer.open_bytes() >= self.settings.chunk_bytes {
-                self.close_chunk();
-            }
+            self.add(block);
+        }
+        if let Some(left) = left {
+            self.add(left);
         }
         is_any
+    }
+
+    fn add(&mut self, block: Block) {
+        if self.open.is_empty() {
+            self.since = Instant::now();
+        }
+        self.open.push((block.track, block.frames));
+        match self.rewrites.is_empty() {
+            true => self.writer.add(block.whole()),
+            false => {
+                rewritten(block.whole(), &self.rewrites, &mut self.rewritten);
+                self.writer.add(&self.rewritten);
+            }
+        }
+        self.pool.give_back(block);
+        if self.writer.open_bytes() >= self.settings.chunk_bytes {
+            self.close_chunk();
+        }
     }
 
     /// A disk that takes no chunk now may take the next one.

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
 use crate::block::{Block, Full, Writing};
-use crate::pool::Pool;
+use crate::pool::{Place, Pool};
 use hulkgen_mcap::ChannelId;
 
 /// What became of the frames of one instance so far, to be read while it runs.
@@ -67,9 +67,12 @@ pub struct Track {
     pool: Arc<Pool>,
     counts: Arc<Counts>,
     index: usize,
-    block: Option<Block>,
-    /// The time of the block's first frame.
-    since: u64,
+    /// Has the block that was begun, unless the writer took it.
+    place: Arc<Place>,
+    /// The time of the first frame of the block that was begun, whoever has it.
+    since: Option<u64>,
+    /// How many blocks were begun.
+    blocks: u64,
     longest: Duration,
 }
 
@@ -104,14 +107,16 @@ impl Track {
         pool: Arc<Pool>,
         counts: Arc<Counts>,
         index: usize,
+        place: Arc<Place>,
         longest: Duration,
     ) -> Self {
         Self {
             pool,
             counts,
             index,
-            block: None,
-            since: 0,
+            place,
+            since: None,
+            blocks: 0,
             longest,
         }
     }
@@ -139,20 +144,15 @@ impl Track {
         mut write: impl FnMut(&mut Frame<'_>) -> Result<(), E>,
     ) -> Recorded<E> {
         self.pass(time);
-        let mut is_new = false;
+        let mut begun = self.place.take();
         loop {
-            if self.block.is_none() {
-                is_new = true;
-                self.since = time;
-                self.block = self.pool.take_empty();
-            }
-            let Some(block) = &mut self.block else {
+            let is_new = begun.is_none();
+            let Some(mut block) = begun.take().or_else(|| self.begin()) else {
                 return self.dropped();
             };
-            block.track = self.index;
             let mut frame = Frame {
                 is_first: block.is_empty(),
-                block,
+                block: &mut block,
                 keep,
                 is_full: false,
             };
@@ -160,42 +160,54 @@ impl Track {
             let is_full = frame.is_full;
             match written {
                 Ok(()) if !is_full => {
+                    if is_new {
+                        self.since = Some(time);
+                    }
                     block.end_frame(time);
                     add_one(&self.counts.recorded);
+                    self.place.leave(block);
                     return Recorded::Whole;
                 }
                 Err(error) if !is_full => {
-                    block.roll_back();
+                    self.roll_back(block);
                     self.counts.failed.fetch_add(1, Ordering::Relaxed);
                     return Recorded::Failed(error);
                 }
-                _ => block.roll_back(),
+                _ => {
+                    self.roll_back(block);
+                    self.hand_over();
+                }
             }
             if is_new {
                 return self.dropped();
             }
-            self.hand_over();
         }
     }
 
-    /// Adds to the frame before what only its end tells; there must have been kept room.
+    /// Adds to the frame before what only its end tells; there must have been kept room. Where the writer did not wait for it, it
+    /// is alone in a block.
     pub fn end<E>(
         &mut self,
         time: u64,
         write: impl FnOnce(&mut Frame<'_>) -> Result<(), E>,
     ) -> Recorded<E> {
-        let Some(block) = &mut self.block else {
+        if self.since.is_none() {
             return Recorded::Dropped;
+        }
+        let begun = self.place.take();
+        let is_alone = begun.is_none();
+        let Some(mut block) = begun.or_else(|| self.begin()) else {
+            return self.dropped();
         };
         let mut frame = Frame {
             is_first: false,
-            block,
+            block: &mut block,
             keep: 0,
             is_full: false,
         };
         let written = write(&mut frame);
         let is_full = frame.is_full;
-        match written {
+        let ended = match written {
             Ok(()) if !is_full => {
                 let frames = block.frames;
                 block.end_frame(time);
@@ -203,15 +215,25 @@ impl Track {
                 Recorded::Whole
             }
             Err(error) if !is_full => {
-                block.roll_back();
                 self.counts.failed.fetch_add(1, Ordering::Relaxed);
                 Recorded::Failed(error)
             }
-            _ => {
-                block.roll_back();
-                self.dropped()
-            }
+            _ => self.dropped(),
+        };
+        self.roll_back(block);
+        // The next frame must not refer to what the writer has.
+        if is_alone {
+            self.hand_over();
         }
+        ended
+    }
+
+    fn begin(&mut self) -> Option<Block> {
+        self.since = None;
+        let mut block = self.pool.take_empty()?;
+        self.blocks += 1;
+        (block.track, block.number) = (self.index, self.blocks);
+        Some(block)
     }
 
     fn dropped<E>(&self) -> Recorded<E> {
@@ -230,18 +252,27 @@ impl Track {
 
     // By the frames' own time: to look at the clock for each of them takes longer than to write some.
     fn is_old(&self, time: u64) -> bool {
-        let lasts = Duration::from_nanos(time.saturating_sub(self.since));
-        self.block.as_ref().is_some_and(|block| !block.is_empty()) && lasts >= self.longest
+        let lasts = |since| Duration::from_nanos(time.saturating_sub(since));
+        self.since.is_some_and(|since| lasts(since) >= self.longest)
+    }
+
+    /// Leaves what is whole of a block.
+    fn roll_back(&mut self, mut block: Block) {
+        block.roll_back();
+        match block.is_empty() {
+            true => {
+                self.since = None;
+                self.pool.give_back(block);
+            }
+            false => self.place.leave(block),
+        }
     }
 
     /// Gives what is whole to the writer; the next frame is the first of a block.
     pub fn hand_over(&mut self) {
-        if let Some(mut block) = self.block.take() {
-            block.roll_back();
-            match block.is_empty() {
-                true => self.pool.give_back(block),
-                false => self.pool.hand_over(block),
-            }
+        self.since = None;
+        if let Some(block) = self.place.take() {
+            self.pool.hand_over(block);
         }
     }
 }

@@ -263,9 +263,14 @@ impl<'r> Player<'r> {
                 Ok(())
             }
             FINISHED => {
-                let begun = self.frames.last_mut();
-                let begun = begun.filter(|frame| frame.head.number as u32 == sequence);
-                begun.ok_or_else(damaged)?.end = Some(content);
+                // It may stand alone in a chunk, and the one before, where its beginning stood, may be gone.
+                let Some(begun) = self.frames.last_mut() else {
+                    return Ok(());
+                };
+                if begun.head.number as u32 != sequence {
+                    return Err(damaged());
+                }
+                begun.end = Some(content);
                 Ok(())
             }
             _ => Err(damaged()),

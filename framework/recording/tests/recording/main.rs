@@ -74,12 +74,15 @@ fn nothing_is_overwritten() {
     );
 }
 
+/// So long that nothing is taken from a track that has no frame meanwhile.
+const LONG: Duration = Duration::from_secs(600);
+
 #[test]
 fn a_block_is_handed_over_when_its_frames_are_old() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("run.mcap");
     let settings = Settings {
-        longest: Duration::from_secs(1),
+        longest: LONG,
         ..settings()
     };
     let (recorder, mut tracks) =
@@ -88,7 +91,7 @@ fn a_block_is_handed_over_when_its_frames_are_old() {
     // By their own time, which does not go back; and if it did, nothing would be lost.
     let times = [5.0, 5.9, 6.0, 4.0, 6.9, 7.1, 7.2];
     let firsts = times.map(|time| {
-        let time = (time * 1e9) as u64;
+        let time = (time * LONG.as_nanos() as f64) as u64;
         let mut is_first = false;
         let recorded = track.frame::<Full>(time, 0, |frame| {
             is_first = frame.is_first();
@@ -107,7 +110,7 @@ fn what_was_recorded_last_is_handed_over_though_nothing_more_is_wanted() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("run.mcap");
     let settings = Settings {
-        longest: Duration::from_secs(1),
+        longest: LONG,
         // Each block is a chunk at once.
         chunk_bytes: 1,
         ..settings()
@@ -115,16 +118,17 @@ fn what_was_recorded_last_is_handed_over_though_nothing_more_is_wanted() {
     let (recorder, mut tracks) =
         Recorder::start(&path, description(), &["Control"], settings).expect("it is new");
     let mut track = tracks.pop().expect("one was asked for");
+    let time = |tenths: u64| tenths * LONG.as_nanos() as u64 / 10;
     let record = |track: &mut Track, tenths: u64| {
         let mut is_first = false;
-        let recorded = track.frame::<Full>(tenths * 100_000_000, 0, |frame| {
+        let recorded = track.frame::<Full>(time(tenths), 0, |frame| {
             is_first = frame.is_first();
             frame.message(FRAMES, tenths as u32, tenths, |writing| writing.put(b"0"))
         });
         assert_eq!(recorded, Recorded::Whole);
         is_first
     };
-    let pass = |track: &mut Track, tenths: u64| track.pass(tenths * 100_000_000);
+    let pass = |track: &mut Track, tenths: u64| track.pass(time(tenths));
     // Nothing is there yet.
     pass(&mut track, 49);
     assert!(record(&mut track, 50));
@@ -147,8 +151,67 @@ fn what_was_recorded_last_is_handed_over_though_nothing_more_is_wanted() {
     await_frames(&path, &[&[50, 59], &[40, 45], &[51]]);
 }
 
+/// A message of the channel of frames in each, of this cycle.
+fn write(frame: &mut hulkgen_recording::Frame<'_>, cycle: u32) -> Result<(), Full> {
+    frame.message(FRAMES, cycle, 0, |writing| writing.put(b"0"))
+}
+
+#[test]
+fn a_cycle_that_hangs_keeps_no_frame_to_itself() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("run.mcap");
+    let settings = Settings {
+        longest: Duration::from_millis(50),
+        chunk_bytes: 1,
+        ..settings()
+    };
+    let (recorder, mut tracks) =
+        Recorder::start(&path, description(), &["Control"], settings).expect("it is new");
+    let mut track = tracks.pop().expect("one was asked for");
+    // By their own time no block becomes old.
+    let record = |track: &mut Track, cycle: u32| {
+        let mut is_first = false;
+        let recorded = track.frame::<Full>(0, 64, |frame| {
+            is_first = frame.is_first();
+            write(frame, cycle)
+        });
+        assert_eq!(recorded, Recorded::Whole);
+        is_first
+    };
+    let end = |track: &mut Track, cycle: u32| {
+        let ended = track.end::<Full>(0, |frame| write(frame, cycle));
+        assert_eq!(ended, Recorded::Whole);
+    };
+    assert!(record(&mut track, 1));
+    end(&mut track, 1);
+    record(&mut track, 2);
+    await_messages(&path, &[1, 1, 2]);
+    // It went on: the next one refers to nothing before it.
+    end(&mut track, 2);
+    assert!(record(&mut track, 3));
+    end(&mut track, 3);
+    // So it is where an instance has nothing to do.
+    await_messages(&path, &[1, 1, 2, 2, 3, 3]);
+    assert!(record(&mut track, 4));
+    let counts = track.counts().clone();
+    // Nobody hands this one over.
+    std::mem::forget(track);
+    assert!(recorder.end().is_complete);
+    assert_eq!((counts.recorded(), counts.missing()), (4, 0));
+    await_messages(&path, &[1, 1, 2, 2, 3, 3, 4]);
+}
+
 /// Waits until the file has these frames, by chunk, and no others.
 fn await_frames(path: &Path, expected: &[&[u32]]) {
+    await_chunks(path, |found| found == expected);
+}
+
+/// Waits until the file has these messages, in whichever chunks, and no others.
+fn await_messages(path: &Path, expected: &[u32]) {
+    await_chunks(path, |found| found.concat() == expected);
+}
+
+fn await_chunks(path: &Path, is_expected: impl Fn(&[Vec<u32>]) -> bool) {
     let begun = Instant::now();
     loop {
         let recording = Recording::open(path).expect("its beginning is there");
@@ -157,11 +220,11 @@ fn await_frames(path: &Path, expected: &[&[u32]]) {
             .iter()
             .map(|chunk| chunk.messages().map(|message| message.sequence).collect())
             .collect();
-        if found == expected {
+        if is_expected(&found) {
             return;
         }
         let is_late = begun.elapsed() > Duration::from_secs(20);
-        assert!(!is_late, "{found:?} instead of {expected:?}");
+        assert!(!is_late, "{found:?}");
         std::thread::sleep(Duration::from_millis(1));
     }
 }

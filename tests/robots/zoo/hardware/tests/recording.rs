@@ -16,6 +16,8 @@ mod numerics;
 mod outputs;
 #[path = "recording/python.rs"]
 mod python;
+#[path = "recording/slow.rs"]
+mod slow;
 #[path = "recording/some.rs"]
 mod some;
 #[path = "recording/timeline.rs"]
