@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use framework::recorded::{About, Recording, Settings};
 use framework::replay::verify;
 use framework::{Clock, Lockstep, Record, Timestamp};
-use hulkgen_recording::Recording as File;
+use hulkgen_recording::{Recording as File, RecordingFile};
 use zoo_runtime::recording;
 
 use super::{INSTANCES, SMALL, Tape, Zoo, as_it_is, on, record_in_lockstep};
@@ -119,51 +119,74 @@ fn frames_of_reflexes(tape: &Tape) -> usize {
         .count()
 }
 
+/// Says so in its hundredth cycle for the first time.
+const WHEN_PRESSED: Record = Record::While {
+    instance: "Reflexes",
+    path: "pressed",
+};
+
+/// The bytes of a file that ends before the hundredth cycle.
+fn record_before_it_is_pressed(tape: &Tape, record_of: impl Fn(&str) -> Record) -> Vec<u8> {
+    let mut zoo = Zoo::new(Clock::stepped());
+    let record_of = |instance: &framework::InstanceDescription| record_of(instance.name);
+    let _ = std::fs::remove_file(&tape.path);
+    let about = About::default();
+    // Each instance is in many chunks.
+    let settings = Settings {
+        blocks: 2048,
+        block_bytes: 4 << 10,
+        chunk_bytes: 4 << 10,
+        longest: Duration::from_millis(100),
+        ..SMALL
+    };
+    let recording = Recording::start_with(&tape.path, &zoo.robot, about, settings, record_of);
+    let mut recording = recording.expect("the folder is empty");
+    let hardware = zoo.hardware.clone();
+    let mut lockstep =
+        Lockstep::new(&mut zoo.robot, &*hardware).observed(|instance| recording.observer(instance));
+    let end = Timestamp::from_nanos(900_000_000);
+    lockstep.run_until(end, |_| {}).expect("the zoo goes on");
+    drop(lockstep);
+    recording.end();
+    std::fs::read(&tape.path).expect("it was written")
+}
+
+fn lights_when_pressed(name: &str) -> Record {
+    match name {
+        "Lights" => WHEN_PRESSED,
+        _ => Record::On,
+    }
+}
+
+/// Where the first record of what the end says begins; all chunks stand before it.
+fn end_of_chunks(bytes: &[u8]) -> usize {
+    let mut places = bytes.windows(10);
+    let name = places.position(|place| place == b"\x06\0\0\0wanted");
+    name.expect("the end says it")
+}
+
+/// That nothing is wrong with `Lights`, which has no frame.
+fn assert_never_asked_for(file: &File, wanted: Option<u64>) {
+    let verification = verify(file, recording::INSTANCES).expect("it is of this robot");
+    assert!(verification.is_good(), "{verification}");
+    let lights = &verification.instances[5];
+    assert_eq!((lights.wanted, lights.frames), (wanted, 0));
+    let text = verification.to_string();
+    let said = "not recorded: never asked for (while Reflexes.pressed)";
+    assert!(text.contains(said), "{text}");
+    assert!(!text.contains("nothing verified"), "{text}");
+}
+
 #[test]
 fn what_was_never_asked_for_is_no_failure_where_the_file_breaks_off_either() {
     let tape = Tape::new();
-    // The hundredth cycle is the first to say so.
-    let when_pressed = Record::While {
-        instance: "Reflexes",
-        path: "pressed",
-    };
-    let record = |record_of: &dyn Fn(&str) -> Record| {
-        let mut zoo = Zoo::new(Clock::stepped());
-        let record_of = |instance: &framework::InstanceDescription| record_of(instance.name);
-        let _ = std::fs::remove_file(&tape.path);
-        let about = About::default();
-        let recording = Recording::start_with(&tape.path, &zoo.robot, about, SMALL, record_of);
-        let mut recording = recording.expect("the folder is empty");
-        let hardware = zoo.hardware.clone();
-        let mut lockstep = Lockstep::new(&mut zoo.robot, &*hardware)
-            .observed(|instance| recording.observer(instance));
-        let end = Timestamp::from_nanos(900_000_000);
-        lockstep.run_until(end, |_| {}).expect("the zoo goes on");
-        drop(lockstep);
-        recording.end();
-        std::fs::read(&tape.path).expect("it was written")
-    };
-    let bytes = record(&|name| match name {
-        "Lights" => when_pressed,
-        _ => Record::On,
-    });
-    // All chunks are there, and nothing of what the end says.
-    let mut places = bytes.windows(10);
-    let end = places.position(|place| place == b"\x06\0\0\0wanted");
-    for kept in [bytes.len(), end.expect("the end says it")] {
+    let bytes = record_before_it_is_pressed(&tape, lights_when_pressed);
+    for (kept, wanted) in [(bytes.len(), Some(0)), (end_of_chunks(&bytes), None)] {
         let file = File::read(&bytes[..kept]).expect("it begins as a recording");
-        let verification = verify(&file, recording::INSTANCES).expect("it is of this robot");
-        assert!(verification.is_good(), "{verification}");
-        let lights = &verification.instances[5];
-        let wanted = if kept == bytes.len() { Some(0) } else { None };
-        assert_eq!((lights.wanted, lights.frames), (wanted, 0));
-        let text = verification.to_string();
-        let said = "not recorded: never asked for (while Reflexes.pressed)";
-        assert!(text.contains(said), "{text}");
-        assert!(!text.contains("nothing verified"), "{text}");
+        assert_never_asked_for(&file, wanted);
     }
     // Nobody says that something was verified, or of one that is always recorded that it was not wanted.
-    let bytes = record(&|_| when_pressed);
+    let bytes = record_before_it_is_pressed(&tape, |_| WHEN_PRESSED);
     let file = File::read(&bytes[..bytes.len() - 1]).expect("it begins as a recording");
     let verification = verify(&file, recording::INSTANCES).expect("it is of this robot");
     assert!(!verification.is_good(), "{verification}");
@@ -171,6 +194,35 @@ fn what_was_never_asked_for_is_no_failure_where_the_file_breaks_off_either() {
     assert!(one.was_never_asked_for() && one.is_good());
     one.record = "on".to_owned();
     assert!(!one.is_good());
+}
+
+#[test]
+fn what_was_never_asked_for_is_no_failure_of_a_recovered_file_either() {
+    let tape = Tape::new();
+    let bytes = record_before_it_is_pressed(&tape, lights_when_pressed);
+    let whole = File::read(&bytes).expect("it was written");
+    let all = whole.chunks.len();
+    assert!(all > 3, "{all} chunks");
+    let last = whole.chunks[all - 1].offset as usize;
+    // Nothing is lost; what the end says; all of that and half a chunk.
+    for (kept, chunks, wanted) in [
+        (bytes.len(), all, Some(0)),
+        (end_of_chunks(&bytes), all, None),
+        (last + 100, all - 1, None),
+    ] {
+        let (cut, into) = (
+            tape.path.with_extension("cut"),
+            tape.path.with_extension("new"),
+        );
+        std::fs::write(&cut, &bytes[..kept]).expect("the folder is ours");
+        let file = RecordingFile::open(&cut).expect("it begins as a recording");
+        hulkgen_mcap::recover(&file, &into).expect("there is room");
+        let recovered = File::open(&into).expect("it was written");
+        std::fs::remove_file(&into).expect("it was written");
+        assert!(recovered.metadata("recovered").is_some());
+        assert_eq!(recovered.chunks.len(), chunks);
+        assert_never_asked_for(&recovered, wanted);
+    }
 }
 
 #[test]
