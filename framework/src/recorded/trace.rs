@@ -1,7 +1,8 @@
 //! How a type is laid out, by asking what its own `Deserialize` asks for.
 //!
 //! A type is read again and again out of nothing. Each time tells what was not known before: another variant of an enum, what
-//! stands behind a part that contains itself.
+//! stands behind a part that contains itself. Where a field of a struct refuses all that it is offered, those behind it are read
+//! alone.
 
 mod access;
 #[cfg(test)]
@@ -16,10 +17,13 @@ use serde::de::{DeserializeOwned, Deserializer, Visitor};
 
 use crate::guarded::contain;
 
-use access::{Elements, Entries, Fields, Variant};
+use access::{Elements, Entries, Fields, Variant, visit_fields};
 
 /// How often nothing new may come of it before it is given up: types that refuse some values are offered others.
 const PATIENCE: usize = 4;
+
+/// The same where fields take turns.
+const PATIENCE_OF_TURNS: usize = 64;
 
 /// How often at all: variants inside of variants.
 const PASSES: usize = 4096;
@@ -27,25 +31,26 @@ const PASSES: usize = 4096;
 /// How values of a type lie in a recording; parts of it are unknown where the type refuses what it is offered.
 pub(crate) fn layout_of<T: DeserializeOwned>() -> Layout {
     let mut layout = Layout::Unknown;
-    let mut idle = 0;
-    for number in 0..PASSES {
-        let pass = Pass {
-            number,
-            learned: Cell::new(false),
-        };
-        let tracer = Tracer {
-            layout: &mut layout,
-            pass: &pass,
-            around: None,
-        };
-        // A type's own `Deserialize` may refuse what it is offered by a panic; that is its author's, and no robot ends by it.
-        let _ = contain("a type's layout", || Ok(T::deserialize(tracer).is_ok()));
-        if layout.is_known() {
-            break;
-        }
-        idle = if pass.learned.get() { 0 } else { idle + 1 };
-        if idle > PATIENCE {
-            break;
+    let mut numbers = 0..PASSES;
+    for (alone, patience) in [(false, PATIENCE), (true, PATIENCE_OF_TURNS)] {
+        let mut idle = 0;
+        while idle <= patience && !layout.is_known() {
+            let Some(number) = numbers.next() else {
+                return layout;
+            };
+            let pass = Pass {
+                number,
+                alone,
+                learned: Cell::new(false),
+            };
+            let tracer = Tracer {
+                layout: &mut layout,
+                pass: &pass,
+                around: None,
+            };
+            // A type's own `Deserialize` may refuse what it is offered by a panic; that is its author's, and no robot ends by it.
+            let _ = contain("a type's layout", || Ok(T::deserialize(tracer).is_ok()));
+            idle = if pass.learned.get() { 0 } else { idle + 1 };
         }
     }
     layout
@@ -54,6 +59,8 @@ pub(crate) fn layout_of<T: DeserializeOwned>() -> Layout {
 /// One time that the type is read.
 struct Pass {
     number: usize,
+    /// Whether structs that are not known whole read one of their fields alone.
+    alone: bool,
     /// Whether it told anything.
     learned: Cell<bool>,
 }
@@ -292,11 +299,9 @@ impl<'de> Deserializer<'de> for Tracer<'_> {
             })
         };
         match self.learn(first) {
-            (Layout::Struct(Struct { fields, .. }), pass) => visitor.visit_seq(Fields {
-                layouts: fields.iter_mut().map(|(_, layout)| layout),
-                pass,
-                around: Some(&around),
-            }),
+            (Layout::Struct(Struct { fields, .. }), pass) => {
+                visit_fields(fields, pass, &around, visitor)
+            }
             _ => Err(Refused),
         }
     }

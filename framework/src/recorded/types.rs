@@ -104,7 +104,9 @@ impl<'body, B: Recorded> Describing<'body, B> {
 
     /// A node's state, and what its failures left behind.
     pub fn node<N: DeserializeOwned>(&mut self, path: &str, _: fn(&B) -> &Guarded<N>) {
-        self.add(PartKind::Node, path, layout_of::<(N, Condition)>());
+        // Each for itself: a state that refuses what it is offered hides nothing.
+        let layouts = vec![layout_of::<N>(), layout_of::<Condition>()];
+        self.add(PartKind::Node, path, Layout::Tuple(layouts));
     }
 
     /// What nodes share.

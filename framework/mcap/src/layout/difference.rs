@@ -21,7 +21,8 @@ pub fn first_difference(was: &[Part], is: &[Part]) -> Option<String> {
 
 /// Where two layouts differ first.
 pub(super) fn difference(was: &Layout, is: &Layout, path: &str) -> Option<String> {
-    if was == is {
+    // Of what was unknown then nothing can be said.
+    if was == is || *was == Layout::Unknown {
         return None;
     }
     let inside = match (was, is) {

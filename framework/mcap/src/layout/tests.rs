@@ -174,6 +174,11 @@ fn what_changed_is_named() {
         text(Layout::Struct(changed)),
         "the field `weight` of `control::walk` is gone"
     );
+    assert_eq!(first_difference(&[part(Layout::Unknown)], &was), None);
+    assert_eq!(
+        text(Layout::Unknown),
+        "`control::walk` was the struct `Tree`, is unknown"
+    );
     assert_eq!(
         first_difference(&was, &[]).as_deref(),
         Some("`control::walk` is gone")

@@ -2,7 +2,7 @@
 
 use hulkgen_mcap::Layout;
 use hulkgen_mcap::layout::Struct;
-use serde::de::value::U32Deserializer;
+use serde::de::value::{U32Deserializer, U64Deserializer};
 use serde::de::{DeserializeSeed, EnumAccess, MapAccess, SeqAccess, VariantAccess, Visitor};
 use serde::de::{Deserializer as _, IntoDeserializer as _};
 
@@ -31,12 +31,45 @@ pub(super) struct Fields<'t, I> {
     pub(super) around: Option<&'t Around<'t>>,
 }
 
+/// One field of a struct, by its number.
+struct Alone<'t> {
+    number: u64,
+    layout: Option<&'t mut Layout>,
+    pass: &'t Pass,
+    around: Option<&'t Around<'t>>,
+}
+
 /// One variant and its content.
 pub(super) struct Variant<'t> {
     pub(super) number: usize,
     pub(super) layout: &'t mut Layout,
     pub(super) pass: &'t Pass,
     pub(super) around: Option<&'t Around<'t>>,
+}
+
+/// Lets a struct read its fields: all in their order, or one alone that is not known yet.
+pub(super) fn visit_fields<'de, V: Visitor<'de>>(
+    fields: &mut [(String, Layout)],
+    pass: &Pass,
+    around: &Around<'_>,
+    visitor: V,
+) -> Result<V::Value, Refused> {
+    let unknown = || (0..fields.len()).filter(|number| !fields[*number].1.is_known());
+    let turn = pass.number % unknown().count().max(1);
+    let around = Some(around);
+    match unknown().nth(turn).filter(|_| pass.alone) {
+        Some(number) => visitor.visit_map(Alone {
+            number: number as u64,
+            layout: Some(&mut fields[number].1),
+            pass,
+            around,
+        }),
+        None => visitor.visit_seq(Fields {
+            layouts: fields.iter_mut().map(|(_, layout)| layout),
+            pass,
+            around,
+        }),
+    }
 }
 
 impl<'de> SeqAccess<'de> for Elements<'_> {
@@ -110,6 +143,30 @@ impl<'de, 't, I: Iterator<Item = &'t mut Layout>> SeqAccess<'de> for Fields<'t, 
     }
 }
 
+impl<'de> MapAccess<'de> for Alone<'_> {
+    type Error = Refused;
+
+    // A number: what comes in bytes has the same order, and a field may have several names.
+    fn next_key_seed<K: DeserializeSeed<'de>>(
+        &mut self,
+        seed: K,
+    ) -> Result<Option<K::Value>, Refused> {
+        if self.layout.is_none() {
+            return Ok(None);
+        }
+        let number: U64Deserializer<Refused> = self.number.into_deserializer();
+        seed.deserialize(number).map(Some)
+    }
+
+    fn next_value_seed<V: DeserializeSeed<'de>>(&mut self, seed: V) -> Result<V::Value, Refused> {
+        seed.deserialize(Tracer {
+            layout: self.layout.take().ok_or(Refused)?,
+            pass: self.pass,
+            around: self.around,
+        })
+    }
+}
+
 impl<'de> EnumAccess<'de> for Variant<'_> {
     type Error = Refused;
     type Variant = Self;
@@ -167,11 +224,9 @@ impl<'de> VariantAccess<'de> for Variant<'_> {
             })
         };
         match self.content().learn(first) {
-            (Layout::Struct(Struct { fields, .. }), pass) => visitor.visit_seq(Fields {
-                layouts: fields.iter_mut().map(|(_, layout)| layout),
-                pass,
-                around: Some(&around),
-            }),
+            (Layout::Struct(Struct { fields, .. }), pass) => {
+                visit_fields(fields, pass, &around, visitor)
+            }
             _ => Err(Refused),
         }
     }

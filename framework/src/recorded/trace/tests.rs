@@ -127,6 +127,85 @@ fn a_type_that_refuses_a_value_is_offered_another() {
     assert_read([(Positive(2.5), 3_u8)]);
 }
 
+/// Refuses everything that nobody thought of.
+#[derive(Clone, Serialize, Deserialize)]
+#[serde(try_from = "Vec<Step>", into = "Vec<Step>")]
+struct Steps(Vec<Step>);
+
+impl TryFrom<Vec<Step>> for Steps {
+    type Error = String;
+
+    fn try_from(steps: Vec<Step>) -> Result<Self, String> {
+        match steps.len() {
+            2 => Ok(Self(steps)),
+            other => Err(format!("{other} steps")),
+        }
+    }
+}
+
+impl From<Steps> for Vec<Step> {
+    fn from(Steps(steps): Steps) -> Self {
+        steps
+    }
+}
+
+#[test]
+fn what_stands_behind_a_type_that_refuses_all_values_has_a_layout() {
+    #[derive(Clone, Serialize, Deserialize)]
+    enum Dance {
+        Waltz { steps: Steps, measure: u8 },
+        Break,
+    }
+    #[derive(Clone, Serialize, Deserialize)]
+    struct Evening {
+        before: bool,
+        first: Steps,
+        #[serde(skip)]
+        _cache: u64,
+        between: BTreeMap<String, Steps>,
+        then: Dance,
+        #[serde(rename = "last")]
+        end: Option<Side>,
+    }
+    let step = |side| Step {
+        side,
+        target: (7, -7),
+        _cache: 0,
+    };
+    let steps = Steps(vec![step(Side::Left), step(Side::Right)]);
+    let evening = |then, end| Evening {
+        before: true,
+        first: steps.clone(),
+        _cache: 0,
+        between: BTreeMap::from([("a pause".to_owned(), steps.clone())]),
+        then,
+        end,
+    };
+    let waltz = Dance::Waltz {
+        steps: steps.clone(),
+        measure: 3,
+    };
+    assert_read([
+        evening(waltz, Some(Side::Right)),
+        evening(Dance::Break, None),
+    ]);
+}
+
+#[test]
+fn a_field_with_several_names_is_not_taken_for_several() {
+    #[derive(Deserialize)]
+    struct Renamed {
+        _first: Steps,
+        #[serde(alias = "other")]
+        _second: u8,
+    }
+    let Layout::Struct(renamed) = layout_of::<Renamed>() else {
+        panic!("it is a struct");
+    };
+    let known = renamed.fields.iter().filter(|(_, one)| one.is_known());
+    assert_eq!(known.count(), 2, "{renamed:?}");
+}
+
 #[test]
 fn what_no_type_tells_stays_unknown() {
     let layout = layout_of::<(u8, Value, u8)>();
