@@ -34,6 +34,7 @@ use serde_json::Value;
 use crate::cycler::{Cycler, Finished, Instance};
 use crate::error::Result;
 use crate::recorded::{self, Head, Loading, Recorded, Stored, Taken, Types, digest};
+use crate::subscriptions::Subscriptions;
 
 pub use carry::Setup;
 pub use commands::{Argument, Command, is_listening, note, telling};
@@ -77,6 +78,10 @@ pub trait Replay {
     /// What the loaded cycle has taken beside inputs; once it ran, its answers.
     fn taken(&self) -> Taken;
 
+    /// Who listens to its additional outputs. A cycle that runs has those that somebody listens to, beside those that it had
+    /// when it was recorded: from the next [`Replay::load`] on.
+    fn subscriptions(&self) -> &Subscriptions;
+
     /// The instance.
     fn instance(&self) -> &dyn Instance;
 
@@ -107,12 +112,17 @@ pub enum Ran {
 pub struct Alone<B: Recorded> {
     cycler: Cycler<B>,
     outside: B::Outside,
+    subscriptions: Subscriptions,
 }
 
 impl<B: Recorded> Alone<B> {
-    /// An instance that was just created.
-    pub fn new(cycler: Cycler<B>, outside: B::Outside) -> Self {
-        Self { cycler, outside }
+    /// An instance that was just created; its body listens to these subscriptions.
+    pub fn new(cycler: Cycler<B>, outside: B::Outside, subscriptions: Subscriptions) -> Self {
+        Self {
+            cycler,
+            outside,
+            subscriptions,
+        }
     }
 }
 
@@ -141,6 +151,10 @@ where
 
     fn taken(&self) -> Taken {
         recorded::taken(self.cycler.body())
+    }
+
+    fn subscriptions(&self) -> &Subscriptions {
+        &self.subscriptions
     }
 
     fn instance(&self) -> &dyn Instance {

@@ -195,16 +195,23 @@ pub(super) fn quote_subscriptions(
     Some(quote!(let #subscriptions = ::framework::Subscriptions::new(#names);))
 }
 
+/// What clients listen to, nothing included.
+pub(super) fn quote_subscriptions_of(
+    cycler: &CyclerModel,
+    instance: &InstanceModel,
+) -> TokenStream {
+    if cycler.additional_outputs.is_empty() {
+        return quote!(::framework::Subscriptions::new(&[]));
+    }
+    let subscriptions = ident(&format!("{}_subscriptions", instance.variable));
+    quote!(#subscriptions)
+}
+
 /// What clients may do with an instance.
 fn quote_access(model: &RuntimeModel, instance: &InstanceModel) -> TokenStream {
     let cycler = model.cycler_of(instance.id);
     let InstanceModel { name, variable, .. } = instance;
-    let subscriptions = if cycler.additional_outputs.is_empty() {
-        quote!(::framework::Subscriptions::new(&[]))
-    } else {
-        let subscriptions = ident(&format!("{variable}_subscriptions"));
-        quote!(#subscriptions)
-    };
+    let subscriptions = quote_subscriptions_of(cycler, instance);
     let injections = ident(&format!("{variable}_injections"));
     let table = cycler.outputs.is_empty().then(|| {
         let table = database(cycler, "Injections");

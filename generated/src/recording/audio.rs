@@ -93,7 +93,12 @@ impl<Hardware: MicrophoneInterface + Send + Sync> Recorded for Audio<Hardware> {
         self.nodes = load_nodes(from)?;
         self.injections.load_injected(from, &mut outside.injections)?;
         self.own.both_to_load().0.audio_block = from.take()?;
-        self.subscribed = from.take()?;
+        let recorded: Subscribed = from.take()?;
+        let mut wanted = self.subscriptions.wanted();
+        self.subscribed = Subscribed {
+            whistle_detection_peaks: wanted.next_one()
+                || recorded.whistle_detection_peaks,
+        };
         Body::restore(self)?;
         Ok(())
     }
@@ -157,6 +162,7 @@ pub fn replay_audio(
                     injections: injections_writer,
                     parameters: parameters_writer,
                 },
+                audio_subscriptions,
             ),
         ),
     )

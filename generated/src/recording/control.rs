@@ -338,7 +338,22 @@ impl<
         self.procedures.look_at.load(from)?;
         self.procedures.motion.load(from)?;
         self.procedures.walk.load(from)?;
-        self.subscribed = from.take()?;
+        let recorded: Subscribed = from.take()?;
+        let mut wanted = self.subscriptions.wanted();
+        self.subscribed = Subscribed {
+            ball_filter_delivered: wanted.next_one() || recorded.ball_filter_delivered,
+            ball_filter_hypotheses: wanted.next_one() || recorded.ball_filter_hypotheses,
+            ball_filter_persistent_ball: wanted.next_one()
+                || recorded.ball_filter_persistent_ball,
+            fall_state_filter_center_of_mass_overhang: wanted.next_one()
+                || recorded.fall_state_filter_center_of_mass_overhang,
+            localization_hypotheses: wanted.next_one()
+                || recorded.localization_hypotheses,
+            orientation_filter_innovation: wanted.next_one()
+                || recorded.orientation_filter_innovation,
+            plan: wanted.next_one() || recorded.plan,
+            whistle_filter_votes: wanted.next_one() || recorded.whistle_filter_votes,
+        };
         Ok(())
     }
 
@@ -631,6 +646,7 @@ pub fn replay_control(
                     spl_network: spl_network_writer,
                     audio: audio_writer,
                 },
+                control_subscriptions,
             ),
         ),
     )

@@ -105,7 +105,14 @@ impl<Hardware: NetworkInterface + Send + Sync> Recorded for SplNetwork<Hardware>
         self.nodes = load_nodes(from)?;
         self.injections.load_injected(from, &mut outside.injections)?;
         self.own.both_to_load().0.datagram = from.take()?;
-        self.subscribed = from.take()?;
+        let recorded: Subscribed = from.take()?;
+        let mut wanted = self.subscriptions.wanted();
+        self.subscribed = Subscribed {
+            game_controller_parser_refusal: wanted.next_one()
+                || recorded.game_controller_parser_refusal,
+            team_message_parser_refusal: wanted.next_one()
+                || recorded.team_message_parser_refusal,
+        };
         Ok(())
     }
 
@@ -176,6 +183,7 @@ pub fn replay_spl_network(
                     injections: injections_writer,
                     parameters: parameters_writer,
                 },
+                spl_network_subscriptions,
             ),
         ),
     )

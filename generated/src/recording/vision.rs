@@ -151,7 +151,19 @@ impl<Hardware: CameraInterface + Send + Sync> Recorded for Vision<Hardware> {
             &mut |cycle| stored.value("Control", cycle),
         )?;
         self.own.both_to_load().0.image = from.take()?;
-        self.subscribed = from.take()?;
+        let recorded: Subscribed = from.take()?;
+        let mut wanted = self.subscriptions.wanted();
+        self.subscribed = Subscribed {
+            ball_candidates: wanted.next_one() || recorded.ball_candidates,
+            ball_proposals: wanted.next_one() || recorded.ball_proposals,
+            field_border_points: wanted.next_one() || recorded.field_border_points,
+            image_circle: wanted.next_one() || recorded.image_circle,
+            image_lines: wanted.next_one() || recorded.image_lines,
+            line_points: wanted.next_one() || recorded.line_points,
+            obstacle_feet: wanted.next_one() || recorded.obstacle_feet,
+            penalty_mark_candidates: wanted.next_one()
+                || recorded.penalty_mark_candidates,
+        };
         Ok(())
     }
 
@@ -278,6 +290,7 @@ pub fn replay_vision_top(
                     parameters: parameters_writer,
                     control: control_writer,
                 },
+                vision_top_subscriptions,
             ),
         ),
     )
@@ -325,6 +338,7 @@ pub fn replay_vision_bottom(
                     parameters: parameters_writer,
                     control: control_writer,
                 },
+                vision_bottom_subscriptions,
             ),
         ),
     )

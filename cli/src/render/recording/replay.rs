@@ -8,7 +8,7 @@ use crate::model::frame::FrameField;
 use crate::model::runtime::{InstanceModel, end, queue};
 use crate::model::{CyclerModel, RuntimeModel};
 use crate::render::layout::doc;
-use crate::render::runtime::{quote_body_fields, quote_subscriptions};
+use crate::render::runtime::{quote_body_fields, quote_subscriptions, quote_subscriptions_of};
 use crate::render::spelling::{ident, path};
 
 /// Instances that can be replayed.
@@ -67,6 +67,7 @@ fn quote_replay(
         cycler.module, instance.constant
     ));
     let outside = quote_outside_of(cycler);
+    let subscriptions = quote_subscriptions_of(cycler, instance);
     quote! {
         #about
         pub fn #name(
@@ -84,7 +85,7 @@ fn quote_replay(
                 writer,
                 ::framework::Clock::stepped(),
             );
-            Ok(Box::new(::framework::replay::Alone::new(cycler, #outside)))
+            Ok(Box::new(::framework::replay::Alone::new(cycler, #outside, #subscriptions)))
         }
     }
 }

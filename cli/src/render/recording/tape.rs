@@ -6,6 +6,7 @@ use quote::quote;
 use crate::model::CyclerModel;
 use crate::model::cycler::OutputField;
 use crate::model::frame::FrameField;
+use crate::render::body::own;
 use crate::render::spelling::ident;
 
 /// Which way it goes.
@@ -53,7 +54,7 @@ pub(super) fn quote_tape(cycler: &CyclerModel, tape: Tape) -> TokenStream {
         FrameField::Procedures => procedures(cycler, tape),
         FrameField::Subscribed => match tape {
             Tape::Save => quote!(out.put(&self.subscribed);),
-            Tape::Load => quote!(self.subscribed = from.take()?;),
+            Tape::Load => load_subscribed(cycler),
             Tape::Describe => quote!(types.subscribed(|body| &body.subscribed);),
         },
     });
@@ -141,6 +142,21 @@ fn procedures(cycler: &CyclerModel, tape: Tape) -> TokenStream {
         }
     });
     procedures.collect()
+}
+
+/// Who listened when it was recorded, and who listens to the replay.
+fn load_subscribed(cycler: &CyclerModel) -> TokenStream {
+    let subscribed = own(cycler, "Subscribed");
+    let flags = cycler.additional_outputs.iter().map(|output| {
+        let flag = ident(&output.flag);
+        // The name is asked for in any case: each answer is the next name's.
+        quote!(#flag: wanted.next_one() || recorded.#flag,)
+    });
+    quote! {
+        let recorded: #subscribed = from.take()?;
+        let mut wanted = self.subscriptions.wanted();
+        self.subscribed = #subscribed { #(#flags)* };
+    }
 }
 
 /// Main outputs of this cycle or of the one before.

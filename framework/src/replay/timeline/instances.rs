@@ -88,8 +88,9 @@ fn link(player: &mut Player<'_>, chunks: &[Stored<'_>]) -> Result<InstanceLink> 
         let mut others = others.map(|position| player.load_at(position, chunks));
         others.find(Result::is_ok).unwrap_or(Err(why))
     })?;
-    let instance = player.replay_mut()?.instance_mut();
-    let subscriptions = Subscriptions::new(&[]);
+    let replay = player.replay_mut()?;
+    let subscriptions = replay.subscriptions().clone();
+    let instance = replay.instance_mut();
     let (taps, reports) = instance.tap(&subscriptions);
     let nodes = instance.report().nodes;
     Ok(InstanceLink {

@@ -15,6 +15,7 @@ use framework::Injected;
 use framework::OnFailure;
 use framework::Result;
 use framework::Slots;
+use framework::Subscriptions;
 use framework::Swap;
 use framework::Timestamp;
 use framework::Writer;
@@ -194,6 +195,7 @@ pub fn replay_drive(
                     parameters: parameters_writer,
                     lidar: lidar_writer,
                 },
+                Subscriptions::new(&[]),
             ),
         ),
     )

@@ -11,6 +11,7 @@ use framework::Injected;
 use framework::OnFailure;
 use framework::Result;
 use framework::Slots;
+use framework::Subscriptions;
 use framework::Swap;
 use framework::Timestamp;
 use framework::Writer;
@@ -174,6 +175,7 @@ pub fn replay_garden(
                     parameters: parameters_writer,
                     weather: weather_writer,
                 },
+                Subscriptions::new(&[]),
             ),
         ),
     )

@@ -14,6 +14,7 @@ use framework::Injected;
 use framework::OnFailure;
 use framework::Result;
 use framework::Slots;
+use framework::Subscriptions;
 use framework::Swap;
 use framework::Timestamp;
 use framework::Writer;
@@ -207,6 +208,7 @@ pub fn replay_localization(
                     odometry: odometry_writer,
                     radio: radio_writer,
                 },
+                Subscriptions::new(&[]),
             ),
         ),
     )

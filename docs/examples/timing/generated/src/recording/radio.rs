@@ -11,6 +11,7 @@ use framework::Injected;
 use framework::OnFailure;
 use framework::Result;
 use framework::Slots;
+use framework::Subscriptions;
 use framework::Timestamp;
 use framework::Writer;
 use framework::buffer;
@@ -118,6 +119,7 @@ pub fn replay_radio(
                 Outside {
                     injections: injections_writer,
                 },
+                Subscriptions::new(&[]),
             ),
         ),
     )

@@ -11,6 +11,7 @@ use framework::Injected;
 use framework::OnFailure;
 use framework::Result;
 use framework::Slots;
+use framework::Subscriptions;
 use framework::Swap;
 use framework::Timestamp;
 use framework::Writer;
@@ -156,6 +157,7 @@ pub fn replay_control(
                     injections: injections_writer,
                     parameters: parameters_writer,
                 },
+                Subscriptions::new(&[]),
             ),
         ),
     )

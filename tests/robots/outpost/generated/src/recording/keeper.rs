@@ -15,6 +15,7 @@ use framework::Interleaving;
 use framework::OnFailure;
 use framework::Result;
 use framework::Slots;
+use framework::Subscriptions;
 use framework::Swap;
 use framework::Timestamp;
 use framework::Writer;
@@ -195,6 +196,7 @@ pub fn replay_keeper(
                     lookout_north2: lookout_north2_writer,
                     lookout_south: lookout_south_writer,
                 },
+                Subscriptions::new(&[]),
             ),
         ),
     )

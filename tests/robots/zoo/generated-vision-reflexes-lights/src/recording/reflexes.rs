@@ -14,6 +14,7 @@ use framework::Injected;
 use framework::OnFailure;
 use framework::Result;
 use framework::Slots;
+use framework::Subscriptions;
 use framework::Swap;
 use framework::Timestamp;
 use framework::Writer;
@@ -196,6 +197,7 @@ pub fn replay_reflexes(
                     control: control_writer,
                     vision_bottom: vision_bottom_writer,
                 },
+                Subscriptions::new(&[]),
             ),
         ),
     )

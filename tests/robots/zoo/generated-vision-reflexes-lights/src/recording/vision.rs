@@ -153,7 +153,12 @@ impl<Hardware: EyeInterface + Send + Sync> Recorded for Vision<Hardware> {
         self.own.both_to_load().0.image = from.take()?;
         self.own.both_to_load().1.agreement = from.take()?;
         slots.previous.spots = from.take()?;
-        self.subscribed = from.take()?;
+        let recorded: Subscribed = from.take()?;
+        let mut wanted = self.subscriptions.wanted();
+        self.subscribed = Subscribed {
+            candidates: wanted.next_one() || recorded.candidates,
+            cycler_instance_width: wanted.next_one() || recorded.cycler_instance_width,
+        };
         Ok(())
     }
 
@@ -250,6 +255,7 @@ pub fn replay_vision_top(
                     vision_bottom: vision_bottom_writer,
                     control: control_writer,
                 },
+                vision_top_subscriptions,
             ),
         ),
     )
@@ -307,6 +313,7 @@ pub fn replay_vision_bottom(
                     vision_bottom: vision_bottom_writer,
                     control: control_writer,
                 },
+                vision_bottom_subscriptions,
             ),
         ),
     )

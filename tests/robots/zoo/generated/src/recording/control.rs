@@ -182,7 +182,12 @@ for Control<Hardware> {
         slots.previous.target = from.take()?;
         self.procedures.stop.load(from)?;
         self.procedures.walk.load(from)?;
-        self.subscribed = from.take()?;
+        let recorded: Subscribed = from.take()?;
+        let mut wanted = self.subscriptions.wanted();
+        self.subscribed = Subscribed {
+            debug_certainty: wanted.next_one() || recorded.debug_certainty,
+            debug_watcher_seen: wanted.next_one() || recorded.debug_watcher_seen,
+        };
         Body::restore(self)?;
         self.cycler_state = again.take()?;
         Ok(())
@@ -291,6 +296,7 @@ pub fn replay_control(
                     vision_bottom: vision_bottom_writer,
                     hearing: hearing_writer,
                 },
+                control_subscriptions,
             ),
         ),
     )

@@ -11,6 +11,7 @@ use framework::Injected;
 use framework::OnFailure;
 use framework::Result;
 use framework::Slots;
+use framework::Subscriptions;
 use framework::Timestamp;
 use framework::Writer;
 use framework::buffer;
@@ -126,6 +127,7 @@ pub fn replay_hearing(
                 Outside {
                     injections: injections_writer,
                 },
+                Subscriptions::new(&[]),
             ),
         ),
     )

@@ -10,6 +10,7 @@ use framework::Guarded;
 use framework::OnFailure;
 use framework::Result;
 use framework::Slots;
+use framework::Subscriptions;
 use framework::Timestamp;
 use framework::Writer;
 use framework::buffer;
@@ -125,5 +126,13 @@ pub fn replay_lights(
         writer,
         Clock::stepped(),
     );
-    Ok(Box::new(Alone::new(cycler, Outside { control: control_writer })))
+    Ok(
+        Box::new(
+            Alone::new(
+                cycler,
+                Outside { control: control_writer },
+                Subscriptions::new(&[]),
+            ),
+        ),
+    )
 }

@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use framework::recorded::{Loading, Settings};
 use framework::replay::{
-    Move, PROCEDURE, Players, TIMELINE, Timeline, ValueChannels, What, first_parameters,
+    Move, PROCEDURE, Players, Ran, TIMELINE, Timeline, ValueChannels, What, first_parameters,
     value_channels,
 };
 use framework::{InstanceDescription, Record, Reflect, Stop, Target, Timestamp, launch};
@@ -170,6 +170,45 @@ fn time_goes_where_clients_want_it() {
         let error = timeline.go(&wrong).expect_err("it is not there");
         assert!(error.to_string().contains(message), "{error}");
     }
+}
+
+#[test]
+fn whoever_listens_to_additional_outputs_changes_nothing_else() {
+    let tape = Tape::new();
+    record_in_lockstep(&tape.path, Settings::default(), on, &as_it_is);
+    let file = tape.read();
+    let values = value_channels(&file).expect("it is of this version");
+    let mut players = Players::new(&file, &values, recording::INSTANCES).expect("it fits");
+    let (mut compared, mut filled) = (0, 0);
+    for (player, chunks) in players.each() {
+        for position in 0..player.frames.len() {
+            let Some(recorded) = player.frames[position].digests() else {
+                continue;
+            };
+            let ran = player.play(position, chunks).expect("the frame is whole");
+            let replay = player.replay().expect("it was loaded");
+            let subscriptions = replay.subscriptions();
+            let names = subscriptions.names().iter();
+            // From the second cycle on.
+            if position == 0 {
+                assert!(names.clone().all(|name| subscriptions.subscribe(name)));
+            }
+            if ran != Ran::Finished {
+                continue;
+            }
+            let instance = replay.instance();
+            filled += names
+                .filter(|name| instance.additional_output(name).is_some())
+                .count();
+            let mut digests = Vec::new();
+            let visited = instance.digests(&mut |_, _, digest| digests.push(digest));
+            visited.expect("every output serialises");
+            assert!(recorded.eq(digests), "{} {position}", player.instance);
+            compared += 1;
+        }
+    }
+    // Of two outputs of Control and one of each eye, where their nodes run.
+    assert!(compared > 300 && filled > 300, "{compared} {filled}");
 }
 
 #[test]
