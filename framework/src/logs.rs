@@ -8,9 +8,11 @@
 //!
 //! Without a sink nothing is collected, and a message costs one load.
 
+mod again;
 #[cfg(test)]
 mod tests;
 
+use std::borrow::Cow;
 use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::fmt::{self, Write};
@@ -29,6 +31,7 @@ use crate::clock::Clock;
 use crate::report::tell;
 use crate::time::Timestamp;
 
+pub(crate) use again::{Again, again, say_again};
 pub use tracing::Level;
 
 /// Messages that wait for the server.
@@ -67,13 +70,15 @@ struct Place {
 /// One message.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Record {
-    /// Of the robot's clock.
+    /// Of the robot's clock, of a recording's robot in a replay.
     pub time: Timestamp,
+    /// When the sink got it, by its own clock: the same, apart from a replay.
+    pub heard: Timestamp,
     pub level: Level,
     /// The module that says it.
-    pub module: &'static str,
+    pub module: Cow<'static, str>,
     /// Whose thread says it.
-    pub instance: Option<&'static str>,
+    pub instance: Option<Cow<'static, str>>,
     pub cycle: Option<u64>,
     pub message: String,
     /// What is said with it.
@@ -93,14 +98,14 @@ pub struct Sink {
 #[derive(Clone, Debug, Default)]
 pub struct Rates {
     /// Of each module: a second, and how many messages came in it.
-    seconds: BTreeMap<&'static str, (u64, usize)>,
+    seconds: BTreeMap<Cow<'static, str>, (u64, usize)>,
 }
 
 impl Rates {
-    /// Whether the module has said at most so many in the second of this message, with it.
+    /// Whether at most so many of the module were heard in the second of this message, with it.
     pub fn is_allowed(&mut self, record: &Record, most: usize) -> bool {
-        let second = record.time.as_nanos() / 1_000_000_000;
-        let rate = self.seconds.entry(record.module).or_default();
+        let second = record.heard.as_nanos() / 1_000_000_000;
+        let rate = self.seconds.entry(record.module.clone()).or_default();
         if rate.0 != second {
             *rate = (second, 0);
         }
@@ -181,8 +186,8 @@ impl Sink {
         tracing::callsite::rebuild_interest_cache();
     }
 
-    fn wants(&self, level: Level, module: &str, place: Option<Place>) -> bool {
-        level <= self.rules().of(module, place)
+    fn wants(&self, level: Level, module: &str, instance: Option<&str>) -> bool {
+        level <= self.rules().of(module, instance)
     }
 
     /// Whether what that robot says is for this one. A wall clock is the only one in its process.
@@ -204,8 +209,8 @@ impl Sink {
 
 impl Rules {
     /// The rule that says most about it holds.
-    fn of(&self, module: &str, place: Option<Place>) -> Level {
-        let of_instance = |rule: &&Rule| place.is_some_and(|it| it.instance == rule.instance);
+    fn of(&self, module: &str, instance: Option<&str>) -> Level {
+        let of_instance = |rule: &&Rule| instance.is_some_and(|it| it == rule.instance);
         let fits = |rule: &&Rule| {
             let wanted = rule.module.as_deref();
             of_instance(rule) && wanted.is_none_or(|wanted| is_within(module, wanted))
@@ -258,27 +263,45 @@ fn hand_out(
     module: &'static str,
     make: impl FnOnce() -> (String, Map<String, Value>),
 ) {
-    let (place, robot) = (PLACE.get(), ROBOT.get());
-    let sinks = SINKS.read().unwrap_or_else(PoisonError::into_inner);
-    let sinks = sinks.iter().filter_map(Weak::upgrade);
-    let wanting: Vec<_> = sinks
-        .filter(|sink| sink.is_of(robot) && sink.wants(level, module, place))
-        .collect();
+    if again::is_silent() {
+        return;
+    }
+    let place = PLACE.get();
+    let instance = place.map(|place| place.instance);
+    let wanting = sinks_for(level, module, instance, ROBOT.get());
     if wanting.is_empty() {
         return;
     }
     let (message, fields) = make();
+    if again::is_known(level, module, &message) {
+        return;
+    }
     for sink in wanting {
+        let heard = sink.clock.now();
         sink.keep(Record {
-            time: sink.clock.now(),
+            time: again::time().unwrap_or(heard),
+            heard,
             level,
-            module,
-            instance: place.map(|place| place.instance),
+            module: module.into(),
+            instance: instance.map(Cow::Borrowed),
             cycle: place.map(|place| place.cycle),
             message: message.clone(),
             fields: fields.clone(),
         });
     }
+}
+
+/// Everybody who wants such a message.
+fn sinks_for(
+    level: Level,
+    module: &str,
+    instance: Option<&str>,
+    robot: Option<usize>,
+) -> Vec<Arc<Sink>> {
+    let sinks = SINKS.read().unwrap_or_else(PoisonError::into_inner);
+    let sinks = sinks.iter().filter_map(Weak::upgrade);
+    let wants = |sink: &Arc<Sink>| sink.is_of(robot) && sink.wants(level, module, instance);
+    sinks.filter(wants).collect()
 }
 
 /// What `tracing` calls.

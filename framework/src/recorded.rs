@@ -30,6 +30,7 @@ pub(crate) use digests::DIGEST;
 pub use digests::Digests;
 pub use hulkgen_recording::{Counts, Settings};
 pub use inputs::{Foreign, Found};
+pub(crate) use logs::{from_log, recorded_logs};
 pub use output::Forms;
 pub(crate) use output::JSON;
 pub use report::{InstanceRecorded, Missing, RecordingReport};

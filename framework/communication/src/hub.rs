@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 
 use axum::extract::ws::Message as Frame;
 use framework::link::Link;
+use framework::parameters::Version;
 use framework::procedure::PendingAny;
 use framework::report::InstanceReport;
 use protocol::{Answer, Failure, Good, Level, Message, Outcome, Refusal, Welcome};
@@ -65,6 +66,8 @@ pub(crate) struct Hub {
     traces: Traces,
     press: Press,
     files_looked_at: Instant,
+    /// The version of the parameters that clients know.
+    pub(crate) told_parameters: Version,
     closely: Closely,
     next_client: u64,
 }
@@ -130,6 +133,7 @@ impl Hub {
                 .iter()
                 .flat_map(|instance| instance.nodes.iter().copied())
                 .collect(),
+            told_parameters: link.parameters.version(),
             link,
             rules,
             limits,
@@ -276,6 +280,10 @@ impl Hub {
         self.look_after_waiting();
         self.closely.stop_when_over();
         self.look_at_files();
+        if self.link.parameters.version() != self.told_parameters {
+            // In a replay they go with the time.
+            self.parameters_changed();
+        }
         let is_behind = self.tell_parameters();
         is_behind || !self.waiting.is_empty() || self.sources.iter().any(Source::is_open)
     }

@@ -1,5 +1,6 @@
 //! Log messages: fetched from where instances leave them, numbered, and kept for those who come late.
 
+use std::borrow::Cow;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
@@ -58,11 +59,11 @@ impl Logs {
 fn describe(record: Record, number: u64, nodes: &[&'static str]) -> Log {
     let within = nodes
         .iter()
-        .filter(|node| logs::is_within(record.module, node));
+        .filter(|node| logs::is_within(&record.module, node));
     let node = within.max_by_key(|node| node.len());
     let mut fields = record.fields;
     if node.is_none() {
-        fields.insert("module".to_owned(), record.module.into());
+        fields.insert("module".to_owned(), record.module.into_owned().into());
     }
     Log {
         number,
@@ -74,7 +75,7 @@ fn describe(record: Record, number: u64, nodes: &[&'static str]) -> Log {
             logs::Level::WARN => Level::Warn,
             logs::Level::ERROR => Level::Error,
         },
-        instance: record.instance.map(str::to_owned),
+        instance: record.instance.map(Cow::into_owned),
         node: node.map(|node| (*node).to_owned()),
         cycle: record.cycle,
         message: record.message,

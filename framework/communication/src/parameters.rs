@@ -14,7 +14,8 @@ use crate::outbox::Content;
 impl Hub {
     /// The parameters are not what they were: tells everybody.
     pub(crate) fn parameters_changed(&mut self) {
-        let version = self.link.parameters.version().0;
+        self.told_parameters = self.link.parameters.version();
+        let version = self.told_parameters.0;
         let changed = Message::ParametersChanged(ParametersChanged { version });
         for client in self.clients.values_mut() {
             client.outbox.say(&changed);

@@ -117,6 +117,7 @@ fn served<P: ParameterData>(
     serve: Serve,
 ) -> Result<bool> {
     let values = value_channels(recording)?;
+    let mut are_recorded = true;
     let parameters: P = match recorded_parameters(recording, &values) {
         Ok(parameters) => parameters,
         Err(why) => {
@@ -124,6 +125,7 @@ fn served<P: ParameterData>(
             let parameters = files.and_then(|files| files.deserialize());
             let parameters = parameters.map_err(|error| error.context(why.to_string()))?;
             tell(format_args!("{why}; those of the files are shown"));
+            are_recorded = false;
             parameters
         }
     };
@@ -135,6 +137,10 @@ fn served<P: ParameterData>(
     }
     let stop = Stop::new();
     let (mut timeline, link) = Timeline::new(target.robot, players, parameters, &stop)?;
+    if are_recorded {
+        timeline.follow_parameters();
+    }
+    timeline.say_again(recording);
     let listening = options
         .listening(target)
         .ok_or_else(|| Error::new("--listen off leaves nobody to show the recording to"))?;

@@ -10,10 +10,6 @@ fn rules(others: &[(&str, Option<&str>, Level)]) -> Arc<Sink> {
     sink
 }
 
-fn place(instance: &'static str) -> Option<Place> {
-    Some(Place { instance, cycle: 1 })
-}
-
 #[test]
 fn the_rule_that_says_most_holds() {
     let sink = rules(&[
@@ -29,21 +25,23 @@ fn the_rule_that_says_most_holds() {
         (Level::INFO, "walk", "Vision", true),
         (Level::DEBUG, "walk::step", "Vision", false),
     ] {
-        let wanted = sink.wants(level, module, place(instance));
+        let wanted = sink.wants(level, module, Some(instance));
         assert_eq!(wanted, expected, "{level} {module} {instance}");
     }
     assert!(!sink.wants(Level::DEBUG, "anything", None));
     sink.set_level(None, Level::DEBUG);
-    assert!(sink.wants(Level::DEBUG, "walk", place("Control")));
+    assert!(sink.wants(Level::DEBUG, "walk", Some("Control")));
 }
 
 #[test]
 fn a_module_says_so_many_messages_in_a_second() {
     let mut rates = Rates::default();
-    let record = |module, milliseconds: u64| Record {
-        time: Timestamp::from_nanos(milliseconds * 1_000_000),
+    let record = |module: &'static str, milliseconds: u64| Record {
+        // Of a recording, in which no time passes between them.
+        time: Timestamp::ZERO,
+        heard: Timestamp::from_nanos(milliseconds * 1_000_000),
         level: Level::INFO,
-        module,
+        module: module.into(),
         instance: None,
         cycle: None,
         message: String::new(),
@@ -70,7 +68,10 @@ fn a_message_knows_where_it_was_said_and_what_with() {
     let [record] = &records[..] else {
         panic!("one message: {records:?}")
     };
-    assert_eq!((record.instance, record.cycle), (Some("Test"), Some(7)));
+    assert_eq!(
+        (record.instance.as_deref(), record.cycle),
+        (Some("Test"), Some(7))
+    );
     assert_eq!(
         (record.level, record.message.as_str()),
         (Level::WARN, "it is deep")
@@ -124,4 +125,53 @@ fn what_finds_no_place_is_counted_and_long_texts_are_cut() {
         sink.take()
             .is_some_and(|record| record.message.len() <= LONGEST + 3)
     );
+}
+
+#[test]
+fn a_cycle_that_runs_again_says_what_the_recording_does_not_have_and_once() {
+    let clock = Clock::stepped();
+    let sink = Sink::new(clock.clone());
+    let _within = within(&clock);
+    let at = Timestamp::from_nanos(7);
+    let recorded = Record {
+        time: Timestamp::from_nanos(8),
+        heard: Timestamp::ZERO,
+        level: Level::WARN,
+        module: "test::again".into(),
+        instance: Some("Test".into()),
+        cycle: Some(3),
+        message: "it is dark".to_owned(),
+        fields: Map::new(),
+    };
+    let known = vec![recorded.clone()];
+    let say = || {
+        enter("Test", 3);
+        for message in ["it is dark", "it is bright"] {
+            tracing::warn!(target: "test::again", "{message}");
+        }
+        tracing::error!(target: "test::again", "it is dark");
+    };
+    say_again(&recorded);
+    {
+        let _again = again(Again::Apart { at, known });
+        say();
+    }
+    {
+        let _again = again(Again::Silent);
+        say();
+    }
+    enter("Test", 4);
+    tracing::warn!(target: "test::again", "it is dark");
+    let heard = std::iter::from_fn(|| sink.take()).filter(|record| record.module == "test::again");
+    let heard = heard.map(|record| (record.time.as_nanos(), record.cycle, record.message));
+    let heard: Vec<_> = heard.collect();
+    let expected = [
+        (8, Some(3), "it is dark"),
+        // What the recording does not have, or not so.
+        (7, Some(3), "it is bright"),
+        (7, Some(3), "it is dark"),
+        (0, Some(4), "it is dark"),
+    ];
+    let expected = expected.map(|(time, cycle, message)| (time, cycle, message.to_owned()));
+    assert_eq!(heard, expected);
 }

@@ -29,6 +29,10 @@ pub use provenance::{Leaf, Provenance, Reading};
 pub use refusal::{Refusal, Refusals};
 pub use store::Stored;
 
+/// Why nobody changes the parameters of a recording.
+const FROZEN: &str = "this is a recording, and its parameters are what they were: `hulkgen replay FILE --set PATH=VALUE` \
+                      says what others would change";
+
 /// Which set of parameters: 0 at the start, one more with every change and every reload.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(transparent)]
@@ -66,6 +70,8 @@ struct State {
     /// Neither is within the other.
     changes: Vec<(Path, Version)>,
     version: Version,
+    /// They are those of a recording: they stay what they were.
+    is_frozen: bool,
 }
 
 impl<P: ParameterData> LiveParameters<P> {
@@ -78,6 +84,7 @@ impl<P: ParameterData> LiveParameters<P> {
                 files: None,
                 changes: Vec::new(),
                 version: Version::default(),
+                is_frozen: false,
             })),
         };
         Self {
@@ -176,6 +183,24 @@ impl Live {
         paths
     }
 
+    /// They are those of a recording: from now on nobody changes, stores or reloads them.
+    pub(crate) fn freeze(&self) {
+        self.state().is_frozen = true;
+    }
+
+    /// Everybody sees what a recording has of this version.
+    ///
+    /// # Errors
+    /// If the bytes are no such parameters; then nothing changed.
+    pub(crate) fn show(&self, version: Version, recorded: &[u8]) -> Result<()> {
+        let mut state = self.state();
+        state.values.discard();
+        state.values.load_recorded(recorded)?;
+        state.version = version;
+        state.values.publish(version);
+        Ok(())
+    }
+
     fn state(&self) -> MutexGuard<'_, State> {
         // A panic between two operations leaves a draft, which the next one throws away.
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
@@ -197,6 +222,7 @@ fn collect_creation_only(shape: &Shape, prefix: &str, paths: &mut Vec<String>) {
 
 impl State {
     fn change(&mut self, shape: &Shape, changes: &[(&str, &Value)]) -> Result<Version, Refusals> {
+        self.check_frozen()?;
         let mut refusals = Vec::new();
         let mut paths = Vec::new();
         self.values.discard();
@@ -218,6 +244,13 @@ impl State {
             self.note(path, version);
         }
         Ok(version)
+    }
+
+    fn check_frozen(&self) -> Result<(), Refusal> {
+        match self.is_frozen {
+            true => Err(Refusal::new("", FROZEN)),
+            false => Ok(()),
+        }
     }
 
     /// The draft becomes what everybody sees.
@@ -259,6 +292,7 @@ impl State {
     }
 
     fn reload(&mut self, shape: &Shape) -> Result<Version> {
+        self.check_frozen()?;
         let files = self.files.as_mut().ok_or_else(files::without)?;
         files.look()?;
         self.take_files(shape, false)

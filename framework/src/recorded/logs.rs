@@ -8,14 +8,16 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
-use hulkgen_recording::{Channel, ChannelId, Description, Schema, Track};
-use serde_json::Value;
+use hulkgen_recording::{Channel, ChannelId, Description, Recording as File, Schema, Track};
+use serde::Deserialize;
+use serde_json::{Map, Value};
 
 use super::SaveError;
 use super::output::JSON;
 use crate::clock::Clock;
 use crate::foxglove::{Log, Message};
 use crate::logs::{Level, Rates, Record, Sink};
+use crate::time::Timestamp;
 
 /// What the channel is called, and the track among those of instances.
 pub(super) const LOGS: &str = "logs";
@@ -116,14 +118,16 @@ impl Writing {
         left_out += self.sink.left_out();
         if left_out > 0 {
             let message = format!("{left_out} messages were left out: too many at once");
+            let now = self.clock.now();
             self.write(&Record {
-                time: self.clock.now(),
+                time: now,
+                heard: now,
                 level: Level::WARN,
-                module: module_path!(),
+                module: module_path!().into(),
                 instance: None,
                 cycle: None,
                 message,
-                fields: serde_json::Map::new(),
+                fields: Map::new(),
             });
         }
         // Whoever looks at the file of a running robot finds them.
@@ -154,14 +158,58 @@ fn as_log(record: &Record) -> Value {
             Level::ERROR => 4,
         },
         message: record.message.clone(),
-        name: record.module.to_owned(),
+        name: record.module.clone().into_owned(),
         ..Log::default()
     };
     let mut log = crate::foxglove::written(&log).unwrap_or_default();
     if let Some(log) = log.as_object_mut() {
-        log.insert("instance".to_owned(), record.instance.into());
+        log.insert("instance".to_owned(), record.instance.as_deref().into());
         log.insert("cycle".to_owned(), record.cycle.into());
         log.insert("fields".to_owned(), record.fields.clone().into());
     }
     log
+}
+
+/// A message as a recording has it; more is in it for other tools.
+#[derive(Deserialize)]
+struct Said {
+    level: u8,
+    message: String,
+    name: String,
+    #[serde(default)]
+    instance: Option<String>,
+    #[serde(default)]
+    cycle: Option<u64>,
+    #[serde(default)]
+    fields: Map<String, Value>,
+}
+
+/// The messages of a recording, in the order of the file: time and JSON.
+pub(crate) fn recorded_logs(file: &File) -> impl Iterator<Item = (Timestamp, &[u8])> {
+    let mut channels = file.channels.iter();
+    let own = channels.find(|(_, one)| one.topic == LOGS && one.encoding == JSON);
+    let own = own.map(|(number, _)| *number);
+    let messages = file.chunks.iter().flat_map(|chunk| chunk.messages());
+    let messages = messages.filter(move |message| Some(message.channel) == own);
+    messages.map(|message| (Timestamp::from_nanos(message.time), message.data))
+}
+
+/// What was said at this time; `None`: the bytes are no such message.
+pub(crate) fn from_log(time: Timestamp, json: &[u8]) -> Option<Record> {
+    let said: Said = serde_json::from_slice(json).ok()?;
+    Some(Record {
+        time,
+        heard: time,
+        level: match said.level {
+            0 | 1 => Level::DEBUG,
+            2 => Level::INFO,
+            3 => Level::WARN,
+            _ => Level::ERROR,
+        },
+        module: said.name.into(),
+        instance: said.instance.map(Into::into),
+        cycle: said.cycle,
+        message: said.message,
+        fields: said.fields,
+    })
 }

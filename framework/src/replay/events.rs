@@ -107,7 +107,7 @@ fn changes(players: &Players<'_>) -> impl Iterator<Item = Happened> {
 }
 
 /// Frames of other instances begin with something else.
-fn reads_parameters(player: &Player<'_>) -> bool {
+pub(super) fn reads_parameters(player: &Player<'_>) -> bool {
     let mut reads = false;
     if let Some(replay) = player.replay() {
         let instance = replay.instance();

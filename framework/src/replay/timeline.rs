@@ -4,10 +4,13 @@
 //! the procedure [`PROCEDURE`], which moves the time of the recording and says where it is.
 
 mod instances;
+mod parameters;
+mod said;
 
 use std::collections::BTreeSet;
 use std::time::{Duration, Instant};
 
+use hulkgen_recording::Recording;
 use serde::{Deserialize, Serialize};
 
 use super::events::{Happened, events};
@@ -17,12 +20,15 @@ use crate::clock::Clock;
 use crate::data::ParameterData;
 use crate::error::{Error, Result};
 use crate::link::Link;
+use crate::logs::{Again, again};
 use crate::parameters::LiveParameters;
 use crate::procedure::{Answerer, procedure};
 use crate::rearm::Rearm;
 use crate::report::tell;
 use crate::stop::Stop;
 use crate::time::Timestamp;
+use parameters::RecordedParameters;
+use said::Said;
 
 /// The instance that clients call.
 pub const TIMELINE: &str = "Replay";
@@ -108,6 +114,10 @@ pub struct Timeline<'r> {
     is_playing: bool,
     speed: f64,
     moves: Answerer<Move, Place>,
+    parameters: RecordedParameters<'r>,
+    said: Said<'r>,
+    /// The position of each instance that ran last: what it says when it runs again was heard.
+    heard: Vec<Option<usize>>,
     /// Instances and positions of the frames that do not fit: each is told once.
     unreadable: BTreeSet<(usize, usize)>,
 }
@@ -147,6 +157,9 @@ impl<'r> Timeline<'r> {
             remotes: Vec::new(),
         };
         let timeline = Self {
+            parameters: RecordedParameters::fixed(parameters.live()),
+            said: Said::default(),
+            heard: vec![None; players.players.len()],
             players,
             moments,
             passed: 0,
@@ -157,6 +170,17 @@ impl<'r> Timeline<'r> {
             unreadable: BTreeSet::new(),
         };
         Ok((timeline, link))
+    }
+
+    /// From now on the parameters that clients see are what the cycles took that are shown; else they stay as they are.
+    pub fn follow_parameters(&mut self) {
+        self.parameters.follow(&self.players, &self.moments);
+        self.parameters.show(self.passed);
+    }
+
+    /// From now on clients hear what was said when this recording was made, of which the cycles are.
+    pub fn say_again(&mut self, recording: &'r Recording) {
+        self.said = Said::new(recording, &self.players, &self.moments);
     }
 
     /// Plays, and does what clients ask, until it is told to stop or the time is over.
@@ -215,7 +239,8 @@ impl<'r> Timeline<'r> {
         let passed = match (asked.time, asked.cycle, asked.step) {
             (None, None, None) => None,
             (Some(time), None, None) => {
-                let at = Timestamp::from_nanos((time.max(0.0) * 1e9) as u64);
+                // The seconds of a cycle, as `events` tells them, lead to that cycle.
+                let at = Timestamp::from_nanos((time.max(0.0) * 1e9).round() as u64);
                 Some(
                     self.moments
                         .partition_point(|moment| moment.at <= at)
@@ -237,7 +262,8 @@ impl<'r> Timeline<'r> {
             .play
             .unwrap_or(self.is_playing && asked.step.is_none());
         if let Some(passed) = passed {
-            self.passed = passed;
+            let before = std::mem::replace(&mut self.passed, passed);
+            self.come_from(before);
             self.now = self.moments[passed - 1].at.as_nanos() as f64;
             if let Some(time) = asked.time {
                 let (begins, ends) = self.ends();
@@ -282,6 +308,7 @@ impl<'r> Timeline<'r> {
         let (begins, ends) = self.ends();
         let wanted = self.now + elapsed.as_nanos() as f64 * self.speed;
         self.now = wanted.clamp(begins, ends);
+        let before = self.passed;
         while let Some(moment) = self.moments.get(self.passed).copied() {
             if self.speed < 0.0 || moment.at.as_nanos() as f64 > self.now {
                 break;
@@ -299,10 +326,17 @@ impl<'r> Timeline<'r> {
                 self.play(left, position);
             }
         }
+        self.come_from(before);
         if wanted != self.now {
             // It has come to one of its ends.
             self.is_playing = false;
         }
+    }
+
+    /// After time went on or back: what goes with it beside the cycles.
+    fn come_from(&mut self, before: usize) {
+        self.parameters.show(self.passed);
+        self.said.pass(before, self.passed);
     }
 
     /// Runs the cycles again at which the time stands.
@@ -319,6 +353,14 @@ impl<'r> Timeline<'r> {
         let Some((player, chunks)) = players.nth(index) else {
             return;
         };
+        let is_heard = self.heard[index].replace(position) == Some(position);
+        let _again = again(match is_heard {
+            true => Again::Silent,
+            false => Again::Apart {
+                at: player.frames[position].head.start,
+                known: self.said.of(index, position),
+            },
+        });
         // What is abandoned or asks the hardware has no outputs to show.
         let played: Result<Ran> = player.play(position, chunks);
         if let Err(error) = played

@@ -166,6 +166,7 @@ impl Client {
     }
 
     pub(crate) fn try_receive(&mut self) -> Result<Value, tungstenite::Error> {
+        let started = Instant::now();
         loop {
             match self.piece()? {
                 Message::Text(text) => {
@@ -176,7 +177,8 @@ impl Client {
                     return Ok(json!({ "bytes": begin }));
                 }
                 Message::Close(_) => return Err(tungstenite::Error::ConnectionClosed),
-                _ => {}
+                // It only asks whether somebody is there.
+                _ => assert!(started.elapsed() < PATIENCE, "no message came"),
             }
         }
     }
@@ -262,6 +264,7 @@ impl Client {
 
     /// The next update of a subscription.
     pub(crate) fn update(&mut self, subscription: u32) -> Value {
+        let started = Instant::now();
         let waits = |message: &Value| message["update"]["subscription"] == json!(subscription);
         if let Some(position) = self.waiting.iter().position(waits) {
             return self.waiting.remove(position)["update"].clone();
@@ -271,6 +274,7 @@ impl Client {
             if waits(&message) {
                 return message["update"].clone();
             }
+            assert!(started.elapsed() < PATIENCE, "no update came");
             self.waiting.push(message);
         }
     }

@@ -31,6 +31,7 @@ impl State {
         layer: &str,
         paths: &[&str],
     ) -> Result<Stored, Refusals> {
+        self.check_frozen()?;
         let paths = self.paths_to_store(shape, paths)?;
         let files = self.files.as_mut().ok_or_else(|| whole(files::without()))?;
         let file = files

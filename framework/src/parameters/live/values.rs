@@ -8,6 +8,7 @@ use crate::buffer::Writer;
 use crate::clock::Clock;
 use crate::data::ParameterData;
 use crate::error::Result;
+use crate::recorded::Loading;
 use crate::reflect::{self, Path, Reflect};
 
 /// All parameters: as they are, as the layers have them, and as they may be next.
@@ -27,6 +28,9 @@ pub(super) trait Values: Send {
 
     /// The draft becomes what was loaded; the same, for [`Values::set_stored`].
     fn load(&mut self, loaded: &Parameters) -> Result<Box<dyn std::any::Any>>;
+
+    /// The draft becomes what a recording has, and so does what the layers have.
+    fn load_recorded(&mut self, recorded: &[u8]) -> Result<()>;
 
     /// What the layers have, as it was loaded.
     fn set_stored(&mut self, loaded: Box<dyn std::any::Any>);
@@ -90,6 +94,13 @@ impl<P: ParameterData> Values for Typed<P> {
         let loaded: P = loaded.deserialize()?;
         self.draft = Some(loaded.clone());
         Ok(Box::new(loaded))
+    }
+
+    fn load_recorded(&mut self, recorded: &[u8]) -> Result<()> {
+        let recorded: P = Loading::new(recorded).take()?;
+        self.stored = recorded.clone();
+        self.draft = Some(recorded);
+        Ok(())
     }
 
     fn set_stored(&mut self, loaded: Box<dyn std::any::Any>) {

@@ -1,0 +1,88 @@
+//! Which parameters the cycles took that are shown.
+
+use super::Moment;
+use crate::parameters::{Live, Version};
+use crate::recorded::PARAMETERS;
+use crate::replay::Players;
+use crate::replay::events::reads_parameters;
+use crate::report::tell;
+
+/// The parameters that clients see, and what the recording has of them.
+pub(super) struct RecordedParameters<'r> {
+    live: Live,
+    /// In order of time, and of the versions; empty: they stay as they are.
+    changes: Vec<Change<'r>>,
+    /// Which of the changes is shown.
+    shown: Option<usize>,
+}
+
+/// A version that was there from a cycle on.
+struct Change<'r> {
+    /// How many moments have been once it is there.
+    passed: usize,
+    version: Version,
+    bytes: &'r [u8],
+}
+
+impl<'r> RecordedParameters<'r> {
+    /// Those that stay as they are.
+    pub(super) fn fixed(live: Live) -> Self {
+        live.freeze();
+        Self {
+            live,
+            changes: Vec::new(),
+            shown: None,
+        }
+    }
+
+    /// From now on they are what the newest of these cycles took.
+    pub(super) fn follow(&mut self, players: &Players<'r>, moments: &[Moment]) {
+        for (index, moment) in moments.iter().enumerate() {
+            let player = &players.players[moment.instance];
+            let version = match reads_parameters(player) {
+                true => player.parameters_version(moment.position),
+                false => continue,
+            };
+            let Ok(version) = version else {
+                continue;
+            };
+            // A cycle that began earlier, and came here later, has older ones.
+            if self
+                .changes
+                .last()
+                .is_some_and(|last| version <= last.version.0)
+            {
+                continue;
+            }
+            let chunk = player.chunk_of(moment.position);
+            if let Some(bytes) = players.bytes(chunk, PARAMETERS, version) {
+                self.changes.push(Change {
+                    passed: index + 1,
+                    version: Version(version),
+                    bytes,
+                });
+            }
+        }
+    }
+
+    /// Shows those of the time at which so many moments have been.
+    pub(super) fn show(&mut self, passed: usize) {
+        let been = self
+            .changes
+            .partition_point(|change| change.passed <= passed);
+        // Before the first that is known it is the best guess.
+        let wanted = been.saturating_sub(1);
+        let Some(change) = self.changes.get(wanted) else {
+            return;
+        };
+        if self.shown.replace(wanted) == Some(wanted) {
+            return;
+        }
+        if let Err(error) = self.live.show(change.version, change.bytes) {
+            let Version(version) = change.version;
+            tell(format_args!(
+                "version {version} of the parameters cannot be shown: {error}"
+            ));
+        }
+    }
+}
