@@ -49,6 +49,7 @@ pub(crate) struct Look {
 /// What vision makes of one image.
 #[derive(Debug, Default)]
 pub(crate) struct Sight {
+    pub(crate) limb_mask: LimbMask,
     pub(crate) color: FieldColor,
     pub(crate) border: FieldBorder,
     pub(crate) lines: Vec<LineSegment>,
@@ -121,6 +122,7 @@ impl Vision {
         self.find_balls(&matrix, &image_segments, &mut sight);
         self.find_obstacles(&matrix, &image_segments, &mut sight);
         self.spent = processor_time() - begun;
+        sight.limb_mask = limb_mask;
         sight
     }
 
