@@ -64,6 +64,12 @@ fn play_file(scenario: &Path, options: &[&str]) -> Value {
     outcome
 }
 
+/// Where a robot that has seen a ball says where it lies.
+const BALLS: [&str; 2] = [
+    "Control.main_outputs.ball.",
+    "Control.additional_outputs.ball_filter.persistent_ball.",
+];
+
 #[test]
 fn every_scenario_asserts_what_there_is() {
     let files = files();
@@ -90,7 +96,7 @@ fn every_scenario_asserts_what_there_is() {
             let found = match value.split_once('.') {
                 Some(("truth", path)) => has(&truth, path),
                 // A ball is known to nobody who has not seen one.
-                _ => match value.strip_prefix("Control.main_outputs.ball.") {
+                _ => match BALLS.iter().find_map(|start| value.strip_prefix(start)) {
                     Some(path) => has(&ball, path),
                     None => nao.robot.read(value).is_ok(),
                 },
