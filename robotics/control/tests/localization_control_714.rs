@@ -1,15 +1,13 @@
-//! Cycle 2897 of Control as it was recorded: `control::localization` computes the same again, bit for bit.
+//! Cycle 714 of Control as it was recorded: `control::localization` computes the same again, bit for bit.
 //!
-//! Written by `hulkgen capture`, with its values in `captured/localization_control_2897.json`.
-//! Vision of that day told neither circles nor corners: written in by hand, with the digest of the state that has room for them.
-//! So are the parameters that stood in code that day.
+//! Written by `hulkgen capture`, with its values in `captured/localization_control_714.json`.
 
 use control::localization::{CycleContext, Localization};
 use framework::testing::{AdditionalProbe, Captured};
 
 #[test]
-fn localization_computes_cycle_2897_of_control_again() {
-    let captured = Captured::new(include_str!("captured/localization_control_2897.json"));
+fn localization_computes_cycle_714_of_control_again() {
+    let captured = Captured::new(include_str!("captured/localization_control_714.json"));
     let mut node: Localization = captured.state();
     let lines = captured.series("lines");
     let lines = lines.seen();

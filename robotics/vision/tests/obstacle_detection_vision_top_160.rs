@@ -1,0 +1,33 @@
+//! Cycle 160 of VisionTop as it was recorded: `vision::obstacle_detection` computes the same again, bit for bit.
+//!
+//! Written by `hulkgen capture`, with its values in `captured/obstacle_detection_vision_top_160.json`.
+
+use framework::testing::{AdditionalProbe, Captured};
+use vision::obstacle_detection::{CycleContext, ObstacleDetection};
+
+#[test]
+fn obstacle_detection_computes_cycle_160_of_vision_top_again() {
+    let captured = Captured::new(include_str!(
+        "captured/obstacle_detection_vision_top_160.json"
+    ));
+    let mut node: ObstacleDetection = captured.state();
+    let mut obstacle_feet = AdditionalProbe::default();
+    let mut obstacles = Default::default();
+    let context = CycleContext {
+        image_segments: &captured.value("image_segments"),
+        field_border: &captured.value("field_border"),
+        lines: &captured.value("lines"),
+        camera_matrix: &captured.value("camera_matrix"),
+        line_width: &captured.value("line_width"),
+        parameters: &captured.value("parameters"),
+        projection_noise: &captured.value("projection_noise"),
+        obstacle_feet: obstacle_feet.output(),
+        obstacles: &mut obstacles,
+    };
+    let outputs = node
+        .cycle(context)
+        .expect("it did not fail when it was recorded");
+    captured.assert_output("obstacles", &obstacles);
+    captured.assert_state(&node);
+    drop(outputs);
+}
