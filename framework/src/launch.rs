@@ -211,6 +211,7 @@ where
         Some(listening) => {
             let mut link = robot.link(stop, threads.rearming());
             link.procedures = world::procedures(&hardware);
+            link.recorded = (recording.as_ref()).map_or_else(Vec::new, Recording::shared_counts);
             start_server(link, listening, serve)?
         }
         None => None,

@@ -6,6 +6,7 @@ use crate::clock::Clock;
 use crate::cycler::{Counters, InstanceDescription};
 use crate::parameters::Live;
 use crate::rearm::Rearm;
+use crate::recorded::Counts;
 use crate::remote::Feed;
 use crate::robot::{Access, Robot};
 use crate::stop::Stop;
@@ -30,6 +31,9 @@ pub struct Link {
     pub instances: Vec<InstanceLink>,
     /// Instances that other machines run, in manifest order.
     pub remotes: Vec<Box<dyn Feed>>,
+    /// What became of the frames of a recording, as [`Recording::shared_counts`](crate::recorded::Recording::shared_counts)
+    /// tells it; empty where nothing is recorded.
+    pub recorded: Vec<(String, Arc<Counts>)>,
 }
 
 /// One instance, for clients.
@@ -79,6 +83,7 @@ impl<P> Robot<P> {
             parameters: self.parameters.live(),
             instances: instances.collect(),
             remotes: std::mem::take(&mut self.remotes),
+            recorded: Vec::new(),
         }
     }
 }

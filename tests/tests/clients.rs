@@ -271,6 +271,20 @@ fn a_token_is_asked_for_before_anything_is_changed() {
     assert_eq!(robot.lines("param get ball_filter.gate")[0]["value"], 2.5);
 }
 
+/// Until `top` tells that frames of this instance are recorded.
+fn await_recorded(robot: &Robot, instance: &str) {
+    let begin = Instant::now();
+    loop {
+        let timings = robot.lines("top --count 1").remove(0);
+        let all = timings["recording"].as_array().into_iter().flatten();
+        let mut own = all.filter(|one| one["of"] == instance);
+        if own.any(|one| one["recorded"].as_u64() > Some(0)) {
+            break;
+        }
+        assert!(begin.elapsed() < PATIENCE, "{timings}");
+    }
+}
+
 #[test]
 fn procedures_timings_and_logs_are_there() {
     let robot = Robot::start(&[]);
@@ -282,11 +296,16 @@ fn procedures_timings_and_logs_are_there() {
     let control = instances.iter().find(|one| one["name"] == "Control");
     let nodes = control.and_then(|control| control["nodes"].as_array());
     assert!(nodes.is_some_and(|nodes| nodes.len() > 20), "{timings}");
+    await_recorded(&robot, "Control");
     let table = robot.answer("top --count 1");
     assert!(
         table.contains("overruns") && table.contains("vision::image_receiver"),
         "{table}"
     );
+    let mut below = table
+        .lines()
+        .skip_while(|line| !line.starts_with("recording "));
+    assert!(below.any(|line| line.starts_with("Control ")), "{table}");
     let trace = &robot.lines("top --trace 0.5")[0];
     let events = trace["traceEvents"].as_array().expect("a list");
     for name in ["Control", "VisionTop", "vision::image_receiver"] {
@@ -361,6 +380,7 @@ fn who_watches_a_scenario_chooses_another_one() {
     let choices = serde_json::json!(["far", "near", "strange"]);
     let is = |playing: &str| serde_json::json!({ "playing": playing, "choices": choices });
     assert_eq!(programme("null"), is("near"));
+    await_recorded(&robot, "Control");
     for (argument, told) in [
         (r#""nowhere""#, "there are: far, near, strange"),
         (r#""wrong""#, "wrong.toml"),

@@ -2,10 +2,12 @@
 
 use std::time::Duration;
 
+use framework::recorded::Counts;
 use framework::report::{InstanceReport, NodeReport, QueueReport};
 use framework::timing::Histogram;
 use protocol::{
-    Durations, Granted, InstanceTimings, NodeTimings, QueueTimings, RemoteTimings, Timings,
+    Durations, Granted, InstanceTimings, NodeTimings, QueueTimings, RecordingCounts, RemoteTimings,
+    Timings,
 };
 
 use crate::hub::Hub;
@@ -44,10 +46,12 @@ pub(crate) fn describe(hub: &Hub, reports: &[Option<Box<InstanceReport>>]) -> Ti
             refused: counts.refused,
         }
     });
+    let recorded = hub.link.recorded.iter();
     Timings {
         time: hub.link.clock.now().as_nanos(),
         instances: described.collect(),
         remotes: remotes.collect(),
+        recording: recorded.map(|(of, counts)| recording(of, counts)).collect(),
     }
 }
 
@@ -80,6 +84,17 @@ fn queue(report: &QueueReport) -> QueueTimings {
         delivered: report.counts.delivered,
         late: report.counts.late,
         dropped: report.counts.dropped,
+    }
+}
+
+fn recording(of: &str, counts: &Counts) -> RecordingCounts {
+    RecordingCounts {
+        of: of.to_owned(),
+        recorded: counts.recorded(),
+        dropped: counts.dropped(),
+        failed: counts.failed(),
+        lost: counts.lost(),
+        overwritten: counts.overwritten(),
     }
 }
 

@@ -25,7 +25,8 @@ pub use parameters::{Leaf, Provenance, Reading, Stored, Unstored, UnstoredChange
 pub use paths::{Entry, EntryKind, Range};
 pub use request::{Ask, Change, Encoding, Level, Request};
 pub use timings::{
-    Durations, Granted, InstanceTimings, NodeTimings, QueueTimings, RemoteTimings, Timings,
+    Durations, Granted, InstanceTimings, NodeTimings, QueueTimings, RecordingCounts, RemoteTimings,
+    Timings,
 };
 
 /// What both sides have to agree on. A robot may say more in a later version of the same number, never something else.

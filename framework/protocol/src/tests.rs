@@ -119,6 +119,7 @@ const HONEST: &[&str] = &[
     r#"{"id":1,"ask":{"trace":{"seconds":1e3}}}"#,
     r#"{"id":1,"ask":{"complete":{"instance":"A","time":9,"outputs":{"b":[1]}}}}"#,
     r#"{"answer":{"id":2,"ok":{"timings":{"time":1,"instances":[],"remotes":[{"name":"A","is_fed":true,"completed":5,"unannounced":1,"abandoned":2,"refused":3}]}}}}"#,
+    r#"{"answer":{"id":2,"ok":{"timings":{"time":1,"instances":[],"recording":[{"of":"A","recorded":9,"dropped":4,"failed":3,"lost":2,"overwritten":1}]}}}}"#,
 ];
 
 /// What was read, written and read again; whether it was a message at all.

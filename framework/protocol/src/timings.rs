@@ -13,6 +13,10 @@ pub struct Timings {
     /// Instances that other machines run, in manifest order.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub remotes: Vec<RemoteTimings>,
+    /// What became of the frames of a recording: by instance in manifest order, then values of outputs, then log messages; absent
+    /// where nothing is recorded.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub recording: Vec<RecordingCounts>,
 }
 
 /// One instance.
@@ -105,6 +109,31 @@ pub struct RemoteTimings {
     pub abandoned: u64,
     /// Messages that were refused.
     pub refused: u64,
+}
+
+/// What became of the frames of one instance in a recording, until now.
+#[derive(Clone, Debug, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
+pub struct RecordingCounts {
+    /// The instance; `INSTANCE.outputs`: values of its outputs; `logs`: log messages.
+    pub of: String,
+    /// Whole frames that were handed over to be written.
+    pub recorded: u64,
+    /// Frames for which there was no room.
+    pub dropped: u64,
+    /// Frames of which something could not be encoded.
+    pub failed: u64,
+    /// Of those recorded: the disk did not take them.
+    pub lost: u64,
+    /// Of those recorded: older ones that went because the file has no room for more.
+    pub overwritten: u64,
+}
+
+impl RecordingCounts {
+    /// Frames that are not in the file and never were.
+    pub fn missing(&self) -> u64 {
+        let parts = [self.dropped, self.failed, self.lost];
+        parts.into_iter().fold(0, u64::saturating_add)
+    }
 }
 
 /// Durations in microseconds.

@@ -155,6 +155,7 @@ impl<'r> Timeline<'r> {
             parameters: parameters.live(),
             instances,
             remotes: Vec::new(),
+            recorded: Vec::new(),
         };
         let timeline = Self {
             parameters: RecordedParameters::fixed(parameters.live()),

@@ -19,7 +19,7 @@ use crate::guarded::contain;
 use crate::hardware::Hardware;
 use crate::launch::{Listening, Served, start_server};
 use crate::procedure::{CallAny, PendingAny};
-use crate::recorded::Recording;
+use crate::recorded::{Counts, Recording};
 use crate::reflect::Shape;
 use crate::robot::Robot;
 use crate::stop::Stop;
@@ -77,13 +77,15 @@ pub(crate) fn play<H: Hardware + 'static, P: Send>(
     for (number, cast) in (1..).zip(casts.iter_mut()) {
         let hardware: &dyn Hardware = cast.hardware.as_ref();
         let recording = &mut cast.recording;
+        let recorded = (recording.as_ref()).map_or_else(Vec::new, Recording::shared_counts);
         let procedures = share_procedures(&mut cast.robot);
         let mut lockstep = beginning(&mut cast.robot, hardware, scenario, number)?
             .observed(|instance| recording.as_mut()?.observer(instance));
         if let Some(seat) = manner.audience.zip(seats.next()) {
             let mut procedures = world::procedures(&cast.hardware);
             procedures.extend(callers.iter().flat_map(Callers::procedures));
-            served.extend(seated(&mut lockstep, procedures, seat, manner.stop)?);
+            let tells = (procedures, recorded);
+            served.extend(seated(&mut lockstep, tells, seat, manner.stop)?);
         }
         hardwares.push(hardware);
         actors.push(Mutex::new(Actor {
@@ -203,16 +205,17 @@ impl End {
     }
 }
 
-/// The server of one robot, with what clients may do to its world.
+/// The server of one robot, with what clients may do to its world, and what became of its recording.
 fn seated<P>(
     lockstep: &mut Lockstep<'_, P>,
-    procedures: Vec<Named>,
+    (procedures, recorded): (Vec<Named>, Vec<(String, Arc<Counts>)>),
     (audience, listening): (&Audience, Listening),
     stop: &Stop,
 ) -> Result<Option<Box<dyn Served>>> {
     let rearm = lockstep.rearming();
     let mut link = lockstep.robot_mut().link(stop, rearm);
     link.procedures = procedures;
+    link.recorded = recorded;
     start_server(link, listening, audience.serve)
 }
 

@@ -416,6 +416,22 @@ export type Reading = {
   leaves: Array<Leaf>;
 };
 
+/** What became of the frames of one instance in a recording, until now. */
+export type RecordingCounts = {
+  /** The instance; `INSTANCE.outputs`: values of its outputs; `logs`: log messages. */
+  of: string;
+  /** Whole frames that were handed over to be written. */
+  recorded: number;
+  /** Frames for which there was no room. */
+  dropped: number;
+  /** Frames of which something could not be encoded. */
+  failed: number;
+  /** Of those recorded: the disk did not take them. */
+  lost: number;
+  /** Of those recorded: older ones that went because the file has no room for more. */
+  overwritten: number;
+};
+
 /** What is wrong with one of several things. */
 export type Refusal = {
   /** Of the thing. */
@@ -476,6 +492,11 @@ export type Timings = {
   instances: Array<InstanceTimings>;
   /** Instances that other machines run, in manifest order. */
   remotes?: Array<RemoteTimings>;
+  /**
+   * What became of the frames of a recording: by instance in manifest order, then values of outputs, then log messages; absent
+   * where nothing is recorded.
+   */
+  recording?: Array<RecordingCounts>;
 };
 
 /** What would be lost at the next start. */

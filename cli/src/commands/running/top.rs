@@ -4,7 +4,8 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use protocol::{
-    Ask, Durations, Good, Granted, InstanceTimings, NodeTimings, RemoteTimings, Timings,
+    Ask, Durations, Good, Granted, InstanceTimings, NodeTimings, RecordingCounts, RemoteTimings,
+    Timings,
 };
 use serde_json::json;
 
@@ -89,7 +90,32 @@ fn table(timings: &Timings, before: Option<&Timings>) -> String {
         Some(format!("{}: {}\n", instance.name, thread_text(granted)))
     });
     let remotes = timings.remotes.iter().map(remote_line);
-    text::columns(&rows, true) + &threads.chain(remotes).collect::<String>()
+    text::columns(&rows, true)
+        + &threads.chain(remotes).collect::<String>()
+        + &recording_table(&timings.recording)
+}
+
+/// What became of the frames of a recording, of those that have any.
+fn recording_table(recording: &[RecordingCounts]) -> String {
+    let rows: Vec<_> = recording.iter().filter_map(recording_row).collect();
+    if rows.is_empty() {
+        return String::new();
+    }
+    let head = "recording recorded dropped failed lost overwritten";
+    let head: Vec<_> = head.split(' ').map(str::to_owned).collect();
+    text::columns(&[vec![head], rows].concat(), true)
+}
+
+/// It ends with an exclamation mark where frames are missing.
+fn recording_row(of: &RecordingCounts) -> Option<Vec<String>> {
+    let counts = [of.recorded, of.dropped, of.failed, of.lost, of.overwritten];
+    if counts.iter().all(|count| *count == 0) {
+        return None;
+    }
+    let mut row = vec![of.of.clone()];
+    row.extend(counts.iter().map(u64::to_string));
+    row.extend((of.missing() > 0).then(|| "!".to_owned()));
+    Some(row)
 }
 
 /// What came of an instance that another machine runs.
@@ -202,6 +228,36 @@ mod tests {
                 "Lookout: fed by another machine; 5 completed, 1 of them unannounced, 2 abandoned, 3 refused"
             )
         );
+    }
+
+    #[test]
+    fn what_became_of_a_recording_stands_below_the_table() {
+        let of = |of: &str, [recorded, dropped, overwritten]: [u64; 3]| {
+            json!({
+                "of": of, "recorded": recorded, "dropped": dropped, "failed": 0, "lost": 0,
+                "overwritten": overwritten,
+            })
+        };
+        let shown = |recording: serde_json::Value| {
+            let timings = json!({ "time": 1, "instances": [], "recording": recording });
+            let timings = serde_json::from_value(timings).expect("these are timings");
+            let table = table(&timings, None);
+            let (_, below) = table.split_once('\n').expect("the table has a head");
+            below.to_owned()
+        };
+        let some = json!([
+            of("Control", [183, 0, 20]),
+            of("Vision", [7, 12, 0]),
+            of("Hearing", [0; 3]),
+            of("logs", [1, 0, 0]),
+        ]);
+        let expected = "recording  recorded  dropped  failed  lost  overwritten\n\
+                        Control         183        0       0     0           20\n\
+                        Vision            7       12       0     0            0  !\n\
+                        logs              1        0       0     0            0\n";
+        assert_eq!(shown(some), expected);
+        assert_eq!(shown(json!([of("Control", [0; 3])])), "");
+        assert_eq!(shown(json!([])), "");
     }
 
     #[test]

@@ -5,6 +5,7 @@ import { button, complain, download, make, wrapping } from "../view/dom";
 import { microseconds } from "../view/format";
 import { Flame } from "./flame";
 import type { Context, Panel, PanelKind } from "./panel";
+import { type RecordedLine, recordedElsewhere, recordedOf } from "./recorded";
 
 const PERIOD_MILLISECONDS = 1000;
 /** Of instances p99 as a share of the deadline, of nodes p50 as a share of the cycle's. */
@@ -22,7 +23,8 @@ function open(context: Context): Panel {
     if (context.robot.state.value !== "open" || document.hidden) return;
     try {
       const now = expect(await context.robot.ask({ timings: {} }), "timings");
-      body.replaceChildren(...now.instances.flatMap((instance) => rows(instance, now, before, closed, draw)));
+      const others = recordedElsewhere(now).map((one) => recordedLine(one, "instance"));
+      body.replaceChildren(...now.instances.flatMap((instance) => rows(instance, now, before, closed, draw)), ...others);
       before = now;
       complain(failure, null);
     } catch (error) {
@@ -61,6 +63,9 @@ function rows(instance: InstanceTimings, now: Timings, before: Timings | null, c
   const share = deadline === null || instance.cycle == null ? "" : `${((100 * instance.cycle.p99) / deadline).toFixed(0)} %`;
   const numbers = [rate, ...durations(instance.cycle), share, instance.cycles, "", instance.failures, instance.overruns];
   const lines = [line(title, numbers, instance.overruns + instance.failures > 0 ? "instance bad" : "instance")];
+  const recorded = recordedOf(now, instance.name);
+  // What is missing is seen whatever else is.
+  lines.push(...recorded.filter((one) => one.isMissing || !isClosed).map((one) => recordedLine(one, "node")));
   if (isClosed) return lines;
   const whole = instance.cycle?.p50 ?? 0;
   if (instance.lateness != null) lines.push(partLine("(late)", instance.lateness, 0, "from capture to begin"));
@@ -71,6 +76,10 @@ function rows(instance: InstanceTimings, now: Timings, before: Timings | null, c
     lines.push(make("tr", { class: "node" }, make("td", { colspan: HEAD.length, class: "muted" }, text)));
   }
   return lines;
+}
+
+function recordedLine({ text, isMissing }: RecordedLine, kind: string): HTMLElement {
+  return make("tr", { class: isMissing ? `${kind} recorded bad` : `${kind} recorded` }, make("td", { colspan: HEAD.length, class: isMissing ? "" : "muted" }, text));
 }
 
 function nodeLine(node: NodeTimings, whole: number): HTMLElement {

@@ -76,6 +76,7 @@ export async function plotsAreHeld(page) {
 export async function cyclesAreLookedAt(page) {
   await begin(page, "Graph");
   const timings = panel(page, "timings");
+  await reads(timings.locator(".recorded").first(), /^recording: [1-9]\d* recorded, \d+ dropped/, "what became of the recording");
   await timings.getByRole("button", { name: "one cycle with its nodes" }).click();
   await reads(timings.locator(".flames output"), /^cycle \d+: .*s, of which .*s framework$/, "what a flame tells of its cycle");
   assert((await timings.locator(".flame-row").nth(1).locator(".block").count()) > 5, "a flame has the nodes of a cycle");
