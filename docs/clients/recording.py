@@ -235,6 +235,13 @@ def dump(value, separators=None):
     return json.dumps(to_json(value), ensure_ascii=False, allow_nan=False, separators=separators)
 
 
+def from_json(data, what):
+    try:
+        return json.loads(data)
+    except ValueError as error:
+        raise Malformed(f"{what} is no JSON: {error}") from error
+
+
 class Recording:
     """A file, read from its beginning to its end, one chunk in memory."""
 
@@ -263,13 +270,15 @@ class Recording:
                 if isinstance(record, Attachment):
                     self.attachments[record.name] = record.data
                     if record.name == "types.json":
-                        self.types = json.loads(record.data)
+                        self.types = from_json(record.data, "`types.json`")
                 elif isinstance(record, Metadata):
                     self.metadata[record.name] = record.metadata
                 elif isinstance(record, Channel):
                     self.channels[record.id] = record
                 elif isinstance(record, Record):
-                    channel = self.channels[record.channel_id]
+                    channel = self.channels.get(record.channel_id)
+                    if channel is None:
+                        raise Malformed(f"a message of channel {record.channel_id}, which the file does not tell")
                     if topics is None or channel.topic in topics:
                         yield self.message(channel, record)
         except EndOfFile as error:
@@ -278,13 +287,14 @@ class Recording:
     def message(self, channel, record):
         try:
             kind, values = self.decoded(channel, record.data)
-        except Malformed as error:
+        # The others: `types.json` is JSON, and no layouts.
+        except (Malformed, AttributeError, IndexError, KeyError, TypeError) as error:
             raise Malformed(f"cycle {record.sequence} of `{channel.topic}` cannot be read: {error}") from error
         return Message(channel.topic, kind, record.sequence, record.log_time, values)
 
     def decoded(self, channel, data):
         if channel.message_encoding == "json":
-            return "json", {channel.topic: json.loads(data)}
+            return "json", {channel.topic: from_json(data, "the message")}
         if channel.message_encoding not in (FRAMES, VALUES):
             raise Malformed(f"messages of an unknown encoding: {channel.message_encoding}")
         version = channel.metadata.get("version")
@@ -295,7 +305,7 @@ class Recording:
             return "values", self.shared(instance, data)
         kind, rest = data[:1], data[1:]
         if kind == b"\0":
-            return "begun", self.frame(instance, channel.metadata["types"], rest)
+            return "begun", self.frame(instance, channel.metadata.get("types"), rest)
         if kind == b"\1":
             return "finished", self.digests(instance, rest)
         raise Malformed("a message of an unknown kind")

@@ -6,11 +6,14 @@
 //!                 ^--------------- empty blocks <---------------------------/
 //! ```
 //!
-//! A cycler encodes what a cycle took and gave into a block that nobody else has, and hands the block over when it is full or
-//! old. It never waits: without an empty block its frames are dropped and counted. One thread owns the file.
+//! A cycler encodes what a cycle took and gave into a block that nobody else has meanwhile, and hands the block over when it is
+//! full or old. It never waits: without an empty block its frames are dropped and counted. One thread owns the file.
+//!
+//! Between two messages a block that was begun lies in its track's place, from where the writer takes it if the track has had no
+//! frame for long. So a cycle that hangs keeps no frame to itself; its end then stands alone in a block.
 //!
 //! The file is that of [`hulkgen_mcap`]. A block is never divided between two chunks, so a reader that has one chunk has
-//! everything that the frames in it refer to.
+//! everything that the frames in it refer to; of a frame whose end came later it may lack that end.
 
 mod block;
 mod pool;

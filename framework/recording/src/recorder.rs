@@ -244,8 +244,12 @@ impl Thread {
             let is_ending = self.is_ending.load(Ordering::Acquire);
             let is_idle = !self.take_blocks(self.settings.longest);
             let is_old = !self.open.is_empty() && self.since.elapsed() >= self.settings.longest;
-            // Whoever still has a track hands nothing over any more.
-            while is_ending && self.take_blocks(Duration::ZERO) {}
+            if is_ending {
+                // What tracks that still live have begun; what they begin from here on is nobody's.
+                for _ in 0..self.begun.len() {
+                    self.take_blocks(Duration::ZERO);
+                }
+            }
             if is_old || is_ending {
                 self.close_chunk();
             }

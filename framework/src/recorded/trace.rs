@@ -19,11 +19,9 @@ use crate::guarded::contain;
 
 use access::{Elements, Entries, Fields, Variant, visit_fields};
 
-/// How often nothing new may come of it before it is given up: types that refuse some values are offered others.
-const PATIENCE: usize = 4;
-
-/// The same where fields take turns.
-const PATIENCE_OF_TURNS: usize = 64;
+/// How often nothing new may come of it before it is given up: types that refuse some values are offered others, and where
+/// several parts are not known each has its turn. Two values times the turns of some parts inside of each other.
+const PATIENCE: usize = 64;
 
 /// How often at all: variants inside of variants.
 const PASSES: usize = 4096;
@@ -32,14 +30,15 @@ const PASSES: usize = 4096;
 pub(crate) fn layout_of<T: DeserializeOwned>() -> Layout {
     let mut layout = Layout::Unknown;
     let mut numbers = 0..PASSES;
-    for (alone, patience) in [(false, PATIENCE), (true, PATIENCE_OF_TURNS)] {
+    for alone in [false, true] {
         let mut idle = 0;
-        while idle <= patience && !layout.is_known() {
+        while idle <= PATIENCE && !layout.is_known() {
             let Some(number) = numbers.next() else {
                 return layout;
             };
             let pass = Pass {
-                number,
+                is_odd: !number.is_multiple_of(2),
+                turns: Cell::new(number / 2),
                 alone,
                 learned: Cell::new(false),
             };
@@ -58,7 +57,10 @@ pub(crate) fn layout_of<T: DeserializeOwned>() -> Layout {
 
 /// One time that the type is read.
 struct Pass {
-    number: usize,
+    /// What numbers are now: some types refuse 0.
+    is_odd: bool,
+    /// Of this number each choice takes its share, so that no choice goes with another one for ever.
+    turns: Cell<usize>,
     /// Whether structs that are not known whole read one of their fields alone.
     alone: bool,
     /// Whether it told anything.
@@ -66,9 +68,11 @@ struct Pass {
 }
 
 impl Pass {
-    /// What numbers are now: some types refuse 0.
-    fn is_odd(&self) -> bool {
-        !self.number.is_multiple_of(2)
+    /// Whose turn it is of so many, which is 0 if there are none.
+    fn turn(&self, of: usize) -> usize {
+        let (turns, of) = (self.turns.get(), of.max(1));
+        self.turns.set(turns / of);
+        turns % of
     }
 }
 
@@ -98,7 +102,7 @@ impl<'t> Tracer<'t> {
 
     /// A part without parts.
     fn leaf(self, layout: Layout) -> bool {
-        self.learn(|| layout).1.is_odd()
+        self.learn(|| layout).1.is_odd
     }
 
     /// How far up the same struct or enum stands.
@@ -330,7 +334,7 @@ impl<'de> Deserializer<'de> for Tracer<'_> {
         let (Layout::Enum(Enum { variants, .. }), pass) = self.learn(first) else {
             return Err(Refused);
         };
-        let number = chosen(variants, pass.number);
+        let number = chosen(variants, pass);
         let Some((_, layout)) = variants.get_mut(number) else {
             return Err(Refused);
         };
@@ -367,14 +371,14 @@ fn unknown(names: &[&str]) -> Vec<(String, Layout)> {
 }
 
 /// The variant that has most to tell: one that was not seen, one that is not known whole, each at its time, or one that ends.
-fn chosen(variants: &[(String, Layout)], pass: usize) -> usize {
+fn chosen(variants: &[(String, Layout)], pass: &Pass) -> usize {
     let place =
         |wanted: &dyn Fn(&Layout) -> bool| variants.iter().position(|(_, layout)| wanted(layout));
     let unknown: Vec<_> = (0..variants.len())
         .filter(|number| !variants[*number].1.is_known())
         .collect();
     place(&|layout| *layout == Layout::Unknown)
-        .or_else(|| unknown.get(pass % unknown.len().max(1)).copied())
+        .or_else(|| unknown.get(pass.turn(unknown.len())).copied())
         .or_else(|| place(&|layout| !layout.is_recursive()))
         .unwrap_or_default()
 }

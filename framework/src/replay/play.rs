@@ -264,13 +264,10 @@ impl<'r> Player<'r> {
             }
             FINISHED => {
                 // It may stand alone in a chunk, and the one before, where its beginning stood, may be gone.
-                let Some(begun) = self.frames.last_mut() else {
-                    return Ok(());
-                };
-                if begun.head.number as u32 != sequence {
-                    return Err(damaged());
+                let begun = self.frames.last_mut();
+                if let Some(begun) = begun.filter(|frame| frame.head.number as u32 == sequence) {
+                    begun.end = Some(content);
                 }
-                begun.end = Some(content);
                 Ok(())
             }
             _ => Err(damaged()),

@@ -137,11 +137,7 @@ pub(crate) fn play<H: Hardware + 'static, P: Send>(
         lasted,
         real_time_factor: lasted / begun.elapsed().as_secs_f64().max(1e-9),
     };
-    let chosen = match end {
-        End::Another(file) => Some(file),
-        End::AsWritten | End::Stopped => None,
-    };
-    Ok((played, chosen))
+    Ok((played, end.chosen()))
 }
 
 /// The robot with this number, counted from 1, whose cycles take as long as the scenario says.
@@ -192,6 +188,14 @@ enum End {
 }
 
 impl End {
+    /// The scenario that is next.
+    fn chosen(self) -> Option<PathBuf> {
+        match self {
+            Self::Another(file) => Some(file),
+            Self::AsWritten | Self::Stopped => None,
+        }
+    }
+
     /// What is told where it was early, after so many seconds.
     fn early(&self, lasted: f64) -> Option<String> {
         let who = match self {

@@ -54,10 +54,10 @@ pub(super) fn visit_fields<'de, V: Visitor<'de>>(
     around: &Around<'_>,
     visitor: V,
 ) -> Result<V::Value, Refused> {
-    let unknown = || (0..fields.len()).filter(|number| !fields[*number].1.is_known());
-    let turn = pass.number % unknown().count().max(1);
+    let unknown = (0..fields.len()).filter(|number| pass.alone && !fields[*number].1.is_known());
+    let unknown: Vec<_> = unknown.collect();
     let around = Some(around);
-    match unknown().nth(turn).filter(|_| pass.alone) {
+    match unknown.get(pass.turn(unknown.len())).copied() {
         Some(number) => visitor.visit_map(Alone {
             number: number as u64,
             layout: Some(&mut fields[number].1),

@@ -214,6 +214,27 @@ fn what_no_type_tells_stays_unknown() {
 }
 
 #[test]
+fn of_two_that_nobody_can_tell_what_is_behind_the_inner_one_is_found() {
+    #[derive(Deserialize)]
+    struct Inner {
+        _any: Option<serde_json::Value>,
+        _known: u8,
+    }
+    #[derive(Deserialize)]
+    struct Outer {
+        _inner: Inner,
+        _any: Option<serde_json::Value>,
+    }
+    let Layout::Struct(outer) = layout_of::<Outer>() else {
+        panic!("it is a struct");
+    };
+    let Layout::Struct(inner) = &outer.fields[0].1 else {
+        panic!("it has one in it");
+    };
+    assert_eq!(inner.fields[1].1, Layout::Unsigned(8));
+}
+
+#[test]
 fn a_type_that_panics_at_what_it_is_offered_is_offered_others() {
     struct Odd;
     impl<'de> Deserialize<'de> for Odd {

@@ -37,13 +37,11 @@ impl<'r> RecordedParameters<'r> {
 
     /// From now on they are what the newest of these cycles took.
     pub(super) fn follow(&mut self, players: &Players<'r>, moments: &[Moment]) {
-        for (index, moment) in moments.iter().enumerate() {
+        let readers: Vec<_> = players.players.iter().map(reads_parameters).collect();
+        let moments = moments.iter().enumerate();
+        for (index, moment) in moments.filter(|(_, moment)| readers[moment.instance]) {
             let player = &players.players[moment.instance];
-            let version = match reads_parameters(player) {
-                true => player.parameters_version(moment.position),
-                false => continue,
-            };
-            let Ok(version) = version else {
+            let Ok(version) = player.parameters_version(moment.position) else {
                 continue;
             };
             // A cycle that began earlier, and came here later, has older ones.

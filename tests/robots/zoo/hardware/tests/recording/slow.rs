@@ -38,17 +38,27 @@ fn hanging(instance: &InstanceDescription, observer: Box<dyn Observer>) -> Box<d
     }
 }
 
-/// The first message of Control's frames in each chunk.
-fn firsts(file: &File) -> Vec<Option<u8>> {
+/// What Control's messages are in each chunk.
+fn kinds(file: &File) -> Vec<Vec<u8>> {
     let mut channels = file.channels.iter();
     let channel = channels.find(|(_, channel)| channel.topic == "frames/Control");
     let (number, _) = channel.expect("it has a channel");
     let chunks = file.chunks.iter().map(|chunk| {
-        let mut messages = chunk.messages();
-        let first = messages.find(|message| message.channel == *number);
-        first.and_then(|message| message.data.first().copied())
+        let own = chunk.messages();
+        let own = own.filter(|message| message.channel == *number);
+        own.filter_map(|message| message.data.first().copied())
+            .collect()
     });
     chunks.collect()
+}
+
+/// What is left of a file is shown as far as it goes.
+fn assert_readable(rest: &File) {
+    let verification = verify(rest, recording::INSTANCES).expect("it is of this robot");
+    assert_eq!(verification.divergence, None, "{verification}");
+    for one in &verification.instances {
+        assert_eq!(one.unreadable, None, "{verification}");
+    }
 }
 
 #[test]
@@ -69,19 +79,23 @@ fn the_end_of_a_slow_cycle_is_found_behind_the_chunk_of_its_beginning() {
     assert_eq!((control.unfinished, control.dropped), (0, 0));
 
     let file = tape.read();
-    let firsts = firsts(&file);
-    let alone = (0..firsts.len()).filter(|chunk| firsts[*chunk] == Some(FINISHED));
+    let kinds = kinds(&file);
+    let alone = (0..kinds.len()).filter(|chunk| kinds[*chunk].first() == Some(&FINISHED));
     let alone: Vec<usize> = alone.collect();
-    assert!(!alone.is_empty(), "{firsts:?}");
-    assert!(firsts.contains(&Some(BEGUN)));
-    // Where a ring has closed over its beginning.
+    assert!(!alone.is_empty(), "{kinds:?}");
+    let mut behind_others = 0;
     for chunk in alone {
+        // Where a ring has closed over its beginning.
         let mut rest = tape.read();
         rest.chunks.drain(..chunk);
-        let verification = verify(&rest, recording::INSTANCES).expect("it is of this robot");
-        assert_eq!(verification.divergence, None, "{verification}");
-        for one in &verification.instances {
-            assert_eq!(one.unreadable, None, "{verification}");
-        }
+        assert_readable(&rest);
+        // Where the disk did not take the chunk of its beginning, and the cycles before are there.
+        let begins = (0..chunk).rfind(|begins| kinds[*begins].last() == Some(&BEGUN));
+        let begins = begins.expect("its beginning is in the file");
+        let mut rest = tape.read();
+        rest.chunks.remove(begins);
+        assert_readable(&rest);
+        behind_others += usize::from(kinds[..begins].iter().any(|kinds| !kinds.is_empty()));
     }
+    assert!(behind_others > 0, "{kinds:?}");
 }
