@@ -1,15 +1,12 @@
 //! What becomes of a recording, as clients on real sockets see it while the robot runs.
 
-use std::cell::RefCell;
 use std::ffi::{OsStr, OsString};
-use std::net::SocketAddr;
-use std::sync::mpsc::{Sender, channel};
+use std::sync::mpsc::channel;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::Duration;
 
-use framework::launch::{self, Listening, Served};
-use framework::link::Link;
+use framework::launch::{self, Listening, Served as _};
 use framework::parameters::Layers;
 use framework::recorded::{About, Recording, Settings};
 use framework::testing::created;
@@ -23,6 +20,9 @@ use zoo_runtime::{recording, runtime};
 #[expect(dead_code, reason = "other tests need more of it")]
 #[path = "server/zoo.rs"]
 mod zoo;
+
+#[path = "server/started.rs"]
+mod started;
 
 use zoo::{Client, eventually};
 
@@ -47,21 +47,6 @@ const TARGET: Target = Target {
 /// Signals and log messages are of the process: one program at a time.
 static TURN: Mutex<()> = Mutex::new(());
 
-thread_local! {
-    /// Who is told where the program of this thread can be reached.
-    static STARTED: RefCell<Option<Sender<(SocketAddr, Stop)>>> = const { RefCell::new(None) };
-}
-
-fn serve(link: Link, listening: Listening) -> framework::Result<Option<Box<dyn Served>>> {
-    let stop = link.stop.clone();
-    let server = Server::start(link, listening, Limits::default())?;
-    let started = STARTED.take().expect("somebody waits");
-    started
-        .send((Served::address(&server), stop))
-        .expect("it waits still");
-    Ok(Some(Box::new(server)))
-}
-
 /// What a client of the robot's program sees, which is started with these options.
 fn while_it_runs(options: &[&OsStr], look: impl FnOnce(&mut Client)) {
     let _turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
@@ -71,9 +56,15 @@ fn while_it_runs(options: &[&OsStr], look: impl FnOnce(&mut Client)) {
     let words: Vec<OsString> = words.map(OsStr::to_owned).collect();
     thread::scope(|scope| {
         let runs = scope.spawn(|| {
-            STARTED.set(Some(started));
+            started::tell(started);
             let output = &mut Vec::new();
-            launch::run::<Hardware, Parameters>(TARGET, words, output, runtime::create, serve)
+            launch::run::<Hardware, Parameters>(
+                TARGET,
+                words,
+                output,
+                runtime::create,
+                started::serve,
+            )
         });
         let (address, stop) = starts.recv().expect("it starts");
         // Also where an assertion fails.

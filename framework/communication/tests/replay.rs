@@ -1,22 +1,19 @@
 //! A recording that is served in place of a robot: what clients on real sockets get of it, whichever way the time goes.
 
-use std::cell::RefCell;
 use std::ffi::OsStr;
 use std::net::SocketAddr;
 use std::path::PathBuf;
-use std::sync::mpsc::{Sender, channel};
+use std::sync::mpsc::channel;
 use std::sync::{LazyLock, Mutex, MutexGuard, PoisonError};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
-use framework::launch::{self, Listening, Served};
-use framework::link::Link;
+use framework::launch;
 use framework::logs::{self, Sink};
 use framework::parameters::Layers;
 use framework::recorded::{About, Recording, Settings};
 use framework::testing::created;
 use framework::{Clock, Lockstep, Record, Stop, Target, Timestamp};
-use hulkgen_communication::{Limits, Server};
 use serde_json::{Value, json};
 use zoo_hardware::Hardware;
 use zoo_runtime::parameters::Parameters;
@@ -25,6 +22,9 @@ use zoo_runtime::{recording, runtime};
 #[expect(dead_code, reason = "other tests need more of it")]
 #[path = "server/zoo.rs"]
 mod zoo;
+
+#[path = "server/started.rs"]
+mod started;
 
 use zoo::{Client, PATIENCE, eventually};
 
@@ -50,11 +50,6 @@ static TAPE: LazyLock<Tape> = LazyLock::new(Tape::record);
 
 /// Who listens hears every replay of the process: one at a time.
 static TURN: Mutex<()> = Mutex::new(());
-
-thread_local! {
-    /// Who is told where the replay of this thread can be reached.
-    static STARTED: RefCell<Option<Sender<(SocketAddr, Stop)>>> = const { RefCell::new(None) };
-}
 
 /// A recording, and what nodes said meanwhile.
 struct Tape {
@@ -122,7 +117,7 @@ impl Replayed {
         let path = &TAPE.path;
         let (started, starts) = channel();
         let runs = thread::spawn(move || {
-            STARTED.set(Some(started));
+            started::tell(started);
             let words = [
                 OsStr::new("--replay"),
                 path.as_os_str(),
@@ -133,7 +128,7 @@ impl Replayed {
                 words.map(OsStr::to_owned),
                 &mut Vec::new(),
                 |_, _| unreachable!("a replay has no robot"),
-                serve,
+                started::serve,
             )
         });
         let (address, stop) = starts.recv().expect("it starts");
@@ -161,16 +156,6 @@ impl Drop for Replayed {
             assert_eq!(ended.expect("it ran").expect("no thread panics"), 0);
         }
     }
-}
-
-fn serve(link: Link, listening: Listening) -> framework::Result<Option<Box<dyn Served>>> {
-    let stop = link.stop.clone();
-    let server = Server::start(link, listening, Limits::default())?;
-    let started = STARTED.take().expect("somebody waits");
-    started
-        .send((Served::address(&server), stop))
-        .expect("it waits still");
-    Ok(Some(Box::new(server)))
 }
 
 /// Moves the time; where it is then.

@@ -43,6 +43,16 @@ fn lines(arguments: &[&str]) -> Option<Vec<Value>> {
     Some(lines.collect::<Result<_, _>>().expect("it prints JSON"))
 }
 
+/// What `recording cat` prints, and the paths of which there is nothing.
+fn printed(path: &Utf8Path, selection: &Selection) -> (Vec<Value>, Vec<String>) {
+    let mut printed = Vec::new();
+    let silent = cat(&open(path).expect("it is there"), selection, &mut |found| {
+        printed.push(found.to_json());
+        Ok(true)
+    });
+    (printed, silent.expect("all of it can be read"))
+}
+
 #[test]
 fn python_decodes_every_message_and_prints_what_cat_prints() {
     const NAME: &str = "python_decodes_every_message_and_prints_what_cat_prints";
@@ -76,16 +86,7 @@ fn python_decodes_every_message_and_prints_what_cat_prints() {
             times: None,
         },
     };
-    let mut printed = Vec::new();
-    let silent = cat(
-        &open(path).expect("it is there"),
-        &selection,
-        &mut |found| {
-            printed.push(found.to_json());
-            Ok(true)
-        },
-    );
-    silent.expect("all of it can be read");
+    let (printed, _) = printed(path, &selection);
     let arguments = [&["cat", path.as_str()], &ALL[..], &["--cycles", "5..7"]].concat();
     let read = lines(&arguments).expect("it ran a moment ago");
     let is_digest = |one: &&Value| {
@@ -133,16 +134,8 @@ fn python_and_cat_read_the_parameters_to_their_end() {
         paths: paths.map(str::to_owned).to_vec(),
         span: Span::default(),
     };
-    let mut printed = Vec::new();
-    let silent = cat(
-        &open(path).expect("it is there"),
-        &selection,
-        &mut |found| {
-            printed.push(found.to_json());
-            Ok(true)
-        },
-    );
-    assert_eq!(silent.expect("it can be read"), Vec::<String>::new());
+    let (printed, silent) = printed(path, &selection);
+    assert_eq!(silent, Vec::<String>::new());
     assert_eq!(printed.len(), paths.len());
     let frames = printed[0]["value"]["stand_up_front"]["frames"].as_array();
     assert!(
