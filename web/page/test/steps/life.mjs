@@ -83,8 +83,8 @@ export async function aRecordingIsReplayed(page, stage, picture) {
   await replay.getByLabel("whose cycles are stepped").selectOption("VisionTop");
   const slider = replay.getByLabel("time of the recording");
   const half = await slider.evaluate((element) => (Number(element.min) + Number(element.max)) / 2);
-  await slider.fill(String(Math.round(half * 1000) / 1000));
-  await reads(state, new RegExp(`^${half.toFixed(1).slice(0, -2)}`), "the time after a jump");
+  await slider.fill(half.toFixed(3));
+  await reads(state, new RegExp(`^${half.toFixed(3)}`), "the time after a jump");
   await replay.getByRole("button", { name: /^one cycle on/ }).click();
   await page.waitForTimeout(600);
   const at = Number(await cycle.textContent());
