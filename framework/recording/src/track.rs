@@ -1,5 +1,7 @@
 //! The frames of one instance, on its way from the cycler to the file.
 
+use std::any::Any;
+use std::panic::{self, AssertUnwindSafe};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
@@ -156,10 +158,11 @@ impl Track {
                 keep,
                 is_full: false,
             };
-            let written = write(&mut frame);
+            let written = panic::catch_unwind(AssertUnwindSafe(|| write(&mut frame)));
             let is_full = frame.is_full;
             match written {
-                Ok(()) if !is_full => {
+                Err(panic) => self.go_on_panicking(block, panic),
+                Ok(Ok(())) if !is_full => {
                     if is_new {
                         self.since = Some(time);
                     }
@@ -168,7 +171,7 @@ impl Track {
                     self.place.leave(block);
                     return Recorded::Whole;
                 }
-                Err(error) if !is_full => {
+                Ok(Err(error)) if !is_full => {
                     self.roll_back(block);
                     self.counts.failed.fetch_add(1, Ordering::Relaxed);
                     return Recorded::Failed(error);
@@ -205,16 +208,17 @@ impl Track {
             keep: 0,
             is_full: false,
         };
-        let written = write(&mut frame);
+        let written = panic::catch_unwind(AssertUnwindSafe(|| write(&mut frame)));
         let is_full = frame.is_full;
         let ended = match written {
-            Ok(()) if !is_full => {
+            Err(panic) => self.go_on_panicking(block, panic),
+            Ok(Ok(())) if !is_full => {
                 let frames = block.frames;
                 block.end_frame(time);
                 block.frames = frames;
                 Recorded::Whole
             }
-            Err(error) if !is_full => {
+            Ok(Err(error)) if !is_full => {
                 self.counts.failed.fetch_add(1, Ordering::Relaxed);
                 Recorded::Failed(error)
             }
@@ -266,6 +270,14 @@ impl Track {
             }
             false => self.place.leave(block),
         }
+    }
+
+    /// A value's own code panicked while it was written: the frames before it stay.
+    #[cold]
+    fn go_on_panicking(&mut self, block: Block, panic: Box<dyn Any + Send>) -> ! {
+        self.roll_back(block);
+        self.counts.failed.fetch_add(1, Ordering::Relaxed);
+        panic::resume_unwind(panic)
     }
 
     /// Gives what is whole to the writer; the next frame is the first of a block.

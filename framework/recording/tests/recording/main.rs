@@ -8,11 +8,12 @@ mod slow;
 mod support;
 
 use std::os::unix::fs::MetadataExt as _;
+use std::panic::AssertUnwindSafe;
 use std::path::Path;
 use std::process::Command;
 use std::time::{Duration, Instant};
 
-use hulkgen_recording::{Full, Recorded, Recorder, Recording, Settings, Track, Way};
+use hulkgen_recording::{Frame, Full, Recorded, Recorder, Recording, Settings, Track, Way};
 use proptest::prelude::*;
 
 use description::{FRAMES, description, settings};
@@ -289,6 +290,33 @@ fn what_cannot_be_encoded_is_no_frame() {
     assert!(!recorder.end().is_complete);
     let recording = Recording::open(&path).expect("it can be read");
     assert_eq!(cycles(&recording), [0, 2]);
+}
+
+/// As the code of a value that somebody wrote may.
+fn panicking(_: &mut Frame<'_>) -> Result<(), Full> {
+    std::panic::resume_unwind(Box::new("no number"))
+}
+
+#[test]
+fn what_panics_while_it_is_encoded_is_no_frame_and_the_frames_before_it_stay() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("run.mcap");
+    let (recorder, mut tracks) =
+        Recorder::start(&path, description(), &["Control"], settings()).expect("it is new");
+    let mut track = tracks.pop().expect("one was asked for");
+    assert_eq!(frame(&mut track, 0, 1), Recorded::Whole);
+    let catch = |write: &mut dyn FnMut() -> Recorded<Full>| {
+        std::panic::catch_unwind(AssertUnwindSafe(write)).expect_err("it panics");
+    };
+    catch(&mut || track.frame(1, 0, panicking));
+    assert_eq!(frame(&mut track, 2, 1), Recorded::Whole);
+    catch(&mut || track.end(2, panicking));
+    assert_eq!(frame(&mut track, 3, 1), Recorded::Whole);
+    assert_eq!(track.counts().failed(), 2);
+    drop(track);
+    assert!(!recorder.end().is_complete);
+    let recording = Recording::open(&path).expect("it can be read");
+    assert_eq!(cycles(&recording), [0, 2, 3]);
 }
 
 #[derive(Debug, PartialEq, Eq)]
