@@ -19,8 +19,11 @@ mod output;
 mod recorder;
 mod report;
 mod start;
+mod target;
 mod trace;
 mod types;
+#[cfg(feature = "yardstick")]
+mod yardstick;
 
 pub use body::{Loaded, Recorded, Visit, digest};
 pub use bytes::{Loading, Reason, SaveError, Saving};
@@ -39,3 +42,5 @@ pub(crate) use start::{FRAMES, TYPES, VALUES};
 pub(crate) use trace::layout_of;
 pub(crate) use types::taken;
 pub use types::{Describing, Taken, Types, describe};
+#[cfg(feature = "yardstick")]
+pub use yardstick::Yardstick;

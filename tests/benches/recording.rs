@@ -1,14 +1,14 @@
-//! What a recording costs Control of the simulated NAO, beside postcard writing the same bytes into a slice: both of the same
-//! cycles in turns, medians. And how fast the writer is with what the cameras give it.
+//! What a recording costs Control of the simulated NAO, beside postcard writing the same bytes into a slice: each row in the cycles
+//! in which it comes first, medians. And how fast the writer is with what the cameras give it.
 //!
-//! `cargo bench -p hulkgen-tests --bench recording`
+//! `cargo bench -p hulkgen-tests --bench recording --features yardstick`
 
 use std::hint::black_box;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use framework::driver::{Lockstep, Observer};
-use framework::recorded::{About, Recording, Saving, Settings};
+use framework::recorded::{About, Recording, Saving, Settings, Yardstick};
 use framework::{CountingAllocator, Instance, InstanceDescription, Record, Timestamp};
 use hulkgen_recording::{
     Channel, ChannelId, Description, Full, Recorded, Recorder, Track, Writing,
@@ -27,7 +27,10 @@ const MEMORY: usize = 64 << 20;
 /// Until the robot stands and its nodes have the memory that they need.
 const WARM_UP: u64 = 200;
 
-/// A frame also has what came from other instances, which postcard does not write here: alone nothing comes.
+/// [`Measured`] has so many that take turns.
+const ROWS: usize = 4;
+
+/// A frame also has what came from other instances: alone nothing comes.
 const ROBOTS: [(&str, &[(&str, &str)]); 2] = [
     (
         "without cameras and microphones",
@@ -43,8 +46,12 @@ const ROBOTS: [(&str, &[(&str, &str)]); 2] = [
 #[derive(Default)]
 struct Measured {
     bytes: Vec<f64>,
+    /// postcard, into the same slice again and again.
     again: Vec<f64>,
+    /// postcard, into memory behind the memory before.
     fresh: Vec<f64>,
+    /// The code that writes frames, but for values of other instances, into the same slice again and again.
+    alone: Vec<f64>,
     frame: Vec<f64>,
     digests: Vec<f64>,
     allocations: u64,
@@ -54,6 +61,8 @@ struct Measured {
 struct Timed {
     observer: Box<dyn Observer>,
     memory: Vec<u8>,
+    again: Yardstick,
+    fresh: Yardstick,
     /// Where the next fresh slice begins.
     place: usize,
     /// When the cycle before started: histories are saved since.
@@ -66,7 +75,9 @@ impl Timed {
         Self {
             observer,
             memory: vec![1; MEMORY],
-            place: SLICE,
+            again: Yardstick::default(),
+            fresh: Yardstick::default(),
+            place: 2 * SLICE,
             since: None,
             measured: measured.clone(),
         }
@@ -74,21 +85,37 @@ impl Timed {
 
     /// How many bytes postcard writes, and how long it takes; into the same slice as ever or into the next one.
     fn write(&mut self, instance: &mut dyn Instance, is_fresh: bool) -> (usize, f64) {
-        let place = if is_fresh { self.place } else { 0 };
-        let mut writing = Writing::new(&mut self.memory[place..place + SLICE]);
+        let (place, postcard) = match is_fresh {
+            false => (0, &mut self.again),
+            true => (self.place, &mut self.fresh),
+        };
+        let slice = &mut self.memory[place..place + SLICE];
+        let started = Instant::now();
+        let written = postcard.write(instance, slice);
+        let took = nanos(started);
+        let length = written.expect("the slice is longer than any frame");
+        if is_fresh {
+            let next = self.place + length;
+            self.place = if next + SLICE > MEMORY {
+                2 * SLICE
+            } else {
+                next
+            };
+        }
+        black_box(&mut self.memory);
+        (length, took)
+    }
+
+    /// As the recording writes it, into a slice.
+    fn write_alone(&mut self, instance: &mut dyn Instance) -> (usize, f64) {
+        let mut writing = Writing::new(&mut self.memory[SLICE..2 * SLICE]);
         let started = Instant::now();
         let mut saving = Saving::new(&mut writing);
         instance.save_alone(self.since, &mut saving);
         let saved = saving.end();
         let took = nanos(started);
         saved.expect("the slice is longer than any frame");
-        let length = writing.length();
-        if is_fresh {
-            let next = self.place + length;
-            self.place = if next + SLICE > MEMORY { SLICE } else { next };
-        }
-        black_box(&mut self.memory);
-        (length, took)
+        (writing.length(), took)
     }
 
     /// How long the recording takes, and how often it allocates.
@@ -104,15 +131,21 @@ impl Timed {
 impl Observer for Timed {
     fn begun(&mut self, instance: &mut dyn Instance) {
         let cycle = instance.cycle();
-        // Whoever comes later has the values in the caches: they take turns.
-        let mut rows = [None; 3];
-        let (mut bytes, mut allocations) = (0, 0);
-        for turn in 0..rows.len() {
-            let row = (turn + cycle.number as usize) % rows.len();
-            rows[row] = Some(match row {
-                0 | 1 => {
+        // Whoever comes later has values and code in the caches: the first counts, each in its turn.
+        let first = cycle.number as usize % ROWS;
+        let fresh = self.place;
+        let (mut bytes, mut alone, mut allocations) = (0, 0, 0);
+        let mut counts = None;
+        for turn in 0..ROWS {
+            let took = match (first + turn) % ROWS {
+                row @ (0 | 1) => {
                     let (length, took) = self.write(instance, row == 1);
                     bytes = length;
+                    took
+                }
+                2 => {
+                    let (length, took) = self.write_alone(instance);
+                    alone = length;
                     took
                 }
                 _ => {
@@ -120,17 +153,25 @@ impl Observer for Timed {
                     allocations = allocated;
                     took
                 }
-            });
+            };
+            counts.get_or_insert(took);
         }
+        let (postcard, ours) = (&self.memory[..bytes], &self.memory[SLICE..][..alone]);
+        assert!(postcard.ends_with(ours), "postcard writes the same bytes");
+        assert_eq!(postcard, &self.memory[fresh..][..bytes]);
         self.since = Some(cycle.time.start);
         if cycle.number > WARM_UP {
             let mut measured = lock(&self.measured);
             measured.bytes.push(bytes as f64);
             measured.allocations += allocations;
-            let [again, fresh, frame] = rows.map(Option::unwrap_or_default);
-            measured.again.push(again);
-            measured.fresh.push(fresh);
-            measured.frame.push(frame);
+            let Measured {
+                again,
+                fresh,
+                alone,
+                frame,
+                ..
+            } = &mut *measured;
+            [again, fresh, alone, frame][first].extend(counts);
         }
     }
 
@@ -289,8 +330,13 @@ fn main() {
     for (title, settings) in ROBOTS {
         let mut measured = measure(settings);
         println!("{title}: {} cycles of Control, ns", measured.bytes.len());
-        let [slice, fresh, frame, _] = print(&mut measured);
-        for (name, other) in [("the slice", slice), ("fresh memory", fresh)] {
+        let [slice, fresh, alone, frame, _] = print(&mut measured);
+        let others = [
+            ("the slice", slice),
+            ("fresh memory", fresh),
+            ("its own part", alone),
+        ];
+        for (name, other) in others {
             println!("a frame beside {name:<13} {:>9.2}", frame / other);
         }
     }
@@ -299,11 +345,12 @@ fn main() {
 }
 
 /// Gives the medians.
-fn print(measured: &mut Measured) -> [f64; 4] {
+fn print(measured: &mut Measured) -> [f64; 5] {
     println!("{:<28} {:>9} {:>8}", "", "p50", "p99");
     let rows = [
         ("postcard into a slice", &mut measured.again),
         ("postcard into fresh memory", &mut measured.fresh),
+        ("as a frame, into a slice", &mut measured.alone),
         ("a frame of the recording", &mut measured.frame),
         ("digests of main outputs", &mut measured.digests),
     ];
@@ -313,7 +360,7 @@ fn print(measured: &mut Measured) -> [f64; 4] {
         median
     });
     let bytes = quantile(&mut measured.bytes, 0.5);
-    println!("{:<28} {bytes:>9.0}", "bytes in the slice");
+    println!("{:<28} {bytes:>9.0}", "bytes that postcard writes");
     let allocations = measured.allocations;
     println!("{:<28} {allocations:>9}", "allocations");
     medians

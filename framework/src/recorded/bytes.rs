@@ -7,14 +7,24 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use super::encode::{EncodeError, Encoder};
+#[cfg(feature = "yardstick")]
+use super::yardstick::Slice;
 use crate::error::{Error, Result};
 
 /// Values on their way into a frame. What goes wrong is told once, by [`Self::end`].
 #[derive(Debug)]
 pub struct Saving<'a, 'block> {
-    writing: &'a mut Writing<'block>,
+    sink: Sink<'a, 'block>,
     /// What the first value said that could not be serialised.
     refused: Option<Reason>,
+}
+
+/// Where the bytes go.
+#[derive(Debug)]
+enum Sink<'a, 'block> {
+    Message(&'a mut Writing<'block>),
+    #[cfg(feature = "yardstick")]
+    Slice(&'a mut Slice<'block>),
 }
 
 /// Values on their way out of a frame.
@@ -43,7 +53,16 @@ impl<'a, 'block> Saving<'a, 'block> {
     /// Into this message.
     pub fn new(writing: &'a mut Writing<'block>) -> Self {
         Self {
-            writing,
+            sink: Sink::Message(writing),
+            refused: None,
+        }
+    }
+
+    /// Into this slice, as postcard itself writes them.
+    #[cfg(feature = "yardstick")]
+    pub(crate) fn by_postcard(slice: &'a mut Slice<'block>) -> Self {
+        Self {
+            sink: Sink::Slice(slice),
             refused: None,
         }
     }
@@ -57,7 +76,14 @@ impl<'a, 'block> Saving<'a, 'block> {
     /// As [`Self::put`], for values of which there are many types, each with little in it.
     #[inline]
     pub(super) fn put_here<T: Serialize + ?Sized>(&mut self, value: &T) {
-        if let Err(EncodeError(reason)) = value.serialize(Encoder(self.writing)) {
+        let put = match &mut self.sink {
+            Sink::Message(writing) => value
+                .serialize(Encoder(writing))
+                .map_err(|EncodeError(reason)| reason),
+            #[cfg(feature = "yardstick")]
+            Sink::Slice(slice) => slice.put(value),
+        };
+        if let Err(reason) = put {
             self.refuse(reason);
         }
     }
@@ -65,7 +91,11 @@ impl<'a, 'block> Saving<'a, 'block> {
     /// Appends these bytes.
     #[inline]
     pub(super) fn add<const BYTES: usize>(&mut self, bytes: [u8; BYTES]) {
-        self.writing.add(bytes);
+        match &mut self.sink {
+            Sink::Message(writing) => writing.add(bytes),
+            #[cfg(feature = "yardstick")]
+            Sink::Slice(_) => bytes.iter().for_each(|byte| self.put_here(byte)),
+        }
     }
 
     #[cold]
@@ -79,9 +109,14 @@ impl<'a, 'block> Saving<'a, 'block> {
     /// # Errors
     /// If there was no room, or a value could not be serialised.
     pub fn end(self) -> Result<(), SaveError> {
+        let is_full = match &self.sink {
+            Sink::Message(writing) => writing.is_full(),
+            #[cfg(feature = "yardstick")]
+            Sink::Slice(_) => false,
+        };
         match self.refused {
             // Whatever a value makes of a refusal.
-            _ if self.writing.is_full() => Err(SaveError::Full),
+            _ if is_full => Err(SaveError::Full),
             Some(reason) => Err(SaveError::Value(reason)),
             None => Ok(()),
         }

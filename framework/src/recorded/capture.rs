@@ -9,10 +9,11 @@
 use std::collections::BTreeMap;
 use std::time::Duration;
 
-use hulkgen_recording::{ChannelId, Frame};
+use hulkgen_recording::ChannelId;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
+use super::target::Target;
 use super::{Foreign, Loading, SaveError, Saving};
 use crate::buffer::Reader;
 use crate::error::{Error, Result};
@@ -72,19 +73,16 @@ impl Written {
 
 /// What an instance writes one frame into.
 pub struct Capture<'a, 'block> {
-    pub(crate) frame: &'a mut Frame<'block>,
+    pub(crate) target: Target<'a, 'block>,
     pub(crate) written: &'a mut Written,
-    pub(crate) channels: &'a Channels,
-    pub(crate) own: ChannelId,
     /// Of the last frame, for histories.
     pub(crate) since: Option<Timestamp>,
 }
 
 /// What values of other instances are written into.
 pub struct Values<'a, 'block> {
-    frame: &'a mut Frame<'block>,
+    target: Target<'a, 'block>,
     written: &'a mut Written,
-    channels: &'a Channels,
     time: Timestamp,
     /// How many inputs there were.
     position: usize,
@@ -100,11 +98,10 @@ pub struct Stored<'chunk> {
 impl<'block> Capture<'_, 'block> {
     /// For what the cycle that started at this time sees of other instances; before [`Capture::frame`].
     pub fn values(&mut self, start: Timestamp) -> Values<'_, 'block> {
-        self.written.begin(self.frame.is_first());
+        self.written.begin(self.target.is_first());
         Values {
-            frame: self.frame,
+            target: self.target.again(),
             written: self.written,
-            channels: self.channels,
             time: start,
             position: 0,
         }
@@ -119,15 +116,13 @@ impl<'block> Capture<'_, 'block> {
         mut head: Head,
         save: impl FnOnce(Option<Timestamp>, &mut Saving<'_, '_>),
     ) -> Result<(), SaveError> {
-        head.whole = self.frame.is_first();
+        head.whole = self.target.is_first();
         let since = self.since.filter(|_| !head.whole);
         let (sequence, time) = (head.number as u32, head.start.as_nanos());
-        self.frame.message(self.own, sequence, time, |writing| {
-            let mut out = Saving::new(writing);
+        self.target.message(None, (sequence, time), |out| {
             out.add([BEGUN]);
             out.put_here(&head);
-            save(since, &mut out);
-            out.end()
+            save(since, out);
         })
     }
 }
@@ -181,17 +176,10 @@ impl Values<'_, '_> {
         (cycle, timestamp): (u64, Timestamp),
         value: &impl Serialize,
     ) -> Result<(), SaveError> {
-        let mut channels = self.channels.iter();
-        let channel = channels.find(|(known, _)| *known == name);
-        let (_, channel) = channel
-            .ok_or_else(|| SaveError::value(format!("`{name}` has no channel of values")))?;
         self.written.0[self.position].next = Some(cycle);
-        let time = timestamp.as_nanos();
-        self.frame.message(*channel, cycle as u32, time, |writing| {
-            let mut saving = Saving::new(writing);
-            saving.put(value);
-            saving.end()
-        })
+        let place = (cycle as u32, timestamp.as_nanos());
+        self.target
+            .message(Some(name), place, |saving| saving.put(value))
     }
 }
 

@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use hulkgen_recording::{ChannelId, Recorded, Track};
 
 use super::output::OutputRecorder;
+use super::target::Target;
 use super::{Capture, DIGEST, Digests, FINISHED, SaveError, Written};
 use crate::cycler::{Instance, Record};
 use crate::driver::Observer;
@@ -151,10 +152,12 @@ impl CycleRecorder {
         } = self;
         let recorded = track.frame(cycle.time.start.as_nanos(), *keep, |frame| {
             instance.save(&mut Capture {
-                frame,
+                target: Target::Frame {
+                    frame,
+                    own: *own,
+                    channels,
+                },
                 written: &mut *written,
-                channels,
-                own: *own,
                 since: *since,
             })
         });
