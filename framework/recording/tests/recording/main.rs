@@ -19,6 +19,13 @@ use proptest::prelude::*;
 use description::{FRAMES, description, settings};
 use support::{drawn_places, frame, record};
 
+/// A recording of one instance.
+fn start_one(path: &Path) -> (Recorder, Track) {
+    let started = Recorder::start(path, description(), &["Control"], settings());
+    let (recorder, mut tracks) = started.expect("it is new");
+    (recorder, tracks.pop().expect("one was asked for"))
+}
+
 /// Cycles of the frames in all chunks; each chunk has every value that its frames refer to, once.
 fn cycles(recording: &Recording) -> Vec<u32> {
     let mut cycles = Vec::new();
@@ -234,9 +241,7 @@ fn await_chunks(path: &Path, is_expected: impl Fn(&[Vec<u32>]) -> bool) {
 fn a_frame_that_does_not_fit_begins_the_next_block() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("run.mcap");
-    let (recorder, mut tracks) =
-        Recorder::start(&path, description(), &["Control"], settings()).expect("it is new");
-    let mut track = tracks.pop().expect("one was asked for");
+    let (recorder, mut track) = start_one(&path);
     let mut firsts = Vec::new();
     for cycle in 0..5 {
         let recorded = track.frame(cycle, 0, |frame| {
@@ -273,9 +278,7 @@ fn a_frame_that_does_not_fit_begins_the_next_block() {
 fn what_cannot_be_encoded_is_no_frame() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("run.mcap");
-    let (recorder, mut tracks) =
-        Recorder::start(&path, description(), &["Control"], settings()).expect("it is new");
-    let mut track = tracks.pop().expect("one was asked for");
+    let (recorder, mut track) = start_one(&path);
     assert_eq!(frame(&mut track, 0, 1), Recorded::Whole);
     let failed = track.frame(1, 0, |frame| {
         frame.message(FRAMES, 1, 1, |writing| writing.put(b"1"))?;
@@ -301,9 +304,7 @@ fn panicking(_: &mut Frame<'_>) -> Result<(), Full> {
 fn what_panics_while_it_is_encoded_is_no_frame_and_the_frames_before_it_stay() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("run.mcap");
-    let (recorder, mut tracks) =
-        Recorder::start(&path, description(), &["Control"], settings()).expect("it is new");
-    let mut track = tracks.pop().expect("one was asked for");
+    let (recorder, mut track) = start_one(&path);
     assert_eq!(frame(&mut track, 0, 1), Recorded::Whole);
     let catch = |write: &mut dyn FnMut() -> Recorded<Full>| {
         std::panic::catch_unwind(AssertUnwindSafe(write)).expect_err("it panics");
@@ -332,9 +333,7 @@ impl From<Full> for Failure {
 fn the_end_of_a_cycle_stands_behind_its_frame() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("run.mcap");
-    let (recorder, mut tracks) =
-        Recorder::start(&path, description(), &["Control"], settings()).expect("it is new");
-    let mut track = tracks.pop().expect("one was asked for");
+    let (recorder, mut track) = start_one(&path);
     for cycle in 0..500 {
         // What was kept free is enough, wherever the block ends.
         while frame(&mut track, cycle, 3) != Recorded::Whole {
