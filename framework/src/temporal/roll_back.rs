@@ -5,6 +5,7 @@
 
 use serde::{Deserialize, Serialize};
 
+#[cfg(doc)]
 use crate::temporal::Timeline;
 use crate::time::Timestamp;
 
@@ -46,10 +47,10 @@ impl<S: Clone> RollBack<S> {
         &mut self.settled
     }
 
-    /// Learns the persistent values for good.
+    /// Learns the persistent values for good; those of several outputs by [`Timeline::zip`].
     pub fn settle<V>(
         &mut self,
-        persistent: Timeline<'_, V>,
+        persistent: impl IntoIterator<Item = (Timestamp, V)>,
         mut learn: impl FnMut(&mut S, Timestamp, V),
     ) {
         for (timestamp, value) in persistent {
@@ -60,7 +61,7 @@ impl<S: Clone> RollBack<S> {
     /// The settled state after the transient values, too. Costs one clone of the state and what `learn` costs for each.
     pub fn with_transient<V>(
         &self,
-        transient: Timeline<'_, V>,
+        transient: impl IntoIterator<Item = (Timestamp, V)>,
         mut learn: impl FnMut(&mut S, Timestamp, V),
     ) -> S {
         let mut newest = self.settled.clone();

@@ -144,6 +144,25 @@ impl<'c, V> Timeline<'c, V> {
         }
     }
 
+    /// With those of another output of the same cycles.
+    ///
+    /// Inputs of one node that name the same producer, an instance or all of a cycler, have an item each for the same
+    /// cycles, also where several have the same timestamp. Of other inputs this makes pairs that do not belong together.
+    ///
+    /// ```
+    /// # use framework::{Timestamp, testing::perception};
+    /// # let at = Timestamp::from_nanos;
+    /// # let (names, sizes) = ([(at(1), &'b'), (at(1), &'c')], [(at(1), &10), (at(1), &11)]);
+    /// # let (names, sizes) = (perception(&names, &[]), perception(&sizes, &[]));
+    /// let pairs: Vec<_> = names.persistent.zip(sizes.persistent).collect();
+    /// assert_eq!(pairs, [(at(1), (&'b', &10)), (at(1), (&'c', &11))]);
+    /// ```
+    #[inline]
+    pub fn zip<W>(self, other: Timeline<'c, W>) -> impl Iterator<Item = (Timestamp, (V, W))> {
+        let pairs = self.iter().zip(other.iter());
+        pairs.map(|((timestamp, value), (_, other))| (timestamp, (value, other)))
+    }
+
     /// Values with timestamp, order and cycle number, in order.
     #[inline]
     pub fn items(&self) -> Items<'c, V> {

@@ -16,6 +16,7 @@ mod features;
 mod memory;
 mod parameters;
 mod search;
+mod seen;
 mod sight;
 
 use std::f32::consts::FRAC_PI_2;
@@ -32,9 +33,10 @@ use types::field_markings::FieldMarkings;
 use types::game::{Player, PrimaryState};
 use types::odometry::Odometry;
 
-use self::belief::{Belief, Hypothesis, Seen};
+use self::belief::{Belief, Hypothesis};
 use self::estimate::Estimate;
 pub use self::parameters::{FieldPose, LocalizationParameters};
+use self::seen::{Seen, images};
 use self::sight::View;
 use crate::start_frame::ground_to_start;
 
@@ -116,33 +118,26 @@ impl Localization {
                 belief.learn(timestamp, pose, seen, &view);
             }
         };
-        let (marks, circles) = (&context.penalty_mark, &context.center_circle);
-        let corners = &context.corners;
-        self.belief
-            .settle(context.lines.persistent, |belief, timestamp, lines| {
-                let (marks, circles) = (marks.persistent.iter(), circles.persistent.iter());
-                let corners = corners.persistent.iter();
-                see(
-                    belief,
-                    timestamp,
-                    seen(timestamp, lines, marks, circles, corners),
-                );
-            });
+        let (lines, marks) = (context.lines, context.penalty_mark);
+        let (circles, corners) = (context.center_circle, context.corners);
+        let persistent = images(
+            lines.persistent,
+            marks.persistent,
+            circles.persistent,
+            corners.persistent,
+        );
+        self.belief.settle(persistent, see);
         let pose = ground_to_start(&odometry, now);
         if let Some(pose) = pose {
             self.put(now, pose, *context.primary_state, *context.player, &view);
         }
-        let mut newest =
-            self.belief
-                .with_transient(context.lines.transient, |belief, timestamp, lines| {
-                    let (marks, circles) = (marks.transient.iter(), circles.transient.iter());
-                    let corners = corners.transient.iter();
-                    see(
-                        belief,
-                        timestamp,
-                        seen(timestamp, lines, marks, circles, corners),
-                    );
-                });
+        let transient = images(
+            lines.transient,
+            marks.transient,
+            circles.transient,
+            corners.transient,
+        );
+        let mut newest = self.belief.with_transient(transient, see);
         if let Some(pose) = pose {
             newest.predict(now, pose, is_upright, &view);
         }
@@ -180,30 +175,6 @@ impl Localization {
             );
         }
     }
-}
-
-/// What the image of that time shows.
-fn seen<'a>(
-    timestamp: Timestamp,
-    lines: &'a [LineSegment],
-    marks: impl Iterator<Item = (Timestamp, &'a Option<PenaltyMark>)>,
-    circles: impl Iterator<Item = (Timestamp, &'a Option<CenterCircle>)>,
-    corners: impl Iterator<Item = (Timestamp, &'a Vec<LineCorner>)>,
-) -> Seen<'a> {
-    Seen {
-        lines,
-        mark: at(marks, timestamp).and_then(Option::as_ref),
-        circle: at(circles, timestamp).and_then(Option::as_ref),
-        corners: at(corners, timestamp).map_or(&[], Vec::as_slice),
-    }
-}
-
-fn at<'a, T>(
-    mut images: impl Iterator<Item = (Timestamp, &'a T)>,
-    timestamp: Timestamp,
-) -> Option<&'a T> {
-    let (_, seen) = images.find(|(seen_at, _)| *seen_at == timestamp)?;
-    Some(seen)
 }
 
 fn start_pose(player: Player, parameters: &LocalizationParameters) -> Isometry2<f32> {

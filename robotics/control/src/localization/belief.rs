@@ -6,12 +6,12 @@
 use framework::{Timestamp, math};
 use nalgebra::{Isometry2, Point2, Vector3};
 use serde::{Deserialize, Serialize};
-use types::field_features::{CenterCircle, LineCorner, LineSegment, PenaltyMark};
 
 use super::estimate::Estimate;
 use super::features::Line;
 use super::memory::Memory;
 use super::search;
+use super::seen::Seen;
 use super::sight::{Match, View};
 use crate::angle::wrap;
 
@@ -36,30 +36,6 @@ pub(super) struct Belief {
     hypotheses: [Option<Hypothesis>; MOST_HYPOTHESES],
     memory: Memory,
     searched_at: Timestamp,
-}
-
-/// What one image shows of the field.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Seen<'a> {
-    pub(super) lines: &'a [LineSegment],
-    pub(super) mark: Option<&'a PenaltyMark>,
-    pub(super) circle: Option<&'a CenterCircle>,
-    pub(super) corners: &'a [LineCorner],
-}
-
-impl Seen<'_> {
-    /// Circle and corners are made of lines.
-    fn is_empty(&self) -> bool {
-        self.lines.is_empty() && self.mark.is_none()
-    }
-
-    /// Whether the line is a piece of the circle that was seen.
-    fn is_piece(&self, line: &LineSegment, view: &View<'_>) -> bool {
-        let radius = view.markings.circle_radius;
-        let tolerance = view.parameters.piece_tolerance;
-        self.circle
-            .is_some_and(|circle| circle.has_piece(line, radius, tolerance))
-    }
 }
 
 impl Default for Belief {

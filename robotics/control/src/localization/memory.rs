@@ -4,8 +4,8 @@ use framework::Timestamp;
 use nalgebra::Isometry2;
 use serde::{Deserialize, Serialize};
 
-use super::belief::Seen;
 use super::features::{Corner, Line};
+use super::seen::Seen;
 use super::sight::View;
 
 /// How many lines are remembered.
