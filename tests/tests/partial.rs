@@ -119,9 +119,11 @@ fn the_nao_with_control_alone_names_only_what_control_needs() {
     let outside = model.outside.iter().flat_map(|cycler| &cycler.outputs);
     let outside: Vec<&str> = outside.map(|output| output.name.as_str()).collect();
     let expected = [
+        "ball_view",
         "balls",
         "center_circle",
         "corners",
+        "limb_mask",
         "lines",
         "obstacles",
         "penalty_mark",

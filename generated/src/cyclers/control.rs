@@ -414,7 +414,8 @@ impl Nodes {
         self.cycle(frame)
     }
 
-    /// perception Vision.balls, historic odometry -> ball; when subscribed:
+    /// perception Vision.balls, perception Vision.ball_view, perception Vision.limb_mask,
+    /// perception Vision.obstacles, historic odometry -> ball; when subscribed:
     /// ball_filter.hypotheses, ball_filter.persistent_ball, ball_filter.delivered
     #[inline(always)]
     fn ball_filter<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
@@ -425,9 +426,33 @@ impl Nodes {
                 &frame.perception.vision_bottom.project(|outputs| &outputs.balls),
             ],
         };
+        let ball_views = Interleaved {
+            order: &frame.perception.vision,
+            instances: [
+                &frame.perception.vision_top.project(|outputs| &outputs.ball_view),
+                &frame.perception.vision_bottom.project(|outputs| &outputs.ball_view),
+            ],
+        };
+        let limb_masks = Interleaved {
+            order: &frame.perception.vision,
+            instances: [
+                &frame.perception.vision_top.project(|outputs| &outputs.limb_mask),
+                &frame.perception.vision_bottom.project(|outputs| &outputs.limb_mask),
+            ],
+        };
+        let obstacles = Interleaved {
+            order: &frame.perception.vision,
+            instances: [
+                &frame.perception.vision_top.project(|outputs| &outputs.obstacles),
+                &frame.perception.vision_bottom.project(|outputs| &outputs.obstacles),
+            ],
+        };
         let odometry = frame.historic.odometry.project(|odometry| odometry);
         let context = ball_filter::CycleContext {
             balls: PerceptionInput::new(&balls),
+            ball_views: PerceptionInput::new(&ball_views),
+            limb_masks: PerceptionInput::new(&limb_masks),
+            obstacles: PerceptionInput::new(&obstacles),
             odometry: HistoricInput::new(
                 &odometry,
                 frame.cycle.time.start,

@@ -148,7 +148,8 @@ impl Nodes {
     }
 
     /// image (required), image_segments, field_border, lines, penalty_mark, camera_matrix
-    /// (required), field_color -> balls; when subscribed: ball_candidates, ball_proposals
+    /// (required), field_color -> balls, ball_view; when subscribed: ball_candidates,
+    /// ball_proposals
     #[inline(always)]
     fn ball_detection<Hardware>(
         &mut self,
@@ -182,13 +183,18 @@ impl Nodes {
                 ),
                 balls: &mut frame.shared.balls,
             };
-            self.ball_detection.call(&frame.cycle, |node| node.cycle(context))?;
+            let outputs = self
+                .ball_detection
+                .call(&frame.cycle, |node| node.cycle(context))?;
+            frame.shared.ball_view = outputs.ball_view.value;
         } else {
             // A required input is absent: the main outputs take their defaults.
             self.ball_detection.skip();
+            frame.shared.ball_view = Default::default();
         }
         if let Some(injections) = frame.injections {
             injections.balls.replace(&mut frame.shared.balls);
+            injections.ball_view.replace(&mut frame.shared.ball_view);
         }
         Ok(())
     }
@@ -265,7 +271,7 @@ impl Nodes {
                 image,
                 lines: &frame.shared.lines,
                 center_circle: frame.shared.center_circle.as_ref(),
-                limb_mask: &frame.own.limb_mask,
+                limb_mask: &frame.shared.limb_mask,
                 camera_matrix,
                 radius: &frame.parameters.field_dimensions.markings.circle_radius,
                 parameters: &frame.parameters.corner_detection,
@@ -315,7 +321,7 @@ impl Nodes {
             let context = field_color_detection::CycleContext {
                 image,
                 camera_matrix: frame.own.camera_matrix.as_ref(),
-                limb_mask: &frame.own.limb_mask,
+                limb_mask: &frame.shared.limb_mask,
                 initial: &frame.parameters.field_color,
                 parameters: &frame.parameters.field_color_detection,
             };
@@ -363,7 +369,7 @@ impl Nodes {
             let context = image_segmenter::CycleContext {
                 image,
                 camera_matrix: frame.own.camera_matrix.as_ref(),
-                limb_mask: &frame.own.limb_mask,
+                limb_mask: &frame.shared.limb_mask,
                 field_color: &frame.own.field_color,
                 steps: &frame.instance_parameters.scan_steps,
                 image_segments: &mut frame.own.image_segments,
@@ -385,7 +391,7 @@ impl Nodes {
         &mut self,
         frame: &mut Frame<'_, Hardware>,
     ) -> Result<()> {
-        Clear::clear(&mut frame.own.limb_mask);
+        Clear::clear(&mut frame.shared.limb_mask);
         if let Some(image) = frame.own.image.as_ref() {
             let context = limb_projector::CycleContext {
                 image,
@@ -397,7 +403,7 @@ impl Nodes {
                 top: &frame.parameters.cameras.top,
                 bottom: &frame.parameters.cameras.bottom,
                 parameters: &frame.parameters.limb_projector,
-                limb_mask: &mut frame.own.limb_mask,
+                limb_mask: &mut frame.shared.limb_mask,
             };
             self.limb_projector.call(&frame.cycle, |node| node.cycle(context))?;
         } else {
@@ -405,7 +411,7 @@ impl Nodes {
             self.limb_projector.skip();
         }
         if let Some(injections) = frame.injections {
-            injections.limb_mask.replace(&mut frame.own.limb_mask);
+            injections.limb_mask.replace(&mut frame.shared.limb_mask);
         }
         Ok(())
     }
@@ -424,7 +430,7 @@ impl Nodes {
             let context = line_detection::CycleContext {
                 image,
                 image_segments: &frame.own.image_segments,
-                limb_mask: &frame.own.limb_mask,
+                limb_mask: &frame.shared.limb_mask,
                 field_border: &frame.own.field_border,
                 camera_matrix,
                 field_color: &frame.own.field_color,

@@ -17,6 +17,7 @@ use nalgebra::Point2;
 use serde::Deserialize;
 use serde::Serialize;
 use types::ball::BallCandidate;
+use types::ball::BallView;
 use types::camera::CameraMatrix;
 use types::field_features::CenterCircle;
 use types::field_features::FieldBorder;
@@ -47,19 +48,21 @@ pub struct OwnOutputs {
     pub image: Option<Leased<YuyvImage>>,
     /// vision::image_segmenter
     pub image_segments: ImageSegments,
-    /// vision::limb_projector
-    pub limb_mask: LimbMask,
 }
 
 /// Main outputs that other instances read, too: written in the slot that those will read.
 #[derive(Clone, Debug, Default, Deserialize, Reflect, Serialize)]
 pub struct SharedOutputs {
     /// vision::ball_detection
+    pub ball_view: Option<BallView>,
+    /// vision::ball_detection
     pub balls: Vec<BallCandidate>,
     /// vision::center_circle_detection
     pub center_circle: Option<CenterCircle>,
     /// vision::corner_detection
     pub corners: Vec<LineCorner>,
+    /// vision::limb_projector
+    pub limb_mask: LimbMask,
     /// vision::line_detection
     pub lines: Vec<LineSegment>,
     /// vision::obstacle_detection
@@ -105,6 +108,7 @@ pub struct Subscribed {
 /// Values of clients in place of main outputs.
 #[derive(Clone, Debug, Default, Deserialize, Serialize)]
 pub struct Injections {
+    pub ball_view: Injection<Option<BallView>>,
     pub balls: Injection<Vec<BallCandidate>>,
     pub camera_matrix: Injection<Option<CameraMatrix>>,
     pub center_circle: Injection<Option<CenterCircle>>,
@@ -122,6 +126,7 @@ pub struct Injections {
 impl InjectionTable for Injections {
     fn get_mut(&mut self, output: &str) -> Option<&mut dyn InjectionCell> {
         match output {
+            "ball_view" => Some(&mut self.ball_view),
             "balls" => Some(&mut self.balls),
             "camera_matrix" => Some(&mut self.camera_matrix),
             "center_circle" => Some(&mut self.center_circle),

@@ -63,6 +63,7 @@ impl<Hardware: CameraInterface + Send + Sync> Recorded for Vision<Hardware> {
         ("vision::center_circle_detection", "center_circle"),
         ("vision::corner_detection", "corners"),
         ("vision::penalty_mark_detection", "penalty_mark"),
+        ("vision::ball_detection", "ball_view"),
         ("vision::ball_detection", "balls"),
         ("vision::obstacle_detection", "obstacles"),
     ];
@@ -169,7 +170,7 @@ impl<Hardware: CameraInterface + Send + Sync> Recorded for Vision<Hardware> {
 
     fn digests(&self, shared: &SharedOutputs, digests: &mut Digests<'_, '_>) {
         digests.add(&self.own.previous().camera_matrix);
-        digests.add(&self.own.previous().limb_mask);
+        digests.add(&shared.limb_mask);
         digests.add(&self.own.previous().field_color);
         digests.add(&self.own.previous().image_segments);
         digests.add(&self.own.previous().field_border);
@@ -177,6 +178,7 @@ impl<Hardware: CameraInterface + Send + Sync> Recorded for Vision<Hardware> {
         digests.add(&shared.center_circle);
         digests.add(&shared.corners);
         digests.add(&shared.penalty_mark);
+        digests.add(&shared.ball_view);
         digests.add(&shared.balls);
         digests.add(&shared.obstacles);
     }

@@ -203,6 +203,7 @@ impl<Hardware: CameraInterface + Send + Sync> Body for Vision<Hardware> {
             "center_circle",
             "corners",
             "penalty_mark",
+            "ball_view",
             "balls",
             "obstacles",
         ]
@@ -216,7 +217,7 @@ impl<Hardware: CameraInterface + Send + Sync> Body for Vision<Hardware> {
         match name {
             "image" => Some(&self.own.previous().image),
             "camera_matrix" => Some(&self.own.previous().camera_matrix),
-            "limb_mask" => Some(&self.own.previous().limb_mask),
+            "limb_mask" => Some(&shared.limb_mask),
             "field_color" => Some(&self.own.previous().field_color),
             "image_segments" => Some(&self.own.previous().image_segments),
             "field_border" => Some(&self.own.previous().field_border),
@@ -224,6 +225,7 @@ impl<Hardware: CameraInterface + Send + Sync> Body for Vision<Hardware> {
             "center_circle" => Some(&shared.center_circle),
             "corners" => Some(&shared.corners),
             "penalty_mark" => Some(&shared.penalty_mark),
+            "ball_view" => Some(&shared.ball_view),
             "balls" => Some(&shared.balls),
             "obstacles" => Some(&shared.obstacles),
             _ => None,
@@ -258,7 +260,7 @@ impl<Hardware: CameraInterface + Send + Sync> Body for Vision<Hardware> {
     ) {
         visitor.output(Some(&self.own.previous().image));
         visitor.output(Some(&self.own.previous().camera_matrix));
-        visitor.output(Some(&self.own.previous().limb_mask));
+        visitor.output(Some(&shared.limb_mask));
         visitor.output(Some(&self.own.previous().field_color));
         visitor.output(Some(&self.own.previous().image_segments));
         visitor.output(Some(&self.own.previous().field_border));
@@ -266,6 +268,7 @@ impl<Hardware: CameraInterface + Send + Sync> Body for Vision<Hardware> {
         visitor.output(Some(&shared.center_circle));
         visitor.output(Some(&shared.corners));
         visitor.output(Some(&shared.penalty_mark));
+        visitor.output(Some(&shared.ball_view));
         visitor.output(Some(&shared.balls));
         visitor.output(Some(&shared.obstacles));
         visitor.output(self.additional_outputs.ball_candidates.get(cycle));

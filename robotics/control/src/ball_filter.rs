@@ -5,23 +5,30 @@
 //! (gating as in Bar-Shalom and Li 1995). They live in the start frame of odometry, so that a ball
 //! at rest stays where it is while the robot walks, turns, or stands.
 //!
+//! An image that would show a ball and does not speaks against it, so that one that somebody takes away is soon
+//! no longer believed in.
+//!
 //! Cycles of Vision that nothing older can overtake any more are learnt; younger ones only refine
 //! this cycle's answer.
 
 mod hypotheses;
 mod hypothesis;
+mod sight;
 
 use framework::{
     AdditionalOutput, CycleTime, HistoricInput, MainOutput, Parameter, PerceptionInput, Reflect,
-    Result, RollBack, Timestamp, context,
+    Result, RollBack, Timeline, Timestamp, context,
 };
 use nalgebra::{Isometry2, Matrix2, Point2, Vector2};
 use serde::{Deserialize, Serialize};
-use types::ball::{Ball, BallCandidate, LearntImage};
+use types::ball::{Ball, BallCandidate, BallView, LearntImage};
+use types::limbs::LimbMask;
+use types::obstacles::ObstacleCandidate;
 use types::odometry::Odometry;
 
 use self::hypotheses::Hypotheses;
 use self::hypothesis::{Hypothesis, Sighting};
+use self::sight::Sight;
 use crate::places::Hypothesis as _;
 use crate::sight_noise::SightNoise;
 use crate::start_frame::ground_to_start;
@@ -62,6 +69,18 @@ pub struct BallFilterParameters {
     /// A sighting so old counts 1/e.
     #[reflect(unit = "s", range = 0.0..)]
     pub validity_time: f32,
+    /// An image that would show the ball and does not leaves so much of its validity.
+    #[reflect(range = 0.0..=1.0)]
+    pub missed_validity: f32,
+    /// Further away a ball that is not found may be there all the same.
+    #[reflect(unit = "m", range = 0.0..)]
+    pub missed_within: f32,
+    /// Nearer to the edge of an image or to the own limbs it may, too: the head turns meanwhile.
+    #[reflect(unit = "rad", range = 0.0..)]
+    pub missed_edge: f32,
+    /// So near to somebody, or to the way of the camera's look past somebody, it may be hidden.
+    #[reflect(unit = "m", range = 0.0..)]
+    pub hidden_beside: f32,
     /// A ball that nobody saw for so long is forgotten.
     #[reflect(unit = "s", range = 0.0..)]
     pub forget_after: f32,
@@ -80,6 +99,8 @@ pub struct BallHypothesis {
     pub validity: f32,
     /// When a camera saw it last.
     pub seen_at: Timestamp,
+    /// How many images since then would have shown it and did not.
+    pub missed: u32,
 }
 
 /// What was learnt of the ball.
@@ -94,6 +115,9 @@ pub struct CreationContext {}
 #[context]
 pub struct CycleContext {
     balls: PerceptionInput<Vec<BallCandidate>, "Vision", "balls">,
+    ball_views: PerceptionInput<Option<BallView>, "Vision", "ball_view">,
+    limb_masks: PerceptionInput<LimbMask, "Vision", "limb_mask">,
+    obstacles: PerceptionInput<Vec<ObstacleCandidate>, "Vision", "obstacles">,
     odometry: HistoricInput<Odometry, "odometry">,
     cycle_time: CycleTime,
     parameters: Parameter<BallFilterParameters, "ball_filter">,
@@ -123,17 +147,41 @@ impl BallFilter {
     /// Learns from what is settled, then looks at what is not.
     pub fn cycle(&mut self, mut context: CycleContext) -> Result<MainOutputs> {
         let (odometry, parameters) = (context.odometry, context.parameters);
-        let see = |hypotheses: &mut Hypotheses, timestamp, candidates: &Vec<BallCandidate>| {
+        let see = |hypotheses: &mut Hypotheses, timestamp, image: Image<'_>| {
             hypotheses.predict(timestamp, parameters);
-            if let Some(pose) = ground_to_start(&odometry, timestamp) {
-                for sighting in sightings(candidates, timestamp, pose, parameters) {
-                    hypotheses.learn(&sighting, parameters);
-                }
-                hypotheses.merge(parameters.same_place);
+            let Some(pose) = ground_to_start(&odometry, timestamp) else {
+                return;
+            };
+            for sighting in sightings(image.balls, timestamp, pose, parameters) {
+                hypotheses.learn(&sighting, parameters);
+            }
+            hypotheses.merge(parameters.same_place);
+            if let Some(view) = image.view {
+                let sight = Sight {
+                    view,
+                    limbs: image.limbs,
+                    obstacles: image.obstacles,
+                    start_to_ground: pose.inverse(),
+                };
+                hypotheses.miss(timestamp, &sight, parameters);
             }
         };
-        self.hypotheses.settle(context.balls.persistent, see);
-        let newest = self.hypotheses.with_transient(context.balls.transient, see);
+        let (balls, views) = (context.balls, context.ball_views);
+        let (limbs, obstacles) = (context.limb_masks, context.obstacles);
+        let persistent = images(
+            balls.persistent,
+            views.persistent,
+            limbs.persistent,
+            obstacles.persistent,
+        );
+        self.hypotheses.settle(persistent, see);
+        let transient = images(
+            balls.transient,
+            views.transient,
+            limbs.transient,
+            obstacles.transient,
+        );
+        let newest = self.hypotheses.with_transient(transient, see);
 
         let now = context.cycle_time.start;
         let start_to_ground = ground_to_start(&odometry, now).map(|pose| pose.inverse());
@@ -157,6 +205,33 @@ impl BallFilter {
             ball: ball_of(newest).into(),
         })
     }
+}
+
+/// What one image shows, and what it could show.
+#[derive(Clone, Copy, Debug)]
+struct Image<'c> {
+    balls: &'c [BallCandidate],
+    view: Option<&'c BallView>,
+    limbs: &'c LimbMask,
+    obstacles: &'c [ObstacleCandidate],
+}
+
+fn images<'c>(
+    balls: Timeline<'c, &'c Vec<BallCandidate>>,
+    views: Timeline<'c, &'c Option<BallView>>,
+    limbs: Timeline<'c, &'c LimbMask>,
+    obstacles: Timeline<'c, &'c Vec<ObstacleCandidate>>,
+) -> impl Iterator<Item = (Timestamp, Image<'c>)> {
+    let images = balls.zip(views).zip(limbs.zip(obstacles));
+    images.map(|((timestamp, (balls, view)), (_, (limbs, obstacles)))| {
+        let image = Image {
+            balls,
+            view: view.as_ref(),
+            limbs,
+            obstacles,
+        };
+        (timestamp, image)
+    })
 }
 
 fn learnt((captured_at, candidates): (Timestamp, &Vec<BallCandidate>)) -> LearntImage {
@@ -226,6 +301,9 @@ fn describe(
     };
     let turn = start_to_ground.rotation.to_rotation_matrix().into_inner();
     let described = hypotheses.iter().map(|hypothesis| {
+        let Hypothesis {
+            validity, missed, ..
+        } = *hypothesis;
         let Ball {
             position,
             velocity,
@@ -235,8 +313,9 @@ fn describe(
             position,
             velocity,
             covariance: turn * hypothesis.position_covariance() * turn.transpose(),
-            validity: hypothesis.validity,
+            validity,
             seen_at,
+            missed,
         }
     });
     described.collect()

@@ -11,6 +11,12 @@ fn ball_filter_computes_cycle_2897_of_control_again() {
     let mut node: BallFilter = captured.state();
     let balls = captured.series("balls");
     let balls = balls.seen();
+    let ball_views = captured.series("ball_views");
+    let ball_views = ball_views.seen();
+    let limb_masks = captured.series("limb_masks");
+    let limb_masks = limb_masks.seen();
+    let obstacles = captured.series("obstacles");
+    let obstacles = obstacles.seen();
     let odometry = captured.history("odometry");
     let odometry = odometry.seen();
     let mut hypotheses = AdditionalProbe::default();
@@ -18,6 +24,9 @@ fn ball_filter_computes_cycle_2897_of_control_again() {
     let mut delivered = AdditionalProbe::default();
     let context = CycleContext {
         balls: balls.input(),
+        ball_views: ball_views.input(),
+        limb_masks: limb_masks.input(),
+        obstacles: obstacles.input(),
         odometry: odometry.input(),
         cycle_time: captured.time(),
         parameters: &captured.value("parameters"),

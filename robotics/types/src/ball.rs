@@ -4,6 +4,8 @@ use framework::{Clear, Reflect, Timestamp};
 use nalgebra::{Matrix2, Point2, Vector2};
 use serde::{Deserialize, Serialize};
 
+use crate::camera::CameraMatrix;
+
 /// A circle in an image that looks like a ball.
 #[derive(Clear, Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
 pub struct BallCandidate {
@@ -15,6 +17,19 @@ pub struct BallCandidate {
     pub position: Option<Point2<f32>>,
     /// Of that place, along the axes of the ground frame, in m²; there where the place is.
     pub covariance: Option<Matrix2<f32>>,
+}
+
+/// In which part of the world an image was searched for balls.
+#[derive(Clear, Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
+pub struct BallView {
+    /// Where the camera was.
+    pub camera_matrix: CameraMatrix,
+    /// Width and height of the image in px.
+    pub size: Vector2<f32>,
+    /// Smaller balls were not looked for, radius in px.
+    pub least_radius: f32,
+    /// Of a ball in m.
+    pub ball_radius: f32,
 }
 
 /// An image whose candidates a filter has learnt.

@@ -12,7 +12,7 @@ use framework::testing::skip;
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Value, json};
 use types::audio::{AudioBlock, Tone, Whistle, WhistleEvidence};
-use types::ball::{Ball, BallCandidate, LearntImage};
+use types::ball::{Ball, BallCandidate, BallView, LearntImage};
 use types::behavior::{Activity, Plan, Role};
 use types::buttons::Buttons;
 use types::camera::{CameraCalibration, CameraMatrices, CameraMatrix, CameraPosition, Intrinsics};
@@ -77,6 +77,7 @@ const KINDS: &[Kind] = kinds![
     Plan,
     Role,
     BallCandidate,
+    BallView,
     LearntImage,
     Ball,
     Buttons,

@@ -17,9 +17,9 @@ use framework::pool::Leased;
 use framework::{
     AdditionalOutput, Clear, Input, MainOutput, Parameter, Reflect, RequiredInput, Result, context,
 };
-use nalgebra::Point2;
+use nalgebra::{Point2, Vector2};
 use serde::{Deserialize, Serialize};
-use types::ball::BallCandidate;
+use types::ball::{BallCandidate, BallView};
 use types::camera::CameraMatrix;
 use types::field_features::{FieldBorder, LineSegment, PenaltyMark};
 use types::image::YuyvImage;
@@ -173,7 +173,10 @@ pub struct CycleContext {
 }
 
 #[context]
-pub struct MainOutputs {}
+pub struct MainOutputs {
+    /// Where balls were looked for; `None` where no image was.
+    ball_view: MainOutput<Option<BallView>>,
+}
 
 impl BallDetection {
     /// Never fails.
@@ -226,7 +229,15 @@ impl BallDetection {
                 context.balls.push(ball);
             }
         }
-        Ok(MainOutputs {})
+        let ball_view = BallView {
+            camera_matrix: *context.camera_matrix,
+            size: Vector2::new(context.image.width as f32, context.image.height as f32),
+            least_radius: parameters.least_radius,
+            ball_radius: *context.ball_radius,
+        };
+        Ok(MainOutputs {
+            ball_view: Some(ball_view).into(),
+        })
     }
 }
 
@@ -353,7 +364,7 @@ mod tests {
         image: &YuyvImage,
         candidates: &mut AdditionalProbe<Vec<BallCandidate>>,
     ) -> Vec<BallCandidate> {
-        balls_besides(image, &FieldBorder::default(), None, candidates)
+        balls_besides(image, &FieldBorder::default(), None, candidates).0
     }
 
     fn balls_besides(
@@ -361,7 +372,7 @@ mod tests {
         field_border: &FieldBorder,
         penalty_mark: Option<&PenaltyMark>,
         candidates: &mut AdditionalProbe<Vec<BallCandidate>>,
-    ) -> Vec<BallCandidate> {
+    ) -> (Vec<BallCandidate>, Option<BallView>) {
         // Every fourth column as one piece that is not field: the grid then looks everywhere.
         let pieces = (2..640).step_by(4);
         let image_segments = ImageSegments {
@@ -376,7 +387,7 @@ mod tests {
                 .collect(),
         };
         let mut balls = Vec::new();
-        BallDetection::new(CreationContext {})
+        let outputs = BallDetection::new(CreationContext {})
             .unwrap()
             .cycle(CycleContext {
                 image: &Leased::of(image.clone()),
@@ -395,7 +406,7 @@ mod tests {
                 balls: &mut balls,
             })
             .unwrap();
-        balls
+        (balls, outputs.ball_view.value)
     }
 
     fn printed(center: Point2<f32>, radius: f32) -> YuyvImage {
@@ -448,7 +459,9 @@ mod tests {
                 ..PenaltyMark::default()
             };
             let mut candidates = AdditionalProbe::unsubscribed();
-            balls_besides(&image, &border_at(border), Some(&mark), &mut candidates).len()
+            balls_besides(&image, &border_at(border), Some(&mark), &mut candidates)
+                .0
+                .len()
         };
         let beside = center + Vector2::new(3.0 * radius, 0.0);
         assert_eq!(found(center.y - radius, beside), 1);
@@ -457,9 +470,17 @@ mod tests {
     }
 
     #[test]
-    fn candidates_are_told_to_who_listens() {
+    fn without_a_ball_it_is_told_where_one_was_looked_for_and_to_who_listens_what_was_looked_at() {
         let mut candidates = AdditionalProbe::default();
-        assert_eq!(balls(&image(&[]), &mut candidates), []);
+        let (border, nothing) = (FieldBorder::default(), image(&[]));
+        let (balls, view) = balls_besides(&nothing, &border, None, &mut candidates);
+        let expected = BallView {
+            camera_matrix: camera_matrix(),
+            size: Vector2::new(640.0, 480.0),
+            least_radius: 3.5,
+            ball_radius: 0.05,
+        };
+        assert_eq!((balls, view), (vec![], Some(expected)));
         assert!(
             candidates
                 .value()

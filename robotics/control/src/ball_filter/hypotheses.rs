@@ -4,6 +4,7 @@ use framework::Timestamp;
 
 use super::BallFilterParameters;
 use super::hypothesis::{Hypothesis, Sighting};
+use super::sight::Sight;
 use crate::places::{Hypothesis as _, Places};
 
 /// More are not kept: the least valid one makes room.
@@ -49,6 +50,22 @@ impl Hypotheses {
         match expecting {
             Some((_, hypothesis)) => hypothesis.learn(sighting, parameters),
             None => self.insert(Hypothesis::seen_first(sighting, parameters)),
+        }
+    }
+    /// Believes less in balls that the image of this time would show and does not.
+    ///
+    /// After `learn` of all that it shows.
+    pub(super) fn miss(
+        &mut self,
+        seen_at: Timestamp,
+        sight: &Sight<'_>,
+        parameters: &BallFilterParameters,
+    ) {
+        let unseen = self
+            .iter_mut()
+            .filter(|hypothesis| hypothesis.seen_at < seen_at);
+        for hypothesis in unseen.filter(|unseen| sight.would_show(unseen, parameters)) {
+            hypothesis.miss(parameters);
         }
     }
 }

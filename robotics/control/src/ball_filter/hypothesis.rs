@@ -17,6 +17,8 @@ pub(super) struct Hypothesis {
     /// How many sightings speak for it, older ones less.
     pub(super) validity: f32,
     pub(super) seen_at: Timestamp,
+    /// Images since then that would have shown it and did not.
+    pub(super) missed: u32,
 }
 
 /// Where a camera saw a ball, in the start frame.
@@ -37,6 +39,7 @@ impl Hypothesis {
             covariance: covariance(sighting.noise, parameters),
             validity: 1.0,
             seen_at: sighting.seen_at,
+            missed: 0,
         }
     }
 
@@ -118,6 +121,13 @@ impl Hypothesis {
         self.validity = (self.validity + 1.0).min(parameters.most_validity);
         // An image that arrives late is no reason to forget a younger one.
         self.seen_at = self.seen_at.max(sighting.seen_at);
+        self.missed = 0;
+    }
+
+    /// Believes less in itself: an image does not show it where it would have to.
+    pub(super) fn miss(&mut self, parameters: &BallFilterParameters) {
+        self.validity *= parameters.missed_validity;
+        self.missed = self.missed.saturating_add(1);
     }
 
     /// A ball that was kicked or stopped: nobody knows how fast it is now.

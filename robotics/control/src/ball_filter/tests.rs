@@ -11,6 +11,8 @@ use framework::testing::{
 use super::hypotheses::MOST_HYPOTHESES;
 use super::*;
 
+mod missed;
+
 type Seen<'a> = Vec<(Timestamp, &'a Vec<BallCandidate>)>;
 
 /// What listeners see of a cycle.
@@ -54,15 +56,46 @@ fn pose(x: f32, y: f32, yaw: f32) -> Odometry {
     }
 }
 
+/// What images have beside balls; by default nothing that says where balls were looked for.
+#[derive(Default)]
+struct Around {
+    view: Option<BallView>,
+    limbs: LimbMask,
+    obstacles: Vec<ObstacleCandidate>,
+}
+
+/// The same in each of the images.
+fn each<'a, T>(times: &[Vec<Timestamp>; 2], value: &'a T) -> [Vec<(Timestamp, &'a T)>; 2] {
+    times
+        .each_ref()
+        .map(|times| times.iter().map(|at| (*at, value)).collect())
+}
+
 /// A cycle at `now` ms of a robot that was at `before` from the start and is at `pose` now.
 fn cycle_at(
+    node: &mut BallFilter,
+    now: u64,
+    poses: (&Odometry, &Odometry),
+    parameters: &BallFilterParameters,
+    seen: (Seen<'_>, Seen<'_>),
+) -> Cycle {
+    cycle_around(node, now, poses, parameters, seen, &Around::default())
+}
+
+fn cycle_around(
     node: &mut BallFilter,
     now: u64,
     (before, pose): (&Odometry, &Odometry),
     parameters: &BallFilterParameters,
     (persistent, transient): (Seen<'_>, Seen<'_>),
+    around: &Around,
 ) -> Cycle {
     let past = [(Timestamp::ZERO, before)];
+    let times =
+        [&persistent, &transient].map(|seen| seen.iter().map(|(at, _)| *at).collect::<Vec<_>>());
+    let [views, open_views] = each(&times, &around.view);
+    let [limbs, open_limbs] = each(&times, &around.limbs);
+    let [obstacles, open_obstacles] = each(&times, &around.obstacles);
     let (mut hypotheses, mut ball, mut delivered) = (
         AdditionalProbe::default(),
         AdditionalProbe::default(),
@@ -70,6 +103,9 @@ fn cycle_at(
     );
     let context = CycleContext {
         balls: perception(&persistent, &transient),
+        ball_views: perception(&views, &open_views),
+        limb_masks: perception(&limbs, &open_limbs),
+        obstacles: perception(&obstacles, &open_obstacles),
         odometry: history(&past, at_millis(now), pose),
         cycle_time: cycle_time(now, 12),
         parameters,
