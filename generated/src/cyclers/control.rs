@@ -856,7 +856,8 @@ impl Nodes {
 
     /// perception Vision.lines, perception Vision.penalty_mark, perception
     /// Vision.center_circle, perception Vision.corners, historic odometry, fall_state,
-    /// primary_state -> ground_to_field; when subscribed: localization.hypotheses
+    /// primary_state, game_controller_state -> ground_to_field; when subscribed:
+    /// localization.hypotheses
     #[inline(always)]
     fn localization<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
         let lines = Interleaved {
@@ -900,6 +901,7 @@ impl Nodes {
             ),
             fall_state: &frame.own.fall_state,
             primary_state: &frame.own.primary_state,
+            game_controller_state: &frame.own.game_controller_state,
             cycle_time: frame.cycle.time,
             player: &frame.parameters.player,
             markings: &frame.parameters.field_dimensions.markings,

@@ -9,6 +9,7 @@ mod decision;
 mod keeper;
 mod on_the_ground;
 mod parameters;
+mod penalty_kick;
 mod places;
 mod play;
 mod stuck;

@@ -11,7 +11,8 @@ use framework::{
 };
 use serde::{Deserialize, Serialize};
 use types::game::{
-    GameControllerPacket, GameControllerState, KickingTeam, Penalty, Player, TeamState,
+    GameControllerPacket, GameControllerState, GamePhase, KickingTeam, Penalty, Player, SetPlay,
+    TeamState,
 };
 
 /// What was heard so far.
@@ -126,7 +127,10 @@ fn after(
         game_phase: message.game_phase,
         game_state: message.game_state,
         game_state_since: since,
-        set_play: message.set_play,
+        set_play: match message.game_phase {
+            GamePhase::PenaltyShootout => SetPlay::PenaltyKick,
+            _ => message.set_play,
+        },
         kicking_team: kicking_team(message.kicking_team, own, opponent),
         is_first_half: message.is_first_half,
         seconds_remaining: message.seconds_remaining,
@@ -229,6 +233,30 @@ mod tests {
         assert_eq!((state.own_score, state.opponent_score), (0, 1));
         assert_eq!(state.message_budget, 900);
         assert_eq!(state.received_at, at_millis(90));
+    }
+
+    #[test]
+    fn a_shot_of_a_shoot_out_is_a_penalty_kick_whose_team_is_known() {
+        for (phase, set_play, shot_of) in [
+            (
+                GamePhase::PenaltyShootout,
+                SetPlay::PenaltyKick,
+                Some(KickingTeam::Own),
+            ),
+            (GamePhase::Normal, SetPlay::CornerKick, None),
+            (GamePhase::Overtime, SetPlay::CornerKick, None),
+        ] {
+            let mut shot = packet(GameState::Playing, 77);
+            shot.message.game_phase = phase;
+            shot.message.set_play = match phase {
+                GamePhase::PenaltyShootout => SetPlay::None,
+                _ => SetPlay::CornerKick,
+            };
+            let shot = Some(shot);
+            let heard = vec![(at_millis(90), &shot)];
+            let state = cycle(&mut node(), 100, PLAYER, heard, vec![]).unwrap();
+            assert_eq!((state.set_play, state.shot_of()), (set_play, shot_of));
+        }
     }
 
     #[test]

@@ -30,7 +30,7 @@ use serde::{Deserialize, Serialize};
 use types::fall_state::FallState;
 use types::field_features::{CenterCircle, LineCorner, LineSegment, PenaltyMark};
 use types::field_markings::FieldMarkings;
-use types::game::{Player, PrimaryState};
+use types::game::{GameControllerState, KickingTeam, Player, PrimaryState};
 use types::odometry::Odometry;
 
 use self::belief::{Belief, Hypothesis};
@@ -72,6 +72,7 @@ pub struct CycleContext {
     odometry: HistoricInput<Odometry, "odometry">,
     fall_state: Input<FallState, "fall_state">,
     primary_state: Input<PrimaryState, "primary_state">,
+    game_controller_state: Input<Option<GameControllerState>, "game_controller_state">,
     cycle_time: CycleTime,
 
     /// Who this robot is in the game.
@@ -129,7 +130,17 @@ impl Localization {
         self.belief.settle(persistent, see);
         let pose = ground_to_start(&odometry, now);
         if let Some(pose) = pose {
-            self.put(now, pose, *context.primary_state, *context.player, &view);
+            let shot_of = context
+                .game_controller_state
+                .and_then(|said| said.shot_of());
+            self.put(
+                now,
+                pose,
+                *context.primary_state,
+                shot_of,
+                *context.player,
+                &view,
+            );
         }
         let transient = images(
             lines.transient,
@@ -151,21 +162,32 @@ impl Localization {
         })
     }
 
-    /// What people do with a robot that does not play: before the game it is put to its start, after a
-    /// penalty beside the field, unless it was left where it stood.
+    /// What people do with a robot that does not play: before the game it is put to its start, before a shot of a
+    /// shoot-out to ball or goal, after a penalty beside the field, unless it was left where it stood.
     fn put(
         &mut self,
         now: Timestamp,
         ground_to_start: Isometry2<f32>,
         primary_state: PrimaryState,
+        shot_of: Option<KickingTeam>,
         player: Player,
         view: &View<'_>,
     ) {
         let before = std::mem::replace(&mut self.primary_state, primary_state);
         let belief = self.belief.settled_mut();
-        if primary_state == PrimaryState::Unstiff || self.begun_at == Timestamp::ZERO {
+        let is_first = self.begun_at == Timestamp::ZERO;
+        // Out of Playing Set comes back where a whistle was somebody else's, and nobody has touched the robot.
+        let is_put_for_shot = primary_state == PrimaryState::Set
+            && (is_first || ![PrimaryState::Set, PrimaryState::Playing].contains(&before));
+        let begins_at = match shot_of.and_then(|team| shot_pose(team, view)) {
+            Some(pose) if is_put_for_shot => Some(pose),
+            _ if is_first || primary_state == PrimaryState::Unstiff => {
+                Some(start_pose(player, view.parameters))
+            }
+            _ => None,
+        };
+        if let Some(pose) = begins_at {
             self.begun_at = now;
-            let pose = start_pose(player, view.parameters);
             belief.begin(now, ground_to_start, [put_at(pose, view)].into_iter());
         } else if before == PrimaryState::Penalized && primary_state != before {
             belief.or_at(
@@ -183,6 +205,18 @@ fn start_pose(player: Player, parameters: &LocalizationParameters) -> Isometry2<
     let pose = poses.get(index).or(poses.last());
     let FieldPose { x, y, heading } = pose.copied().unwrap_or_default();
     Isometry2::new(Vector2::new(x, y), heading)
+}
+
+/// RoboCup SPL rules 2025, penalty shoot-out: who shoots stands on the edge of the penalty area before the ball, who
+/// keeps the goal in the middle of its line.
+fn shot_pose(team: KickingTeam, view: &View<'_>) -> Option<Isometry2<f32>> {
+    let goal_line = view.markings.length / 2.0;
+    let x = match team {
+        KickingTeam::Own => goal_line - view.markings.penalty_area_length,
+        KickingTeam::Opponent => -goal_line,
+        KickingTeam::Nobody => return None,
+    };
+    Some(Isometry2::translation(x, 0.0))
 }
 
 /// RoboCup SPL rules 2025: beside the field at the height of the own penalty mark, facing the field.

@@ -5,7 +5,7 @@
 //! Messages come every few seconds, so that robots may disagree for as long; who plays the ball already counts as nearer than
 //! it is. Where the keeper is out, taken out or far from its goal, the first of the rest stands between ball and goal. Before
 //! the ball is in play numbers alone count. A robot that hears nobody plays the ball itself, unless it keeps the goal and the
-//! others have a penalty kick.
+//! others have a penalty kick. In a penalty shoot-out whose shot it is decides.
 //!
 //! Whose the goalkeeper's shirt is the referee says, and whoever has been taken out has no role: `teammates` leaves others out.
 
@@ -106,8 +106,10 @@ impl RoleAssignment {
             distance: own.map(|distance| distance - head_start),
         };
         self.is_keeper_out = self.is_keeper_out(goalkeeper, &context);
+        let in_shoot_out = said.and_then(role_in_shoot_out);
         self.role = match context.primary_state {
             PrimaryState::Penalized => None,
+            _ if in_shoot_out.is_some() => in_shoot_out,
             // Alone, too, it may not leave its line.
             _ if own.number == goalkeeper && said.is_some_and(is_penalty_kick_of_others) => {
                 Some(Role::Keeper)
@@ -145,6 +147,15 @@ impl RoleAssignment {
 
 fn is_penalty_kick_of_others(said: &GameControllerState) -> bool {
     said.set_play == SetPlay::PenaltyKick && said.kicking_team == KickingTeam::Opponent
+}
+
+/// One robot shoots and one keeps, whatever their shirts.
+fn role_in_shoot_out(said: &GameControllerState) -> Option<Role> {
+    match said.shot_of()? {
+        KickingTeam::Own => Some(Role::Striker),
+        KickingTeam::Opponent => Some(Role::Keeper),
+        KickingTeam::Nobody => None,
+    }
 }
 
 /// Who could play the ball.

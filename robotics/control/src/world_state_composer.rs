@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use types::ball::Ball;
 use types::behavior::Role;
 use types::fall_state::FallState;
-use types::game::{GameControllerState, KickingTeam, PrimaryState, SetPlay};
+use types::game::{GameControllerState, PrimaryState};
 use types::obstacles::Obstacle;
 use types::team::Teammate;
 use types::world_state::WorldState;
@@ -47,15 +47,12 @@ impl WorldStateComposer {
 
     /// Copies; while no referee is heard, nobody kicks first.
     pub fn cycle(&mut self, context: CycleContext) -> Result<MainOutputs> {
-        let (kicking_team, set_play) = context
-            .game_controller_state
-            .map_or((KickingTeam::Nobody, SetPlay::None), |referee| {
-                (referee.kicking_team, referee.set_play)
-            });
+        let referee = context.game_controller_state.unwrap_or_default();
         let world_state = context.world_state;
         world_state.primary_state = *context.primary_state;
-        world_state.kicking_team = kicking_team;
-        world_state.set_play = set_play;
+        world_state.game_phase = referee.game_phase;
+        world_state.kicking_team = referee.kicking_team;
+        world_state.set_play = referee.set_play;
         world_state.role = *context.role;
         world_state.goalkeeper = *context.goalkeeper;
         world_state.fall_state = *context.fall_state;
@@ -72,6 +69,7 @@ impl WorldStateComposer {
 #[cfg(test)]
 mod tests {
     use types::fall_state::Facing;
+    use types::game::{GamePhase, KickingTeam, SetPlay};
 
     use super::*;
 
@@ -79,6 +77,7 @@ mod tests {
     fn everything_arrives_where_it_belongs() {
         let mut world_state = WorldState::default();
         let referee = GameControllerState {
+            game_phase: GamePhase::Overtime,
             kicking_team: KickingTeam::Own,
             set_play: SetPlay::CornerKick,
             ..GameControllerState::default()
@@ -101,6 +100,7 @@ mod tests {
         node.cycle(context).unwrap();
         let expected = WorldState {
             primary_state: PrimaryState::Ready,
+            game_phase: GamePhase::Overtime,
             kicking_team: KickingTeam::Own,
             set_play: SetPlay::CornerKick,
             role: Some(Role::Supporter),

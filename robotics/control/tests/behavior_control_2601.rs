@@ -1,7 +1,6 @@
 //! Cycle 2601 of Control as it was recorded: `control::behavior` computes the same again, bit for bit.
 //!
 //! Written by `hulkgen capture`, with its values in `captured/behavior_control_2601.json`.
-//! Parameters that stood in code that day are written in by hand.
 
 use control::behavior::{Behavior, CycleContext};
 use framework::testing::{AdditionalProbe, Captured};

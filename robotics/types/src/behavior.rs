@@ -78,6 +78,8 @@ pub enum Activity {
     Catch,
     /// Walks away from where it got nowhere.
     BackOff,
+    /// Stands after its shot in a penalty shoot-out: it may not play the ball again.
+    WatchShot,
 }
 
 impl Activity {

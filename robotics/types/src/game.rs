@@ -221,7 +221,7 @@ pub struct GameControllerState {
     pub game_state: GameState,
     /// When it became that, as far as this robot knows.
     pub game_state_since: Timestamp,
-    /// How the game was resumed.
+    /// How the game was resumed; a shot of the penalty shoot-out is a penalty kick.
     pub set_play: SetPlay,
     /// Who kicks first.
     pub kicking_team: KickingTeam,
@@ -248,6 +248,11 @@ pub struct GameControllerState {
 }
 
 impl GameControllerState {
+    /// Whose shot it is in a penalty shoot-out; `None` in any other part of the game.
+    pub fn shot_of(&self) -> Option<KickingTeam> {
+        (self.game_phase == GamePhase::PenaltyShootout).then_some(self.kicking_team)
+    }
+
     /// Why a player of the own team may not play; one that the referee's computer does not know may.
     pub fn penalty_of(&self, number: u8) -> Penalty {
         let index = usize::from(number).checked_sub(1);

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::ball::Ball;
 use crate::behavior::Role;
 use crate::fall_state::FallState;
-use crate::game::{KickingTeam, PrimaryState, SetPlay};
+use crate::game::{GamePhase, KickingTeam, PrimaryState, SetPlay};
 use crate::obstacles::Obstacle;
 use crate::team::Teammate;
 
@@ -16,6 +16,8 @@ use crate::team::Teammate;
 pub struct WorldState {
     /// What this robot does in the game.
     pub primary_state: PrimaryState,
+    /// Which part of the game it is.
+    pub game_phase: GamePhase,
     /// Who kicks first.
     pub kicking_team: KickingTeam,
     /// How the game was resumed.

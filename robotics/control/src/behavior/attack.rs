@@ -10,6 +10,7 @@ use types::motion::{BodyMotion, Script, Step};
 
 use super::decision::{Decision, View};
 use super::parameters::AttackParameters;
+use super::penalty_kick::past_keeper;
 use super::places::wrapped;
 use super::walk_to::{straight, within};
 use super::way::Circle;
@@ -48,6 +49,7 @@ pub(super) fn attack(view: &View<'_>, ball: Point2<f32>) -> Decision {
         true => heading + math::atan2(ball.y, ball.x),
         false => heading,
     };
+    let easy = past_keeper(view, on_field, easy).unwrap_or(easy);
     let places = &view.parameters.places;
     let aim = wrapped(places.aim(on_field, easy, attack) - heading);
     let stance = Stance::new(ball, aim);

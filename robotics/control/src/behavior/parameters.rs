@@ -98,6 +98,12 @@ pub struct AttackParameters {
     /// So far from the posts the aim stays.
     #[reflect(unit = "m", range = 0.0..)]
     pub post_margin: f32,
+    /// A penalty kick goes past a keeper, so far from the middle of the goal.
+    #[reflect(unit = "m", range = 0.0..)]
+    pub corner: f32,
+    /// Who has turned further from the keeper stays with that side.
+    #[reflect(unit = "rad", range = 0.0..)]
+    pub corner_chosen: f32,
     /// A goal that opens less is not aimed at.
     #[reflect(unit = "rad", range = 0.0..)]
     pub least_opening: f32,
@@ -206,6 +212,9 @@ pub struct PlaceParameters {
     /// What is farther from the centre mark has been kicked off.
     #[reflect(unit = "m", range = 0.0..)]
     pub kicked_off: f32,
+    /// What is farther from the penalty mark has been shot in a shoot-out.
+    #[reflect(unit = "m", range = 0.0..)]
+    pub shot: f32,
     /// Of a post.
     #[reflect(unit = "m", range = 0.0..)]
     pub post_radius: f32,

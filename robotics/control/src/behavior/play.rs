@@ -9,6 +9,7 @@ use types::motion::{BodyMotion, HeadMotion};
 use super::attack::attack;
 use super::decision::{Decision, View};
 use super::keeper::{beside_keeper, block, guard, leaves_it_to_keeper, stay_on_line};
+use super::penalty_kick::watch_shot;
 
 /// In Ready: to the place of the role.
 pub(super) fn get_ready(view: &View<'_>) -> Decision {
@@ -20,7 +21,7 @@ pub(super) fn get_ready(view: &View<'_>) -> Decision {
 
 /// In Playing.
 pub(super) fn play(view: &View<'_>) -> Decision {
-    if let Some(restricted) = restricted(view) {
+    if let Some(restricted) = restricted(view).or_else(|| watch_shot(view)) {
         return restricted;
     }
     let Some(ball) = view.world.ball else {

@@ -14,6 +14,8 @@ use types::field_markings::Course;
 use super::*;
 use crate::angle::wrap;
 
+mod put;
+
 /// The robot's cameras see about so far, m, and so far aside while the head turns, rad.
 const REACH: f32 = 4.0;
 const ASIDE: f32 = 1.0;
@@ -32,6 +34,7 @@ struct Moment<'a> {
     corners: Vec<LineCorner>,
     is_settled: bool,
     primary_state: PrimaryState,
+    said: Option<GameControllerState>,
 }
 
 struct Cycle {
@@ -86,6 +89,7 @@ fn cycle(node: &mut Localization, moment: &Moment<'_>) -> Cycle {
         odometry: history(&[], now, &odometry),
         fall_state: &FallState::Upright,
         primary_state: &moment.primary_state,
+        game_controller_state: &moment.said,
         cycle_time: cycle_time(moment.millis, 33),
         player: &Player {
             number: 1,
@@ -112,6 +116,7 @@ fn playing(millis: u64, odometry: Isometry2<f32>, lines: &Vec<LineSegment>) -> M
         corners: Vec::new(),
         is_settled: true,
         primary_state: PrimaryState::Playing,
+        said: None,
     }
 }
 
@@ -177,36 +182,6 @@ fn assert_near(found: Option<Isometry2<f32>>, truth: &Isometry2<f32>, distance: 
         apart.translation.vector.norm() <= distance && apart.rotation.angle().abs() <= angle,
         "{found} instead of {truth}"
     );
-}
-
-#[test]
-fn before_it_has_seen_anything_it_stands_where_its_number_starts() {
-    let mut node = node();
-    let nothing = Vec::new();
-    let found = cycle(
-        &mut node,
-        &Moment {
-            primary_state: PrimaryState::Unstiff,
-            ..playing(12, pose(5.0, 5.0, 1.0), &nothing)
-        },
-    );
-    assert_near(
-        found.ground_to_field,
-        &pose(-3.0, 3.0, -FRAC_PI_2),
-        1e-5,
-        1e-5,
-    );
-    let found = cycle(
-        &mut node,
-        &playing(24, pose(5.0, 5.0, 1.0) * pose(1.0, 0.0, 0.0), &nothing),
-    );
-    assert_near(
-        found.ground_to_field,
-        &pose(-3.0, 2.0, -FRAC_PI_2),
-        1e-5,
-        1e-5,
-    );
-    assert_eq!(found.hypotheses.len(), 1);
 }
 
 #[test]
@@ -395,30 +370,6 @@ fn a_robot_that_sees_nothing_across_the_middle_line_but_the_circle_finds_itself_
     });
     assert!(wrong < 150, "wrong in {wrong} images");
     assert_near(found, &truth, 0.2, 0.1);
-}
-
-#[test]
-fn lines_decide_beside_which_touch_line_a_robot_comes_back() {
-    for side in [1.0, -1.0] {
-        let mut node = node();
-        let nothing = Vec::new();
-        let penalized = Moment {
-            primary_state: PrimaryState::Penalized,
-            ..playing(33, Isometry2::identity(), &nothing)
-        };
-        cycle(&mut node, &penalized);
-        let start = pose(-3.2, side * 3.5, -side * FRAC_PI_2);
-        let mut found = None;
-        let mut truth = start;
-        for index in 2..160_u64 {
-            // One comes back from the left, the other one from the right: only lines tell.
-            let odometry = pose(0.0066 * index as f32, 0.0, 0.0);
-            truth = start * odometry;
-            let lines = view_from(&truth);
-            found = cycle(&mut node, &playing(33 * index, odometry, &lines)).ground_to_field;
-        }
-        assert_near(found, &truth, 0.2, 0.1);
-    }
 }
 
 #[test]

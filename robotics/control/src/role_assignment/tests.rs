@@ -302,3 +302,34 @@ fn who_has_been_taken_out_has_no_role_and_begins_as_any_other() {
     assert_eq!(role(penalized, 0.8), None);
     assert_eq!(role(playing, 1.2), Some(Role::Striker));
 }
+
+#[test]
+fn in_a_shoot_out_whose_shot_it_is_decides() {
+    use KickingTeam::{Nobody, Opponent, Own};
+    use PrimaryState::{Penalized, Playing, Set};
+    use types::game::GamePhase;
+    for (goalkeeper, state, kicking_team, expected) in [
+        (1, Set, Own, Some(Role::Striker)),
+        (2, Set, Own, Some(Role::Striker)),
+        (2, Playing, Own, Some(Role::Striker)),
+        (1, Set, Opponent, Some(Role::Keeper)),
+        (1, Playing, Opponent, Some(Role::Keeper)),
+        (2, Playing, Opponent, Some(Role::Keeper)),
+        // The others of the team are substitutes.
+        (1, Penalized, Own, None),
+        (2, Set, Nobody, Some(Role::Keeper)),
+    ] {
+        let mut node = RoleAssignment::new(CreationContext {}).unwrap();
+        let referee = Some(GameControllerState {
+            game_phase: GamePhase::PenaltyShootout,
+            goalkeeper,
+            kicking_team,
+            ..GameControllerState::default()
+        });
+        let outputs = cycle_with(&mut node, state, &referee, 0.4, &vec![]);
+        assert_eq!(
+            outputs.role.value, expected,
+            "{goalkeeper} {state:?} {kicking_team:?}"
+        );
+    }
+}

@@ -3,8 +3,8 @@
 //! Durations are those of the RoboCup SPL rules 2025.
 
 use types::game::{
-    CompetitionPhase, GameControllerMessage, GameState, KickingTeam, PLAYER_COUNT, Penalty,
-    PlayerState, SetPlay, TeamColor, TeamState,
+    CompetitionPhase, GameControllerMessage, GamePhase, GameState, KickingTeam, PLAYER_COUNT,
+    Penalty, PlayerState, SetPlay, TeamColor, TeamState,
 };
 
 use crate::settings::{Announcement, GameSettings, PLAYERS_PER_TEAM};
@@ -17,6 +17,8 @@ const READY_FOR_PENALTY_KICK: f64 = 30.0;
 /// Until the ball is free after a kick-off, and after everything else, s.
 const KICK_OFF: f64 = 10.0;
 const FREE_KICK: f64 = 30.0;
+/// A shot of a penalty shoot-out, s.
+const SHOT: f64 = 30.0;
 /// A standard removal, s.
 const REMOVAL: f64 = 45.0;
 
@@ -36,6 +38,7 @@ pub(super) fn message_at(game: &GameSettings, seconds: f64) -> GameControllerMes
         packet_number: 0,
         players_per_team: PLAYERS_PER_TEAM,
         competition_phase: CompetitionPhase::RoundRobin,
+        game_phase: current.phase,
         game_state: current.state,
         set_play: current.set_play,
         is_first_half: true,
@@ -44,7 +47,11 @@ pub(super) fn message_at(game: &GameSettings, seconds: f64) -> GameControllerMes
             KickingTeam::Opponent => Some(game.opponent),
             KickingTeam::Nobody => None,
         },
-        seconds_remaining: count_down(HALF, playing_seconds(&game.schedule, seconds)),
+        seconds_remaining: match (current.phase, current.state) {
+            (GamePhase::PenaltyShootout, GameState::Playing) => count_down(SHOT, since),
+            (GamePhase::PenaltyShootout, _) => count_down(SHOT, 0.0),
+            _ => count_down(HALF, playing_seconds(&game.schedule, seconds)),
+        },
         secondary_seconds: secondary(current, since),
         teams: teams(game, current, since),
         ..GameControllerMessage::default()
@@ -77,6 +84,7 @@ fn playing_seconds(schedule: &[Announcement], seconds: f64) -> f64 {
 
 fn secondary(current: &Announcement, since: f64) -> i16 {
     let duration = match (current.state, current.set_play) {
+        _ if current.phase == GamePhase::PenaltyShootout => return 0,
         (GameState::Ready, SetPlay::PenaltyKick) => READY_FOR_PENALTY_KICK,
         (GameState::Ready, _) => READY,
         (GameState::Playing, SetPlay::None) => KICK_OFF,
@@ -149,6 +157,20 @@ mod tests {
             assert_eq!(message.secondary_seconds, secondary, "{seconds}");
             assert_eq!(message.seconds_remaining, remaining, "{seconds}");
             assert_eq!(message.kicking_team, Some(game.team));
+        }
+    }
+
+    #[test]
+    fn a_shot_of_a_shoot_out_has_thirty_seconds() {
+        let mut game = GameSettings::default();
+        for announcement in &mut game.schedule {
+            announcement.phase = GamePhase::PenaltyShootout;
+        }
+        for (seconds, remaining) in [(20.0, 30), (27.1, 30), (40.0, 17)] {
+            let message = message_at(&game, seconds);
+            assert_eq!(message.game_phase, GamePhase::PenaltyShootout);
+            assert_eq!(message.seconds_remaining, remaining, "{seconds}");
+            assert_eq!(message.secondary_seconds, 0, "{seconds}");
         }
     }
 

@@ -4,7 +4,7 @@ use framework::{Error, Result};
 use serde::Deserialize;
 use serde::de::IntoDeserializer;
 use serde::de::value::Error as ValueError;
-use types::game::{GameState, KickingTeam, PLAYER_COUNT, Penalty, SetPlay};
+use types::game::{GamePhase, GameState, KickingTeam, PLAYER_COUNT, Penalty, SetPlay};
 
 use super::PlaySettings;
 use crate::scene::Team;
@@ -51,6 +51,9 @@ pub struct Announcement {
     /// Why this robot may not play; left out: it may.
     #[serde(default)]
     pub penalty: Penalty,
+    /// Which part of the game it is; left out: one of the halves.
+    #[serde(default)]
+    pub phase: GamePhase,
     /// Who kicks first; left out: the own team.
     #[serde(default = "own_team")]
     pub kicking_team: KickingTeam,
@@ -69,6 +72,7 @@ impl Announcement {
             at,
             state,
             penalty: Penalty::None,
+            phase: GamePhase::Normal,
             kicking_team: own_team(),
             set_play: SetPlay::None,
             score: [0; 2],

@@ -1,13 +1,13 @@
-//! Cycle 714 of Control as it was recorded: `control::localization` computes the same again, bit for bit.
+//! Cycle 389 of Control as it was recorded: `control::localization` computes the same again, bit for bit.
 //!
-//! Written by `hulkgen capture`, with its values in `captured/localization_control_714.json`.
+//! Written by `hulkgen capture`, with its values in `captured/localization_control_389.json`.
 
 use control::localization::{CycleContext, Localization};
 use framework::testing::{AdditionalProbe, Captured};
 
 #[test]
-fn localization_computes_cycle_714_of_control_again() {
-    let captured = Captured::new(include_str!("captured/localization_control_714.json"));
+fn localization_computes_cycle_389_of_control_again() {
+    let captured = Captured::new(include_str!("captured/localization_control_389.json"));
     let mut node: Localization = captured.state();
     let lines = captured.series("lines");
     let lines = lines.seen();
@@ -28,6 +28,7 @@ fn localization_computes_cycle_714_of_control_again() {
         odometry: odometry.input(),
         fall_state: &captured.value("fall_state"),
         primary_state: &captured.value("primary_state"),
+        game_controller_state: &captured.value("game_controller_state"),
         cycle_time: captured.time(),
         player: &captured.value("player"),
         markings: &captured.value("markings"),

@@ -1,13 +1,13 @@
-//! Cycle 497 of Control as it was recorded: `control::localization` computes the same again, bit for bit.
+//! Cycle 1147 of Control as it was recorded: `control::localization` computes the same again, bit for bit.
 //!
-//! Written by `hulkgen capture`, with its values in `captured/localization_control_497.json`.
+//! Written by `hulkgen capture`, with its values in `captured/localization_control_1147.json`.
 
 use control::localization::{CycleContext, Localization};
 use framework::testing::{AdditionalProbe, Captured};
 
 #[test]
-fn localization_computes_cycle_497_of_control_again() {
-    let captured = Captured::new(include_str!("captured/localization_control_497.json"));
+fn localization_computes_cycle_1147_of_control_again() {
+    let captured = Captured::new(include_str!("captured/localization_control_1147.json"));
     let mut node: Localization = captured.state();
     let lines = captured.series("lines");
     let lines = lines.seen();
@@ -28,6 +28,7 @@ fn localization_computes_cycle_497_of_control_again() {
         odometry: odometry.input(),
         fall_state: &captured.value("fall_state"),
         primary_state: &captured.value("primary_state"),
+        game_controller_state: &captured.value("game_controller_state"),
         cycle_time: captured.time(),
         player: &captured.value("player"),
         markings: &captured.value("markings"),

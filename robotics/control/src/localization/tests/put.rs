@@ -1,0 +1,125 @@
+//! Robots that people put somewhere: before the game, after a penalty, for a shot of a shoot-out.
+
+use types::game::{GamePhase, KickingTeam};
+
+use super::*;
+
+#[test]
+fn before_it_has_seen_anything_it_stands_where_its_number_starts() {
+    let mut node = node();
+    let nothing = Vec::new();
+    let found = cycle(
+        &mut node,
+        &Moment {
+            primary_state: PrimaryState::Unstiff,
+            ..playing(12, pose(5.0, 5.0, 1.0), &nothing)
+        },
+    );
+    assert_near(
+        found.ground_to_field,
+        &pose(-3.0, 3.0, -FRAC_PI_2),
+        1e-5,
+        1e-5,
+    );
+    let found = cycle(
+        &mut node,
+        &playing(24, pose(5.0, 5.0, 1.0) * pose(1.0, 0.0, 0.0), &nothing),
+    );
+    assert_near(
+        found.ground_to_field,
+        &pose(-3.0, 2.0, -FRAC_PI_2),
+        1e-5,
+        1e-5,
+    );
+    assert_eq!(found.hypotheses.len(), 1);
+}
+
+#[test]
+fn lines_decide_beside_which_touch_line_a_robot_comes_back() {
+    for side in [1.0, -1.0] {
+        let mut node = node();
+        let nothing = Vec::new();
+        let penalized = Moment {
+            primary_state: PrimaryState::Penalized,
+            ..playing(33, Isometry2::identity(), &nothing)
+        };
+        cycle(&mut node, &penalized);
+        let start = pose(-3.2, side * 3.5, -side * FRAC_PI_2);
+        let mut found = None;
+        let mut truth = start;
+        for index in 2..160_u64 {
+            // One comes back from the left, the other one from the right: only lines tell.
+            let odometry = pose(0.0066 * index as f32, 0.0, 0.0);
+            truth = start * odometry;
+            let lines = view_from(&truth);
+            found = cycle(&mut node, &playing(33 * index, odometry, &lines)).ground_to_field;
+        }
+        assert_near(found, &truth, 0.2, 0.1);
+    }
+}
+
+/// A robot that stands in this state of a shoot-out.
+fn shot<'a>(
+    index: u64,
+    primary_state: PrimaryState,
+    kicking_team: KickingTeam,
+    lines: &'a Vec<LineSegment>,
+) -> Moment<'a> {
+    Moment {
+        primary_state,
+        said: Some(GameControllerState {
+            game_phase: GamePhase::PenaltyShootout,
+            kicking_team,
+            ..GameControllerState::default()
+        }),
+        ..playing(33 * index, Isometry2::identity(), lines)
+    }
+}
+
+#[test]
+fn in_a_shoot_out_it_was_put_to_the_ball_or_into_the_goal() {
+    use PrimaryState::{Finished, Initial, Penalized, Playing, Set, Unstiff};
+    let nothing = Vec::new();
+    let (ball, goal) = (pose(2.85, 0.0, 0.0), pose(-4.5, 0.0, 0.0));
+    for (team, expected) in [(KickingTeam::Own, ball), (KickingTeam::Opponent, goal)] {
+        for before in [Unstiff, Initial, Penalized, Finished] {
+            let mut node = node();
+            cycle(&mut node, &shot(1, before, team, &nothing));
+            let found = cycle(&mut node, &shot(2, Set, team, &nothing));
+            assert_near(found.ground_to_field, &expected, 1e-4, 1e-4);
+            // A whistle that was somebody else's: nobody has touched the robot.
+            let truth = expected * pose(0.2, 0.1, 0.1);
+            let lines = view_from(&truth);
+            for index in 3..90 {
+                cycle(&mut node, &shot(index, Playing, team, &lines));
+            }
+            let found = cycle(&mut node, &shot(90, Set, team, &lines));
+            assert_near(found.ground_to_field, &truth, 0.1, 0.05);
+        }
+        let found = cycle(&mut node(), &shot(1, Set, team, &nothing));
+        assert_near(found.ground_to_field, &expected, 1e-4, 1e-4);
+    }
+}
+
+#[test]
+fn set_of_a_kick_off_puts_it_nowhere() {
+    let nothing = Vec::new();
+    let mut node = node();
+    let ready = Moment {
+        primary_state: PrimaryState::Ready,
+        ..playing(33, Isometry2::identity(), &nothing)
+    };
+    let before = cycle(&mut node, &ready).ground_to_field;
+    for (phase, team) in [
+        (GamePhase::Normal, KickingTeam::Own),
+        (GamePhase::PenaltyShootout, KickingTeam::Nobody),
+    ] {
+        let mut set = shot(2, PrimaryState::Set, team, &nothing);
+        set.said = set.said.map(|said| GameControllerState {
+            game_phase: phase,
+            ..said
+        });
+        assert_eq!(cycle(&mut node, &set).ground_to_field, before);
+        cycle(&mut node, &ready);
+    }
+}
