@@ -29,6 +29,8 @@ pub struct RoleAssignment {
     goalkeeper: Option<u8>,
     /// Whether that one was out.
     is_keeper_out: bool,
+    /// Whose shot it is in a penalty shoot-out; a referee that falls silent has not ended it.
+    shot_of: Option<KickingTeam>,
 }
 
 /// How robots of a team share the work.
@@ -79,6 +81,7 @@ impl RoleAssignment {
         Ok(Self {
             role: Some(Role::Striker),
             goalkeeper: None,
+            shot_of: None,
             is_keeper_out: false,
         })
     }
@@ -106,7 +109,8 @@ impl RoleAssignment {
             distance: own.map(|distance| distance - head_start),
         };
         self.is_keeper_out = self.is_keeper_out(goalkeeper, &context);
-        let in_shoot_out = said.and_then(role_in_shoot_out);
+        self.shot_of = said.map_or(self.shot_of, GameControllerState::shot_of);
+        let in_shoot_out = self.shot_of.and_then(role_in_shoot_out);
         self.role = match context.primary_state {
             PrimaryState::Penalized => None,
             _ if in_shoot_out.is_some() => in_shoot_out,
@@ -150,8 +154,8 @@ fn is_penalty_kick_of_others(said: &GameControllerState) -> bool {
 }
 
 /// One robot shoots and one keeps, whatever their shirts.
-fn role_in_shoot_out(said: &GameControllerState) -> Option<Role> {
-    match said.shot_of()? {
+fn role_in_shoot_out(shot_of: KickingTeam) -> Option<Role> {
+    match shot_of {
         KickingTeam::Own => Some(Role::Striker),
         KickingTeam::Opponent => Some(Role::Keeper),
         KickingTeam::Nobody => None,

@@ -45,7 +45,7 @@ impl WorldStateComposer {
         Ok(Self {})
     }
 
-    /// Copies; while no referee is heard, nobody kicks first.
+    /// Copies; while no referee is heard, nobody kicks first, and the game is in one of its halves.
     pub fn cycle(&mut self, context: CycleContext) -> Result<MainOutputs> {
         let referee = context.game_controller_state.unwrap_or_default();
         let world_state = context.world_state;

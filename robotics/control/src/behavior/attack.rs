@@ -49,7 +49,7 @@ pub(super) fn attack(view: &View<'_>, ball: Point2<f32>) -> Decision {
         true => heading + math::atan2(ball.y, ball.x),
         false => heading,
     };
-    let easy = past_keeper(view, on_field, easy).unwrap_or(easy);
+    let easy = past_keeper(view, on_field).unwrap_or(easy);
     let places = &view.parameters.places;
     let aim = wrapped(places.aim(on_field, easy, attack) - heading);
     let stance = Stance::new(ball, aim);

@@ -11,6 +11,7 @@ use types::obstacles::ObstacleKind;
 use types::world_state::WorldState;
 
 use super::parameters::{BehaviorParameters, WalkParameters};
+use super::penalty_kick::PenaltyKick;
 use super::stuck::{Legs, Progress};
 use super::walk_to::step_to;
 use super::way::{Circle, first_way_point};
@@ -39,6 +40,7 @@ pub(super) struct Memory {
     pub(super) progress: Progress,
     /// When it began to search where it is; `None` while it does anything else.
     pub(super) searches_since: Option<Timestamp>,
+    pub(super) penalty_kick: PenaltyKick,
 }
 
 /// Everything that is decided on.
@@ -90,6 +92,7 @@ impl Memory {
         if world.ground_to_field.is_some() || !is_in_game {
             self.pose_known_at = now;
         }
+        self.penalty_kick.notice(world, self.activity, parameters);
         self.progress.notice(
             self.legs(world.fall_state),
             world.ground_to_field.as_ref(),

@@ -101,9 +101,12 @@ pub struct AttackParameters {
     /// A penalty kick goes past a keeper, so far from the middle of the goal.
     #[reflect(unit = "m", range = 0.0..)]
     pub corner: f32,
-    /// Who has turned further from the keeper stays with that side.
-    #[reflect(unit = "rad", range = 0.0..)]
-    pub corner_chosen: f32,
+    /// And to the other side once the keeper stands so far on the one that was chosen.
+    #[reflect(unit = "m", range = 0.0..)]
+    pub corner_taken: f32,
+    /// Whoever stands farther behind the goal line is no keeper.
+    #[reflect(unit = "m", range = 0.0..)]
+    pub keeper_behind_line: f32,
     /// A goal that opens less is not aimed at.
     #[reflect(unit = "rad", range = 0.0..)]
     pub least_opening: f32,

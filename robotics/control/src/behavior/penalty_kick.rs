@@ -2,56 +2,108 @@
 
 use framework::math;
 use nalgebra::Point2;
+use serde::{Deserialize, Serialize};
 use types::behavior::{Activity, Role};
-use types::game::{GamePhase, KickingTeam, SetPlay};
+use types::game::{GamePhase, KickingTeam, PrimaryState, SetPlay};
 use types::motion::BodyMotion;
+use types::world_state::WorldState;
 
 use super::decision::{Decision, View};
-use super::places::wrapped;
+use super::parameters::BehaviorParameters;
+
+/// What has become of the own team's penalty kick.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Serialize)]
+pub(super) struct PenaltyKick {
+    /// Whether it goes to the left of the keeper; `None` before one was seen.
+    goes_left: Option<bool>,
+    /// Whether this robot has begun to play the ball.
+    plays: bool,
+    /// Whether this was the shot of a shoot-out, after which it may not play the ball again.
+    pub(super) is_shot: bool,
+}
+
+impl PenaltyKick {
+    /// Before anything is decided; `before` is what the robot did last.
+    pub(super) fn notice(
+        &mut self,
+        world: &WorldState,
+        before: Activity,
+        parameters: &BehaviorParameters,
+    ) {
+        if world.primary_state != PrimaryState::Playing {
+            *self = Self::default();
+            return;
+        }
+        if world.set_play != SetPlay::PenaltyKick || world.kicking_team != KickingTeam::Own {
+            return;
+        }
+        self.plays |= before.plays_ball();
+        let places = &parameters.places;
+        let mark = Point2::new(places.goal_line - places.penalty_mark, 0.0);
+        let ball = world.ball.map(|ball| ball.position);
+        let has_moved = world
+            .ground_to_field
+            .zip(ball)
+            .is_some_and(|(to_field, ball)| {
+                nalgebra::distance(&(to_field * ball), &mark) > places.shot
+            });
+        // Behind the keeper or beside the goal nobody may see the ball that was kicked.
+        let is_gone = has_moved || (before == Activity::Kick && ball.is_none());
+        self.is_shot |= world.game_phase == GamePhase::PenaltyShootout && self.plays && is_gone;
+
+        if let Some(keeper) = keeper(world, parameters) {
+            let goes_left = self.goes_left.unwrap_or(keeper.y < 0.0);
+            let on_that_side = if goes_left { keeper.y } else { -keeper.y };
+            let is_taken = on_that_side > parameters.attack.corner_taken;
+            self.goes_left = Some(goes_left != is_taken);
+        }
+    }
+}
+
+/// Who stands in the opponents' goal, nearest to its middle, in the field frame, m.
+fn keeper(world: &WorldState, parameters: &BehaviorParameters) -> Option<Point2<f32>> {
+    let BehaviorParameters { places, attack, .. } = parameters;
+    let near = places.goal_line - places.penalty_mark / 2.0;
+    let reach = near..=places.goal_line + attack.keeper_behind_line;
+    let ground_to_field = world.ground_to_field?;
+    let obstacles = world.obstacles.iter();
+    let in_goal = obstacles
+        .map(|obstacle| ground_to_field * obstacle.position)
+        .filter(|place| {
+            reach.contains(&place.x) && place.y.abs() < places.post - attack.post_margin
+        });
+    in_goal.min_by(|one, other| one.y.abs().total_cmp(&other.y.abs()))
+}
 
 /// RoboCup SPL rules 2025, penalty shoot-out: who shoots may not play the ball again once it has clearly moved.
 ///
 /// `None` where the robot may play.
 pub(super) fn watch_shot(view: &View<'_>) -> Option<Decision> {
-    let world = view.world;
-    let is_own_shot = world.game_phase == GamePhase::PenaltyShootout
-        && world.kicking_team == KickingTeam::Own
-        && view.role() == Role::Striker;
-    let places = &view.parameters.places;
-    let ball = view.ball_on_field().filter(|_| is_own_shot)?;
-    let mark = Point2::new(places.goal_line - places.penalty_mark, 0.0);
-    let is_shot = nalgebra::distance(&ball, &mark) > places.shot;
-    is_shot.then(|| Decision::of_body(Activity::WatchShot, BodyMotion::Stand, view.head()))
+    let has_shot = view.memory.penalty_kick.is_shot && view.role() == Role::Striker;
+    has_shot.then(|| Decision::of_body(Activity::WatchShot, BodyMotion::Stand, view.head()))
 }
 
 /// The direction past the keeper from a ball there (field frame, m and rad), where the own team has a penalty kick and
-/// somebody is seen in the goal.
-///
-/// Past the side on which there is more room; who has turned to one by `easy`, the direction that suits it, stays with it.
-pub(super) fn past_keeper(view: &View<'_>, ball: Point2<f32>, easy: f32) -> Option<f32> {
-    let world = view.world;
-    let is_own = world.set_play == SetPlay::PenaltyKick && world.kicking_team == KickingTeam::Own;
+/// somebody was seen in the goal.
+pub(super) fn past_keeper(view: &View<'_>, ball: Point2<f32>) -> Option<f32> {
     let (places, attack) = (&view.parameters.places, &view.parameters.attack);
-    let ground_to_field = world.ground_to_field.filter(|_| is_own)?;
-    let near = places.goal_line - places.penalty_mark / 2.0;
-    let mut obstacles = world.obstacles.iter();
-    let keeper = obstacles.find_map(|obstacle| {
-        let place = ground_to_field * obstacle.position;
-        (place.x > near && place.y.abs() < places.post).then_some(place)
-    })?;
-    let to_keeper = math::atan2(keeper.y - ball.y, keeper.x - ball.x);
-    let turned = wrapped(easy - to_keeper);
-    let side = match turned.abs() > attack.corner_chosen {
-        true => turned,
-        false => -keeper.y,
+    let is_penalty_kick = view.world.set_play == SetPlay::PenaltyKick;
+    let goes_left = view
+        .memory
+        .penalty_kick
+        .goes_left
+        .filter(|_| is_penalty_kick)?;
+    let corner = if goes_left {
+        attack.corner
+    } else {
+        -attack.corner
     };
-    let corner = attack.corner.copysign(side);
     Some(math::atan2(corner - ball.y, places.goal_line - ball.x))
 }
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::{Isometry2, Vector2};
+    use types::ball::Ball;
     use types::obstacles::Obstacle;
 
     use super::*;
@@ -68,77 +120,133 @@ mod tests {
         scene
     }
 
-    fn with_keeper(mut scene: Scene, x: f32, y: f32) -> Scene {
+    fn put_keeper(scene: &mut Scene, x: f32, y: f32) {
         let to_ground = scene.world.ground_to_field.unwrap().inverse();
         scene.world.obstacles = vec![Obstacle {
             position: to_ground * Point2::new(x, y),
             radius: 0.2,
             ..Obstacle::default()
         }];
-        scene
     }
 
-    fn aim(scene: &Scene) -> f32 {
+    /// After a cycle in which the robot did this, with the ball there on the field.
+    fn next(scene: &mut Scene, did: Activity, ball: Option<[f32; 2]>) -> Activity {
+        let to_ground = scene.world.ground_to_field.map(|pose| pose.inverse());
+        scene.world.ball = ball.zip(to_ground).map(|(ball, to_ground)| Ball {
+            position: to_ground * Point2::from(ball),
+            ..Ball::default()
+        });
+        scene.did(did);
+        scene.notice();
+        scene.view(play).activity
+    }
+
+    fn aim(scene: &mut Scene) -> f32 {
+        scene.notice();
         scene.view(play).plan.aim.unwrap()
     }
 
     #[test]
     fn a_shot_goes_past_the_keeper_on_the_side_with_more_room() {
         let corner = math::atan2(0.4_f32, 1.3);
-        for (y, expected) in [(0.1, -corner), (-0.1, corner), (0.3, -corner)] {
-            let found = aim(&with_keeper(shooting(), 4.5, y));
+        for (y, expected) in [(0.05, -corner), (-0.05, corner), (0.3, -corner)] {
+            let mut scene = shooting();
+            put_keeper(&mut scene, 4.5, y);
+            let found = aim(&mut scene);
             assert!((found - expected).abs() < 1e-4, "{y}: {found}");
         }
     }
 
     #[test]
-    fn who_has_turned_to_one_side_stays_with_it_though_the_keeper_moves_a_little() {
-        for heading in [0.3_f32, -0.3] {
-            let behind = Isometry2::new(Vector2::new(2.87, 0.0), heading);
-            for y in [0.05, -0.05] {
-                let on_field = aim(&with_keeper(shooting_from(behind), 4.5, y)) + heading;
-                assert_eq!(
-                    on_field.signum(),
-                    heading.signum(),
-                    "{heading} {y}: {on_field}"
-                );
-            }
-        }
-    }
-
-    fn shooting_from(pose: Isometry2<f32>) -> Scene {
+    fn a_side_that_was_chosen_is_kept_until_the_keeper_stands_there() {
         let mut scene = shooting();
-        scene.world.ground_to_field = Some(pose);
-        let ball = pose.inverse() * Point2::new(3.2, 0.0);
-        scene.with_ball(ball.x, ball.y)
+        for (y, goes_left) in [
+            (-0.02, true),
+            (0.05, true),
+            (-0.3, true),
+            (0.09, true),
+            (0.2, false),
+            (-0.05, false),
+            (-0.2, true),
+        ] {
+            put_keeper(&mut scene, 4.5, y);
+            assert_eq!(aim(&mut scene) > 0.0, goes_left, "{y}");
+        }
+        scene.world.obstacles.clear();
+        assert!(aim(&mut scene) > 0.0, "a keeper that is not seen for once");
     }
 
     #[test]
     fn with_nobody_in_the_goal_or_in_the_game_it_goes_straight_on() {
-        let beside = with_keeper(shooting(), 4.5, 0.9);
-        let before = with_keeper(shooting(), 3.0, 0.6);
-        let mut in_the_game = with_keeper(shooting(), 4.5, 0.1);
-        in_the_game.world.set_play = SetPlay::None;
-        in_the_game.world.game_phase = GamePhase::Normal;
-        for scene in [shooting(), beside, before, in_the_game] {
-            assert!(aim(&scene).abs() < 1e-4);
+        for (x, y) in [(4.5, 0.7), (4.5, -0.9), (3.0, 0.3), (5.0, 0.0)] {
+            let mut scene = shooting();
+            put_keeper(&mut scene, x, y);
+            assert!(aim(&mut scene).abs() < 1e-4, "{x} {y}");
         }
+        let mut in_the_game = shooting();
+        in_the_game.world.set_play = SetPlay::None;
+        put_keeper(&mut in_the_game, 4.5, 0.1);
+        assert!(aim(&mut in_the_game).abs() < 1e-4);
     }
 
     #[test]
-    fn a_ball_that_was_shot_is_not_played_again_but_in_the_game_it_is() {
-        for (x, activity) in [(3.25, None), (3.9, Some(Activity::WatchShot))] {
-            let mut scene = shooting().with_ball(x - 2.85, 0.1);
-            assert_eq!(
-                scene.view(play).activity == Activity::WatchShot,
-                activity.is_some()
-            );
-            scene.world.game_phase = GamePhase::Normal;
-            assert!(scene.view(play).activity.plays_ball(), "{x}");
+    fn a_ball_that_was_shot_is_not_played_again_wherever_it_lies() {
+        let mut scene = shooting();
+        assert!(next(&mut scene, Activity::WaitForWhistle, Some([3.2, 0.0])).plays_ball());
+        assert!(next(&mut scene, Activity::Align, Some([3.3, 0.1])).plays_ball());
+        assert!(
+            next(&mut scene, Activity::Kick, Some([3.25, 0.0])).plays_ball(),
+            "missed"
+        );
+        for ball in [Some([3.9, 0.2]), Some([3.2, 0.0]), None] {
+            let activity = next(&mut scene, Activity::Kick, ball);
+            assert_eq!(activity, Activity::WatchShot, "{ball:?}");
         }
-        let mut theirs = shooting().with_ball(-5.0, 0.1);
+        scene.world.ground_to_field = None;
+        assert_eq!(
+            next(&mut scene, Activity::WatchShot, None),
+            Activity::WatchShot
+        );
+        // The referee's computer is not heard for a while.
+        scene.world.game_phase = GamePhase::Normal;
+        scene.world.set_play = SetPlay::None;
+        assert_eq!(
+            next(&mut scene, Activity::WatchShot, None),
+            Activity::WatchShot
+        );
+        scene.world.primary_state = PrimaryState::Set;
+        scene.notice();
+        let mut again = shooting();
+        std::mem::swap(&mut scene.world, &mut again.world);
+        assert!(next(&mut scene, Activity::WaitForWhistle, Some([3.2, 0.0])).plays_ball());
+    }
+
+    #[test]
+    fn a_ball_that_nobody_sees_after_the_kick_was_shot() {
+        let mut scene = shooting();
+        assert_eq!(next(&mut scene, Activity::Kick, None), Activity::WatchShot);
+        let mut before = shooting();
+        before.lost_for(1.0);
+        assert_eq!(
+            next(&mut before, Activity::Align, None),
+            Activity::SearchWithHead
+        );
+    }
+
+    #[test]
+    fn who_has_not_played_the_ball_and_who_plays_in_the_game_watches_no_shot() {
+        let elsewhere = Some([3.9, 0.2]);
+        let mut wrong = shooting();
+        assert!(next(&mut wrong, Activity::WaitForWhistle, elsewhere).plays_ball());
+        let mut in_the_game = shooting();
+        in_the_game.world.game_phase = GamePhase::Normal;
+        assert!(next(&mut in_the_game, Activity::Kick, elsewhere).plays_ball());
+        let mut theirs = shooting();
         theirs.world.kicking_team = KickingTeam::Opponent;
         theirs.world.role = Some(Role::Keeper);
-        assert_ne!(theirs.view(play).activity, Activity::WatchShot);
+        assert_ne!(
+            next(&mut theirs, Activity::Kick, elsewhere),
+            Activity::WatchShot
+        );
     }
 }

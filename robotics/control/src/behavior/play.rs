@@ -45,8 +45,8 @@ fn restricted(view: &View<'_>) -> Option<Decision> {
     let is_theirs = world.kicking_team == KickingTeam::Opponent && world.set_play != SetPlay::None;
     if is_theirs && view.role() == Role::Keeper {
         let blocks = world.ball.and_then(|ball| block(view, &ball));
-        if blocks.is_some() {
-            return blocks;
+        if blocks.is_some() || is_penalty_kick {
+            return blocks.or_else(|| Some(stay_on_line(view)));
         }
     }
     if world.ground_to_field.is_none() && is_theirs && world.ball.is_some() {
@@ -68,7 +68,6 @@ fn restricted(view: &View<'_>) -> Option<Decision> {
     };
     match (world.kicking_team, view.role()) {
         (KickingTeam::Own, Role::Striker) => None,
-        (KickingTeam::Opponent, Role::Keeper) if is_penalty_kick => Some(stay_on_line(view)),
         (KickingTeam::Own, Role::Keeper) => None,
         (KickingTeam::Own | KickingTeam::Opponent, _) if is_penalty_kick => {
             stay_away(Activity::LeavePenaltyArea)
@@ -254,6 +253,26 @@ mod tests {
             }
             let decided = scene.view(play);
             assert_eq!(decided.activity, Activity::KeepDistance, "{sees} {is_lost}");
+        }
+    }
+
+    #[test]
+    fn at_a_penalty_kick_of_the_others_the_keeper_stays_on_its_line_whatever_it_knows() {
+        for (sees, is_lost) in [(true, false), (false, false), (true, true), (false, true)] {
+            let mut scene = Scene::at(-4.5, 0.0, 0.0).with_ball(1.3, 0.0);
+            scene.world.role = Some(Role::Keeper);
+            scene.world.set_play = SetPlay::PenaltyKick;
+            scene.world.kicking_team = KickingTeam::Opponent;
+            scene.lost_for(8.0);
+            if !sees {
+                scene.world.ball = None;
+            }
+            if is_lost {
+                scene.without_pose_for(8.0);
+            }
+            let decided = scene.view(play);
+            assert_eq!(decided.activity, Activity::GuardGoal, "{sees} {is_lost}");
+            assert_eq!(decided.command.body, BodyMotion::Stand, "{sees} {is_lost}");
         }
     }
 

@@ -86,6 +86,11 @@ impl Scene {
         self.memory.activity = activity;
     }
 
+    /// What is so now, before the next decision.
+    pub(super) fn notice(&mut self) {
+        self.memory.notice(&self.world, &self.parameters, self.now);
+    }
+
     /// It has searched where it is for so many seconds.
     pub(super) fn searches_for(&mut self, seconds: f32) {
         self.memory.searches_since = Some(self.ago(seconds));

@@ -326,10 +326,14 @@ fn in_a_shoot_out_whose_shot_it_is_decides() {
             kicking_team,
             ..GameControllerState::default()
         });
-        let outputs = cycle_with(&mut node, state, &referee, 0.4, &vec![]);
-        assert_eq!(
-            outputs.role.value, expected,
-            "{goalkeeper} {state:?} {kicking_team:?}"
-        );
+        for heard in [referee, None] {
+            let outputs = cycle_with(&mut node, state, &heard, 0.4, &vec![]);
+            assert_eq!(
+                outputs.role.value,
+                expected,
+                "{goalkeeper} {state:?} {kicking_team:?} {}",
+                heard.is_some()
+            );
+        }
     }
 }
