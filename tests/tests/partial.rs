@@ -123,6 +123,7 @@ fn the_nao_with_control_alone_names_only_what_control_needs() {
         "balls",
         "center_circle",
         "corners",
+        "field_border",
         "limb_mask",
         "lines",
         "obstacles",

@@ -189,7 +189,7 @@ fn an_instance_more() {
             "instances = [\"Top\", \"Bottom\", \"Rear\"]",
         )
         .review("an_instance_more");
-    review.only_about(&["VisionBottom", "vision_bottom", "4", "3", "5", "6"], 15);
+    review.only_about(&["VisionBottom", "vision_bottom", "4", "3", "5", "6"], 16);
 }
 
 #[test]

@@ -147,7 +147,8 @@ impl<'c, V> Timeline<'c, V> {
     /// With those of another output of the same cycles.
     ///
     /// Inputs of one node that name the same producer, an instance or all of a cycler, have an item each for the same
-    /// cycles, also where several have the same timestamp. Of other inputs this makes pairs that do not belong together.
+    /// cycles, also where several have the same timestamp. Of other inputs this makes pairs that do not belong together,
+    /// which a build with debug assertions refuses.
     ///
     /// ```
     /// # use framework::{Timestamp, testing::perception};
@@ -159,8 +160,12 @@ impl<'c, V> Timeline<'c, V> {
     /// ```
     #[inline]
     pub fn zip<W>(self, other: Timeline<'c, W>) -> impl Iterator<Item = (Timestamp, (V, W))> {
-        let pairs = self.iter().zip(other.iter());
-        pairs.map(|((timestamp, value), (_, other))| (timestamp, (value, other)))
+        debug_assert_eq!(self.len(), other.len(), "inputs of one producer");
+        self.items().zip(other.items()).map(|(item, other)| {
+            let of = (item.timestamp, item.cycle);
+            debug_assert_eq!(of, (other.timestamp, other.cycle), "inputs of one producer");
+            (item.timestamp, (item.value, other.value))
+        })
     }
 
     /// Values with timestamp, order and cycle number, in order.

@@ -372,8 +372,8 @@ impl Nodes {
         self.whistle_filter(frame)?;
         self.game_state_filter(frame)?;
         self.localization(frame)?;
-        self.ball_filter(frame)?;
         self.obstacle_filter(frame)?;
+        self.ball_filter(frame)?;
         self.team_ball_filter(frame)?;
         self.role_assignment(frame)?;
         self.world_state_composer(frame)?;
@@ -414,9 +414,10 @@ impl Nodes {
         self.cycle(frame)
     }
 
-    /// perception Vision.balls, perception Vision.ball_view, perception Vision.limb_mask,
-    /// perception Vision.obstacles, historic odometry -> ball; when subscribed:
-    /// ball_filter.hypotheses, ball_filter.persistent_ball, ball_filter.delivered
+    /// perception Vision.balls, perception Vision.ball_view, perception Vision.field_border,
+    /// perception Vision.limb_mask, perception Vision.obstacles, obstacles, historic odometry
+    /// -> ball; when subscribed: ball_filter.hypotheses, ball_filter.persistent_ball,
+    /// ball_filter.delivered
     #[inline(always)]
     fn ball_filter<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
         let balls = Interleaved {
@@ -433,6 +434,13 @@ impl Nodes {
                 &frame.perception.vision_bottom.project(|outputs| &outputs.ball_view),
             ],
         };
+        let borders = Interleaved {
+            order: &frame.perception.vision,
+            instances: [
+                &frame.perception.vision_top.project(|outputs| &outputs.field_border),
+                &frame.perception.vision_bottom.project(|outputs| &outputs.field_border),
+            ],
+        };
         let limb_masks = Interleaved {
             order: &frame.perception.vision,
             instances: [
@@ -440,7 +448,7 @@ impl Nodes {
                 &frame.perception.vision_bottom.project(|outputs| &outputs.limb_mask),
             ],
         };
-        let obstacles = Interleaved {
+        let obstacles_seen = Interleaved {
             order: &frame.perception.vision,
             instances: [
                 &frame.perception.vision_top.project(|outputs| &outputs.obstacles),
@@ -451,8 +459,10 @@ impl Nodes {
         let context = ball_filter::CycleContext {
             balls: PerceptionInput::new(&balls),
             ball_views: PerceptionInput::new(&ball_views),
+            borders: PerceptionInput::new(&borders),
             limb_masks: PerceptionInput::new(&limb_masks),
-            obstacles: PerceptionInput::new(&obstacles),
+            obstacles_seen: PerceptionInput::new(&obstacles_seen),
+            obstacles: &frame.own.obstacles,
             odometry: HistoricInput::new(
                 &odometry,
                 frame.cycle.time.start,
@@ -856,8 +866,8 @@ impl Nodes {
 
     /// perception Vision.lines, perception Vision.penalty_mark, perception
     /// Vision.center_circle, perception Vision.corners, historic odometry, fall_state,
-    /// primary_state, game_controller_state -> ground_to_field; when subscribed:
-    /// localization.hypotheses
+    /// has_ground_contact, primary_state, game_controller_state -> ground_to_field; when
+    /// subscribed: localization.hypotheses
     #[inline(always)]
     fn localization<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
         let lines = Interleaved {
@@ -900,6 +910,7 @@ impl Nodes {
                 &frame.own.odometry,
             ),
             fall_state: &frame.own.fall_state,
+            has_ground_contact: &frame.own.has_ground_contact,
             primary_state: &frame.own.primary_state,
             game_controller_state: &frame.own.game_controller_state,
             cycle_time: frame.cycle.time,

@@ -162,7 +162,7 @@ impl Nodes {
             let context = ball_detection::CycleContext {
                 image,
                 image_segments: &frame.own.image_segments,
-                field_border: &frame.own.field_border,
+                field_border: &frame.shared.field_border,
                 lines: &frame.shared.lines,
                 penalty_mark: frame.shared.penalty_mark.as_ref(),
                 camera_matrix,
@@ -292,7 +292,7 @@ impl Nodes {
     /// image_segments, camera_matrix -> field_border; when subscribed: field_border_points
     #[inline(always)]
     fn field_border<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
-        Clear::clear(&mut frame.own.field_border);
+        Clear::clear(&mut frame.shared.field_border);
         let context = field_border::CycleContext {
             image_segments: &frame.own.image_segments,
             camera_matrix: frame.own.camera_matrix.as_ref(),
@@ -302,11 +302,11 @@ impl Nodes {
                 frame.cycle.number,
                 &mut frame.additional_outputs.field_border_points,
             ),
-            field_border: &mut frame.own.field_border,
+            field_border: &mut frame.shared.field_border,
         };
         self.field_border.call(&frame.cycle, |node| node.cycle(context))?;
         if let Some(injections) = frame.injections {
-            injections.field_border.replace(&mut frame.own.field_border);
+            injections.field_border.replace(&mut frame.shared.field_border);
         }
         Ok(())
     }
@@ -431,7 +431,7 @@ impl Nodes {
                 image,
                 image_segments: &frame.own.image_segments,
                 limb_mask: &frame.shared.limb_mask,
-                field_border: &frame.own.field_border,
+                field_border: &frame.shared.field_border,
                 camera_matrix,
                 field_color: &frame.own.field_color,
                 line_width: &frame.parameters.field_dimensions.line_width,
@@ -471,7 +471,7 @@ impl Nodes {
         if let Some(camera_matrix) = frame.own.camera_matrix.as_ref() {
             let context = obstacle_detection::CycleContext {
                 image_segments: &frame.own.image_segments,
-                field_border: &frame.own.field_border,
+                field_border: &frame.shared.field_border,
                 lines: &frame.shared.lines,
                 camera_matrix,
                 line_width: &frame.parameters.field_dimensions.line_width,
@@ -508,7 +508,7 @@ impl Nodes {
             let context = penalty_mark_detection::CycleContext {
                 image,
                 image_segments: &frame.own.image_segments,
-                field_border: &frame.own.field_border,
+                field_border: &frame.shared.field_border,
                 lines: &frame.shared.lines,
                 camera_matrix,
                 field_color: &frame.own.field_color,

@@ -40,8 +40,6 @@ use crate::parameters::VisionInstance;
 pub struct OwnOutputs {
     /// vision::camera_matrix_extractor
     pub camera_matrix: Option<CameraMatrix>,
-    /// vision::field_border
-    pub field_border: FieldBorder,
     /// vision::field_color_detection
     pub field_color: FieldColor,
     /// vision::image_receiver
@@ -61,6 +59,8 @@ pub struct SharedOutputs {
     pub center_circle: Option<CenterCircle>,
     /// vision::corner_detection
     pub corners: Vec<LineCorner>,
+    /// vision::field_border
+    pub field_border: FieldBorder,
     /// vision::limb_projector
     pub limb_mask: LimbMask,
     /// vision::line_detection

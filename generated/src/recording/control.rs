@@ -90,8 +90,8 @@ impl<
         ("control::whistle_filter", "whistle"),
         ("control::game_state_filter", "primary_state"),
         ("control::localization", "ground_to_field"),
-        ("control::ball_filter", "ball"),
         ("control::obstacle_filter", "obstacles"),
+        ("control::ball_filter", "ball"),
         ("control::team_ball_filter", "team_ball"),
         ("control::role_assignment", "goalkeeper"),
         ("control::role_assignment", "role"),
@@ -374,8 +374,8 @@ impl<
         digests.add(&self.own.previous().whistle);
         digests.add(&self.own.previous().primary_state);
         digests.add(&self.own.previous().ground_to_field);
-        digests.add(&self.own.previous().ball);
         digests.add(&self.own.previous().obstacles);
+        digests.add(&self.own.previous().ball);
         digests.add(&self.own.previous().team_ball);
         digests.add(&self.own.previous().goalkeeper);
         digests.add(&self.own.previous().role);

@@ -173,7 +173,7 @@ impl<Hardware: CameraInterface + Send + Sync> Recorded for Vision<Hardware> {
         digests.add(&shared.limb_mask);
         digests.add(&self.own.previous().field_color);
         digests.add(&self.own.previous().image_segments);
-        digests.add(&self.own.previous().field_border);
+        digests.add(&shared.field_border);
         digests.add(&shared.lines);
         digests.add(&shared.center_circle);
         digests.add(&shared.corners);

@@ -220,7 +220,7 @@ impl<Hardware: CameraInterface + Send + Sync> Body for Vision<Hardware> {
             "limb_mask" => Some(&shared.limb_mask),
             "field_color" => Some(&self.own.previous().field_color),
             "image_segments" => Some(&self.own.previous().image_segments),
-            "field_border" => Some(&self.own.previous().field_border),
+            "field_border" => Some(&shared.field_border),
             "lines" => Some(&shared.lines),
             "center_circle" => Some(&shared.center_circle),
             "corners" => Some(&shared.corners),
@@ -263,7 +263,7 @@ impl<Hardware: CameraInterface + Send + Sync> Body for Vision<Hardware> {
         visitor.output(Some(&shared.limb_mask));
         visitor.output(Some(&self.own.previous().field_color));
         visitor.output(Some(&self.own.previous().image_segments));
-        visitor.output(Some(&self.own.previous().field_border));
+        visitor.output(Some(&shared.field_border));
         visitor.output(Some(&shared.lines));
         visitor.output(Some(&shared.center_circle));
         visitor.output(Some(&shared.corners));

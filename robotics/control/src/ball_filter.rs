@@ -16,14 +16,15 @@ mod hypothesis;
 mod sight;
 
 use framework::{
-    AdditionalOutput, CycleTime, HistoricInput, MainOutput, Parameter, PerceptionInput, Reflect,
-    Result, RollBack, Timeline, Timestamp, context,
+    AdditionalOutput, CycleTime, HistoricInput, Input, MainOutput, Parameter, PerceptionInput,
+    Reflect, Result, RollBack, Timeline, Timestamp, context,
 };
 use nalgebra::{Isometry2, Matrix2, Point2, Vector2};
 use serde::{Deserialize, Serialize};
 use types::ball::{Ball, BallCandidate, BallView, LearntImage};
+use types::field_features::FieldBorder;
 use types::limbs::LimbMask;
-use types::obstacles::ObstacleCandidate;
+use types::obstacles::{Obstacle, ObstacleCandidate};
 use types::odometry::Odometry;
 
 use self::hypotheses::Hypotheses;
@@ -116,8 +117,11 @@ pub struct CreationContext {}
 pub struct CycleContext {
     balls: PerceptionInput<Vec<BallCandidate>, "Vision", "balls">,
     ball_views: PerceptionInput<Option<BallView>, "Vision", "ball_view">,
+    borders: PerceptionInput<FieldBorder, "Vision", "field_border">,
     limb_masks: PerceptionInput<LimbMask, "Vision", "limb_mask">,
-    obstacles: PerceptionInput<Vec<ObstacleCandidate>, "Vision", "obstacles">,
+    obstacles_seen: PerceptionInput<Vec<ObstacleCandidate>, "Vision", "obstacles">,
+    /// Somebody hides a ball from a camera that does not see the feet.
+    obstacles: Input<Vec<Obstacle>, "obstacles">,
     odometry: HistoricInput<Odometry, "odometry">,
     cycle_time: CycleTime,
     parameters: Parameter<BallFilterParameters, "ball_filter">,
@@ -147,30 +151,41 @@ impl BallFilter {
     /// Learns from what is settled, then looks at what is not.
     pub fn cycle(&mut self, mut context: CycleContext) -> Result<MainOutputs> {
         let (odometry, parameters) = (context.odometry, context.parameters);
+        let now = context.cycle_time.start;
+        let now_to_start = ground_to_start(&odometry, now);
+        let known = context.obstacles;
         let see = |hypotheses: &mut Hypotheses, timestamp, image: Image<'_>| {
             hypotheses.predict(timestamp, parameters);
             let Some(pose) = ground_to_start(&odometry, timestamp) else {
                 return;
             };
+            hypotheses.begin_image();
             for sighting in sightings(image.balls, timestamp, pose, parameters) {
                 hypotheses.learn(&sighting, parameters);
             }
             hypotheses.merge(parameters.same_place);
             if let Some(view) = image.view {
+                let seen = image.obstacles.iter().map(|seen| pose * seen.position);
+                let known = now_to_start
+                    .into_iter()
+                    .flat_map(|to_start| known.iter().map(move |known| to_start * known.position));
                 let sight = Sight {
                     view,
+                    border: image.border,
                     limbs: image.limbs,
-                    obstacles: image.obstacles,
-                    start_to_ground: pose.inverse(),
+                    hiding: seen.chain(known),
+                    ground_to_start: pose,
                 };
-                hypotheses.miss(timestamp, &sight, parameters);
+                hypotheses.miss(&sight, parameters);
             }
         };
         let (balls, views) = (context.balls, context.ball_views);
-        let (limbs, obstacles) = (context.limb_masks, context.obstacles);
+        let (borders, limbs) = (context.borders, context.limb_masks);
+        let obstacles = context.obstacles_seen;
         let persistent = images(
             balls.persistent,
             views.persistent,
+            borders.persistent,
             limbs.persistent,
             obstacles.persistent,
         );
@@ -178,13 +193,13 @@ impl BallFilter {
         let transient = images(
             balls.transient,
             views.transient,
+            borders.transient,
             limbs.transient,
             obstacles.transient,
         );
         let newest = self.hypotheses.with_transient(transient, see);
 
-        let now = context.cycle_time.start;
-        let start_to_ground = ground_to_start(&odometry, now).map(|pose| pose.inverse());
+        let start_to_ground = now_to_start.map(|pose| pose.inverse());
         let ball_of = |mut hypotheses: Hypotheses| {
             hypotheses.predict(now, parameters);
             let best = hypotheses.best(parameters)?;
@@ -212,6 +227,7 @@ impl BallFilter {
 struct Image<'c> {
     balls: &'c [BallCandidate],
     view: Option<&'c BallView>,
+    border: &'c FieldBorder,
     limbs: &'c LimbMask,
     obstacles: &'c [ObstacleCandidate],
 }
@@ -219,14 +235,18 @@ struct Image<'c> {
 fn images<'c>(
     balls: Timeline<'c, &'c Vec<BallCandidate>>,
     views: Timeline<'c, &'c Option<BallView>>,
+    borders: Timeline<'c, &'c FieldBorder>,
     limbs: Timeline<'c, &'c LimbMask>,
     obstacles: Timeline<'c, &'c Vec<ObstacleCandidate>>,
 ) -> impl Iterator<Item = (Timestamp, Image<'c>)> {
-    let images = balls.zip(views).zip(limbs.zip(obstacles));
-    images.map(|((timestamp, (balls, view)), (_, (limbs, obstacles)))| {
+    let hidden = limbs.zip(obstacles);
+    let images = balls.zip(views).zip(borders.iter().zip(hidden));
+    images.map(|((timestamp, (balls, view)), ((_, border), (_, hidden)))| {
+        let (limbs, obstacles) = hidden;
         let image = Image {
             balls,
             view: view.as_ref(),
+            border,
             limbs,
             obstacles,
         };

@@ -58,6 +58,8 @@ pub struct Localization {
     primary_state: PrimaryState,
     /// What was seen before does not count.
     begun_at: Timestamp,
+    /// Whose shot of a shoot-out it was put down for last; `None` once that is over.
+    put_for: Option<KickingTeam>,
 }
 
 #[context]
@@ -71,6 +73,7 @@ pub struct CycleContext {
     corners: PerceptionInput<Vec<LineCorner>, "Vision", "corners">,
     odometry: HistoricInput<Odometry, "odometry">,
     fall_state: Input<FallState, "fall_state">,
+    has_ground_contact: Input<bool, "has_ground_contact">,
     primary_state: Input<PrimaryState, "primary_state">,
     game_controller_state: Input<Option<GameControllerState>, "game_controller_state">,
     cycle_time: CycleTime,
@@ -98,6 +101,7 @@ impl Localization {
             belief: RollBack::default(),
             primary_state: PrimaryState::default(),
             begun_at: Timestamp::ZERO,
+            put_for: None,
         })
     }
 
@@ -108,15 +112,16 @@ impl Localization {
             markings: context.markings,
             parameters: context.parameters,
         };
-        let (odometry, begun_at) = (context.odometry, self.begun_at);
+        let odometry = context.odometry;
         let is_upright = *context.fall_state == FallState::Upright;
-        let see = |belief: &mut Belief, timestamp, seen: Seen<'_>| {
-            if timestamp < begun_at {
-                return;
-            }
-            if let Some(pose) = ground_to_start(&odometry, timestamp) {
-                belief.predict(timestamp, pose, is_upright, &view);
-                belief.learn(timestamp, pose, seen, &view);
+        // What was seen before it began, perhaps while somebody carried it, was seen from elsewhere.
+        let see_since = |begun_at| {
+            move |belief: &mut Belief, timestamp, seen: Seen<'_>| {
+                let pose = ground_to_start(&odometry, timestamp);
+                if let Some(pose) = pose.filter(|_| timestamp >= begun_at) {
+                    belief.predict(timestamp, pose, is_upright, &view);
+                    belief.learn(timestamp, pose, seen, &view);
+                }
             }
         };
         let (lines, marks) = (context.lines, context.penalty_mark);
@@ -127,20 +132,10 @@ impl Localization {
             circles.persistent,
             corners.persistent,
         );
-        self.belief.settle(persistent, see);
+        self.belief.settle(persistent, see_since(self.begun_at));
         let pose = ground_to_start(&odometry, now);
         if let Some(pose) = pose {
-            let shot_of = context
-                .game_controller_state
-                .and_then(|said| said.shot_of());
-            self.put(
-                now,
-                pose,
-                *context.primary_state,
-                shot_of,
-                *context.player,
-                &view,
-            );
+            self.put(&context, pose, &view);
         }
         let transient = images(
             lines.transient,
@@ -148,7 +143,9 @@ impl Localization {
             circles.transient,
             corners.transient,
         );
-        let mut newest = self.belief.with_transient(transient, see);
+        let mut newest = self
+            .belief
+            .with_transient(transient, see_since(self.begun_at));
         if let Some(pose) = pose {
             newest.predict(now, pose, is_upright, &view);
         }
@@ -166,25 +163,20 @@ impl Localization {
     /// shoot-out to ball or goal, after a penalty beside the field, unless it was left where it stood.
     fn put(
         &mut self,
-        now: Timestamp,
+        context: &CycleContext<'_>,
         ground_to_start: Isometry2<f32>,
-        primary_state: PrimaryState,
-        shot_of: Option<KickingTeam>,
-        player: Player,
         view: &View<'_>,
     ) {
+        let (now, primary_state) = (context.cycle_time.start, *context.primary_state);
         let before = std::mem::replace(&mut self.primary_state, primary_state);
-        let belief = self.belief.settled_mut();
         let is_first = self.begun_at == Timestamp::ZERO;
-        // Out of Playing Set comes back where a whistle was somebody else's, and nobody has touched the robot.
-        let is_put_for_shot = primary_state == PrimaryState::Set
-            && (is_first || ![PrimaryState::Set, PrimaryState::Playing].contains(&before));
-        let begins_at = match shot_of.and_then(|team| shot_pose(team, view)) {
-            Some(pose) if is_put_for_shot => Some(pose),
-            _ if is_first || primary_state == PrimaryState::Unstiff => {
-                Some(start_pose(player, view.parameters))
+        let put_to = self.put_for_shot(context, before, is_first);
+        let belief = self.belief.settled_mut();
+        let begins_at = match put_to.and_then(|team| shot_pose(team, view)) {
+            None if is_first || primary_state == PrimaryState::Unstiff => {
+                Some(start_pose(*context.player, view.parameters))
             }
-            _ => None,
+            pose => pose,
         };
         if let Some(pose) = begins_at {
             self.begun_at = now;
@@ -196,6 +188,36 @@ impl Localization {
                     .into_iter(),
             );
         }
+    }
+
+    /// Whose shot of a shoot-out it was put down for in this cycle.
+    ///
+    /// Once for each: Set comes back where a whistle was somebody else's, and then nobody has touched the robot.
+    fn put_for_shot(
+        &mut self,
+        context: &CycleContext<'_>,
+        before: PrimaryState,
+        is_first: bool,
+    ) -> Option<KickingTeam> {
+        let is_in_set = match context.primary_state {
+            PrimaryState::Set => true,
+            PrimaryState::Playing => false,
+            _ => {
+                self.put_for = None;
+                return None;
+            }
+        };
+        // Who is still carried will stand there.
+        if is_in_set && !context.has_ground_contact {
+            self.put_for = None;
+        }
+        let said = context.game_controller_state.as_ref();
+        let shot_of = said.and_then(GameControllerState::shot_of);
+        let is_late = [PrimaryState::Unstiff, PrimaryState::Penalized].contains(&before);
+        let is_put = (is_in_set && *context.has_ground_contact) || is_late || is_first;
+        let team = shot_of.filter(|team| is_put && self.put_for != Some(*team))?;
+        self.put_for = Some(team);
+        Some(team)
     }
 }
 

@@ -13,10 +13,12 @@ fn ball_filter_computes_cycle_1157_of_control_again() {
     let balls = balls.seen();
     let ball_views = captured.series("ball_views");
     let ball_views = ball_views.seen();
+    let borders = captured.series("borders");
+    let borders = borders.seen();
     let limb_masks = captured.series("limb_masks");
     let limb_masks = limb_masks.seen();
-    let obstacles = captured.series("obstacles");
-    let obstacles = obstacles.seen();
+    let obstacles_seen = captured.series("obstacles_seen");
+    let obstacles_seen = obstacles_seen.seen();
     let odometry = captured.history("odometry");
     let odometry = odometry.seen();
     let mut hypotheses = AdditionalProbe::default();
@@ -25,8 +27,10 @@ fn ball_filter_computes_cycle_1157_of_control_again() {
     let context = CycleContext {
         balls: balls.input(),
         ball_views: ball_views.input(),
+        borders: borders.input(),
         limb_masks: limb_masks.input(),
-        obstacles: obstacles.input(),
+        obstacles_seen: obstacles_seen.input(),
+        obstacles: &captured.value("obstacles"),
         odometry: odometry.input(),
         cycle_time: captured.time(),
         parameters: &captured.value("parameters"),

@@ -27,6 +27,7 @@ fn localization_computes_cycle_389_of_control_again() {
         corners: corners.input(),
         odometry: odometry.input(),
         fall_state: &captured.value("fall_state"),
+        has_ground_contact: &captured.value("has_ground_contact"),
         primary_state: &captured.value("primary_state"),
         game_controller_state: &captured.value("game_controller_state"),
         cycle_time: captured.time(),

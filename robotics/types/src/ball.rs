@@ -22,7 +22,7 @@ pub struct BallCandidate {
 /// In which part of the world an image was searched for balls.
 #[derive(Clear, Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
 pub struct BallView {
-    /// Where the camera was.
+    /// Where the camera was in the ground frame of the image, when it was exposed.
     pub camera_matrix: CameraMatrix,
     /// Width and height of the image in px.
     pub size: Vector2<f32>,

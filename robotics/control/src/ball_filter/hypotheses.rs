@@ -1,6 +1,7 @@
 //! The few places where the ball may lie, and which of them a sighting belongs to.
 
 use framework::Timestamp;
+use nalgebra::Point2;
 
 use super::BallFilterParameters;
 use super::hypothesis::{Hypothesis, Sighting};
@@ -33,13 +34,20 @@ impl Hypotheses {
         });
     }
 
+    /// Looks at another image.
+    pub(super) fn begin_image(&mut self) {
+        for hypothesis in self.iter_mut() {
+            hypothesis.is_shown = false;
+        }
+    }
+
     /// Gives the sighting to the hypothesis that expected it most, or begins a new one.
     ///
     /// One image shows a ball once: what is near to a sighting of the same image is another thing.
     pub(super) fn learn(&mut self, sighting: &Sighting, parameters: &BallFilterParameters) {
         let expecting = self
             .iter_mut()
-            .filter(|hypothesis| hypothesis.seen_at != sighting.seen_at)
+            .filter(|hypothesis| !hypothesis.is_shown)
             .filter_map(|hypothesis| {
                 let distance = (sighting.position - hypothesis.position()).norm();
                 let deviation = hypothesis.deviation(sighting)?;
@@ -52,18 +60,14 @@ impl Hypotheses {
             None => self.insert(Hypothesis::seen_first(sighting, parameters)),
         }
     }
-    /// Believes less in balls that the image of this time would show and does not.
-    ///
-    /// After `learn` of all that it shows.
-    pub(super) fn miss(
+
+    /// Believes less in balls that the image would show and does not, after `learn` of all that it shows.
+    pub(super) fn miss<Hiding: Iterator<Item = Point2<f32>> + Clone>(
         &mut self,
-        seen_at: Timestamp,
-        sight: &Sight<'_>,
+        sight: &Sight<'_, Hiding>,
         parameters: &BallFilterParameters,
     ) {
-        let unseen = self
-            .iter_mut()
-            .filter(|hypothesis| hypothesis.seen_at < seen_at);
+        let unseen = self.iter_mut().filter(|hypothesis| !hypothesis.is_shown);
         for hypothesis in unseen.filter(|unseen| sight.would_show(unseen, parameters)) {
             hypothesis.miss(parameters);
         }

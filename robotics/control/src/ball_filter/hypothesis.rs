@@ -19,6 +19,8 @@ pub(super) struct Hypothesis {
     pub(super) seen_at: Timestamp,
     /// Images since then that would have shown it and did not.
     pub(super) missed: u32,
+    /// Whether the image that is looked at shows it: it shows a ball once.
+    pub(super) is_shown: bool,
 }
 
 /// Where a camera saw a ball, in the start frame.
@@ -40,6 +42,7 @@ impl Hypothesis {
             validity: 1.0,
             seen_at: sighting.seen_at,
             missed: 0,
+            is_shown: true,
         }
     }
 
@@ -122,6 +125,7 @@ impl Hypothesis {
         // An image that arrives late is no reason to forget a younger one.
         self.seen_at = self.seen_at.max(sighting.seen_at);
         self.missed = 0;
+        self.is_shown = true;
     }
 
     /// Believes less in itself: an image does not show it where it would have to.

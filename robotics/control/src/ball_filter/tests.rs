@@ -60,8 +60,11 @@ fn pose(x: f32, y: f32, yaw: f32) -> Odometry {
 #[derive(Default)]
 struct Around {
     view: Option<BallView>,
+    border: FieldBorder,
     limbs: LimbMask,
     obstacles: Vec<ObstacleCandidate>,
+    /// What the robot knows of by other means, in the ground frame.
+    known: Vec<Obstacle>,
 }
 
 /// The same in each of the images.
@@ -95,7 +98,8 @@ fn cycle_around(
         [&persistent, &transient].map(|seen| seen.iter().map(|(at, _)| *at).collect::<Vec<_>>());
     let [views, open_views] = each(&times, &around.view);
     let [limbs, open_limbs] = each(&times, &around.limbs);
-    let [obstacles, open_obstacles] = each(&times, &around.obstacles);
+    let [borders, open_borders] = each(&times, &around.border);
+    let [seen, open_seen] = each(&times, &around.obstacles);
     let (mut hypotheses, mut ball, mut delivered) = (
         AdditionalProbe::default(),
         AdditionalProbe::default(),
@@ -105,7 +109,9 @@ fn cycle_around(
         balls: perception(&persistent, &transient),
         ball_views: perception(&views, &open_views),
         limb_masks: perception(&limbs, &open_limbs),
-        obstacles: perception(&obstacles, &open_obstacles),
+        borders: perception(&borders, &open_borders),
+        obstacles_seen: perception(&seen, &open_seen),
+        obstacles: &around.known,
         odometry: history(&past, at_millis(now), pose),
         cycle_time: cycle_time(now, 12),
         parameters,

@@ -35,6 +35,7 @@ struct Moment<'a> {
     is_settled: bool,
     primary_state: PrimaryState,
     said: Option<GameControllerState>,
+    has_ground_contact: bool,
 }
 
 struct Cycle {
@@ -88,6 +89,7 @@ fn cycle(node: &mut Localization, moment: &Moment<'_>) -> Cycle {
         corners: perception(&corners, &open_corners),
         odometry: history(&[], now, &odometry),
         fall_state: &FallState::Upright,
+        has_ground_contact: &moment.has_ground_contact,
         primary_state: &moment.primary_state,
         game_controller_state: &moment.said,
         cycle_time: cycle_time(moment.millis, 33),
@@ -117,6 +119,7 @@ fn playing(millis: u64, odometry: Isometry2<f32>, lines: &Vec<LineSegment>) -> M
         is_settled: true,
         primary_state: PrimaryState::Playing,
         said: None,
+        has_ground_contact: true,
     }
 }
 

@@ -2,6 +2,7 @@
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 use types::camera::{CameraMatrix, Intrinsics};
+use types::field_features::ImageLine;
 use types::limbs::LimbOutline;
 
 use super::*;
@@ -143,32 +144,144 @@ fn a_ball_that_the_robot_has_turned_away_from_is_believed_in() {
 }
 
 #[test]
-fn a_ball_behind_the_own_limbs_is_believed_in() {
-    let up_to = |top: f32| Around {
+fn a_ball_behind_or_beside_the_own_limbs_is_believed_in() {
+    let limb = |left: f32, right: f32, top: f32| Around {
         limbs: LimbMask {
             limbs: vec![LimbOutline {
-                corners: vec![Point2::new(200.0, top), Point2::new(440.0, top)],
+                corners: vec![Point2::new(left, top), Point2::new(right, top)],
             }],
         },
         ..looking()
     };
-    assert!(is_believed_in((1.2, 0.0), &up_to(row(1.2) + 10.0)));
-    assert!(!is_believed_in((1.2, 0.0), &up_to(row(1.2) + 100.0)));
+    // A ball 1.2 m ahead has its middle in column 320 and a radius of 24 px.
+    let (row, ball) = (row(1.2), (1.2, 0.0));
+    for (left, right, top) in [
+        (200.0, 440.0, row + 10.0),
+        (200.0, 300.0, row - 100.0),
+        (345.0, 440.0, row - 100.0),
+    ] {
+        assert!(is_believed_in(ball, &limb(left, right, top)), "{left}");
+    }
+    for (left, right, top) in [
+        (200.0, 440.0, row + 100.0),
+        (100.0, 250.0, row - 100.0),
+        (390.0, 440.0, row - 100.0),
+    ] {
+        assert!(!is_believed_in(ball, &limb(left, right, top)), "{left}");
+    }
 }
 
 #[test]
-fn a_ball_behind_somebody_is_believed_in() {
-    let behind = |obstacles| Around {
-        obstacles,
+fn a_ball_beyond_the_border_is_believed_in() {
+    let border = |row: f32| Around {
+        border: FieldBorder {
+            lines: vec![ImageLine {
+                at_left: row,
+                slope: 0.0,
+            }],
+        },
+        ..looking()
+    };
+    let (row, ball) = (row(2.0), (2.0, 0.0));
+    assert!(is_believed_in(ball, &border(row + 20.0)));
+    assert!(is_believed_in(ball, &border(row - 20.0)), "near to it");
+    assert!(!is_believed_in(ball, &border(row - 60.0)));
+}
+
+#[test]
+fn a_ball_too_small_to_be_looked_for_is_believed_in() {
+    let down_to = |least_radius| Around {
+        view: Some(BallView {
+            least_radius,
+            ..view()
+        }),
+        ..looking()
+    };
+    assert!(is_believed_in((3.0, 0.0), &down_to(12.0)));
+    assert!(!is_believed_in((3.0, 0.0), &down_to(8.0)));
+}
+
+#[test]
+fn a_ball_behind_somebody_is_believed_in_whoever_knows_of_them() {
+    let seen = |x, y| Around {
+        obstacles: somebody(x, y),
+        ..looking()
+    };
+    // The other camera sees the feet, or the sonar hears somebody.
+    let known = |x, y| Around {
+        known: vec![Obstacle {
+            position: Point2::new(x, y),
+            ..Obstacle::default()
+        }],
         ..looking()
     };
     let ball = (2.0, 0.0);
     for (x, y) in [(1.0, 0.0), (1.0, 0.2), (1.9, -0.1), (2.1, 0.0)] {
-        assert!(is_believed_in(ball, &behind(somebody(x, y))), "{x} {y}");
+        assert!(is_believed_in(ball, &seen(x, y)), "{x} {y}");
+        assert!(is_believed_in(ball, &known(x, y)), "{x} {y}");
     }
     for (x, y) in [(1.0, 0.5), (2.6, 0.0), (-0.5, 0.0)] {
-        assert!(!is_believed_in(ball, &behind(somebody(x, y))), "{x} {y}");
+        assert!(!is_believed_in(ball, &seen(x, y)), "{x} {y}");
+        assert!(!is_believed_in(ball, &known(x, y)), "{x} {y}");
     }
+}
+
+#[test]
+fn of_two_images_of_one_time_each_has_its_own_sight() {
+    let (seen, nothing) = (candidate(1.2, 0.1), Vec::new());
+    let (looks, away) = (Some(view()), None);
+    // Whichever of the two cameras would show it, and in whichever order they come.
+    for (views, is_shown, missed) in [
+        ([&looks, &away], [false, false], 1),
+        ([&away, &looks], [false, false], 1),
+        ([&looks, &looks], [false, false], 2),
+        ([&away, &away], [false, false], 0),
+        ([&looks, &away], [true, false], 0),
+        ([&away, &looks], [false, true], 0),
+    ] {
+        let (mut node, standing) = (node(), Odometry::default());
+        let poses = (&standing, &standing);
+        let known = (images(0, 30, &seen), vec![]);
+        cycle_around(&mut node, 1000, poses, &parameters(), known, &looking());
+        let at = at_millis(1000);
+        let balls = is_shown.map(|is_shown| (at, if is_shown { &seen } else { &nothing }));
+        let around = Around::default();
+        let views = views.map(|view| (at, view));
+        let borders = [(at, &around.border); 2];
+        let limbs = [(at, &around.limbs); 2];
+        let obstacles = [(at, &around.obstacles); 2];
+        let mut hypotheses = AdditionalProbe::default();
+        let mut ball = AdditionalProbe::unsubscribed();
+        let mut delivered = AdditionalProbe::unsubscribed();
+        let context = CycleContext {
+            balls: perception(&balls, &[]),
+            ball_views: perception(&views, &[]),
+            borders: perception(&borders, &[]),
+            limb_masks: perception(&limbs, &[]),
+            obstacles_seen: perception(&obstacles, &[]),
+            obstacles: &around.known,
+            odometry: history(&[], at_millis(1012), &standing),
+            cycle_time: cycle_time(1012, 12),
+            parameters: &parameters(),
+            hypotheses: hypotheses.output(),
+            persistent_ball: ball.output(),
+            delivered: delivered.output(),
+        };
+        node.cycle(context).unwrap();
+        let found = hypotheses.value().unwrap();
+        assert_eq!(found.len(), 1, "{is_shown:?}");
+        assert_eq!(found[0].missed, missed, "{views:?} {is_shown:?}");
+    }
+}
+
+#[test]
+fn both_cameras_at_one_time_see_one_ball() {
+    let seen = candidate(1.2, 0.1);
+    let mut first = node();
+    let both: Seen<'_> = vec![(at_millis(33), &seen); 2];
+    let two = cycle(&mut first, 40, both, vec![]);
+    assert_eq!(two.hypotheses.len(), 1);
+    assert!(two.hypotheses[0].validity > 1.9, "both speak for it");
 }
 
 #[test]
@@ -181,11 +294,15 @@ fn a_view_and_parameters_that_are_no_numbers_are_survived() {
     for view in [broken, BallView::default()] {
         let around = Around {
             view: Some(view),
-            obstacles: somebody(f32::NAN, f32::INFINITY),
             ..looking()
         };
         assert!(is_believed_in((1.2, 0.0), &around), "{view:?}");
     }
+    let nobody = Around {
+        obstacles: somebody(f32::NAN, f32::INFINITY),
+        ..looking()
+    };
+    assert!(!is_believed_in((1.2, 0.0), &nobody));
     let (mut node, seen, nothing) = (node(), candidate(1.2, 0.1), Vec::new());
     let nonsense = BallFilterParameters {
         missed_validity: f32::NAN,

@@ -102,6 +102,55 @@ fn in_a_shoot_out_it_was_put_to_the_ball_or_into_the_goal() {
 }
 
 #[test]
+fn whoever_is_carried_when_set_begins_or_comes_late_stands_where_the_shot_is_taken_from() {
+    use PrimaryState::{Finished, Penalized, Playing, Set, Unstiff};
+    let nothing = Vec::new();
+    let (own, other) = (KickingTeam::Own, KickingTeam::Opponent);
+    let (ball, goal) = (pose(2.85, 0.0, 0.0), pose(-4.5, 0.0, 0.0));
+    let turned = |index, state, has_ground_contact| Moment {
+        has_ground_contact,
+        odometry: pose(0.0, 0.0, 0.4 * f32::min(index as f32, 3.0)),
+        ..shot(index, state, own, &nothing)
+    };
+    let put = |moments: &[Moment<'_>]| {
+        let mut node = node();
+        let found = moments.iter().map(|moment| cycle(&mut node, moment));
+        found.last().unwrap().ground_to_field
+    };
+    let carried = [
+        turned(1, Finished, false),
+        turned(2, Set, false),
+        turned(3, Set, false),
+        turned(4, Set, true),
+        turned(5, Set, true),
+    ];
+    assert_near(put(&carried), &ball, 1e-4, 1e-4);
+    let shot = |index, state, team| shot(index, state, team, &nothing);
+    // Somebody presses its chest, or the referee takes back a penalty, after the whistle.
+    for before in [Unstiff, Penalized] {
+        let late = [shot(1, before, own), shot(2, Playing, own)];
+        assert_near(put(&late), &ball, 1e-4, 1e-4);
+    }
+    // The next shot is the others'; nobody heard that the last one was over.
+    let next = [
+        shot(1, Set, own),
+        shot(2, Playing, own),
+        shot(3, Set, other),
+    ];
+    assert_near(put(&next), &goal, 1e-4, 1e-4);
+    let again = [
+        shot(1, Set, other),
+        shot(2, Playing, other),
+        shot(3, Finished, other),
+        shot(4, Set, own),
+    ];
+    assert_near(put(&again), &ball, 1e-4, 1e-4);
+    // Whose it is becomes known later.
+    let late = [shot(1, Set, KickingTeam::Nobody), shot(2, Set, other)];
+    assert_near(put(&late), &goal, 1e-4, 1e-4);
+}
+
+#[test]
 fn set_of_a_kick_off_puts_it_nowhere() {
     let nothing = Vec::new();
     let mut node = node();
