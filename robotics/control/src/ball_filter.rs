@@ -170,6 +170,7 @@ impl BallFilter {
                     .into_iter()
                     .flat_map(|to_start| known.iter().map(move |known| to_start * known.position));
                 let sight = Sight {
+                    taken_at: timestamp,
                     view,
                     border: image.border,
                     limbs: image.limbs,

@@ -208,13 +208,17 @@ impl Localization {
             }
         };
         // Who is still carried will stand there.
-        if is_in_set && !context.has_ground_contact {
+        let is_carried = *context.fall_state == FallState::Upright && !context.has_ground_contact;
+        if is_in_set && is_carried {
             self.put_for = None;
         }
         let said = context.game_controller_state.as_ref();
         let shot_of = said.and_then(GameControllerState::shot_of);
-        let is_late = [PrimaryState::Unstiff, PrimaryState::Penalized].contains(&before);
-        let is_put = (is_in_set && *context.has_ground_contact) || is_late || is_first;
+        let shot_of = shot_of.filter(|team| *team != KickingTeam::Nobody);
+        let is_put = match is_in_set {
+            true => *context.has_ground_contact,
+            false => is_first || (self.put_for.is_none() && before != PrimaryState::Playing),
+        };
         let team = shot_of.filter(|team| is_put && self.put_for != Some(*team))?;
         self.put_for = Some(team);
         Some(team)

@@ -109,7 +109,14 @@ impl RoleAssignment {
             distance: own.map(|distance| distance - head_start),
         };
         self.is_keeper_out = self.is_keeper_out(goalkeeper, &context);
-        self.shot_of = said.map_or(self.shot_of, GameControllerState::shot_of);
+        let is_before_game = matches!(
+            context.primary_state,
+            PrimaryState::Unstiff | PrimaryState::Initial
+        );
+        self.shot_of = match said {
+            Some(said) => said.shot_of(),
+            None => self.shot_of.filter(|_| !is_before_game),
+        };
         let in_shoot_out = self.shot_of.and_then(role_in_shoot_out);
         self.role = match context.primary_state {
             PrimaryState::Penalized => None,

@@ -61,13 +61,16 @@ impl Hypotheses {
         }
     }
 
-    /// Believes less in balls that the image would show and does not, after `learn` of all that it shows.
+    /// Believes less in balls that the image would show and does not, after `learn` of all that it shows; an image that
+    /// comes late says nothing against what was seen since.
     pub(super) fn miss<Hiding: Iterator<Item = Point2<f32>> + Clone>(
         &mut self,
         sight: &Sight<'_, Hiding>,
         parameters: &BallFilterParameters,
     ) {
-        let unseen = self.iter_mut().filter(|hypothesis| !hypothesis.is_shown);
+        let unseen = self
+            .iter_mut()
+            .filter(|known| !known.is_shown && known.seen_at <= sight.taken_at);
         for hypothesis in unseen.filter(|unseen| sight.would_show(unseen, parameters)) {
             hypothesis.miss(parameters);
         }

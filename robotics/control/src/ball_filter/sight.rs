@@ -4,6 +4,7 @@
 //! says nothing: beyond the image or the border of the field, behind the own limbs, behind somebody else, or so far away
 //! that vision misses many.
 
+use framework::Timestamp;
 use nalgebra::{Isometry2, Point2, Vector2};
 use types::ball::BallView;
 use types::field_features::FieldBorder;
@@ -16,6 +17,8 @@ use crate::places::Hypothesis as _;
 /// What one image was able to show.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sight<'a, Hiding> {
+    /// When it was exposed.
+    pub(super) taken_at: Timestamp,
     /// Where balls were looked for.
     pub(super) view: &'a BallView,
     /// Beyond it none is.

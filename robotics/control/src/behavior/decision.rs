@@ -92,7 +92,8 @@ impl Memory {
         if world.ground_to_field.is_some() || !is_in_game {
             self.pose_known_at = now;
         }
-        self.penalty_kick.notice(world, self.activity, parameters);
+        self.penalty_kick
+            .notice(world, self.activity, parameters, now);
         self.progress.notice(
             self.legs(world.fall_state),
             world.ground_to_field.as_ref(),

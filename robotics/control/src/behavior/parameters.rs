@@ -107,6 +107,15 @@ pub struct AttackParameters {
     /// Whoever stands farther behind the goal line is no keeper.
     #[reflect(unit = "m", range = 0.0..)]
     pub keeper_behind_line: f32,
+    /// A ball that lies farther from where the robot began to play it was shot, in a shoot-out.
+    #[reflect(unit = "m", range = 0.0..)]
+    pub shot: f32,
+    /// If it is seen there for so long.
+    #[reflect(unit = "s", range = 0.0..)]
+    pub shot_for: f32,
+    /// Who has kicked for so long and sees no ball has shot it.
+    #[reflect(unit = "s", range = 0.0..)]
+    pub kick_duration: f32,
     /// A goal that opens less is not aimed at.
     #[reflect(unit = "rad", range = 0.0..)]
     pub least_opening: f32,
@@ -215,9 +224,6 @@ pub struct PlaceParameters {
     /// What is farther from the centre mark has been kicked off.
     #[reflect(unit = "m", range = 0.0..)]
     pub kicked_off: f32,
-    /// What is farther from the penalty mark has been shot in a shoot-out.
-    #[reflect(unit = "m", range = 0.0..)]
-    pub shot: f32,
     /// Of a post.
     #[reflect(unit = "m", range = 0.0..)]
     pub post_radius: f32,

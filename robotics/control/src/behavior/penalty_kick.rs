@@ -1,6 +1,6 @@
 //! Owns what is different where a robot alone with the keeper shoots at the goal.
 
-use framework::math;
+use framework::{Timestamp, math};
 use nalgebra::Point2;
 use serde::{Deserialize, Serialize};
 use types::behavior::{Activity, Role};
@@ -9,15 +9,20 @@ use types::motion::BodyMotion;
 use types::world_state::WorldState;
 
 use super::decision::{Decision, View};
-use super::parameters::BehaviorParameters;
+use super::parameters::{AttackParameters, BehaviorParameters};
 
 /// What has become of the own team's penalty kick.
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Serialize)]
 pub(super) struct PenaltyKick {
     /// Whether it goes to the left of the keeper; `None` before one was seen.
     goes_left: Option<bool>,
-    /// Whether this robot has begun to play the ball.
-    plays: bool,
+    /// Where the ball lay when this robot began to play it, in the field frame, m.
+    played_from: Option<Point2<f32>>,
+    /// Since when it has lain elsewhere.
+    moved_since: Option<Timestamp>,
+    /// Since when the robot has kicked, without a break.
+    kicks_since: Option<Timestamp>,
+    has_kicked: bool,
     /// Whether this was the shot of a shoot-out, after which it may not play the ball again.
     pub(super) is_shot: bool,
 }
@@ -29,6 +34,7 @@ impl PenaltyKick {
         world: &WorldState,
         before: Activity,
         parameters: &BehaviorParameters,
+        now: Timestamp,
     ) {
         if world.primary_state != PrimaryState::Playing {
             *self = Self::default();
@@ -37,26 +43,46 @@ impl PenaltyKick {
         if world.set_play != SetPlay::PenaltyKick || world.kicking_team != KickingTeam::Own {
             return;
         }
-        self.plays |= before.plays_ball();
-        let places = &parameters.places;
-        let mark = Point2::new(places.goal_line - places.penalty_mark, 0.0);
-        let ball = world.ball.map(|ball| ball.position);
-        let has_moved = world
-            .ground_to_field
-            .zip(ball)
-            .is_some_and(|(to_field, ball)| {
-                nalgebra::distance(&(to_field * ball), &mark) > places.shot
-            });
-        // Behind the keeper or beside the goal nobody may see the ball that was kicked.
-        let is_gone = has_moved || (before == Activity::Kick && ball.is_none());
-        self.is_shot |= world.game_phase == GamePhase::PenaltyShootout && self.plays && is_gone;
-
+        if world.game_phase == GamePhase::PenaltyShootout {
+            self.is_shot |= self.is_gone(world, before, &parameters.attack, now);
+        }
         if let Some(keeper) = keeper(world, parameters) {
             let goes_left = self.goes_left.unwrap_or(keeper.y < 0.0);
             let on_that_side = if goes_left { keeper.y } else { -keeper.y };
             let is_taken = on_that_side > parameters.attack.corner_taken;
             self.goes_left = Some(goes_left != is_taken);
         }
+    }
+
+    /// Whether the ball that this robot plays has moved, or nobody sees it where it has kicked: behind the keeper or
+    /// beside the goal.
+    fn is_gone(
+        &mut self,
+        world: &WorldState,
+        before: Activity,
+        attack: &AttackParameters,
+        now: Timestamp,
+    ) -> bool {
+        let lasts = |since: &mut Option<Timestamp>, is_so: bool, long: f32| {
+            *since = is_so.then(|| since.unwrap_or(now));
+            since.is_some_and(|since| (now - since).as_secs_f32() >= long)
+        };
+        let is_kicking = before == Activity::Kick;
+        self.has_kicked |= lasts(&mut self.kicks_since, is_kicking, attack.kick_duration);
+        let Some(ball) = world.ball else {
+            return self.has_kicked;
+        };
+        let Some(ground_to_field) = world.ground_to_field else {
+            return false;
+        };
+        let place = ground_to_field * ball.position;
+        if is_kicking || matches!(before, Activity::Align | Activity::Dribble) {
+            self.played_from.get_or_insert(place);
+        }
+        let has_moved = self
+            .played_from
+            .is_some_and(|from| nalgebra::distance(&from, &place) > attack.shot);
+        lasts(&mut self.moved_since, has_moved, attack.shot_for)
     }
 }
 
@@ -129,14 +155,16 @@ mod tests {
         }];
     }
 
-    /// After a cycle in which the robot did this, with the ball there on the field.
-    fn next(scene: &mut Scene, did: Activity, ball: Option<[f32; 2]>) -> Activity {
+    /// After so long, s, in which the robot did this, with the ball there on the field.
+    fn after(seconds: f32, scene: &mut Scene, did: Activity, ball: Option<[f32; 2]>) -> Activity {
         let to_ground = scene.world.ground_to_field.map(|pose| pose.inverse());
         scene.world.ball = ball.zip(to_ground).map(|(ball, to_ground)| Ball {
             position: to_ground * Point2::from(ball),
             ..Ball::default()
         });
         scene.did(did);
+        scene.notice();
+        scene.pass(seconds);
         scene.notice();
         scene.view(play).activity
     }
@@ -191,62 +219,75 @@ mod tests {
 
     #[test]
     fn a_ball_that_was_shot_is_not_played_again_wherever_it_lies() {
+        let (mark, away) = (Some([3.2, 0.0]), Some([3.9, 0.2]));
         let mut scene = shooting();
-        assert!(next(&mut scene, Activity::WaitForWhistle, Some([3.2, 0.0])).plays_ball());
-        assert!(next(&mut scene, Activity::Align, Some([3.3, 0.1])).plays_ball());
+        assert!(after(1.0, &mut scene, Activity::WaitForWhistle, mark).plays_ball());
+        assert!(after(1.0, &mut scene, Activity::Align, Some([3.3, 0.1])).plays_ball());
         assert!(
-            next(&mut scene, Activity::Kick, Some([3.25, 0.0])).plays_ball(),
+            after(0.1, &mut scene, Activity::Align, away).plays_ball(),
+            "for once"
+        );
+        assert!(
+            after(1.0, &mut scene, Activity::Kick, Some([3.25, 0.0])).plays_ball(),
             "missed"
         );
-        for ball in [Some([3.9, 0.2]), Some([3.2, 0.0]), None] {
-            let activity = next(&mut scene, Activity::Kick, ball);
+        for ball in [away, mark, None] {
+            let activity = after(0.5, &mut scene, Activity::WalkBehindBall, ball);
             assert_eq!(activity, Activity::WatchShot, "{ball:?}");
         }
         scene.world.ground_to_field = None;
-        assert_eq!(
-            next(&mut scene, Activity::WatchShot, None),
-            Activity::WatchShot
-        );
+        let lost = after(0.1, &mut scene, Activity::WatchShot, None);
+        assert_eq!(lost, Activity::WatchShot);
         // The referee's computer is not heard for a while.
         scene.world.game_phase = GamePhase::Normal;
         scene.world.set_play = SetPlay::None;
-        assert_eq!(
-            next(&mut scene, Activity::WatchShot, None),
-            Activity::WatchShot
-        );
+        let silent = after(0.1, &mut scene, Activity::WatchShot, None);
+        assert_eq!(silent, Activity::WatchShot);
         scene.world.primary_state = PrimaryState::Set;
         scene.notice();
-        let mut again = shooting();
-        std::mem::swap(&mut scene.world, &mut again.world);
-        assert!(next(&mut scene, Activity::WaitForWhistle, Some([3.2, 0.0])).plays_ball());
+        std::mem::swap(&mut scene.world, &mut shooting().world);
+        assert!(after(1.0, &mut scene, Activity::WaitForWhistle, mark).plays_ball());
     }
 
     #[test]
-    fn a_ball_that_nobody_sees_after_the_kick_was_shot() {
-        let mut scene = shooting();
-        assert_eq!(next(&mut scene, Activity::Kick, None), Activity::WatchShot);
-        let mut before = shooting();
-        before.lost_for(1.0);
-        assert_eq!(
-            next(&mut before, Activity::Align, None),
-            Activity::SearchWithHead
-        );
+    fn a_ball_that_nobody_sees_after_a_whole_kick_was_shot() {
+        for (did, seconds, activity) in [
+            (Activity::Kick, 1.5, Activity::WatchShot),
+            (Activity::Kick, 0.1, Activity::SearchWithHead),
+            (Activity::Align, 1.5, Activity::SearchWithHead),
+        ] {
+            let mut scene = shooting();
+            after(seconds, &mut scene, did, Some([3.2, 0.0]));
+            scene.lost_for(1.0);
+            let found = after(0.0, &mut scene, Activity::SearchWithHead, None);
+            assert_eq!(found, activity, "{did:?} {seconds}");
+        }
     }
 
     #[test]
     fn who_has_not_played_the_ball_and_who_plays_in_the_game_watches_no_shot() {
         let elsewhere = Some([3.9, 0.2]);
-        let mut wrong = shooting();
-        assert!(next(&mut wrong, Activity::WaitForWhistle, elsewhere).plays_ball());
-        let mut in_the_game = shooting();
-        in_the_game.world.game_phase = GamePhase::Normal;
-        assert!(next(&mut in_the_game, Activity::Kick, elsewhere).plays_ball());
-        let mut theirs = shooting();
-        theirs.world.kicking_team = KickingTeam::Opponent;
-        theirs.world.role = Some(Role::Keeper);
-        assert_ne!(
-            next(&mut theirs, Activity::Kick, elsewhere),
-            Activity::WatchShot
-        );
+        for did in [Activity::WaitForWhistle, Activity::WalkBehindBall] {
+            let mut wrong = shooting();
+            for _ in 0..3 {
+                assert!(after(1.0, &mut wrong, did, elsewhere).plays_ball());
+            }
+        }
+        for (phase, team, role) in [
+            (GamePhase::Normal, KickingTeam::Own, Role::Striker),
+            (
+                GamePhase::PenaltyShootout,
+                KickingTeam::Opponent,
+                Role::Keeper,
+            ),
+        ] {
+            let mut scene = shooting();
+            scene.world.game_phase = phase;
+            scene.world.kicking_team = team;
+            scene.world.role = Some(role);
+            after(1.5, &mut scene, Activity::Kick, Some([3.2, 0.0]));
+            let found = after(1.5, &mut scene, Activity::Kick, elsewhere);
+            assert_ne!(found, Activity::WatchShot, "{phase:?} {team:?}");
+        }
     }
 }

@@ -86,6 +86,11 @@ impl Scene {
         self.memory.activity = activity;
     }
 
+    /// Time goes on.
+    pub(super) fn pass(&mut self, seconds: f32) {
+        self.now = self.now + std::time::Duration::from_secs_f32(seconds);
+    }
+
     /// What is so now, before the next decision.
     pub(super) fn notice(&mut self) {
         self.memory.notice(&self.world, &self.parameters, self.now);

@@ -275,6 +275,18 @@ fn of_two_images_of_one_time_each_has_its_own_sight() {
 }
 
 #[test]
+fn an_image_that_comes_late_says_nothing_against_what_was_seen_since() {
+    let (mut node, seen, nothing) = (node(), candidate(1.2, 0.1), Vec::new());
+    let standing = Odometry::default();
+    let poses = (&standing, &standing);
+    let known = (images(0, 30, &seen), vec![]);
+    cycle_around(&mut node, 1000, poses, &parameters(), known, &looking());
+    let late = (vec![(at_millis(940), &nothing)], vec![]);
+    let found = cycle_around(&mut node, 1012, poses, &parameters(), late, &looking());
+    assert_eq!(found.hypotheses[0].missed, 0);
+}
+
+#[test]
 fn both_cameras_at_one_time_see_one_ball() {
     let seen = candidate(1.2, 0.1);
     let mut first = node();

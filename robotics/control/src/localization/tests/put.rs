@@ -125,6 +125,12 @@ fn whoever_is_carried_when_set_begins_or_comes_late_stands_where_the_shot_is_tak
         turned(5, Set, true),
     ];
     assert_near(put(&carried), &ball, 1e-4, 1e-4);
+    let until_the_whistle = [
+        turned(2, Set, false),
+        turned(3, Set, false),
+        turned(4, Playing, true),
+    ];
+    assert_near(put(&until_the_whistle), &ball, 1e-4, 1e-4);
     let shot = |index, state, team| shot(index, state, team, &nothing);
     // Somebody presses its chest, or the referee takes back a penalty, after the whistle.
     for before in [Unstiff, Penalized] {
