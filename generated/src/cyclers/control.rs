@@ -965,7 +965,7 @@ impl Nodes {
         Ok(())
     }
 
-    /// motion_selection, sensor_data.positions, previous motor_commands, state
+    /// motion_command, motion_selection, sensor_data.positions, previous motor_commands, state
     /// safe_exits.dispatch -> dispatch_commands
     #[inline(always)]
     fn motion_dispatcher<Hardware>(
@@ -973,6 +973,7 @@ impl Nodes {
         frame: &mut Frame<'_, Hardware>,
     ) -> Result<()> {
         let context = motion_dispatcher::CycleContext {
+            motion_command: &frame.own.motion_command,
             motion_selection: &frame.own.motion_selection,
             positions: &frame.own.sensor_data.positions,
             previous: frame.previous.own.motor_commands.as_ref(),

@@ -11,7 +11,7 @@ use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 use types::head::{HeadAngles, HeadCommand, HeadRequest};
 use types::joints::Joints;
-use types::motion::{BodyMotion, HeadMotion as Wanted, MotionCommand, MotionSelection};
+use types::motion::{HeadMotion as Wanted, MotionCommand, MotionSelection};
 use types::motor_commands::MotorCommands;
 
 use crate::transition;
@@ -63,7 +63,7 @@ impl HeadMotion {
             yaw: pose.head_yaw,
             pitch: pose.head_pitch,
         };
-        let goes_with_body = context.goes_with_body();
+        let is_free = (context.motion_selection).is_head_free(context.motion_command.head);
         let goal = context.goal();
         if let Some(call) = context.look_at {
             let (looking_at, answer) = match *call.request() {
@@ -79,7 +79,7 @@ impl HeadMotion {
 
         let goal = self.looking_at.or(goal).unwrap_or(from);
         let reach = *context.velocity * context.cycle_time.since_last.as_secs_f32();
-        let head_command = (!goes_with_body).then(|| HeadCommand {
+        let head_command = is_free.then(|| HeadCommand {
             angles: step(from, goal, reach),
             stiffness: *context.stiffness,
         });
@@ -90,14 +90,6 @@ impl HeadMotion {
 }
 
 impl CycleContext<'_> {
-    fn goes_with_body(&self) -> bool {
-        let selection = self.motion_selection;
-        let is_up = [BodyMotion::Stand, BodyMotion::Penalized, BodyMotion::Walk]
-            .into_iter()
-            .any(|motion| selection.is_at(motion));
-        !is_up || self.motion_command.head == Wanted::WithBody
-    }
-
     /// Where the behaviour wants the head; `None` where nobody knows: it stays.
     fn goal(&self) -> Option<HeadAngles> {
         match self.motion_command.head {
@@ -130,6 +122,7 @@ mod tests {
     use framework::procedure::procedure;
     use framework::{math, testing};
     use nalgebra::Point2;
+    use types::motion::{BodyMotion, Script};
 
     use super::*;
 
@@ -221,18 +214,25 @@ mod tests {
     }
 
     #[test]
-    fn the_head_goes_with_a_body_that_is_on_its_way_or_down() {
-        let mut situation = Situation::new(Wanted::LookAround);
-        situation.motion_selection.is_dispatching = true;
-        let command = node().cycle(situation.context()).unwrap().head_command;
-        assert_eq!(command.value, None);
-        for current in [BodyMotion::SitDown, BodyMotion::Unstiff] {
-            situation.motion_selection = MotionSelection {
-                current,
-                is_dispatching: false,
-            };
-            let command = node().cycle(situation.context()).unwrap().head_command;
-            assert_eq!(command.value, None);
+    fn the_head_is_free_while_the_body_is_upright_or_gets_there_and_goes_with_it_else() {
+        let script = BodyMotion::Scripted(Script::KickLeft);
+        for (current, is_free) in [
+            (BodyMotion::Stand, true),
+            (BodyMotion::Penalized, true),
+            (BodyMotion::Walk, true),
+            (BodyMotion::SitDown, false),
+            (BodyMotion::Unstiff, false),
+            (script, false),
+        ] {
+            for is_dispatching in [false, true] {
+                let mut situation = Situation::new(Wanted::LookAround);
+                situation.motion_selection = MotionSelection {
+                    current,
+                    is_dispatching,
+                };
+                let command = node().cycle(situation.context()).unwrap().head_command;
+                assert_eq!(command.value.is_some(), is_free, "{current:?}");
+            }
         }
     }
 

@@ -6,7 +6,7 @@ use framework::{
 use keyframes::Motions;
 use serde::{Deserialize, Serialize};
 use types::joints::Joints;
-use types::motion::{BodyMotion, MotionSelection};
+use types::motion::{BodyMotion, MotionCommand, MotionSelection};
 use types::motor_commands::MotorCommands;
 
 use crate::transition;
@@ -22,6 +22,8 @@ pub struct MotionDispatcher {
 struct Way {
     start: Joints<f32>,
     motion: BodyMotion,
+    /// Whether the head has a way of its own.
+    is_head_free: bool,
     /// In s.
     elapsed: f32,
 }
@@ -31,6 +33,7 @@ pub struct CreationContext {}
 
 #[context]
 pub struct CycleContext {
+    motion_command: Input<MotionCommand, "motion_command">,
     motion_selection: Input<MotionSelection, "motion_selection">,
     positions: Input<Joints<f32>, "sensor_data.positions">,
     previous: PreviousInput<Option<MotorCommands>, "motor_commands?">,
@@ -71,34 +74,37 @@ impl MotionDispatcher {
     /// The next pose on the way.
     pub fn cycle(&mut self, context: CycleContext) -> Result<MainOutputs> {
         let motion = context.motion_selection.current;
-        let Some(target) = &context.target() else {
+        let Some(begin) = context.begin() else {
             self.way = None;
             *context.safe_exit = false;
             return Ok(MainOutputs {
                 dispatch_commands: None.into(),
             });
         };
+        let is_head_free = (context.motion_selection).is_head_free(context.motion_command.head);
         let way = match self.way {
-            Some(way) if way.motion == motion => Way {
+            Some(way) if (way.motion, way.is_head_free) == (motion, is_head_free) => Way {
                 elapsed: way.elapsed + context.cycle_time.since_last.as_secs_f32(),
                 ..way
             },
             _ => Way {
                 start: transition::current_pose(context.previous, context.positions),
                 motion,
+                is_head_free,
                 elapsed: 0.0,
             },
         };
         self.way = Some(way);
 
-        let duration = match transition::duration(&way.start, target, *context.velocity_share) {
+        let target = way.target(begin);
+        let duration = match transition::duration(&way.start, &target, *context.velocity_share) {
             0.0 => 0.0,
             duration => duration.max(*context.minimum_duration),
         };
         let progress = transition::progress(way.elapsed, duration);
         *context.safe_exit = progress == 1.0;
         let commands = MotorCommands::holding(
-            transition::pose(&way.start, target, progress),
+            transition::pose(&way.start, &target, progress),
             *context.stiffness,
         );
         Ok(MainOutputs {
@@ -107,9 +113,23 @@ impl MotionDispatcher {
     }
 }
 
+impl Way {
+    /// Where the motion begins, without a head that has a way of its own: nobody waits for it.
+    fn target(&self, begin: Joints<f32>) -> Joints<f32> {
+        if !self.is_head_free {
+            return begin;
+        }
+        Joints {
+            head_yaw: self.start.head_yaw,
+            head_pitch: self.start.head_pitch,
+            ..begin
+        }
+    }
+}
+
 impl CycleContext<'_> {
     /// Where the selected motion begins; `None` where the body is not on its way to one.
-    fn target(&self) -> Option<Joints<f32>> {
+    fn begin(&self) -> Option<Joints<f32>> {
         let begin = match self.motion_selection.current {
             BodyMotion::Unstiff => None,
             BodyMotion::SitDown => Some(*self.crouch),
@@ -126,6 +146,7 @@ impl CycleContext<'_> {
 mod tests {
     use framework::testing::{self, ParameterFile};
     use kinematics::limits;
+    use types::motion::{HeadMotion, Script};
 
     use super::*;
 
@@ -142,6 +163,16 @@ mod tests {
         measured: &Joints<f32>,
         previous: Option<&MotorCommands>,
     ) -> (Option<MotorCommands>, bool) {
+        cycle_of(node, HeadMotion::WithBody, selection, measured, previous)
+    }
+
+    fn cycle_of(
+        node: &mut MotionDispatcher,
+        head: HeadMotion,
+        selection: (BodyMotion, bool),
+        measured: &Joints<f32>,
+        previous: Option<&MotorCommands>,
+    ) -> (Option<MotorCommands>, bool) {
         let mut safe_exit = true;
         let parameters = ParameterFile::new(include_str!("../../parameters/default.toml"));
         let (current, is_dispatching) = selection;
@@ -149,7 +180,12 @@ mod tests {
             current,
             is_dispatching,
         };
+        let motion_command = MotionCommand {
+            head,
+            ..MotionCommand::default()
+        };
         let context = CycleContext {
+            motion_command: &motion_command,
             motion_selection: &motion_selection,
             positions: measured,
             previous,
@@ -217,6 +253,22 @@ mod tests {
         let (commands, safe_exit) = cycle(&mut node(), (BodyMotion::Stand, true), &stand(), None);
         assert_eq!(commands.unwrap().positions, stand());
         assert!(safe_exit);
+    }
+
+    #[test]
+    fn nobody_waits_for_a_head_that_goes_elsewhere() {
+        let mut measured = stand();
+        measured.head_yaw = 1.2;
+        let first = |head, motion| {
+            let (commands, safe_exit) =
+                cycle_of(&mut node(), head, (motion, true), &measured, None);
+            assert_eq!(commands.unwrap().positions, measured);
+            safe_exit
+        };
+        assert!(first(HeadMotion::LookAround, BodyMotion::Stand));
+        assert!(!first(HeadMotion::WithBody, BodyMotion::Stand));
+        let kick = BodyMotion::Scripted(Script::KickLeft);
+        assert!(!first(HeadMotion::LookAround, kick));
     }
 
     #[test]

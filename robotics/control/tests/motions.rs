@@ -15,7 +15,7 @@ use types::feet::Side;
 use types::game::PrimaryState;
 use types::head::{HeadAngles, HeadCommand};
 use types::joints::Joints;
-use types::motion::{BodyMotion, MotionSelection, SafeExits};
+use types::motion::{BodyMotion, MotionCommand, MotionSelection, SafeExits};
 use types::motor_commands::MotorCommands;
 use types::robot_kinematics::RobotKinematics;
 use types::sensor_data::InertialMeasurement;
@@ -161,7 +161,7 @@ impl Robot {
         };
         let outputs = self.motion_selector.cycle(context).unwrap();
         self.selection = outputs.motion_selection.value;
-        let wanted = self.move_body();
+        let wanted = self.move_body(&command);
         self.head_command = self.move_head(&command);
         let commands = self.collect(&wanted);
         self.body = Joints::from_fn(|joint| {
@@ -174,7 +174,7 @@ impl Robot {
         self.motor_commands = Some(commands);
     }
 
-    fn move_body(&mut self) -> Wanted {
+    fn move_body(&mut self, motion_command: &MotionCommand) -> Wanted {
         let cycle_time = self.time();
         let context = stand::CycleContext {
             motion_selection: &self.selection,
@@ -201,6 +201,7 @@ impl Robot {
         };
         let sit_down = self.sit_down.cycle(context).unwrap();
         let context = motion_dispatcher::CycleContext {
+            motion_command,
             motion_selection: &self.selection,
             positions: &self.body,
             previous: self.motor_commands.as_ref(),
@@ -300,13 +301,12 @@ impl Robot {
         }
         if before.is_dispatching {
             assert!(exits.dispatch, "{before:?} to {:?}", self.selection);
-            let begin = match before.current {
-                BodyMotion::SitDown => &self.crouch,
-                BodyMotion::Stand => &self.stand_pose,
-                BodyMotion::Penalized => &self.penalized,
-                BodyMotion::Unstiff | BodyMotion::Walk | BodyMotion::Scripted(_) => body,
-            };
-            assert_eq!(begin, body);
+            match before.current {
+                BodyMotion::SitDown => assert_eq!(*body, self.crouch),
+                BodyMotion::Stand => assert_eq!(body_alone(body), body_alone(&self.stand_pose)),
+                BodyMotion::Penalized => assert_eq!(body_alone(body), body_alone(&self.penalized)),
+                BodyMotion::Unstiff | BodyMotion::Walk | BodyMotion::Scripted(_) => {}
+            }
         } else if before.current == BodyMotion::SitDown {
             assert!(exits.sit_down, "{before:?} to {:?}", self.selection);
         }
@@ -320,6 +320,15 @@ impl Robot {
 
     fn has(&self, motion: BodyMotion) -> bool {
         self.selection.is_at(motion)
+    }
+}
+
+/// Without the head, which goes its own way while the body is upright.
+fn body_alone(joints: &Joints<f32>) -> Joints<f32> {
+    Joints {
+        head_yaw: 0.0,
+        head_pitch: 0.0,
+        ..*joints
     }
 }
 

@@ -131,6 +131,15 @@ impl MotionSelection {
     pub fn is_at(&self, motion: BodyMotion) -> bool {
         self.current == motion && !self.is_dispatching
     }
+
+    /// Whether the head goes where it is wanted, also while the body is on its way: in upright motions, unless it is wanted with the body.
+    pub fn is_head_free(&self, wanted: HeadMotion) -> bool {
+        let is_upright = matches!(
+            self.current,
+            BodyMotion::Stand | BodyMotion::Penalized | BodyMotion::Walk
+        );
+        is_upright && wanted != HeadMotion::WithBody
+    }
 }
 
 /// Whether a motion can be left for another one, one value for each motion that has a say in it.
