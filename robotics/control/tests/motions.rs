@@ -225,7 +225,7 @@ impl Robot {
         }
     }
 
-    fn move_head(&mut self, command: &types::motion::MotionCommand) -> Option<HeadCommand> {
+    fn move_head(&mut self, command: &MotionCommand) -> Option<HeadCommand> {
         let camera_matrices = self.camera_matrices();
         let head_to_torso = self.kinematics().head_to_torso;
         let cycle_time = self.time();
