@@ -181,7 +181,7 @@ pub struct FallStateFilter {
 #[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct FieldDimensions {
-    /// vision::ball_detection
+    /// vision::ball_detection, vision::obstacle_detection
     #[reflect(unit = "m", range = 0..)]
     pub ball_radius: f32,
     /// vision::ball_detection, vision::line_detection, vision::obstacle_detection,

@@ -475,6 +475,7 @@ impl Nodes {
                 lines: &frame.shared.lines,
                 camera_matrix,
                 line_width: &frame.parameters.field_dimensions.line_width,
+                ball_radius: &frame.parameters.field_dimensions.ball_radius,
                 parameters: &frame.parameters.obstacle_detection,
                 projection_noise: &frame.parameters.projection_noise,
                 obstacle_feet: AdditionalOutput::new(

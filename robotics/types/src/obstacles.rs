@@ -7,9 +7,9 @@ use serde::{Deserialize, Serialize};
 /// Something in an image that stands on the field.
 #[derive(Clear, Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
 pub struct ObstacleCandidate {
-    /// Where it touches the ground, px.
+    /// Where it touches the ground, or where the edge is that cuts it, px.
     pub foot: Point2<f32>,
-    /// Where it touches the ground, in the ground frame, m.
+    /// That place of the ground frame, m.
     pub position: Point2<f32>,
     /// Of that place, in m².
     pub covariance: Matrix2<f32>,

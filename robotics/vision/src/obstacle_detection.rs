@@ -2,8 +2,11 @@
 //!
 //! Where something stands, a column of the image shows no field from the foot upwards. Feet next to
 //! each other on the ground are one obstacle; what seems to stand behind another obstacle is the rest
-//! of that one, a hand above the ground for example. What is cut by the lower edge of the image hides
-//! things too, but its own foot is not known.
+//! of that one, a hand above the ground for example. What is cut by the lower edge of the image
+//! or by the robot's own limbs hides things too, but its own foot is not known: it counts where that edge
+//! is near, as if it stood there. Somebody who lies before the robot is seen in no other way. How high something is, is measured where a
+//! ball that touches the ground at the same place would end: seen from above a ball covers as much as
+//! something high.
 
 use framework::{
     AdditionalOutput, Input, MainOutput, Parameter, Reflect, RequiredInput, Result, context, math,
@@ -22,7 +25,7 @@ use crate::segments::{ImageSegments, Segment};
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct ObstacleDetectionParameters {
-    /// What rises less from the ground is none.
+    /// What rises less from the ground is none, measured a ball's diameter behind its foot.
     #[reflect(unit = "m", range = 0.0..)]
     pub least_height: f32,
     /// Obstacles further away from the robot are left out.
@@ -49,11 +52,15 @@ pub struct ObstacleDetectionParameters {
     /// Half the width of what an obstacle hides behind it.
     #[reflect(unit = "m", range = 0.0..)]
     pub hidden_half_width: f32,
-    /// The same for what is cut by the lower edge, at the place of that edge.
+    /// The same for what is cut by the lower edge or by the own limbs, at the place of that edge.
     #[reflect(unit = "m", range = 0.0..)]
     pub cut_half_width: f32,
-    /// As high must be seen, in m, of what is cut by the upper edge and may rise further.
+    /// As high must be seen of what is cut by the upper edge and may rise further.
+    #[reflect(unit = "m", range = 0.0..)]
     pub least_cut_height: f32,
+    /// What is cut by the lower edge or by the own limbs is an obstacle where that edge is so near.
+    #[reflect(unit = "m", range = 0.0..)]
+    pub cut_reach: f32,
 }
 
 /// Keeps its heap; empty between cycles.
@@ -88,6 +95,7 @@ pub struct CycleContext {
     lines: Input<Vec<LineSegment>, "lines">,
     camera_matrix: RequiredInput<Option<CameraMatrix>, "camera_matrix?">,
     line_width: Parameter<f32, "field_dimensions.line_width">,
+    ball_radius: Parameter<f32, "field_dimensions.ball_radius">,
     parameters: Parameter<ObstacleDetectionParameters, "obstacle_detection">,
     projection_noise: Parameter<ProjectionNoise, "projection_noise">,
     /// Where something stands in each column, px.
@@ -114,6 +122,7 @@ impl ObstacleDetection {
             border: context.field_border,
             lines: context.lines,
             line_width: *context.line_width,
+            ball_radius: *context.ball_radius,
             parameters: context.parameters,
         };
         let feet = || view.feet(context.image_segments);
@@ -128,15 +137,20 @@ impl ObstacleDetection {
         self.clusters
             .sort_unstable_by(|one, other| distance(&one.mean).total_cmp(&distance(&other.mean)));
         let parameters = context.parameters;
-        let is_cut = |cluster: &&Cluster| cluster.is_cut;
-        for Cluster { mean, .. } in self.clusters.iter().filter(|cluster| !cluster.is_cut) {
-            let mut cut = self.clusters.iter().filter(is_cut);
+        for cluster in &self.clusters {
+            let mean = &cluster.mean;
+            let mut cut = self.clusters.iter().filter(|cluster| cluster.is_cut);
             let obstacles = &mut *context.obstacles;
-            let is_hidden = cut.any(|cut| view.hides(&cut.mean, mean, parameters.cut_half_width))
-                || obstacles
-                    .iter()
-                    .any(|nearer| view.hides(nearer, mean, parameters.hidden_half_width));
-            if !is_hidden {
+            let is_obstacle = match cluster.is_cut {
+                true => distance(mean) <= parameters.cut_reach,
+                false => {
+                    !cut.any(|cut| view.hides(&cut.mean, mean, parameters.cut_half_width))
+                        && !obstacles
+                            .iter()
+                            .any(|nearer| view.hides(nearer, mean, parameters.hidden_half_width))
+                }
+            };
+            if is_obstacle {
                 let matrix = context.camera_matrix;
                 let covariance =
                     matrix.ground_covariance(mean.position, 0.0, context.projection_noise);
@@ -182,6 +196,8 @@ struct View<'a> {
     lines: &'a [LineSegment],
     /// In m.
     line_width: f32,
+    /// In m.
+    ball_radius: f32,
     parameters: &'a ObstacleDetectionParameters,
 }
 
@@ -223,16 +239,18 @@ impl View<'_> {
         is_obstacle.then_some(Foot { place, is_cut })
     }
 
-    /// Whether a piece that stands there rises as an obstacle does, as far as the image shows it.
-    fn is_high(&self, piece: &Segment, position: Point2<f32>, is_first: bool) -> bool {
-        let rises_to = |height: f32| {
-            let top = Point3::new(position.x, position.y, height);
+    /// Whether a piece rises as an obstacle does, as far as the image shows it.
+    fn is_high(&self, piece: &Segment, place: Point2<f32>, is_first: bool) -> bool {
+        let rises_to = |place: Point2<f32>, height: f32| {
+            let top = Point3::new(place.x, place.y, height);
             let top = self.matrix.ground_to_pixel(top);
             top.is_some_and(|top| top.y >= piece.start as f32)
         };
+        let away = (place - self.matrix.position().xy()).try_normalize(f32::MIN_POSITIVE);
+        let behind_ball = place + away.unwrap_or_default() * (2.0 * self.ball_radius);
         let may_rise_further = is_first && piece.start == 0;
-        rises_to(self.parameters.least_height)
-            || may_rise_further && rises_to(self.parameters.least_cut_height)
+        rises_to(behind_ball, self.parameters.least_height)
+            || may_rise_further && rises_to(place, self.parameters.least_cut_height)
     }
 
     /// Whether a piece lies flat on lines: a line that leads away fills its columns.
@@ -293,9 +311,9 @@ mod tests {
 
     fn parameters() -> ObstacleDetectionParameters {
         parameter(
-            "{ least_height = 0.15, greatest_distance = 4.0, below_border = 5.0, before_border = 0.35, least_field = 6, \
+            "{ least_height = 0.13, greatest_distance = 4.0, below_border = 5.0, before_border = 0.35, least_field = 6, \
              same_place = 0.25, least_columns = 4, least_width = 0.07, hidden_half_width = 0.25, \
-             cut_half_width = 0.4, least_cut_height = 0.08 }",
+             cut_half_width = 0.4, least_cut_height = 0.08, cut_reach = 0.45 }",
         )
     }
 
@@ -304,25 +322,26 @@ mod tests {
         border: &FieldBorder,
         lines: &Vec<LineSegment>,
     ) -> Vec<ObstacleCandidate> {
-        detect_with(&parameters(), image, border, lines)
+        detect_with(&parameters(), image, &camera_matrix(0.3), border, lines)
     }
 
     fn detect_with(
         parameters: &ObstacleDetectionParameters,
         image: &YuyvImage,
+        matrix: &CameraMatrix,
         border: &FieldBorder,
         lines: &Vec<LineSegment>,
     ) -> Vec<ObstacleCandidate> {
-        let matrix = camera_matrix(0.3);
         let mut obstacles = Vec::new();
         ObstacleDetection::new(CreationContext {})
             .unwrap()
             .cycle(CycleContext {
-                image_segments: &painting::segments(image, &matrix),
+                image_segments: &painting::segments(image, matrix),
                 field_border: border,
                 lines,
-                camera_matrix: &matrix,
+                camera_matrix: matrix,
                 line_width: &0.05,
+                ball_radius: &0.05,
                 parameters,
                 projection_noise: &PROJECTION_NOISE,
                 obstacle_feet: AdditionalProbe::unsubscribed().output(),
@@ -359,18 +378,16 @@ mod tests {
     #[test]
     fn more_columns_than_there_are_make_no_obstacle() {
         // So wide that it reaches both sides of the image.
-        let image = paint(
-            &camera_matrix(0.3),
-            &[board(1.5, -3.0..3.0, 0.0..0.55)],
-            plain,
-        );
+        let matrix = camera_matrix(0.3);
+        let image = paint(&matrix, &[board(1.5, -3.0..3.0, 0.0..0.55)], plain);
         let count = |least_columns| {
             let parameters = ObstacleDetectionParameters {
                 same_place: 10.0,
                 least_columns,
                 ..parameters()
             };
-            detect_with(&parameters, &image, &FieldBorder::default(), &Vec::new()).len()
+            let border = FieldBorder::default();
+            detect_with(&parameters, &image, &matrix, &border, &Vec::new()).len()
         };
         assert_eq!((count(4), count(u32::MAX)), (1, 0));
     }
@@ -399,10 +416,37 @@ mod tests {
     }
 
     #[test]
-    fn what_is_cut_by_the_lower_edge_has_no_foot() {
+    fn what_the_lower_edge_cuts_farther_away_has_no_foot() {
         assert_eq!(obstacles(&[board(0.5, -0.1..0.1, 0.0..0.5)]), []);
         // The same where its foot is in the image.
         assert_eq!(obstacles(&[board(1.0, -0.1..0.1, 0.0..0.5)]).len(), 1);
+    }
+
+    #[test]
+    fn what_is_cut_right_before_the_robot_lies_at_the_lower_edge() {
+        let matrix = camera_matrix(0.7);
+        let seen = |boards: &[Board]| {
+            let image = paint(&matrix, boards, plain);
+            let border = FieldBorder::default();
+            detect_with(&parameters(), &image, &matrix, &border, &Vec::new())
+        };
+        // Of somebody who lies across.
+        let [near, far] = [0.25, 0.36].map(|x| board(x, -0.15..0.15, 0.0..0.17));
+        let body = seen(&[near, far]);
+        assert_eq!(body.len(), 1, "{body:?}");
+        assert_at(&body[0], 0.27, 0.0);
+        // A ball ends sooner.
+        let [near, far] = [0.25, 0.34].map(|x| board(x, -0.05..0.05, 0.0..0.09));
+        assert_eq!(seen(&[near, far]), []);
+        // Nor is a line across.
+        let floor = |point: Point2<f32>| {
+            let is_line = (point.x - 0.28).abs() < 0.03;
+            if is_line { WHITE } else { GREEN }
+        };
+        let image = paint(&matrix, &[], floor);
+        let border = FieldBorder::default();
+        let line = detect_with(&parameters(), &image, &matrix, &border, &Vec::new());
+        assert_eq!(line, []);
     }
 
     #[test]
@@ -411,7 +455,8 @@ mod tests {
             let is_line = (point.y - 0.1).abs() < 0.025 && point.x > 1.0;
             if is_line { WHITE } else { GREEN }
         };
-        let image = paint(&camera_matrix(0.3), &[], floor);
+        let matrix = camera_matrix(0.3);
+        let image = paint(&matrix, &[], floor);
         let line = LineSegment {
             start: Point2::new(1.0, 0.1),
             end: Point2::new(5.0, 0.1),
@@ -423,7 +468,8 @@ mod tests {
             ..parameters()
         };
         let count = |lines: Vec<LineSegment>| {
-            detect_with(&parameters, &image, &FieldBorder::default(), &lines).len()
+            let border = FieldBorder::default();
+            detect_with(&parameters, &image, &matrix, &border, &lines).len()
         };
         assert_eq!(count(vec![line]), 0);
         assert!(count(Vec::new()) > 0);

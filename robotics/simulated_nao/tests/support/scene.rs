@@ -309,6 +309,7 @@ impl Vision {
                 lines: &sight.lines,
                 camera_matrix,
                 line_width: &self.parameters.get("field_dimensions.line_width"),
+                ball_radius: &self.parameters.get("field_dimensions.ball_radius"),
                 parameters: &self.parameters.get("obstacle_detection"),
                 projection_noise: &self.parameters.get("projection_noise"),
                 obstacle_feet: AdditionalProbe::unsubscribed().output(),

@@ -1,14 +1,14 @@
-//! Cycle 160 of VisionTop as it was recorded: `vision::obstacle_detection` computes the same again, bit for bit.
+//! Cycle 190 of VisionTop as it was recorded: `vision::obstacle_detection` computes the same again, bit for bit.
 //!
-//! Written by `hulkgen capture`, with its values in `captured/obstacle_detection_vision_top_160.json`.
+//! Written by `hulkgen capture`, with its values in `captured/obstacle_detection_vision_top_190.json`.
 
 use framework::testing::{AdditionalProbe, Captured};
 use vision::obstacle_detection::{CycleContext, ObstacleDetection};
 
 #[test]
-fn obstacle_detection_computes_cycle_160_of_vision_top_again() {
+fn obstacle_detection_computes_cycle_190_of_vision_top_again() {
     let captured = Captured::new(include_str!(
-        "captured/obstacle_detection_vision_top_160.json"
+        "captured/obstacle_detection_vision_top_190.json"
     ));
     let mut node: ObstacleDetection = captured.state();
     let mut obstacle_feet = AdditionalProbe::default();
@@ -19,6 +19,7 @@ fn obstacle_detection_computes_cycle_160_of_vision_top_again() {
         lines: &captured.value("lines"),
         camera_matrix: &captured.value("camera_matrix"),
         line_width: &captured.value("line_width"),
+        ball_radius: &captured.value("ball_radius"),
         parameters: &captured.value("parameters"),
         projection_noise: &captured.value("projection_noise"),
         obstacle_feet: obstacle_feet.output(),
