@@ -72,7 +72,7 @@ pub enum Activity {
     HoldPosition,
     /// Stands between ball and goal.
     GuardGoal,
-    /// Steps into the way of a ball that rolls to the goal.
+    /// Steps into the way of a ball that rolls to the goal, or stands before it catches one.
     Block,
     /// Squats with its feet apart before a ball that comes to them.
     Catch,

@@ -69,10 +69,20 @@ pub(super) fn block(view: &View<'_>, ball: &Ball) -> Option<Decision> {
     }
     let time = place.x / -velocity.x;
     let aside = place.y + time * velocity.y;
-    let is_catchable = keeper.catch_after < time && time < keeper.catch_before;
-    if !view.memory.is_walking && is_catchable && aside.abs() < keeper.catch_aside {
+    let arrives = velocity.x < -keeper.catch_fast && keeper.catch_after < time;
+    if arrives && aside.abs() < keeper.catch_aside {
         let catch = BodyMotion::Scripted(Script::Catch);
-        return Some(Decision::of_body(Activity::Catch, catch, view.head()));
+        if time < keeper.catch_before {
+            return Some(Decision::of_body(Activity::Catch, catch, view.head()));
+        }
+        // Whoever is in the midst of a step when the time has come is too late.
+        if time < keeper.catch_before + keeper.halt {
+            return Some(Decision::of_body(
+                Activity::Block,
+                BodyMotion::Stand,
+                view.head(),
+            ));
+        }
     }
     let is_needed = time <= keeper.soon && aside.abs() > keeper.covered;
     let step = Step {
@@ -99,7 +109,7 @@ mod tests {
             (0.02, 1.5, None),
             (0.4, 0.05, None),
         ] {
-            let mut scene = Scene::at(-4.2, 0.0, 0.0).with_ball(2.0, aside);
+            let mut scene = Scene::at(-4.2, 0.0, 0.0).with_ball(2.5, aside);
             scene.world.role = Some(Role::Keeper);
             scene.roll(Vector2::new(-speed, 0.0));
             let decided = scene.view(play);
@@ -113,21 +123,39 @@ mod tests {
     }
 
     #[test]
-    fn a_keeper_that_stands_catches_what_comes_near_its_feet_and_soon() {
+    fn the_keeper_catches_what_comes_near_its_feet_and_soon_and_stands_before() {
         for (distance, aside, walks, activity) in [
             (0.9, 0.15, false, Activity::Catch),
             (0.9, 0.0, false, Activity::Catch),
-            (0.9, 0.15, true, Activity::Block),
+            (0.9, 0.15, true, Activity::Catch),
             (0.9, 0.3, false, Activity::Block),
-            (2.0, 0.15, false, Activity::Block),
+            (1.8, 0.15, true, Activity::Block),
+            (1.8, 0.3, true, Activity::Block),
+            (3.0, 0.15, false, Activity::Block),
             (0.4, 0.15, false, Activity::Block),
         ] {
             let mut scene = Scene::at(-4.2, 0.0, 0.0).with_ball(distance, aside);
             scene.world.role = Some(Role::Keeper);
             scene.roll(Vector2::new(-1.5, 0.0));
             scene.walks(walks);
-            let decided = scene.view(play).activity;
-            assert_eq!(decided, activity, "{distance} {aside} {walks}");
+            let decided = scene.view(play);
+            assert_eq!(decided.activity, activity, "{distance} {aside} {walks}");
+            let stands = decided.command.body == BodyMotion::Stand;
+            assert_eq!(
+                stands,
+                distance == 1.8 && aside == 0.15,
+                "{distance} {aside}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_keeper_that_plays_a_ball_is_not_stopped_by_one_that_hardly_rolls() {
+        let mut scene = Scene::at(-4.2, 0.0, 0.0).with_ball(0.3, 0.05);
+        scene.world.role = Some(Role::Keeper);
+        for (speed, activity) in [(0.4, Activity::Dribble), (0.8, Activity::Catch)] {
+            scene.roll(Vector2::new(-speed, 0.0));
+            assert_eq!(scene.view(play).activity, activity, "{speed}");
         }
     }
 

@@ -265,7 +265,7 @@ pub struct KeeperParameters {
     /// A ball that passes nearer is hit anyway.
     #[reflect(unit = "m", range = 0.0..)]
     pub covered: f32,
-    /// A robot that stands catches a ball that needs longer to get there.
+    /// The robot catches a ball that needs longer to get there.
     #[reflect(unit = "s", range = 0.0..)]
     pub catch_after: f32,
     /// And no longer than this.
@@ -274,6 +274,12 @@ pub struct KeeperParameters {
     /// If it passes nearer.
     #[reflect(unit = "m", range = 0.0..)]
     pub catch_aside: f32,
+    /// If it comes faster: a slower one comes to rest before.
+    #[reflect(unit = "m/s", range = 0.0..)]
+    pub catch_fast: f32,
+    /// And stands so long before that: a walk ends with both feet side by side.
+    #[reflect(unit = "s", range = 0.0..)]
+    pub halt: f32,
 }
 
 /// When to give up where the robot gets nowhere.

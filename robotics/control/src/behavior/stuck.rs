@@ -129,7 +129,7 @@ fn is_long_ago(since: Timestamp, seconds: f32, now: Timestamp) -> bool {
     (now - since).as_secs_f32() >= seconds
 }
 
-/// Whom the robot touches.
+/// Whoever is so near that both may touch.
 fn nearest<'a>(obstacles: &'a [Obstacle], recovery: &RecoveryParameters) -> Option<&'a Obstacle> {
     obstacles
         .first()
