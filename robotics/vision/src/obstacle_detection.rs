@@ -2,11 +2,11 @@
 //!
 //! Where something stands, a column of the image shows no field from the foot upwards. Feet next to
 //! each other on the ground are one obstacle; what seems to stand behind another obstacle is the rest
-//! of that one, a hand above the ground for example. What is cut by the lower edge of the image
-//! or by the robot's own limbs hides things too, but its own foot is not known: it counts where that edge
-//! is near, as if it stood there. Somebody who lies before the robot is seen in no other way. How high something is, is measured where a
-//! ball that touches the ground at the same place would end: seen from above a ball covers as much as
-//! something high.
+//! of that one, a hand above the ground for example. What is cut by the lower edge of the image or by the
+//! robot's own limbs hides things too, but its own foot is not known: it counts where that edge is near, as
+//! if it stood there. Somebody who lies before the robot is seen in no other way. How high something is, is
+//! measured where a ball that touches the ground at the same place would end: seen from above a ball covers
+//! as much as something high.
 
 use framework::{
     AdditionalOutput, Input, MainOutput, Parameter, Reflect, RequiredInput, Result, context, math,
@@ -436,8 +436,8 @@ mod tests {
         assert_eq!(body.len(), 1, "{body:?}");
         assert_at(&body[0], 0.27, 0.0);
         // A ball ends sooner.
-        let [near, far] = [0.25, 0.34].map(|x| board(x, -0.05..0.05, 0.0..0.09));
-        assert_eq!(seen(&[near, far]), []);
+        let ball = [0.25, 0.3, 0.34].map(|x| board(x, -0.05..0.05, 0.0..0.09));
+        assert_eq!(seen(&ball), []);
         // Nor is a line across.
         let floor = |point: Point2<f32>| {
             let is_line = (point.x - 0.28).abs() < 0.03;
