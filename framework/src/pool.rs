@@ -12,49 +12,73 @@
 //! assert_eq!(in_a_history.expect("it was leased")[0], 7);
 //! ```
 //! A value is free again when its last handle is gone. A pool has as many values as have had handles at once, and makes no more
-//! of them than it may. As an output it is an `Option`: absent until something is leased, and
+//! of them than it may, but for those that a recording holds. As an output it is an `Option`: absent until something is leased, and
 //! absent again, without the handle, when the output is cleared.
 
 use std::fmt;
 use std::ops::{Deref, DerefMut};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
+use hulkgen_recording::Late;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use crate::clear::Clear;
-use crate::error::NoEvent;
+use crate::digest::Digest;
+use crate::error::{Error, NoEvent};
 use crate::foxglove::Form;
+use crate::guarded::contain;
 use crate::reflect::{Children, EncodeError, Reflect, Segment, Shape};
+use crate::report::tell;
 
 /// Values that are filled again and again. It is their owner's alone: a camera has one of its own.
 #[derive(Debug)]
 pub struct Pool<T> {
-    values: Vec<Arc<T>>,
+    values: Vec<Arc<Pooled<T>>>,
     /// So many it may have.
     most: usize,
     make: fn() -> T,
     /// Where the search begins: values are given back in about the order in which they were leased.
     next: usize,
+    /// Handles that recordings have.
+    recorded: Arc<AtomicUsize>,
 }
 
 /// A value of a pool that nobody else sees.
 #[derive(Debug)]
 pub struct Free<'pool, T> {
-    value: &'pool mut Arc<T>,
+    value: &'pool mut Arc<Pooled<T>>,
 }
 
 /// A handle of a value that is not written any more. A clone is another handle of the same value.
-pub struct Leased<T>(Arc<T>);
+pub struct Leased<T>(Arc<Pooled<T>>);
+
+/// A value, and how many handles recordings have of all values of its pool: they hold what a disk is slow to take.
+#[derive(Debug, Default)]
+struct Pooled<T> {
+    value: T,
+    recorded: Arc<AtomicUsize>,
+}
+
+/// A handle for a recording, which writes the value when its cycle is over.
+#[doc(hidden)]
+pub struct Handle {
+    pub(crate) value: Arc<dyn Late>,
+    /// So many `Option`s are around it.
+    pub(crate) options: usize,
+}
 
 impl<T> Pool<T> {
     /// A pool of at most so many values. A slot, a history entry and a reader that holds a value hold one each; while
-    /// clients watch an output, up to [`WINDOW`](crate::tap::WINDOW) and a few more.
+    /// clients watch an output, up to [`WINDOW`](crate::tap::WINDOW) and a few more. For those that a recording holds, until its file
+    /// has them, it has more: at most as many as [`late`](crate::recorded::Settings::late) says.
     pub fn new(most: usize, make: fn() -> T) -> Self {
         Self {
             values: Vec::new(),
             most,
             make,
             next: 0,
+            recorded: Arc::default(),
         }
     }
 
@@ -66,13 +90,18 @@ impl<T> Pool<T> {
     /// takes the newest image as soon as a handle goes, and those before are counted.
     pub fn free(&mut self) -> Result<Free<'_, T>, NoEvent> {
         let count = self.values.len();
+        // Before the search: what a recording lets go from here on is found. Acquire: no part of the search comes before.
+        let most = self.most + self.recorded.load(Ordering::Acquire);
         let index = (self.next..count)
             .chain(0..self.next)
             .find(|index| Arc::get_mut(&mut self.values[*index]).is_some());
         let index = match index {
             Some(index) => index,
-            None if count < self.most => {
-                self.values.push(Arc::new((self.make)()));
+            None if count < most => {
+                self.values.push(Arc::new(Pooled {
+                    value: (self.make)(),
+                    recorded: self.recorded.clone(),
+                }));
                 count
             }
             None => {
@@ -104,26 +133,96 @@ impl<T> Deref for Free<'_, T> {
     type Target = T;
 
     fn deref(&self) -> &T {
-        self.value
+        &self.value.value
     }
 }
 
 impl<T> DerefMut for Free<'_, T> {
     fn deref_mut(&mut self) -> &mut T {
-        Arc::get_mut(self.value)
+        let held = Arc::get_mut(self.value);
+        &mut held
             .expect("a free value has no handle, and this borrow lets none be made")
+            .value
     }
 }
 
 impl<T> Leased<T> {
     /// A value of no pool: what a recording or a client gives.
     pub fn of(value: T) -> Self {
-        Self(Arc::new(value))
+        Self(Arc::new(Pooled {
+            value,
+            recorded: Arc::default(),
+        }))
+    }
+
+    /// The value alone, as a copy where there are other handles.
+    fn own(&mut self) -> &mut T
+    where
+        T: Clone,
+    {
+        &mut Arc::make_mut(&mut self.0).value
     }
 
     /// Whether both are handles of the same value.
     pub fn is_same(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.0, &other.0)
+    }
+}
+
+impl<T: Clone> Clone for Pooled<T> {
+    /// Of no pool.
+    fn clone(&self) -> Self {
+        Self {
+            value: self.value.clone(),
+            recorded: Arc::default(),
+        }
+    }
+}
+
+impl<T: Reflect + Send + Sync> Late for Pooled<T> {
+    fn write(&self, bytes: &mut Vec<u8>) -> bool {
+        let value = self.value.as_serialize();
+        let written = contain("the recording", || Ok(postcard::to_io(value, bytes)?));
+        if let Err(error) = &written {
+            tell_refused(self.value.type_name(), value, error);
+        }
+        written.is_ok()
+    }
+
+    fn keep(&self) {
+        self.recorded.fetch_add(1, Ordering::Relaxed);
+    }
+
+    fn let_go(self: Arc<Self>) {
+        let recorded = self.recorded.clone();
+        drop(self);
+        // Release: whoever sees it finds the value free.
+        recorded.fetch_sub(1, Ordering::Release);
+    }
+}
+
+/// Tells the first, and ever fewer of those behind it: an output that cannot be written never can.
+#[cold]
+fn tell_refused(name: &str, value: &dyn erased_serde::Serialize, error: &Error) {
+    static REFUSED: AtomicU64 = AtomicU64::new(0);
+    let number = REFUSED.fetch_add(1, Ordering::Relaxed) + 1;
+    if number.is_power_of_two() {
+        // postcard does not tell what the value said.
+        let said = contain("the recording", || Ok(Digest::new().add(value)?));
+        let error = said.err().unwrap_or_else(|| Error::new(error.to_string()));
+        tell(format_args!(
+            "a `{name}` is not recorded, nor what its instance recorded soon after it: {error} (failure {number} of this kind)"
+        ));
+    }
+}
+
+impl Handle {
+    /// Of an `Option` of what this is a handle of.
+    pub(crate) fn in_option(self) -> Self {
+        Self {
+            options: self.options + 1,
+            ..self
+        }
     }
 }
 
@@ -137,19 +236,19 @@ impl<T> Deref for Leased<T> {
     type Target = T;
 
     fn deref(&self) -> &T {
-        &self.0
+        &self.0.value
     }
 }
 
 impl<T: fmt::Debug> fmt::Debug for Leased<T> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.0.fmt(formatter)
+        (**self).fmt(formatter)
     }
 }
 
 impl<T: PartialEq> PartialEq for Leased<T> {
     fn eq(&self, other: &Self) -> bool {
-        self.is_same(other) || self.0 == other.0
+        self.is_same(other) || **self == **other
     }
 }
 
@@ -169,7 +268,7 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for Leased<T> {
 }
 
 /// Its parts are those of the value; what is written is a copy of its own where there are other handles.
-impl<T: Reflect + Clone> Reflect for Leased<T> {
+impl<T: Reflect + Clone + Send + Sync + 'static> Reflect for Leased<T> {
     fn shape() -> Shape {
         T::shape()
     }
@@ -182,29 +281,36 @@ impl<T: Reflect + Clone> Reflect for Leased<T> {
     }
 
     fn child(&self, segment: &Segment) -> Option<&dyn Reflect> {
-        self.0.child(segment)
+        (**self).child(segment)
     }
 
     fn child_mut(&mut self, segment: &Segment) -> Option<&mut dyn Reflect> {
-        self.0.child_mut(segment)
+        self.own().child_mut(segment)
     }
 
     fn children(&self) -> Children {
-        self.0.children()
+        (**self).children()
     }
 
     fn encode(&self, bytes: &mut Vec<u8>) -> Result<(), EncodeError> {
-        self.0.encode(bytes)
+        (**self).encode(bytes)
     }
 
     fn as_serialize(&self) -> &dyn erased_serde::Serialize {
-        self.0.as_serialize()
+        (**self).as_serialize()
     }
 
     fn deserialize_from(
         &mut self,
         deserializer: &mut dyn erased_serde::Deserializer<'_>,
     ) -> Result<(), erased_serde::Error> {
-        self.0.deserialize_from(deserializer)
+        self.own().deserialize_from(deserializer)
+    }
+
+    fn handle(&self) -> Option<Handle> {
+        Some(Handle {
+            value: self.0.clone(),
+            options: 0,
+        })
     }
 }

@@ -24,6 +24,7 @@ mod unknown;
 use std::borrow::Cow;
 
 use crate::foxglove::Form as WellKnownForm;
+use crate::pool::Handle;
 
 pub use binary::EncodeError;
 pub use image::{Image, Pixels};
@@ -93,6 +94,12 @@ pub trait Reflect {
         &mut self,
         deserializer: &mut dyn erased_serde::Deserializer<'_>,
     ) -> Result<(), erased_serde::Error>;
+
+    /// What a recording may keep in place of a copy; only values of a [pool](crate::pool) have it.
+    #[doc(hidden)]
+    fn handle(&self) -> Option<Handle> {
+        None
+    }
 
     /// Full name of the type, for people.
     fn type_name(&self) -> &'static str {

@@ -2,9 +2,14 @@
 
 use std::time::Duration;
 
+use framework::recorded::{SaveError, Saving};
 use framework::testing::at_millis;
 use framework::{Clear, CountingAllocator, History, Leased, Pool, buffer};
+use hulkgen_recording::{
+    Channel, ChannelId, Description, Recorded, Recorder, Recording, Settings, Track,
+};
 use proptest::prelude::*;
+use serde::{Deserialize, Serialize};
 
 #[global_allocator]
 static ALLOCATOR: CountingAllocator = CountingAllocator;
@@ -126,4 +131,127 @@ fn serde_sees_the_value_and_not_the_handle() {
     let read: Leased<Vec<i32>> = serde_json::from_str(&text).expect("it was written so");
     assert_eq!(read, leased);
     assert!(!read.is_same(&leased));
+}
+
+type Image = Option<Leased<Vec<u8>>>;
+
+fn start(path: &std::path::Path) -> (Recorder, Track) {
+    let description = Description {
+        channels: vec![Channel {
+            topic: "frames".to_owned(),
+            schema: None,
+            encoding: "test".to_owned(),
+            metadata: Vec::new(),
+            once_per_chunk: false,
+        }],
+        ..Description::default()
+    };
+    // So long that no block goes to the writer by its age.
+    let settings = Settings {
+        longest: Duration::from_secs(600),
+        ..Settings::default()
+    };
+    let started = Recorder::start(path, description, &["Camera"], settings);
+    let (recorder, mut tracks) = started.expect("it is new");
+    (recorder, tracks.pop().expect("one was asked for"))
+}
+
+fn record<T: framework::Data>(track: &mut Track, cycle: u32, output: &T) -> Recorded<SaveError> {
+    let time = u64::from(cycle);
+    track.frame(time, 0, |frame| {
+        frame.message(ChannelId(0), cycle, time, |writing| {
+            let mut saving = Saving::new(writing);
+            saving.output(output);
+            saving.put(&cycle);
+            saving.end()
+        })
+    })
+}
+
+/// The data of all messages.
+fn recorded(path: &std::path::Path) -> Vec<Vec<u8>> {
+    let recording = Recording::open(path).expect("it can be read");
+    let messages = recording.chunks.iter().flat_map(|chunk| chunk.messages());
+    messages.map(|message| message.data.to_vec()).collect()
+}
+
+/// It holds handles until the file has the values, and nobody who fills values waits for that.
+#[test]
+fn a_recording_takes_no_value_from_a_pool() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("run.mcap");
+    let (recorder, mut track) = start(&path);
+    let mut pool = Pool::new(1, || vec![0_u8; 3]);
+    let mut expected = Vec::new();
+    // As many as one block has.
+    for cycle in 0..4_u8 {
+        let mut image = pool.free().expect("a recording alone has the others");
+        image.fill(cycle);
+        let output: Image = Some(image.lease());
+        let allocations = CountingAllocator::of_this_thread();
+        assert_eq!(record(&mut track, cycle.into(), &output), Recorded::Whole);
+        assert_eq!(CountingAllocator::of_this_thread(), allocations);
+        expected.push(vec![1, 3, cycle, cycle, cycle, cycle]);
+    }
+    assert_eq!(pool.made(), 4);
+    let held = pool.free().expect("four are the recording's").lease();
+    assert!(pool.free().is_err(), "somebody else has the pool's own");
+    // What has no handle is written as ever.
+    let plain = [None, Some(Leased::of(vec![9_u8]))];
+    assert_eq!(record(&mut track, 4, &plain[0]), Recorded::Whole);
+    assert_eq!(record(&mut track, 5, &vec![7_u8]), Recorded::Whole);
+    expected.extend([vec![0, 4], vec![1, 7, 5]]);
+    // However many options there are.
+    let two = Some(plain[1].clone());
+    assert_eq!(record(&mut track, 6, &two), Recorded::Whole);
+    assert_eq!(record(&mut track, 7, &Some(two)), Recorded::Whole);
+    expected.extend([vec![1, 1, 1, 9, 6], vec![1, 1, 1, 1, 9, 7]]);
+    // A copy of the values that a client changes meanwhile.
+    let mut changed = plain[1].clone();
+    assert_eq!(record(&mut track, 8, &plain[1]), Recorded::Whole);
+    let first = "0".parse().expect("a path");
+    let part = framework::reflect::at_mut(&mut changed, &first).expect("there is one");
+    part.deserialize_from(&mut <dyn erased_serde::Deserializer<'_>>::erase(
+        serde_json::Value::from(8),
+    ))
+    .expect("it is a number");
+    assert_eq!(changed.as_deref(), Some(&vec![8]));
+    expected.push(vec![1, 1, 9, 8]);
+    drop(track);
+    assert!(recorder.end().is_complete);
+    assert_eq!(recorded(&path), expected);
+    drop(held);
+    let all: Vec<_> = std::iter::from_fn(|| Some(pool.free().ok()?.lease())).collect();
+    assert_eq!(all.len(), 5, "none is held any more");
+}
+
+/// Has no form, and says so in one of two ways.
+#[derive(Clone, Debug, Default, Deserialize, framework::Reflect)]
+struct Formless {
+    panics: bool,
+}
+
+impl Serialize for Formless {
+    fn serialize<S: serde::Serializer>(&self, _: S) -> Result<S::Ok, S::Error> {
+        assert!(!self.panics, "not with me");
+        Err(serde::ser::Error::custom("not today"))
+    }
+}
+
+#[test]
+fn a_value_without_bytes_costs_its_frames_and_not_the_recording() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("run.mcap");
+    let (recorder, mut track) = start(&path);
+    for cycle in 0..4 {
+        let panics = cycle == 2;
+        let formless = (cycle == 1 || panics).then(|| Leased::of(Formless { panics }));
+        assert_eq!(record(&mut track, cycle, &formless), Recorded::Whole);
+        track.hand_over();
+    }
+    let counts = track.counts().clone();
+    drop(track);
+    assert!(!recorder.end().is_complete);
+    assert_eq!((counts.recorded(), counts.lost()), (4, 2));
+    assert_eq!(recorded(&path), [[0, 0], [0, 3]]);
 }

@@ -163,20 +163,29 @@ fn the_nao_is_recomputed_without_a_producer_and_with_every_fifth_of_its_cycles()
 
 #[test]
 fn images_that_have_no_room_are_dropped_counted_and_missed_by_nobody() {
-    let settings = Settings {
-        block_bytes: 256 << 10,
-        ..large()
-    };
-    let tape = Tape::record(1, settings, |_| Record::On);
-    assert_eq!(tape.report.state(), "INCOMPLETE");
-    let verification = tape.verify();
-    for (one, told) in verification.instances.iter().zip(&tape.report.instances) {
-        let is_camera = one.instance.starts_with("Vision");
-        assert_eq!(one.dropped > 0, is_camera, "{verification}");
-        assert_eq!(told.wanted, one.dropped + one.frames, "{verification}");
-    }
-    for name in ["Control", "Audio"] {
-        assert!(verified(&verification, name) > 15, "{verification}");
+    // By handle they have, whatever is larger than a block; copied they have not.
+    for late in [1000, 0] {
+        let settings = Settings {
+            block_bytes: 256 << 10,
+            late,
+            ..large()
+        };
+        let tape = Tape::record(1, settings, |_| Record::On);
+        let state = tape.report.state();
+        assert_eq!(state == "COMPLETE", late > 0, "{}", tape.report);
+        let verification = tape.verify();
+        for (one, told) in verification.instances.iter().zip(&tape.report.instances) {
+            let is_copied_image = late == 0 && one.instance.starts_with("Vision");
+            assert_eq!(one.dropped > 0, is_copied_image, "{verification}");
+            assert_eq!(told.wanted, one.dropped + one.frames, "{verification}");
+            let compared = one.verified + one.unfinished;
+            assert_eq!(compared, one.frames, "{verification}");
+        }
+        for name in ["Control", "Audio"] {
+            assert!(verified(&verification, name) > 15, "{verification}");
+        }
+        let cameras = ["VisionTop", "VisionBottom"].map(|name| verified(&verification, name));
+        assert!(cameras.iter().all(|images| (*images > 20) == (late > 0)));
     }
 }
 

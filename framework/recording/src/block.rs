@@ -1,8 +1,16 @@
 //! What a cycler writes its frames into: memory that is reserved once.
 
+use std::sync::Arc;
 use std::{fmt, io, mem};
 
 use hulkgen_mcap::{ChannelId, MESSAGE_HEAD, RECORD_HEAD, opcode};
+
+use crate::late::{Late, Parts, Room};
+
+/// Bytes before the data of a message.
+const HEAD: usize = RECORD_HEAD + MESSAGE_HEAD;
+/// Where a message has its length, behind its opcode.
+const LENGTH_AT: usize = 1;
 
 /// Whole frames of one instance, each some messages, as they will stand in a chunk.
 #[derive(Debug)]
@@ -20,6 +28,8 @@ pub(crate) struct Block {
     pub(crate) number: u64,
     /// Times of the first and the last message, in nanoseconds of the run.
     pub(crate) times: Option<(u64, u64)>,
+    /// What the writer's thread adds to the messages.
+    late: Parts,
 }
 
 /// There is no room: nothing was written.
@@ -34,11 +44,12 @@ pub struct Writing<'block> {
     /// How much was free in the beginning.
     room: usize,
     is_full: bool,
+    late: Option<&'block mut Parts>,
 }
 
 impl Block {
     /// The memory is written, so that the system gives it now.
-    pub(crate) fn of_bytes(bytes: usize) -> Self {
+    pub(crate) fn of_bytes(bytes: usize, room: Arc<Room>) -> Self {
         Self {
             bytes: vec![u8::MAX; bytes].into(),
             length: 0,
@@ -47,12 +58,24 @@ impl Block {
             track: 0,
             number: 0,
             times: None,
+            late: Parts::new(room),
         }
     }
 
-    /// Of whole frames.
-    pub(crate) fn whole(&self) -> &[u8] {
-        &self.bytes[..self.frame]
+    /// Of whole frames, and how many they are: those before one of which a value has no bytes. `memory` is for blocks that left
+    /// something to the writer.
+    pub(crate) fn whole<'a>(&'a self, memory: &'a mut Vec<u8>) -> (&'a [u8], u64) {
+        let whole = &self.bytes[..self.frame];
+        if self.late.count() == 0 {
+            return (whole, self.frames);
+        }
+        let ends = self.late.write(whole, LENGTH_AT, memory);
+        (memory, ends.unwrap_or(self.frames))
+    }
+
+    /// Whether it should go to the writer for the values that it left to it.
+    pub(crate) fn is_laden(&self) -> bool {
+        self.late.is_full()
     }
 
     /// Whether the same track wrote it before the other one.
@@ -66,11 +89,13 @@ impl Block {
 
     pub(crate) fn clear(&mut self) {
         (self.length, self.frame, self.frames, self.times) = (0, 0, 0, None);
+        self.late.truncate(0);
     }
 
     /// Forgets the frame that is not whole.
     pub(crate) fn roll_back(&mut self) {
         self.length = self.frame;
+        self.late.truncate_to(self.frame);
     }
 
     pub(crate) fn end_frame(&mut self, time: u64) {
@@ -80,25 +105,33 @@ impl Block {
         self.times = Some((first.min(time), last.max(time)));
     }
 
-    /// One message of the frame; `keep` bytes stay free behind it.
+    /// One message of the frame; `keep` bytes stay free behind it. Whether it may leave values to the writer's thread.
     pub(crate) fn message<E>(
         &mut self,
         (channel, sequence, time): (ChannelId, u32, u64),
         keep: usize,
+        may_leave: bool,
         write: impl FnOnce(&mut Writing<'_>) -> Result<(), E>,
     ) -> Result<Result<(), E>, Full> {
         let limit = self.bytes.len().saturating_sub(keep);
         let free = self.bytes.get_mut(self.length..limit).unwrap_or_default();
-        let Some((head, data)) = free.split_at_mut_checked(RECORD_HEAD + MESSAGE_HEAD) else {
+        let Some((head, data)) = free.split_at_mut_checked(HEAD) else {
             return Err(Full);
         };
-        let mut writing = Writing::new(data);
+        let late = self.late.count();
+        let mut writing = Writing {
+            late: may_leave.then_some(&mut self.late),
+            ..Writing::new(data)
+        };
         let written = write(&mut writing);
-        if writing.is_full {
+        let (length, is_full) = (writing.length(), writing.is_full);
+        if is_full || written.is_err() {
+            self.late.truncate(late);
+        }
+        if is_full {
             return Err(Full);
         }
         if written.is_ok() {
-            let length = writing.length();
             let mut head = Writing::new(head);
             head.add([opcode::MESSAGE]);
             head.add(((MESSAGE_HEAD + length) as u64).to_le_bytes());
@@ -106,7 +139,9 @@ impl Block {
             head.add(sequence.to_le_bytes());
             head.add(time.to_le_bytes());
             head.add(time.to_le_bytes());
-            self.length += RECORD_HEAD + MESSAGE_HEAD + length;
+            let frame = (self.frame, self.frames);
+            self.late.place(late, (self.length, HEAD), frame);
+            self.length += HEAD + length;
         }
         Ok(written)
     }
@@ -120,6 +155,7 @@ impl<'block> Writing<'block> {
             room: bytes.len(),
             free: bytes,
             is_full: false,
+            late: None,
         }
     }
 
@@ -164,6 +200,18 @@ impl<'block> Writing<'block> {
             true => Err(Full),
             false => Ok(()),
         }
+    }
+
+    /// Appends these bytes, and leaves it to the writer's thread to append those of the value. False: there is no room for that, or
+    /// nobody to leave it to, and nothing was appended.
+    #[inline(never)]
+    pub fn leave(&mut self, before: &[u8], value: Arc<dyn Late>) -> bool {
+        let at = self.length() + before.len();
+        let is_left = self.late.as_mut().is_some_and(|late| late.add(at, value));
+        if is_left {
+            self.add_all(before);
+        }
+        is_left
     }
 
     #[cold]

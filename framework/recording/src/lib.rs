@@ -7,7 +7,8 @@
 //! ```
 //!
 //! A cycler encodes what a cycle took and gave into a block that nobody else has meanwhile, and hands the block over when it is
-//! full or old. It never waits: without an empty block its frames are dropped and counted. One thread owns the file.
+//! full or old. Values of which it has handles, as images, it leaves to the writer ([`Late`]). It never waits: without an empty
+//! block its frames are dropped and counted. One thread owns the file.
 //!
 //! Between two messages a block that was begun lies in its track's place, from where the writer takes it if the track has had no
 //! frame for long. So a cycle that hangs keeps no frame to itself; its end then stands alone in a block.
@@ -16,6 +17,7 @@
 //! everything that the frames in it refer to; of a frame whose end came later it may lack that end.
 
 mod block;
+mod late;
 mod pool;
 mod recorder;
 mod rewrite;
@@ -26,6 +28,7 @@ pub use hulkgen_mcap::{
     Attachment, Channel, ChannelId, Chunk, Contents, Description, Message, Metadata, ReadError,
     Recording, RecordingFile, Schema, Storage, Way, Writer, layout,
 };
+pub use late::Late;
 pub use recorder::{Ended, Recorder, Settings};
 pub use rewrite::{Rewrite, Rewrites};
 pub use track::{Counts, Frame, Recorded, Track};

@@ -1,8 +1,11 @@
 //! Blocks on their way between cyclers and the writer; nobody waits, nothing is allocated.
 
+use std::sync::Arc;
+
 use crossbeam_queue::ArrayQueue;
 
 use crate::block::Block;
+use crate::late::Room;
 
 /// All blocks of a recording.
 #[derive(Debug)]
@@ -35,15 +38,17 @@ impl Place {
 }
 
 impl Pool {
-    /// So many blocks of so many bytes, whose memory is touched now and not in a cycle.
-    pub(crate) fn new(blocks: usize, bytes: usize) -> Self {
+    /// So many blocks of so many bytes, whose memory is touched now and not in a cycle; in all of them up to so many values that
+    /// the writer writes.
+    pub(crate) fn new(blocks: usize, bytes: usize, late: usize) -> Self {
         let blocks = blocks.max(1);
+        let room = Arc::new(Room::of(late));
         let pool = Self {
             empty: ArrayQueue::new(blocks),
             full: ArrayQueue::new(blocks),
         };
         for _ in 0..blocks {
-            pool.give_back(Block::of_bytes(bytes));
+            pool.give_back(Block::of_bytes(bytes, room.clone()));
         }
         pool
     }

@@ -24,8 +24,10 @@ pub struct Settings {
     pub budget: u64,
     /// How many blocks there are, for all tracks together.
     pub blocks: usize,
-    /// Bytes of one block: no frame is larger.
+    /// Bytes of one block: no frame is larger, but for what it leaves to the writer.
     pub block_bytes: usize,
+    /// How many values cyclers may leave to the writer at a time ([`Writing::leave`](crate::Writing::leave)).
+    pub late: usize,
     /// Bytes from which on a chunk is closed, not compressed.
     pub chunk_bytes: usize,
     /// How long frames stay in memory, about: by the cycles' own time while their instance has cycles, recorded or not, else by
@@ -55,12 +57,13 @@ pub struct Ended {
 }
 
 impl Default for Settings {
-    /// 64 blocks of 1 MiB, chunks of 4 MiB, a ring of 2 GiB.
+    /// 64 blocks of 1 MiB, 32 values beside them, chunks of 4 MiB, a ring of 2 GiB.
     fn default() -> Self {
         Self {
             budget: 2 << 30,
             blocks: 64,
             block_bytes: 1 << 20,
+            late: 32,
             chunk_bytes: 4 << 20,
             longest: Duration::from_secs(1),
         }
@@ -98,7 +101,13 @@ impl Recorder {
         settings: Settings,
         rewrites: Rewrites,
     ) -> io::Result<(Self, Vec<Track>)> {
-        let pool = Arc::new(Pool::new(settings.blocks, settings.block_bytes));
+        let Settings {
+            blocks,
+            block_bytes,
+            late,
+            ..
+        } = settings;
+        let pool = Arc::new(Pool::new(blocks, block_bytes, late));
         let counts: Vec<_> = instances
             .iter()
             .map(|instance| ((*instance).to_owned(), Arc::<Counts>::default()))
@@ -123,6 +132,7 @@ impl Recorder {
             open: Frames::new(),
             kept: VecDeque::new(),
             rewrites,
+            whole: Vec::new(),
             rewritten: Vec::new(),
             since: Instant::now(),
             error: None,
@@ -230,6 +240,8 @@ struct Thread {
     /// Those of the chunks that the file has, oldest first.
     kept: VecDeque<Frames>,
     rewrites: Rewrites,
+    /// The messages of a block with the values that it left to the writer.
+    whole: Vec<u8>,
     /// The messages of a block that became others.
     rewritten: Vec<u8>,
     /// When the chunk that is open got its first block.
@@ -287,13 +299,20 @@ impl Thread {
         if self.open.is_empty() {
             self.since = Instant::now();
         }
-        self.open.push((block.track, block.frames));
+        let (messages, frames) = block.whole(&mut self.whole);
         match self.rewrites.is_empty() {
-            true => self.writer.add(block.whole()),
+            true => self.writer.add(messages),
             false => {
-                rewritten(block.whole(), &self.rewrites, &mut self.rewritten);
+                rewritten(messages, &self.rewrites, &mut self.rewritten);
                 self.writer.add(&self.rewritten);
             }
+        }
+        self.open.push((block.track, frames));
+        // What stands behind may refer to what is not there.
+        if frames < block.frames {
+            self.count(&[(block.track, block.frames - frames)], |counts| {
+                &counts.lost
+            });
         }
         self.pool.give_back(block);
         if self.writer.open_bytes() >= self.settings.chunk_bytes {
@@ -318,7 +337,7 @@ impl Thread {
         }
     }
 
-    fn count(&self, frames: &Frames, as_what: impl Fn(&Counts) -> &AtomicU64) {
+    fn count(&self, frames: &[(usize, u64)], as_what: impl Fn(&Counts) -> &AtomicU64) {
         for (track, frames) in frames {
             if let Some((_, counts)) = self.counts.get(*track) {
                 as_what(counts).fetch_add(*frames, Ordering::Relaxed);

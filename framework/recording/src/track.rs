@@ -42,7 +42,7 @@ impl Counts {
         self.failed.load(Ordering::Relaxed)
     }
 
-    /// Recorded frames that the disk did not take.
+    /// Recorded frames that the disk did not take, or whose values have no bytes.
     pub fn lost(&self) -> u64 {
         self.lost.load(Ordering::Relaxed)
     }
@@ -84,6 +84,8 @@ pub struct Frame<'track> {
     block: &'track mut Block,
     keep: usize,
     is_first: bool,
+    /// Whether it is the end of one.
+    is_end: bool,
     is_full: bool,
 }
 
@@ -147,6 +149,9 @@ impl Track {
     ) -> Recorded<E> {
         self.pass(time);
         let mut begun = self.place.take();
+        if let Some(laden) = begun.take_if(|block| block.is_laden()) {
+            self.pool.hand_over(laden);
+        }
         loop {
             let is_new = begun.is_none();
             let Some(mut block) = begun.take().or_else(|| self.begin()) else {
@@ -156,6 +161,7 @@ impl Track {
                 is_first: block.is_empty(),
                 block: &mut block,
                 keep,
+                is_end: false,
                 is_full: false,
             };
             let written = panic::catch_unwind(AssertUnwindSafe(|| write(&mut frame)));
@@ -187,7 +193,7 @@ impl Track {
         }
     }
 
-    /// Adds to the frame before what only its end tells; there must have been kept room. Where the writer did not wait for it, it
+    /// Adds to the frame before what only its end tells; there must have been kept room, and nothing is left to the writer. Where the writer did not wait for it, it
     /// is alone in a block.
     pub fn end<E>(
         &mut self,
@@ -206,6 +212,7 @@ impl Track {
             is_first: false,
             block: &mut block,
             keep: 0,
+            is_end: true,
             is_full: false,
         };
         let written = panic::catch_unwind(AssertUnwindSafe(|| write(&mut frame)));
@@ -311,7 +318,7 @@ impl Frame<'_> {
     ) -> Result<(), E> {
         let written = self
             .block
-            .message((channel, sequence, time), self.keep, write);
+            .message((channel, sequence, time), self.keep, !self.is_end, write);
         written.unwrap_or_else(|full| {
             self.is_full = true;
             Err(full.into())

@@ -5,12 +5,23 @@ mod counting;
 #[path = "recording/description.rs"]
 mod description;
 
+use std::sync::Arc;
 use std::time::Duration;
 
-use hulkgen_recording::{Recorded, Recorder, Settings};
+use hulkgen_recording::{Late, Recorded, Recorder, Settings};
 
 use counting::allocations;
 use description::{FRAMES, VALUES, description, settings};
+
+/// As large as the writer likes.
+struct Large;
+
+impl Late for Large {
+    fn write(&self, bytes: &mut Vec<u8>) -> bool {
+        bytes.extend_from_slice(&[0; 100]);
+        true
+    }
+}
 
 #[test]
 fn frames_allocate_nothing() {
@@ -24,12 +35,20 @@ fn frames_allocate_nothing() {
     let (_recorder, mut tracks) =
         Recorder::start(&path, description(), &["Control"], settings).expect("it is new");
     let mut track = tracks.pop().expect("one was asked for");
-    let mut whole = 0;
+    let (mut whole, mut left) = (0, 0);
+    let value = Arc::new(Large);
     let before = allocations();
     for cycle in 0..2000 {
         let recorded = track.frame(cycle, 64, |frame| {
             frame.message(VALUES, 0, cycle, |writing| writing.put(b"0"))?;
-            frame.message(FRAMES, cycle as u32, cycle, |writing| writing.put(b"0"))
+            frame.message(FRAMES, cycle as u32, cycle, |writing| {
+                // In every third frame, until there is no room for it.
+                if cycle % 3 == 0 && writing.leave(b"0", value.clone()) {
+                    left += 1;
+                    return Ok(());
+                }
+                writing.put(b"0")
+            })
         });
         whole += u32::from(recorded == Recorded::Whole);
         track.end(cycle, |frame| {
@@ -40,4 +59,5 @@ fn frames_allocate_nothing() {
     }
     assert_eq!(allocations() - before, 0);
     assert!(whole > 100, "{whole} frames were recorded");
+    assert!(left >= 3, "{left} of them left something to the writer");
 }

@@ -10,6 +10,8 @@ use super::encode::{EncodeError, Encoder};
 #[cfg(feature = "yardstick")]
 use super::yardstick::Slice;
 use crate::error::{Error, Result};
+use crate::pool::Handle;
+use crate::reflect::Reflect;
 
 /// Values on their way into a frame. What goes wrong is told once, by [`Self::end`].
 #[derive(Debug)]
@@ -32,6 +34,9 @@ enum Sink<'a, 'block> {
 pub struct Loading<'frame> {
     bytes: &'frame [u8],
 }
+
+/// As an `Option` of an `Option` begins that has something.
+const SOME: [u8; 2] = [1; 2];
 
 /// Why a frame was not saved.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -85,6 +90,25 @@ impl<'a, 'block> Saving<'a, 'block> {
         };
         if let Err(reason) = put {
             self.refuse(reason);
+        }
+    }
+
+    /// Appends an output. Of a handle the recording keeps another one, and the thread that owns the file writes the value.
+    #[inline]
+    pub fn output<T: Reflect + Serialize>(&mut self, value: &T) {
+        if !self.leave(value.handle()) {
+            self.put(value);
+        }
+    }
+
+    /// False: there is none, or nobody to leave it to.
+    #[inline]
+    pub(super) fn leave(&mut self, handle: Option<Handle>) -> bool {
+        match (handle, &mut self.sink) {
+            (Some(handle), Sink::Message(writing)) => SOME
+                .get(..handle.options)
+                .is_some_and(|before| writing.leave(before, handle.value)),
+            _ => false,
         }
     }
 

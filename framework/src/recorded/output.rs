@@ -252,7 +252,9 @@ impl OutputRecorder {
             let _: Recorded<SaveError> = self.track.frame(time, 0, |frame| {
                 frame.message(*channel, cycle.number as u32, time, |writing| {
                     let mut saving = Saving::new(writing);
-                    saving.put(value.as_serialize());
+                    if !saving.leave(value.handle()) {
+                        saving.put(value.as_serialize());
+                    }
                     saving.end()
                 })
             });

@@ -24,7 +24,7 @@ pub struct Missing {
     pub dropped: u64,
     /// They could not be encoded.
     pub failed: u64,
-    /// The disk did not take them.
+    /// The disk did not take them, or a value of theirs could not be written there.
     pub lost: u64,
 }
 
@@ -39,7 +39,7 @@ pub struct InstanceRecorded {
     pub dropped: u64,
     /// They could not be encoded.
     pub failed: u64,
-    /// The disk did not take them.
+    /// The disk did not take them, or a value of theirs could not be written there.
     pub lost: u64,
     /// They were recorded, and left to younger ones when the file had its budget.
     pub overwritten: u64,
@@ -92,7 +92,7 @@ impl fmt::Display for RecordingReport {
             let counts = [
                 (one.dropped, "dropped"),
                 (one.failed, "not encoded"),
-                (one.lost, "not taken by the disk"),
+                (one.lost, "lost on the way to the disk"),
                 (
                     one.overwritten,
                     "gave way to younger ones; `--recording-budget` keeps more",
@@ -115,7 +115,7 @@ impl fmt::Display for RecordingReport {
             } = one;
             writeln!(
                 formatter,
-                "{of}: {dropped} dropped (larger than a block, or none was free), {failed} not encoded, {lost} not taken by the disk"
+                "{of}: {dropped} dropped (larger than a block, or none was free), {failed} not encoded, {lost} lost on the way to the disk"
             )?;
         }
         Ok(())

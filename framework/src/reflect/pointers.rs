@@ -8,6 +8,7 @@ use serde::de::DeserializeOwned;
 use super::binary::EncodeError;
 use super::{Children, Content, Reflect, Segment, Shape, whole};
 use crate::foxglove::Form;
+use crate::pool::Handle;
 
 impl<T: Reflect + Serialize + DeserializeOwned> Reflect for Option<T> {
     fn shape() -> Shape {
@@ -50,6 +51,10 @@ impl<T: Reflect + Serialize + DeserializeOwned> Reflect for Option<T> {
                 value.encode(bytes)
             }
         }
+    }
+
+    fn handle(&self) -> Option<Handle> {
+        self.as_ref()?.handle().map(Handle::in_option)
     }
 
     whole!();

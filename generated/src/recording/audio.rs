@@ -69,7 +69,7 @@ impl<Hardware: MicrophoneInterface + Send + Sync> Recorded for Audio<Hardware> {
         self.nodes.microphone_recorder.record(out);
         self.nodes.whistle_detection.record(out);
         self.injections.save_injected(out);
-        out.put(&self.own.current().audio_block);
+        out.output(&self.own.current().audio_block);
         out.put(&self.subscribed);
     }
 

@@ -179,13 +179,13 @@ impl<
         out.put(&self.cycler_state);
         self.historic.odometry.save(since, out);
         self.injections.save_injected(out);
-        out.put(&self.own.current().sensor_data);
+        out.output(&self.own.current().sensor_data);
         Foreign::save(&self.perception.vision_top, out);
         Foreign::save(&self.perception.vision_bottom, out);
         Foreign::save(&self.perception.spl_network, out);
         Foreign::save(&self.perception.audio, out);
-        out.put(&self.own.previous().head_command);
-        out.put(&self.own.previous().motor_commands);
+        out.output(&self.own.previous().head_command);
+        out.output(&self.own.previous().motor_commands);
         self.procedures.look_at.save(out);
         self.procedures.motion.save(out);
         self.procedures.walk.save(out);

@@ -72,7 +72,7 @@ impl<Hardware: NetworkInterface + Send + Sync> Recorded for SplNetwork<Hardware>
         self.nodes.game_controller_parser.record(out);
         self.nodes.team_message_parser.record(out);
         self.injections.save_injected(out);
-        out.put(&self.own.current().datagram);
+        out.output(&self.own.current().datagram);
         out.put(&self.subscribed);
     }
 

@@ -95,7 +95,7 @@ impl<Hardware: CameraInterface + Send + Sync> Recorded for Vision<Hardware> {
         self.nodes.obstacle_detection.record(out);
         self.injections.save_injected(out);
         Foreign::save(&self.control, out);
-        out.put(&self.own.current().image);
+        out.output(&self.own.current().image);
         out.put(&self.subscribed);
     }
 

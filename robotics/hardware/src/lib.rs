@@ -13,7 +13,7 @@ use types::network::{Datagram, Endpoint};
 use types::sensor_data::SensorData;
 
 /// So many images of a camera may be held at once, 39 MB of 640 by 480 pixels: nodes have one, the framework keeps two dozen of them for
-/// clients that watch.
+/// clients that watch. Those that a recording holds are beside them.
 pub const MOST_IMAGES: usize = 64;
 
 /// Reads the sensors of the body.
@@ -42,7 +42,7 @@ pub trait ActuatorInterface {
 pub trait CameraInterface {
     /// Waits for the next image of one camera and says when it was taken.
     ///
-    /// Leased from a pool of the camera, which has [`MOST_IMAGES`] at most: in the steady state nothing is allocated.
+    /// Leased from a pool of the camera, which has [`MOST_IMAGES`] at most, and those that a recording holds: in the steady state nothing is allocated.
     ///
     /// # Errors
     /// `Stopped` within 100 ms of a stop; `NoEvent` where no image came, it was garbled, or readers hold all of them: ask again.

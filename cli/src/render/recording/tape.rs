@@ -181,7 +181,7 @@ fn outputs(
     let statements = kept.map(|output| {
         let name = ident(&output.name);
         match tape {
-            Tape::Save => quote!(out.put(&#place.#name);),
+            Tape::Save => quote!(out.output(&#place.#name);),
             Tape::Load => quote!(#place.#name = from.take()?;),
             Tape::Describe => {
                 let function = describe_output(shared, of == "current");

@@ -40,6 +40,7 @@ pub(crate) fn settings() -> Settings {
         budget: 1 << 30,
         blocks: 8,
         block_bytes: 4096,
+        late: 3,
         chunk_bytes: 8192,
         longest: Duration::from_secs(60),
     }

@@ -2,6 +2,7 @@
 
 mod description;
 mod files;
+mod late;
 mod layouts;
 mod readers;
 mod slow;

@@ -55,6 +55,7 @@ const SMALL: Settings = Settings {
     budget: 1 << 30,
     blocks: 16,
     block_bytes: 16 << 10,
+    late: 0,
     chunk_bytes: 32 << 10,
     longest: Duration::from_secs(10),
 };

@@ -79,7 +79,7 @@ impl<Hardware: Encoders + Motors + Send + Sync> Recorded for Drive<Hardware> {
         self.nodes.motor_sender.record(out);
         self.historic.pose.save(since, out);
         self.injections.save_injected(out);
-        out.put(&self.own.current().rolled);
+        out.output(&self.own.current().rolled);
         Foreign::save(&self.perception.lidar, out);
     }
 

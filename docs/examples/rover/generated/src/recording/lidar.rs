@@ -65,7 +65,7 @@ for Lidar<Hardware> {
         self.nodes.scan_receiver.record(out);
         self.nodes.freeway_detection.record(out);
         self.injections.save_injected(out);
-        out.put(&self.own.current().scan);
+        out.output(&self.own.current().scan);
     }
 
     fn describe(types: &mut Describing<Self>) {

@@ -73,8 +73,8 @@ impl<Hardware: SoilProbe + Valve + Send + Sync> Recorded for Garden<Hardware> {
         self.nodes.valve_sender.record(out);
         self.injections.save_injected(out);
         Foreign::save(&self.weather, out);
-        out.put(&self.own.current().moisture);
-        out.put(&self.own.previous().valve);
+        out.output(&self.own.current().moisture);
+        out.output(&self.own.previous().valve);
     }
 
     fn describe(types: &mut Describing<Self>) {

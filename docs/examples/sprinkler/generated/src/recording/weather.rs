@@ -65,7 +65,7 @@ impl<Hardware: RainGauge + Send + Sync> Recorded for Weather<Hardware> {
         self.nodes.rain_receiver.record(out);
         self.nodes.rain_mean.record(out);
         self.injections.save_injected(out);
-        out.put(&self.own.current().rain);
+        out.output(&self.own.current().rain);
     }
 
     fn describe(types: &mut Describing<Self>) {

@@ -56,7 +56,7 @@ impl<Hardware: Odometer + Send + Sync> Recorded for Odometry<Hardware> {
     ) {
         self.nodes.wheel_receiver.record(out);
         self.injections.save_injected(out);
-        out.put(&slots.current.measurement);
+        out.output(&slots.current.measurement);
     }
 
     fn describe(types: &mut Describing<Self>) {

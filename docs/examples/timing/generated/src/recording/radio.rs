@@ -56,7 +56,7 @@ for Radio<Hardware> {
     ) {
         self.nodes.message_receiver.record(out);
         self.injections.save_injected(out);
-        out.put(&slots.current.measurement);
+        out.output(&slots.current.measurement);
     }
 
     fn describe(types: &mut Describing<Self>) {

@@ -66,7 +66,7 @@ impl<Hardware: Camera + Effort + Send + Sync> Recorded for Vision<Hardware> {
         self.nodes.image_receiver.record(out);
         self.nodes.position_detection.record(out);
         self.injections.save_injected(out);
-        out.put(&self.own.current().image);
+        out.output(&self.own.current().image);
     }
 
     fn describe(types: &mut Describing<Self>) {

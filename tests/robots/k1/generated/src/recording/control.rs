@@ -72,7 +72,7 @@ for Control<Hardware> {
         self.nodes.wave.record(out);
         self.nodes.motor_sender.record(out);
         self.injections.save_injected(out);
-        out.put(&self.own.current().body);
+        out.output(&self.own.current().body);
     }
 
     fn describe(types: &mut Describing<Self>) {

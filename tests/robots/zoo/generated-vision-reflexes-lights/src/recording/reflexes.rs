@@ -82,7 +82,7 @@ for Reflexes<Hardware> {
         self.nodes.node.record(out);
         self.injections.save_injected(out);
         Foreign::save(&self.control, out);
-        out.put(&self.own.current().pressed);
+        out.output(&self.own.current().pressed);
         Foreign::save(&self.perception.vision_bottom, out);
         self.procedures.type_.save(out);
     }

@@ -59,9 +59,9 @@ impl<Hardware: EarInterface + Send + Sync> Recorded for Hearing<Hardware> {
         self.nodes.ear.record(out);
         self.nodes.whistle.record(out);
         self.injections.save_injected(out);
-        out.put(&slots.previous.loudness);
-        out.put(&slots.previous.whistle);
-        out.put(&slots.current.loudness);
+        out.output(&slots.previous.loudness);
+        out.output(&slots.previous.whistle);
+        out.output(&slots.current.loudness);
     }
 
     fn describe(types: &mut Describing<Self>) {

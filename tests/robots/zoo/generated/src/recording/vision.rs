@@ -89,10 +89,10 @@ impl<Hardware: EyeInterface + Send + Sync> Recorded for Vision<Hardware> {
         Foreign::save(&self.vision_top, out);
         Foreign::save(&self.vision_bottom, out);
         Foreign::save(&self.control, out);
-        out.put(&self.own.current().exposure);
-        out.put(&self.own.current().image);
-        out.put(&self.own.previous().agreement);
-        out.put(&slots.previous.spots);
+        out.output(&self.own.current().exposure);
+        out.output(&self.own.current().image);
+        out.output(&self.own.previous().agreement);
+        out.output(&slots.previous.spots);
         out.put(&self.subscribed);
     }
 
