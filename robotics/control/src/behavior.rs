@@ -18,8 +18,8 @@ mod way;
 
 use framework::{AdditionalOutput, CycleTime, Input, MainOutput, Parameter, Result, context};
 use serde::{Deserialize, Serialize};
-use types::behavior::{Activity, Plan};
-use types::game::PrimaryState;
+use types::behavior::{Activity, Plan, Role};
+use types::game::{PrimaryState, SetPlay};
 use types::motion::{BodyMotion, ClientWish, HeadMotion, MotionCommand};
 use types::world_state::WorldState;
 
@@ -30,7 +30,7 @@ pub use self::parameters::{
     SearchParameters, WalkParameters,
 };
 use self::play::{get_ready, play};
-use self::stuck::step_away;
+use self::stuck::{fallen_mate, step_away};
 
 /// What was decided before.
 #[derive(Debug, Deserialize, Serialize)]
@@ -113,10 +113,32 @@ fn decide(view: &View<'_>) -> Decision {
         PrimaryState::Ready | PrimaryState::Playing if view.memory.progress.backs_off() => {
             back_off(view)
         }
-        PrimaryState::Ready => get_ready(view),
+        PrimaryState::Ready => make_room(view, get_ready(view)),
         PrimaryState::Set => still(Activity::WaitForWhistle, BodyMotion::Stand, view.head()),
-        PrimaryState::Playing => play(view),
+        PrimaryState::Playing => make_room(view, play(view)),
         PrimaryState::Finished => still(Activity::AfterGame, BodyMotion::Stand, HeadMotion::Ahead),
+    }
+}
+
+/// Who would stand beside a mate that gets up stands farther away, and does not come back before it is up.
+fn make_room(view: &View<'_>, decision: Decision) -> Decision {
+    let recovery = &view.parameters.recovery;
+    let stands = decision.command.body == BodyMotion::Stand;
+    let has_made_room =
+        view.memory.activity == Activity::BackOff && !decision.activity.plays_ball();
+    // A keeper that stands for a shot stands where it has to.
+    let keeps = matches!(decision.activity, Activity::Block | Activity::WatchShot)
+        || (view.world.set_play == SetPlay::PenaltyKick && view.role() == Role::Keeper);
+    let distance = match (stands || has_made_room) && !keeps {
+        true => fallen_mate(view.world, recovery),
+        false => None,
+    };
+    match distance {
+        Some(distance) if distance < recovery.near => back_off(view),
+        Some(distance) if has_made_room && distance < recovery.near + recovery.room => {
+            Decision::of_body(Activity::BackOff, BodyMotion::Stand, view.head())
+        }
+        _ => decision,
     }
 }
 

@@ -123,7 +123,10 @@ impl Memory {
             decision.activity,
             Activity::SearchWithHead | Activity::SearchByTurning
         );
-        self.searches_since = searches.then(|| self.searches_since.unwrap_or(now));
+        // Who gets out of somebody's way meanwhile goes on to search.
+        if decision.activity != Activity::BackOff {
+            self.searches_since = searches.then(|| self.searches_since.unwrap_or(now));
+        }
         self.activity = decision.activity;
         self.is_walking = decision.command.body == BodyMotion::Walk;
     }

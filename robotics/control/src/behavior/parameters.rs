@@ -301,6 +301,12 @@ pub struct RecoveryParameters {
     /// What is nearer it walks away from; where nothing is, it walks back.
     #[reflect(unit = "m", range = 0.0..)]
     pub near: f32,
+    /// A team mate that lies, by its own word no farther away, may be what is near.
+    #[reflect(unit = "m", range = 0.0..)]
+    pub mate: f32,
+    /// Who made room for a mate does not come nearer than so much farther away.
+    #[reflect(unit = "m", range = 0.0..)]
+    pub room: f32,
     /// Who has not walked for longer waits; who dithers between both does not.
     #[reflect(unit = "s", range = 0.0..)]
     pub waits: f32,

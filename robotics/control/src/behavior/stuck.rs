@@ -1,4 +1,4 @@
-//! Owns when a robot that walks or kicks gets nowhere, and where it goes then: away from what holds it.
+//! Owns when a robot that walks or kicks gets nowhere, and where it goes then: away from what holds it, or from whom it holds.
 //!
 //! Judged by where localisation says that it is: odometry believes every step that slips.
 
@@ -9,6 +9,7 @@ use nalgebra::{Isometry2, Vector2};
 use serde::{Deserialize, Serialize};
 use types::motion::Step;
 use types::obstacles::Obstacle;
+use types::world_state::WorldState;
 
 use super::parameters::{RecoveryParameters, WalkParameters};
 use super::places::wrapped;
@@ -134,6 +135,22 @@ fn nearest<'a>(obstacles: &'a [Obstacle], recovery: &RecoveryParameters) -> Opti
     obstacles
         .first()
         .filter(|obstacle| obstacle.position.coords.norm() < recovery.near)
+}
+
+/// How near somebody is who may be a mate that says it lies, m: who stands there keeps it from getting up.
+///
+/// Who does not know its place may be anywhere.
+pub(super) fn fallen_mate(world: &WorldState, recovery: &RecoveryParameters) -> Option<f32> {
+    let mut mates = world.teammates.iter().map(|mate| &mate.message);
+    let may_be_here = mates.any(|mate| {
+        let places = world.ground_to_field.zip(mate.ground_to_field);
+        let is_near = |(own, other): (Isometry2<f32>, Isometry2<f32>)| {
+            (other.translation.vector - own.translation.vector).norm() < recovery.mate
+        };
+        mate.is_fallen && places.is_none_or(is_near)
+    });
+    let nearest = world.obstacles.first().filter(|_| may_be_here);
+    nearest.map(|obstacle| obstacle.position.coords.norm())
 }
 
 /// Away from what is near, else back.

@@ -9,6 +9,8 @@ use types::motion::{Script, Step};
 
 use super::*;
 
+mod room;
+
 pub(super) fn parameters() -> BehaviorParameters {
     ParameterFile::new(include_str!("../../../parameters/default.toml")).get("behavior")
 }
