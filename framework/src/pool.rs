@@ -70,8 +70,8 @@ pub struct Handle {
 
 impl<T> Pool<T> {
     /// A pool of at most so many values. A slot, a history entry and a reader that holds a value hold one each; while
-    /// clients watch an output, up to [`WINDOW`](crate::tap::WINDOW) and a few more. For those that a recording holds, until its file
-    /// has them, it has more: at most as many as [`late`](crate::recorded::Settings::late) says.
+    /// clients watch an output, up to [`WINDOW`](crate::tap::WINDOW) and a few more. For handles that a recording has, until its file
+    /// has the values, it has more: at most as many as [`late`](crate::recorded::Settings::late) says.
     pub fn new(most: usize, make: fn() -> T) -> Self {
         Self {
             values: Vec::new(),
@@ -181,10 +181,11 @@ impl<T: Clone> Clone for Pooled<T> {
 
 impl<T: Reflect + Send + Sync> Late for Pooled<T> {
     fn write(&self, bytes: &mut Vec<u8>) -> bool {
-        let value = self.value.as_serialize();
-        let written = contain("the recording", || Ok(postcard::to_io(value, bytes)?));
+        let written = contain("the recording", || {
+            Ok(postcard::to_io(self.value.as_serialize(), bytes)?)
+        });
         if let Err(error) = &written {
-            tell_refused(self.value.type_name(), value, error);
+            tell_refused(&self.value, error);
         }
         written.is_ok()
     }
@@ -195,7 +196,11 @@ impl<T: Reflect + Send + Sync> Late for Pooled<T> {
 
     fn let_go(self: Arc<Self>) {
         let recorded = self.recorded.clone();
-        drop(self);
+        // Its pool may be gone.
+        let _ = contain("the recording", || {
+            drop(self);
+            Ok(())
+        });
         // Release: whoever sees it finds the value free.
         recorded.fetch_sub(1, Ordering::Release);
     }
@@ -203,15 +208,18 @@ impl<T: Reflect + Send + Sync> Late for Pooled<T> {
 
 /// Tells the first, and ever fewer of those behind it: an output that cannot be written never can.
 #[cold]
-fn tell_refused(name: &str, value: &dyn erased_serde::Serialize, error: &Error) {
+fn tell_refused(value: &dyn Reflect, error: &Error) {
     static REFUSED: AtomicU64 = AtomicU64::new(0);
     let number = REFUSED.fetch_add(1, Ordering::Relaxed) + 1;
     if number.is_power_of_two() {
+        let name = value.type_name();
         // postcard does not tell what the value said.
-        let said = contain("the recording", || Ok(Digest::new().add(value)?));
+        let said = contain("the recording", || {
+            Ok(Digest::new().add(value.as_serialize())?)
+        });
         let error = said.err().unwrap_or_else(|| Error::new(error.to_string()));
         tell(format_args!(
-            "a `{name}` is not recorded, nor what its instance recorded soon after it: {error} (failure {number} of this kind)"
+            "a `{name}` is not recorded, nor what its instance recorded soon after it: {error} (failure {number} of all values)"
         ));
     }
 }

@@ -300,14 +300,18 @@ impl Thread {
             self.since = Instant::now();
         }
         let (messages, frames) = block.whole(&mut self.whole);
-        match self.rewrites.is_empty() {
-            true => self.writer.add(messages),
+        let messages = match self.rewrites.is_empty() {
+            true => messages,
             false => {
                 rewritten(messages, &self.rewrites, &mut self.rewritten);
-                self.writer.add(&self.rewritten);
+                &self.rewritten
             }
+        };
+        self.writer.add(messages);
+        // Of nothing no chunk is made.
+        if !messages.is_empty() {
+            self.open.push((block.track, frames));
         }
-        self.open.push((block.track, frames));
         // What stands behind may refer to what is not there.
         if frames < block.frames {
             self.count(&[(block.track, block.frames - frames)], |counts| {

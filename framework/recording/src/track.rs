@@ -193,8 +193,8 @@ impl Track {
         }
     }
 
-    /// Adds to the frame before what only its end tells; there must have been kept room, and nothing is left to the writer. Where the writer did not wait for it, it
-    /// is alone in a block.
+    /// Adds to the frame before what only its end tells; there must have been kept room, and nothing is left to the writer.
+    /// Where the writer did not wait for it, it is alone in a block.
     pub fn end<E>(
         &mut self,
         time: u64,

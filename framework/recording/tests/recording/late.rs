@@ -310,6 +310,37 @@ fn frames_from_one_without_bytes_on_are_lost_and_those_before_stay() {
     }
 }
 
+#[test]
+fn a_block_of_which_nothing_is_left_takes_no_other_one_out_of_the_counts() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("run.mcap");
+    // Each block is a chunk at once.
+    let settings = Settings {
+        chunk_bytes: 1,
+        ..settings()
+    };
+    let (recorder, mut track) = start(&path, settings);
+    let bad = Arc::new(Large {
+        refuses: true,
+        ..Large::default()
+    });
+    for cycle in 0..6 {
+        let recorded = match cycle % 2 {
+            0 => plain(&mut track, cycle),
+            _ => one(&mut track, cycle, &bad).0,
+        };
+        assert_eq!(recorded, Recorded::Whole);
+        track.hand_over();
+        await_none_kept(&bad);
+    }
+    let counts = track.counts().clone();
+    drop(track);
+    recorder.end();
+    let cycles: Vec<_> = messages(&path).iter().map(|one| one.1).collect();
+    assert_eq!(cycles, [0, 2, 4]);
+    assert_eq!((counts.lost(), counts.overwritten()), (3, 0));
+}
+
 /// A frame that leaves nothing.
 fn plain(track: &mut Track, cycle: u32) -> Recorded<Full> {
     track.frame(u64::from(cycle), 0, |frame| {
