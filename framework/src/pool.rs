@@ -54,7 +54,7 @@ pub struct Free<'pool, T> {
 pub struct Leased<T>(Arc<Pooled<T>>);
 
 /// A value, and how many handles recordings have of all values of its pool: they hold what a disk is slow to take.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 struct Pooled<T> {
     value: T,
     recorded: Arc<AtomicUsize>,

@@ -83,10 +83,7 @@ fn frame(track: &mut Track, cycle: u32, messages: [&Parts; 2]) -> (Recorded<Full
 
 fn record(path: &Path, late: usize, frames: &[[Parts; 2]], rewrites: Rewrites) -> usize {
     let settings = Settings { late, ..settings() };
-    let (recorder, mut tracks) =
-        Recorder::start_rewriting(path, description(), &["Control"], settings, rewrites)
-            .expect("it is new");
-    let mut track = tracks.pop().expect("one was asked for");
+    let (recorder, mut track) = start_rewriting(path, settings, rewrites);
     let mut left = 0;
     for (cycle, [values, own]) in frames.iter().enumerate() {
         let more = loop {
@@ -150,7 +147,11 @@ proptest! {
 }
 
 fn start(path: &Path, settings: Settings) -> (Recorder, Track) {
-    let started = Recorder::start(path, description(), &["Control"], settings);
+    start_rewriting(path, settings, Rewrites::new())
+}
+
+fn start_rewriting(path: &Path, settings: Settings, rewrites: Rewrites) -> (Recorder, Track) {
+    let started = Recorder::start_rewriting(path, description(), &["Control"], settings, rewrites);
     let (recorder, mut tracks) = started.expect("it is new");
     (recorder, tracks.pop().expect("one was asked for"))
 }
@@ -277,10 +278,7 @@ fn frames_from_one_without_bytes_on_are_lost_and_those_before_stay() {
             let path = folder
                 .path()
                 .join(format!("{number}-{}.mcap", rewrites.len()));
-            let (recorder, mut tracks) =
-                Recorder::start_rewriting(&path, description(), &["Control"], settings, rewrites)
-                    .expect("it is new");
-            let mut track = tracks.pop().expect("one was asked for");
+            let (recorder, mut track) = start_rewriting(&path, settings, rewrites);
             assert_eq!(one(&mut track, 0, &good), (Recorded::Whole, true));
             let recorded = track.frame::<Full>(1, 0, |frame| {
                 for (channel, values) in [VALUES, FRAMES].into_iter().zip(messages_of_bad) {

@@ -130,12 +130,23 @@ fn decision_with(
     client_wish: Option<&ClientWish>,
 ) -> (MotionCommand, Activity) {
     let mut node = Behavior::new(CreationContext {}).unwrap();
+    cycle_of(&mut node, world_state, client_wish, 1000, &parameters())
+}
+
+/// One cycle, so many ms after the start.
+fn cycle_of(
+    node: &mut Behavior,
+    world_state: &WorldState,
+    client_wish: Option<&ClientWish>,
+    millis: u64,
+    parameters: &BehaviorParameters,
+) -> (MotionCommand, Activity) {
     let mut plan = AdditionalProbe::unsubscribed();
     let context = CycleContext {
         world_state,
         client_wish,
-        cycle_time: cycle_time(1000, 12),
-        parameters: &parameters(),
+        cycle_time: cycle_time(millis, 12),
+        parameters,
         plan: plan.output(),
     };
     let outputs = node.cycle(context).unwrap();
@@ -308,18 +319,9 @@ fn a_robot_that_gets_nowhere_backs_off_and_begins_anew() {
     let parameters = parameters();
     let mut activities = Vec::new();
     for cycle in 0..2000 {
-        let mut plan = AdditionalProbe::unsubscribed();
-        let context = CycleContext {
-            world_state: &world_state,
-            client_wish: None,
-            cycle_time: cycle_time(1000 + 12 * cycle, 12),
-            parameters: &parameters,
-            plan: plan.output(),
-        };
-        let outputs = node.cycle(context).unwrap();
-        let step = outputs.motion_command.value.step;
-        let activity = outputs.activity.value;
-        assert_eq!(activity == Activity::BackOff, step.forward < 0.0);
+        let millis = 1000 + 12 * cycle;
+        let (command, activity) = cycle_of(&mut node, &world_state, None, millis, &parameters);
+        assert_eq!(activity == Activity::BackOff, command.step.forward < 0.0);
         if activities.last() != Some(&activity) {
             activities.push(activity);
         }

@@ -113,18 +113,11 @@ fn who_made_room_stays_away_until_the_mate_is_up() {
     for cycle in 0..1000 {
         // It is up after ten seconds.
         world_state.teammates[0].message.is_fallen = cycle < 840;
-        let mut plan = AdditionalProbe::unsubscribed();
-        let context = CycleContext {
-            world_state: &world_state,
-            client_wish: None,
-            cycle_time: cycle_time(10_000 + 12 * cycle, 12),
-            parameters: &parameters,
-            plan: plan.output(),
-        };
-        let outputs = node.cycle(context).unwrap();
-        last = outputs.activity.value;
+        let millis = 10_000 + 12 * cycle;
+        let (command, activity) = cycle_of(&mut node, &world_state, None, millis, &parameters);
+        last = activity;
         // A step lasts for some twenty cycles.
-        let step = outputs.motion_command.value.step;
+        let step = command.step;
         let moved = Isometry2::new(
             Vector2::new(step.forward, step.left) / 20.0,
             step.turn / 20.0,
