@@ -14,6 +14,7 @@ use types::field_markings::Course;
 use super::*;
 use crate::angle::wrap;
 
+mod lost;
 mod put;
 
 /// The robot's cameras see about so far, m, and so far aside while the head turns, rad.
