@@ -7,8 +7,14 @@
 use std::ops::Deref;
 use std::sync::Arc;
 
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
 use crate::buffer;
+use crate::error::Result;
 use crate::procedure::Call;
+use crate::recorded::{Loading, Saving};
+use crate::reflect::Reflect;
 use crate::time::Timestamp;
 
 /// This cycle's output of the own cycler, or the newest finished one of another instance: `Input<T, ["Instance",] "path">`.
@@ -116,6 +122,31 @@ impl<T> AdditionalSlot<T> {
     pub fn get(&self, cycle: u64) -> Option<&T> {
         // Cycles count from 1, so a slot that was never filled is absent.
         (cycle != 0 && self.cycle == cycle).then_some(&self.value)
+    }
+}
+
+impl<T: Reflect + Serialize + DeserializeOwned> AdditionalSlot<T> {
+    /// Into the frame of the cycle with this number: what was filled in it, as an `Option`.
+    #[doc(hidden)]
+    pub fn save(&self, cycle: u64, out: &mut Saving<'_, '_>) {
+        let filled = self.get(cycle);
+        out.put(&filled.is_some());
+        if let Some(value) = filled {
+            out.output(value);
+        }
+    }
+
+    /// Out of it again.
+    ///
+    /// # Errors
+    /// If the bytes are none of such an output.
+    #[doc(hidden)]
+    pub fn load(&mut self, cycle: u64, from: &mut Loading<'_>) -> Result<()> {
+        self.cycle = 0;
+        if let Some(value) = from.take()? {
+            *self = Self { cycle, value };
+        }
+        Ok(())
     }
 }
 

@@ -115,6 +115,8 @@ pub struct AdditionalOutput {
     pub names: Vec<String>,
     /// Fields from `AdditionalOutputs` to its slot.
     pub place: Vec<String>,
+    /// A setup node writes it.
+    pub setup: bool,
 }
 
 /// A procedure that a node of the cycler answers.

@@ -146,11 +146,13 @@ fn quote_save(cycler: &CyclerModel) -> TokenStream {
     let body = quote!(#parameters #(#nodes)* #tape);
     let shared = quote_shared(cycler);
     let slots = argument("slots", tape::uses_slots(cycler));
+    let cycle = argument("cycle", tape::uses_cycle(cycler));
     let out = argument("out", !body.is_empty());
     let since = argument("since", cycler.historic().next().is_some());
     quote! {
         fn save(
             &self,
+            #cycle: u64,
             #slots: ::framework::Slots<'_, #shared>,
             #since: Option<::framework::Timestamp>,
             #out: &mut ::framework::recorded::Saving<'_, '_>,
@@ -192,12 +194,14 @@ fn quote_load(cycler: &CyclerModel) -> TokenStream {
     let states = again.map(|_| quote!(self.cycler_state = again.take()?;));
     let shared = quote_shared(cycler);
     let slots = argument("slots", tape::uses_slots(cycler));
+    let cycle = argument("cycle", tape::uses_cycle(cycler));
     let reads = cycler.perception.is_some() || !cycler.latest.is_empty();
     let outside = argument("outside", outside::is_needed(cycler));
     let stored = argument("stored", reads || cycler.has_parameters());
     quote! {
         fn load(
             &mut self,
+            #cycle: u64,
             #slots: ::framework::recorded::Loaded<'_, #shared>,
             #outside: &mut Outside,
             from: &mut ::framework::recorded::Loading<'_>,

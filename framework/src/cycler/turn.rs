@@ -458,7 +458,8 @@ impl<B: Recorded> Instance for Cycler<B> {
 
     fn save_alone(&mut self, since: Option<Timestamp>, out: &mut Saving<'_, '_>) {
         let (current, previous) = self.writer.slots();
-        self.body.save(Slots { current, previous }, since, out);
+        let slots = Slots { current, previous };
+        self.body.save(self.cycle.number, slots, since, out);
     }
 
     fn types(&self) -> Types {

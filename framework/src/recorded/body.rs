@@ -20,10 +20,11 @@ pub trait Recorded: Body {
     /// If there is no room, or a value cannot be serialised.
     fn values(&self, values: &mut Values<'_, '_>) -> Result<(), SaveError>;
 
-    /// The states of nodes, and all that the cycle took in `begin` or got of its setup nodes. Of historic outputs what came
-    /// since that time, `None` for all of it.
+    /// The states of nodes, and all that the cycle of this number took in `begin` or got of its setup nodes. Of historic outputs
+    /// what came since that time, `None` for all of it.
     fn save(
         &self,
+        cycle: u64,
         slots: Slots<'_, Self::Shared>,
         since: Option<Timestamp>,
         out: &mut Saving<'_, '_>,
@@ -40,6 +41,7 @@ pub trait Recorded: Body {
     /// If the bytes are none of such a frame, or a value is not found; what the body has then is not defined.
     fn load(
         &mut self,
+        cycle: u64,
         slots: Loaded<'_, Self::Shared>,
         outside: &mut Self::Outside,
         from: &mut Loading<'_>,

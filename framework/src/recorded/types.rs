@@ -9,6 +9,7 @@ use serde_json::{Map, Value, json};
 use super::trace::layout_of;
 use super::{Foreign, Head, PARAMETERS, Recorded, digest};
 use crate::buffer::Reader;
+use crate::context::AdditionalSlot;
 use crate::guarded::{Condition, Guarded};
 use crate::history::{History, Past};
 use crate::injection::Injected;
@@ -122,6 +123,16 @@ impl<'body, B: Recorded> Describing<'body, B> {
     /// As [`Self::output`], of what others read.
     pub fn shared_output<T: DeserializeOwned>(&mut self, name: &str, _: fn(&B::Shared) -> &T) {
         self.add(PartKind::Output, name, layout_of::<T>());
+    }
+
+    /// An additional output of the cycle, where a setup node filled it.
+    pub fn additional_output<T: DeserializeOwned>(
+        &mut self,
+        name: &str,
+        _: fn(&B) -> &AdditionalSlot<T>,
+    ) {
+        let name = format!("additional_outputs.{name}");
+        self.add(PartKind::Other, &name, layout_of::<Option<T>>());
     }
 
     /// An output of the cycle before.

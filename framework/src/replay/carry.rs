@@ -190,9 +190,12 @@ mod tests {
             part("image", PartKind::Output, byte()),
             part("Other", PartKind::Input, byte()),
             part("speed", PartKind::Previous, byte()),
+            part("width", PartKind::Other, Layout::Option(Box::new(byte()))),
         ];
-        let made = composed(&parts, &setup, &[1; 10], &[2; 10]).expect("both are of these parts");
-        assert_eq!(made, [1, 1, 2, 2, 1, 2, 2, 1, 1, 2]);
+        let mut left = [2; 11];
+        left[10] = 0;
+        let made = composed(&parts, &setup, &[1; 12], &left).expect("both are of these parts");
+        assert_eq!(made, [1, 1, 2, 2, 1, 2, 2, 1, 1, 2, 1, 1]);
         assert!(composed(&parts, &setup, &[1; 9], &[2; 8]).is_err());
         assert!(Setup::of("Bottom", "").is_err());
     }

@@ -123,7 +123,13 @@ impl Recorded for Adding {
         Ok(())
     }
 
-    fn save(&self, slots: Slots<'_, Self::Shared>, _: Option<Timestamp>, out: &mut Saving<'_, '_>) {
+    fn save(
+        &self,
+        _: u64,
+        slots: Slots<'_, Self::Shared>,
+        _: Option<Timestamp>,
+        out: &mut Saving<'_, '_>,
+    ) {
         self.nodes.iter().for_each(|node| node.record(out));
         self.injections.save_injected(out);
         self.procedure.save(out);
@@ -136,6 +142,7 @@ impl Recorded for Adding {
 
     fn load(
         &mut self,
+        _: u64,
         _: Loaded<'_, Self::Shared>,
         (): &mut (),
         _: &mut Loading<'_>,

@@ -213,12 +213,20 @@ impl Recorded for TestBody {
         Ok(())
     }
 
-    fn save(&self, _: Slots<'_, SharedOutputs>, _: Option<Timestamp>, _: &mut Saving<'_, '_>) {}
+    fn save(
+        &self,
+        _: u64,
+        _: Slots<'_, SharedOutputs>,
+        _: Option<Timestamp>,
+        _: &mut Saving<'_, '_>,
+    ) {
+    }
 
     fn describe(_: &mut Describing<Self>) {}
 
     fn load(
         &mut self,
+        _: u64,
         _: Loaded<'_, SharedOutputs>,
         (): &mut (),
         _: &mut Loading<'_>,

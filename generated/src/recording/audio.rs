@@ -61,6 +61,7 @@ impl<Hardware: MicrophoneInterface + Send + Sync> Recorded for Audio<Hardware> {
 
     fn save(
         &self,
+        _cycle: u64,
         _slots: Slots<'_, SharedOutputs>,
         _since: Option<Timestamp>,
         out: &mut Saving<'_, '_>,
@@ -84,6 +85,7 @@ impl<Hardware: MicrophoneInterface + Send + Sync> Recorded for Audio<Hardware> {
 
     fn load(
         &mut self,
+        _cycle: u64,
         _slots: Loaded<'_, SharedOutputs>,
         outside: &mut Outside,
         from: &mut Loading<'_>,

@@ -128,6 +128,7 @@ impl<
 
     fn save(
         &self,
+        _cycle: u64,
         _slots: Slots<'_, SharedOutputs>,
         since: Option<Timestamp>,
         out: &mut Saving<'_, '_>,
@@ -295,6 +296,7 @@ impl<
 
     fn load(
         &mut self,
+        _cycle: u64,
         _slots: Loaded<'_, SharedOutputs>,
         outside: &mut Outside,
         from: &mut Loading<'_>,

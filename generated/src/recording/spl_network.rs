@@ -63,6 +63,7 @@ impl<Hardware: NetworkInterface + Send + Sync> Recorded for SplNetwork<Hardware>
 
     fn save(
         &self,
+        _cycle: u64,
         _slots: Slots<'_, SharedOutputs>,
         _since: Option<Timestamp>,
         out: &mut Saving<'_, '_>,
@@ -96,6 +97,7 @@ impl<Hardware: NetworkInterface + Send + Sync> Recorded for SplNetwork<Hardware>
 
     fn load(
         &mut self,
+        _cycle: u64,
         _slots: Loaded<'_, SharedOutputs>,
         outside: &mut Outside,
         from: &mut Loading<'_>,

@@ -76,6 +76,7 @@ impl<Hardware: CameraInterface + Send + Sync> Recorded for Vision<Hardware> {
 
     fn save(
         &self,
+        _cycle: u64,
         _slots: Slots<'_, SharedOutputs>,
         _since: Option<Timestamp>,
         out: &mut Saving<'_, '_>,
@@ -137,6 +138,7 @@ impl<Hardware: CameraInterface + Send + Sync> Recorded for Vision<Hardware> {
 
     fn load(
         &mut self,
+        _cycle: u64,
         _slots: Loaded<'_, SharedOutputs>,
         outside: &mut Outside,
         from: &mut Loading<'_>,

@@ -83,7 +83,11 @@ fn users(users: &[StateUse]) -> String {
 pub(super) fn additional_outputs(cycler: &Cycler) -> Vec<AdditionalOutput> {
     let mut flags = Names::default();
     let mut found: Vec<AdditionalOutput> = Vec::new();
-    for field in cycler.nodes.iter().flat_map(|node| &node.cycle) {
+    let fields = cycler.nodes.iter().flat_map(|node| {
+        let fields = node.cycle.iter();
+        fields.map(|field| (node.setup, field))
+    });
+    for (setup, field) in fields {
         let CycleBinding::AdditionalOutput { access, .. } = &field.binding else {
             continue;
         };
@@ -97,6 +101,7 @@ pub(super) fn additional_outputs(cycler: &Cycler) -> Vec<AdditionalOutput> {
             flag: flags.give(&place.join("_")),
             names: client_names(cycler, access),
             place,
+            setup,
         });
     }
     found.sort_by(|left, right| left.place.cmp(&right.place));

@@ -28,10 +28,8 @@ pub(super) fn quote_tape(cycler: &CyclerModel, tape: Tape) -> TokenStream {
     });
     let fields = cycler.frame.iter().map(|field| match field {
         // The head of the frame; what nodes only write; what nobody can keep.
-        FrameField::Cycle
-        | FrameField::AdditionalOutputs
-        | FrameField::CaptureTime
-        | FrameField::HardwareInterface => quote!(),
+        FrameField::Cycle | FrameField::CaptureTime | FrameField::HardwareInterface => quote!(),
+        FrameField::AdditionalOutputs => additional_outputs(cycler, tape),
         // Before everything else.
         FrameField::CyclerState | FrameField::Parameters | FrameField::Instance(_) => quote!(),
         FrameField::Historic => historic(cycler, tape),
@@ -65,6 +63,30 @@ pub(super) fn quote_tape(cycler: &CyclerModel, tape: Tape) -> TokenStream {
 pub(super) fn uses_slots(cycler: &CyclerModel) -> bool {
     let mut outputs = cycler.outputs.iter();
     outputs.any(|output| output.shared && (output.setup || output.previous))
+}
+
+/// Whether any of it is of the cycle whose number it has.
+pub(super) fn uses_cycle(cycler: &CyclerModel) -> bool {
+    let mut outputs = cycler.additional_outputs.iter();
+    outputs.any(|output| output.setup)
+}
+
+/// Those that setup nodes fill: in a replay nobody else does.
+fn additional_outputs(cycler: &CyclerModel, tape: Tape) -> TokenStream {
+    let outputs = cycler.additional_outputs.iter();
+    let statements = outputs.filter(|output| output.setup).map(|output| {
+        let place = output.place.iter().map(|name| ident(name));
+        let slot = quote!(additional_outputs #(.#place)*);
+        match tape {
+            Tape::Save => quote!(self.#slot.save(cycle, out);),
+            Tape::Load => quote!(self.#slot.load(cycle, from)?;),
+            Tape::Describe => {
+                let text = output.place.join(".");
+                quote!(types.additional_output(#text, |body| &body.#slot);)
+            }
+        }
+    });
+    statements.collect()
 }
 
 fn historic(cycler: &CyclerModel, tape: Tape) -> TokenStream {

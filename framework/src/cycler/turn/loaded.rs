@@ -26,7 +26,7 @@ impl<B: Recorded> Cycler<B> {
             current: &mut current,
             previous: &mut previous,
         };
-        self.body.load(slots, outside, from, stored)?;
+        self.body.load(head.number, slots, outside, from, stored)?;
         *self.writer.slots().0 = previous;
         self.writer.complete(self.finished, self.cycle.time.start);
         *self.writer.slots().0 = current;

@@ -138,7 +138,11 @@ fn record_in_lockstep(
 fn disturb(robot: &mut Robot<Parameters>, step: u64) {
     let access = robot.access("Control").expect("it is an instance");
     match step {
-        3 => assert!(access.subscriptions.subscribe("debug.certainty")),
+        3 => {
+            assert!(access.subscriptions.subscribe("debug.certainty"));
+            let eye = robot.access("VisionTop").expect("it is an instance");
+            assert!(eye.subscriptions.subscribe("vision_top.width"));
+        }
         5 => {
             let (_, walk) = access
                 .procedures

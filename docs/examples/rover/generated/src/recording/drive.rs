@@ -68,6 +68,7 @@ impl<Hardware: Encoders + Motors + Send + Sync> Recorded for Drive<Hardware> {
 
     fn save(
         &self,
+        _cycle: u64,
         _slots: Slots<'_, ()>,
         since: Option<Timestamp>,
         out: &mut Saving<'_, '_>,
@@ -101,6 +102,7 @@ impl<Hardware: Encoders + Motors + Send + Sync> Recorded for Drive<Hardware> {
 
     fn load(
         &mut self,
+        _cycle: u64,
         _slots: Loaded<'_, ()>,
         outside: &mut Outside,
         from: &mut Loading<'_>,

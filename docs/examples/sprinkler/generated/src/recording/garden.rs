@@ -62,6 +62,7 @@ impl<Hardware: SoilProbe + Valve + Send + Sync> Recorded for Garden<Hardware> {
 
     fn save(
         &self,
+        _cycle: u64,
         _slots: Slots<'_, ()>,
         _since: Option<Timestamp>,
         out: &mut Saving<'_, '_>,
@@ -91,6 +92,7 @@ impl<Hardware: SoilProbe + Valve + Send + Sync> Recorded for Garden<Hardware> {
 
     fn load(
         &mut self,
+        _cycle: u64,
         _slots: Loaded<'_, ()>,
         outside: &mut Outside,
         from: &mut Loading<'_>,

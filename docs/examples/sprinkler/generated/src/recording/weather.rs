@@ -57,6 +57,7 @@ impl<Hardware: RainGauge + Send + Sync> Recorded for Weather<Hardware> {
 
     fn save(
         &self,
+        _cycle: u64,
         _slots: Slots<'_, SharedOutputs>,
         _since: Option<Timestamp>,
         out: &mut Saving<'_, '_>,
@@ -78,6 +79,7 @@ impl<Hardware: RainGauge + Send + Sync> Recorded for Weather<Hardware> {
 
     fn load(
         &mut self,
+        _cycle: u64,
         _slots: Loaded<'_, SharedOutputs>,
         outside: &mut Outside,
         from: &mut Loading<'_>,

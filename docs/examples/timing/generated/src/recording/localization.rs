@@ -71,6 +71,7 @@ impl<Hardware: Console + Pace + Send + Sync> Recorded for Localization<Hardware>
 
     fn save(
         &self,
+        _cycle: u64,
         _slots: Slots<'_, ()>,
         _since: Option<Timestamp>,
         out: &mut Saving<'_, '_>,
@@ -98,6 +99,7 @@ impl<Hardware: Console + Pace + Send + Sync> Recorded for Localization<Hardware>
 
     fn load(
         &mut self,
+        _cycle: u64,
         _slots: Loaded<'_, ()>,
         outside: &mut Outside,
         from: &mut Loading<'_>,

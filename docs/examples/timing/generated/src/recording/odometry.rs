@@ -50,6 +50,7 @@ impl<Hardware: Odometer + Send + Sync> Recorded for Odometry<Hardware> {
 
     fn save(
         &self,
+        _cycle: u64,
         slots: Slots<'_, SharedOutputs>,
         _since: Option<Timestamp>,
         out: &mut Saving<'_, '_>,
@@ -67,6 +68,7 @@ impl<Hardware: Odometer + Send + Sync> Recorded for Odometry<Hardware> {
 
     fn load(
         &mut self,
+        _cycle: u64,
         slots: Loaded<'_, SharedOutputs>,
         outside: &mut Outside,
         from: &mut Loading<'_>,

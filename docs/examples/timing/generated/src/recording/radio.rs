@@ -50,6 +50,7 @@ for Radio<Hardware> {
 
     fn save(
         &self,
+        _cycle: u64,
         slots: Slots<'_, SharedOutputs>,
         _since: Option<Timestamp>,
         out: &mut Saving<'_, '_>,
@@ -68,6 +69,7 @@ for Radio<Hardware> {
 
     fn load(
         &mut self,
+        _cycle: u64,
         slots: Loaded<'_, SharedOutputs>,
         outside: &mut Outside,
         from: &mut Loading<'_>,

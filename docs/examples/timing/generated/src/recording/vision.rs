@@ -58,6 +58,7 @@ impl<Hardware: Camera + Effort + Send + Sync> Recorded for Vision<Hardware> {
 
     fn save(
         &self,
+        _cycle: u64,
         _slots: Slots<'_, SharedOutputs>,
         _since: Option<Timestamp>,
         out: &mut Saving<'_, '_>,
@@ -83,6 +84,7 @@ impl<Hardware: Camera + Effort + Send + Sync> Recorded for Vision<Hardware> {
 
     fn load(
         &mut self,
+        _cycle: u64,
         _slots: Loaded<'_, SharedOutputs>,
         outside: &mut Outside,
         from: &mut Loading<'_>,

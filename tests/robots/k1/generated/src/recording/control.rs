@@ -61,6 +61,7 @@ for Control<Hardware> {
 
     fn save(
         &self,
+        _cycle: u64,
         _slots: Slots<'_, ()>,
         _since: Option<Timestamp>,
         out: &mut Saving<'_, '_>,
@@ -88,6 +89,7 @@ for Control<Hardware> {
 
     fn load(
         &mut self,
+        _cycle: u64,
         _slots: Loaded<'_, ()>,
         outside: &mut Outside,
         from: &mut Loading<'_>,

@@ -71,6 +71,7 @@ impl<Hardware: ClockInterface + Send + Sync> Recorded for Keeper<Hardware> {
 
     fn save(
         &self,
+        _cycle: u64,
         _slots: Slots<'_, ()>,
         _since: Option<Timestamp>,
         out: &mut Saving<'_, '_>,
@@ -96,6 +97,7 @@ impl<Hardware: ClockInterface + Send + Sync> Recorded for Keeper<Hardware> {
 
     fn load(
         &mut self,
+        _cycle: u64,
         _slots: Loaded<'_, ()>,
         outside: &mut Outside,
         from: &mut Loading<'_>,

@@ -87,6 +87,7 @@ for Control<Hardware> {
 
     fn save(
         &self,
+        _cycle: u64,
         _slots: Slots<'_, ()>,
         since: Option<Timestamp>,
         out: &mut Saving<'_, '_>,
@@ -142,6 +143,7 @@ for Control<Hardware> {
 
     fn load(
         &mut self,
+        _cycle: u64,
         _slots: Loaded<'_, ()>,
         outside: &mut Outside,
         from: &mut Loading<'_>,

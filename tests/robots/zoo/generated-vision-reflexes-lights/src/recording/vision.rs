@@ -73,6 +73,7 @@ impl<Hardware: EyeInterface + Send + Sync> Recorded for Vision<Hardware> {
 
     fn save(
         &self,
+        cycle: u64,
         slots: Slots<'_, SharedOutputs>,
         _since: Option<Timestamp>,
         out: &mut Saving<'_, '_>,
@@ -85,6 +86,7 @@ impl<Hardware: EyeInterface + Send + Sync> Recorded for Vision<Hardware> {
         self.nodes.other_eye.record(out);
         self.nodes.counter.record(out);
         out.put(&self.cycler_state);
+        self.additional_outputs.cycler_instance.width.save(cycle, out);
         self.injections.save_injected(out);
         Foreign::save(&self.vision_top, out);
         Foreign::save(&self.vision_bottom, out);
@@ -109,6 +111,11 @@ impl<Hardware: EyeInterface + Send + Sync> Recorded for Vision<Hardware> {
         types.node("zoo_nodes::vision::other_eye", |body| &body.nodes.other_eye);
         types.node("zoo_nodes::shared::counter", |body| &body.nodes.counter);
         types.state(|body| &body.cycler_state);
+        types
+            .additional_output(
+                "cycler_instance.width",
+                |body| &body.additional_outputs.cycler_instance.width,
+            );
         types.injections(|body| &body.injections);
         types.foreign("VisionTop", |body| &body.vision_top);
         types.foreign("VisionBottom", |body| &body.vision_bottom);
@@ -122,6 +129,7 @@ impl<Hardware: EyeInterface + Send + Sync> Recorded for Vision<Hardware> {
 
     fn load(
         &mut self,
+        cycle: u64,
         slots: Loaded<'_, SharedOutputs>,
         outside: &mut Outside,
         from: &mut Loading<'_>,
@@ -130,6 +138,7 @@ impl<Hardware: EyeInterface + Send + Sync> Recorded for Vision<Hardware> {
         self.parameters.load_version(from, &mut outside.parameters, stored)?;
         self.nodes = load_nodes(from)?;
         self.cycler_state = from.take()?;
+        self.additional_outputs.cycler_instance.width.load(cycle, from)?;
         self.injections.load_injected(from, &mut outside.injections)?;
         Foreign::load(
             &mut self.vision_top,

@@ -88,6 +88,7 @@ for Control<Hardware> {
 
     fn save(
         &self,
+        _cycle: u64,
         slots: Slots<'_, SharedOutputs>,
         since: Option<Timestamp>,
         out: &mut Saving<'_, '_>,
@@ -143,6 +144,7 @@ for Control<Hardware> {
 
     fn load(
         &mut self,
+        _cycle: u64,
         slots: Loaded<'_, SharedOutputs>,
         outside: &mut Outside,
         from: &mut Loading<'_>,

@@ -52,6 +52,7 @@ impl<Hardware: EarInterface + Send + Sync> Recorded for Hearing<Hardware> {
 
     fn save(
         &self,
+        _cycle: u64,
         slots: Slots<'_, SharedOutputs>,
         _since: Option<Timestamp>,
         out: &mut Saving<'_, '_>,
@@ -75,6 +76,7 @@ impl<Hardware: EarInterface + Send + Sync> Recorded for Hearing<Hardware> {
 
     fn load(
         &mut self,
+        _cycle: u64,
         slots: Loaded<'_, SharedOutputs>,
         outside: &mut Outside,
         from: &mut Loading<'_>,

@@ -54,6 +54,7 @@ for Lights<Hardware> {
 
     fn save(
         &self,
+        _cycle: u64,
         _slots: Slots<'_, ()>,
         _since: Option<Timestamp>,
         out: &mut Saving<'_, '_>,
@@ -75,6 +76,7 @@ for Lights<Hardware> {
 
     fn load(
         &mut self,
+        _cycle: u64,
         _slots: Loaded<'_, ()>,
         outside: &mut Outside,
         from: &mut Loading<'_>,

@@ -212,6 +212,54 @@ fn whoever_listens_to_additional_outputs_changes_nothing_else() {
 }
 
 #[test]
+fn what_a_setup_node_filled_is_there_again_in_the_cycles_in_which_it_did() {
+    let tape = Tape::new();
+    record_in_lockstep(&tape.path, Settings::default(), on, &as_it_is);
+    let file = tape.read();
+    let values = value_channels(&file).expect("it is of this version");
+    let mut players = Players::new(&file, &values, recording::INSTANCES).expect("it fits");
+    let mut filled = Vec::new();
+    for (player, chunks) in players.each() {
+        let name = match player.instance {
+            "VisionTop" => "vision_top.width",
+            "VisionBottom" => "vision_bottom.width",
+            _ => continue,
+        };
+        let count = player.frames.len();
+        let mut seen = vec![Vec::new(); count];
+        // To the end and back again: whoever asks now changes nothing.
+        for position in (0..count).chain((0..count).rev()) {
+            player.play(position, chunks).expect("the frame is whole");
+            let replay = player.replay().expect("it was loaded");
+            replay.subscriptions().subscribe(name);
+            let instance = replay.instance();
+            let json = |value: &dyn Reflect| {
+                serde_json::to_value(value.as_serialize()).expect("it is written as JSON")
+            };
+            let width = instance.additional_output(name).map(json);
+            if let Some(width) = &width {
+                let image = instance
+                    .main_output("image")
+                    .map(json)
+                    .expect("it is there");
+                assert_eq!(*width, image["width"], "{position}");
+            }
+            seen[position].push(width.is_some());
+        }
+        assert!(seen.iter().all(|twice| twice[0] == twice[1]), "{seen:?}");
+        let first = seen.iter().position(|twice| twice[0]).unwrap_or(count);
+        assert!(seen[first..].iter().all(|twice| twice[0]), "{seen:?}");
+        filled.push((name, first, count - first));
+    }
+    // A client listens to one of both eyes from 0.2 s of 2 s on.
+    let [(_, before, since), (_, never, none)] = filled[..] else {
+        panic!("{filled:?}");
+    };
+    assert!(before > 0 && since > before, "{filled:?}");
+    assert!(never == before + since && none == 0, "{filled:?}");
+}
+
+#[test]
 fn cycles_that_were_not_recorded_are_told_with_their_place() {
     let tape = Tape::new();
     let record = |instance: &InstanceDescription| match instance.name {
