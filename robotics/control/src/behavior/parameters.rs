@@ -289,13 +289,13 @@ pub struct RecoveryParameters {
     /// So long a robot may walk or kick and get nowhere before it backs off.
     #[reflect(unit = "s", range = 0.0..)]
     pub after: f32,
-    /// So long it then walks away.
+    /// So long it then walks away at most. Who lay beside somebody and knows its place no sooner than that after it is up does not.
     #[reflect(unit = "s", range = 0.0..)]
     pub duration: f32,
     /// Who has got farther has got somewhere.
     #[reflect(unit = "m", range = 0.0..)]
     pub distance: f32,
-    /// Likewise, who has turned further.
+    /// Likewise, who has turned further, unless it walks away: whoever holds it turns it.
     #[reflect(unit = "rad", range = 0.0..)]
     pub turned: f32,
     /// What is nearer it walks away from; where nothing is, it walks back.

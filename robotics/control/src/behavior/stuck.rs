@@ -90,8 +90,13 @@ impl Progress {
                 longest: recovery.after,
             });
         }
+        // Who is turned by whoever holds it has not got away.
+        let is_free_to_turn = self.retreat.is_none();
+        let has_left = |free: Free| {
+            free.is_far(&pose, recovery) || (is_free_to_turn && free.is_turned(&pose, recovery))
+        };
         match self.free {
-            Some(free) if !free.has_been_left(&pose, recovery) => {
+            Some(free) if !has_left(free) => {
                 if self.retreat.is_none() && is_long_ago(free.since, recovery.after, now) {
                     self.retreat = Some(Retreat {
                         since: now,
@@ -113,10 +118,14 @@ impl Progress {
 }
 
 impl Free {
-    fn has_been_left(&self, pose: &Isometry2<f32>, recovery: &RecoveryParameters) -> bool {
+    fn is_far(&self, pose: &Isometry2<f32>, recovery: &RecoveryParameters) -> bool {
         let way = pose.translation.vector - self.pose.translation.vector;
+        way.norm() > recovery.distance
+    }
+
+    fn is_turned(&self, pose: &Isometry2<f32>, recovery: &RecoveryParameters) -> bool {
         let turned = wrapped(pose.rotation.angle() - self.pose.rotation.angle());
-        way.norm() > recovery.distance || turned.abs() > recovery.turned
+        turned.abs() > recovery.turned
     }
 }
 
@@ -177,12 +186,12 @@ mod tests {
     use super::*;
     use crate::behavior::tests::parameters;
 
-    /// For how many of 20 s it backs off, at that speed (m/s), turning (rad/s), with legs that move so often.
+    /// For how many seconds of two rounds it backs off, at that speed (m/s), turning (rad/s), with legs that move so often.
     fn backs_off(speed: f32, turn: f32, moves: impl Fn(u64) -> bool, knows: bool) -> f32 {
         let recovery = parameters().recovery;
         let mut progress = Progress::default();
         let mut cycles = 0.0;
-        for cycle in 0..2000 {
+        for cycle in 0..(200.0 * (recovery.after + recovery.duration)) as u64 {
             let seconds = 0.01 * cycle as f32;
             let pose = Isometry2::new(Vector2::new(speed * seconds, 0.0), turn * seconds);
             let now = at_millis(10_000 + 10 * cycle);
@@ -197,14 +206,27 @@ mod tests {
     fn who_walks_and_gets_nowhere_backs_off_for_a_while() {
         let recovery = parameters().recovery;
         let stuck = backs_off(0.0, 0.0, |_| true, true);
-        let rounds = 20.0 / (recovery.after + recovery.duration);
-        assert!(
-            stuck > 0.9 * recovery.duration * rounds.floor(),
-            "{stuck} s"
-        );
-        assert!(stuck < 1.1 * recovery.duration * rounds.ceil(), "{stuck} s");
+        assert!((stuck - 2.0 * recovery.duration).abs() < 0.1, "{stuck} s");
         // Who dithers between two decisions is no better off.
         assert_eq!(backs_off(0.0, 0.0, |cycle| cycle % 50 < 5, true), stuck);
+    }
+
+    #[test]
+    fn who_is_turned_while_it_backs_off_goes_on_to() {
+        let recovery = parameters().recovery;
+        let mut progress = Progress::default();
+        let (mut turned, mut cycles) = (0.0, 0.0);
+        for cycle in 0..(100.0 * (2.0 * recovery.after + recovery.duration)) as u64 {
+            if progress.backs_off() {
+                turned += 0.005;
+                cycles += 1.0;
+            }
+            let pose = Isometry2::rotation(turned);
+            let now = at_millis(10_000 + 10 * cycle);
+            progress.notice(Legs::Move, Some(&pose), &[], &recovery, now);
+        }
+        let backs_off = 0.01 * cycles;
+        assert!((backs_off - recovery.duration).abs() < 0.1, "{backs_off} s");
     }
 
     #[test]
@@ -220,9 +242,9 @@ mod tests {
         }
     }
 
-    /// For how many of 15 s it backs off after 5 s on the ground, at that speed (m/s); somebody is so far ahead while it lies, m,
-    /// and it knows its place from so many ms on after it is up.
-    fn backs_off_risen(speed: f32, ahead: f32, knows_after: u64) -> f32 {
+    /// For how many of 15 s it backs off after 5 s on the ground, at that speed (m/s), turned at that (rad/s); somebody is so far
+    /// ahead while it lies, m, and it knows its place from so many ms on after it is up.
+    fn backs_off_risen(speed: f32, turn: f32, ahead: f32, knows_after: u64) -> f32 {
         let recovery = parameters().recovery;
         let mut progress = Progress::default();
         let somebody = [Obstacle {
@@ -236,7 +258,8 @@ mod tests {
         }
         let mut cycles = 0.0;
         for cycle in 0..1500 {
-            let pose = Isometry2::translation(-0.01 * cycle as f32 * speed, 0.0);
+            let seconds = 0.01 * cycle as f32;
+            let pose = Isometry2::new(Vector2::new(-seconds * speed, 0.0), seconds * turn);
             let now = at_millis(10_000 + 10 * cycle);
             let pose = Some(&pose).filter(|_| 10 * cycle >= knows_after);
             progress.notice(Legs::Move, pose, &[], &recovery, now);
@@ -249,20 +272,23 @@ mod tests {
     fn who_was_pushed_over_gets_away_before_it_plays_on() {
         let RecoveryParameters {
             after,
+            duration,
             distance,
             near,
             ..
         } = parameters().recovery;
-        for knows_after in [0, 1_000] {
-            let away = backs_off_risen(0.1, 0.9 * near, knows_after);
+        let (in_time, late) = (duration - 0.5, duration + 0.5);
+        let [in_time, late] = [in_time, late].map(|seconds| (1000.0 * seconds) as u64);
+        for (knows_after, turn) in [(0, 0.0), (in_time, 0.0), (0, 0.3)] {
+            let away = backs_off_risen(0.1, turn, 0.9 * near, knows_after);
             assert!((away - distance / 0.1).abs() < 0.1, "{away} s");
         }
         // Held, it gives up in the end.
-        let held = backs_off_risen(0.0, 0.9 * near, 0);
+        let held = backs_off_risen(0.0, 0.0, 0.9 * near, 0);
         assert!((held - after).abs() < 0.1, "{held} s");
-        assert_eq!(backs_off_risen(0.1, 1.1 * near, 0), 0.0);
+        assert_eq!(backs_off_risen(0.1, 0.0, 1.1 * near, 0), 0.0);
         // Whoever was there has gone by then.
-        assert_eq!(backs_off_risen(0.1, 0.9 * near, 5_000), 0.0);
+        assert_eq!(backs_off_risen(0.1, 0.0, 0.9 * near, late), 0.0);
     }
 
     #[test]
