@@ -317,8 +317,9 @@ fn a_robot_that_gets_nowhere_backs_off_and_begins_anew() {
     };
     let mut node = Behavior::new(CreationContext {}).unwrap();
     let parameters = parameters();
+    let round = parameters.recovery.after + parameters.recovery.duration;
     let mut activities = Vec::new();
-    for cycle in 0..2000 {
+    for cycle in 0..(2.2 * round / 0.012) as u64 {
         let millis = 1000 + 12 * cycle;
         let (command, activity) = cycle_of(&mut node, &world_state, None, millis, &parameters);
         assert_eq!(activity == Activity::BackOff, command.step.forward < 0.0);
