@@ -2,9 +2,11 @@
 
 use std::time::Duration;
 
-use framework::recorded::{SaveError, Saving};
+use framework::recorded::{Loading, SaveError, Saving};
 use framework::testing::at_millis;
-use framework::{Clear, CountingAllocator, History, Leased, Pool, buffer};
+use framework::{
+    AdditionalOutput, AdditionalSlot, Clear, CountingAllocator, History, Leased, Pool, buffer,
+};
 use hulkgen_recording::{
     Channel, ChannelId, Description, Recorded, Recorder, Recording, Settings, Track,
 };
@@ -157,11 +159,19 @@ fn start(path: &std::path::Path) -> (Recorder, Track) {
 }
 
 fn record<T: framework::Data>(track: &mut Track, cycle: u32, output: &T) -> Recorded<SaveError> {
+    record_as(track, cycle, |saving| saving.output(output))
+}
+
+fn record_as(
+    track: &mut Track,
+    cycle: u32,
+    save: impl Fn(&mut Saving<'_, '_>),
+) -> Recorded<SaveError> {
     let time = u64::from(cycle);
     track.frame(time, 0, |frame| {
         frame.message(ChannelId(0), cycle, time, |writing| {
             let mut saving = Saving::new(writing);
-            saving.output(output);
+            save(&mut saving);
             saving.put(&cycle);
             saving.end()
         })
@@ -223,6 +233,35 @@ fn a_recording_takes_no_value_from_a_pool() {
     drop(held);
     let all: Vec<_> = std::iter::from_fn(|| Some(pool.free().ok()?.lease())).collect();
     assert_eq!(all.len(), 5, "none is held any more");
+}
+
+#[test]
+fn a_handle_in_an_additional_output_is_left_to_the_recording() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("run.mcap");
+    let (recorder, mut track) = start(&path);
+    let mut pool = Pool::new(1, || vec![7_u8; 3]);
+    let mut slot = AdditionalSlot::<Image>::default();
+    let mut output = AdditionalOutput::new(true, 1, &mut slot);
+    let image = pool.free().expect("nobody has one yet").lease();
+    output.fill_if_subscribed(|| Some(image));
+    // In the second cycle nobody fills it.
+    for cycle in 1..=2_u32 {
+        let recorded = record_as(&mut track, cycle, |saving| slot.save(cycle.into(), saving));
+        assert_eq!(recorded, Recorded::Whole);
+    }
+    drop(slot);
+    pool.free().expect("the recording has the first");
+    assert_eq!(pool.made(), 2);
+    drop(track);
+    assert!(recorder.end().is_complete);
+    let frames = recorded(&path);
+    assert_eq!(frames, [vec![1, 1, 3, 7, 7, 7, 1], vec![0, 2]]);
+    let mut again = AdditionalSlot::<Image>::default();
+    let mut from = Loading::new(&frames[0]);
+    again.load(5, &mut from).expect("it was saved");
+    assert_eq!(again.get(5), Some(&Some(Leased::of(vec![7; 3]))));
+    assert_eq!(again.get(6), None);
 }
 
 /// Has no form, and says so in one of two ways.
