@@ -7,7 +7,7 @@ use std::sync::{Mutex, PoisonError};
 use std::time::SystemTime;
 
 use serde_json::Value;
-use support::target_folder;
+use support::{compile_unoptimised, target_folder};
 
 /// A blank robot, and the built hulkgen in it.
 struct Robot {
@@ -21,6 +21,7 @@ impl Robot {
         let mut new = Command::new(target_folder().join("hulkgen"));
         new.args(["new", "robot"]).current_dir(robot.folder.path());
         assert!(new.output().expect("hulkgen was built").status.success());
+        compile_unoptimised(&robot.folder.path().join("robot"));
         robot
     }
 

@@ -8,7 +8,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use serde_json::Value;
-use support::target_folder;
+use support::{compile_unoptimised, target_folder};
 
 /// A busy machine may take so long for anything.
 const PATIENCE: Duration = Duration::from_secs(60);
@@ -97,6 +97,7 @@ impl Recorded {
         };
         let made = hulkgen_in(robot.folder.path(), &["new", "robot"]);
         assert!(made.status.success(), "{}", text(&made));
+        compile_unoptimised(&robot.path());
         for words in [
             "init --quiet",
             "add --all",
