@@ -119,6 +119,7 @@ fn workspace_manifest() -> String {
     profile.extend(unoptimised.clone());
     let packages = profile["package"].as_table_mut().expect("a table");
     packages.insert("hulkgen-framework".to_owned(), unoptimised.into());
+    packages.remove("hulkgen");
     manifest.to_string()
 }
 

@@ -213,6 +213,16 @@ fn the_nao_of_a_team_is_that_of_the_repository() {
     }
 }
 
+/// cargo warns of profiles of packages that are not there.
+#[test]
+fn the_profiles_of_a_team_are_about_none_of_the_repositorys_packages() {
+    let robot = Scaffolded::new(&["--template", "nao"]);
+    let manifest: toml::Table = robot.read("Cargo.toml").parse().expect("it is TOML");
+    let packages = &manifest["profile"]["dev"]["package"];
+    let packages = packages.as_table().expect("a table");
+    assert_eq!(packages.keys().collect::<Vec<_>>(), ["*"]);
+}
+
 #[test]
 fn a_blank_robot_builds_tests_and_runs() {
     let robot = Scaffolded::new(&[]);

@@ -2,7 +2,7 @@
 
 use camino::{Utf8Path, Utf8PathBuf};
 use serde::Serialize;
-use toml_edit::{DocumentMut, Item, TableLike};
+use toml_edit::{DocumentMut, Item, Table, TableLike};
 
 use super::{Changes, Framework, document, read};
 use crate::outcome::Refusal;
@@ -144,7 +144,18 @@ fn reduce(
         dependency.decor_mut().set_prefix(" ");
         dependencies.insert(key, Item::Value(dependency));
     }
+    forget_packages(root);
     Ok(())
+}
+
+/// Of the profiles what is about single packages, which are the checkout's.
+fn forget_packages(root: &mut DocumentMut) {
+    let profiles = root.get_mut("profile").and_then(Item::as_table_mut);
+    for (_, profile) in profiles.into_iter().flat_map(Table::iter_mut) {
+        if let Some(packages) = profile.get_mut("package").and_then(Item::as_table_mut) {
+            packages.retain(|package, _| package == "*");
+        }
+    }
 }
 
 fn lines(framework: &Framework) -> String {
