@@ -32,6 +32,7 @@
 //! value = "truth.tilt"                       # `truth.…` of the hardware, or an output: `Control.main_outputs.…`
 //! below = 0.5                                # or `above`, `equals`, `is_not`, `is_there`
 //! from = 1.0                                 # s; always from there on, unless `before = 9.0` or `at_end = true`
+//! while = "truth.plays"                      # only where this truth is `true`; left out: at every moment
 //! ```
 //! What the robot's world is, what can happen to it and what is true in it is the hardware's:
 //! [`Hardware::disturb`](crate::Hardware::disturb) and [`Hardware::truth`](crate::Hardware::truth).

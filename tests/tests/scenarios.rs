@@ -82,6 +82,12 @@ fn every_scenario_asserts_what_there_is() {
         let scenario = Scenario::load(&file).expect("it can be read");
         assert!(!scenario.about.is_empty(), "{}", file.display());
         for assertion in &scenario.assertions {
+            let compared = assertion.apart_from.iter().chain(&assertion.only_while);
+            for truth_of in compared {
+                let path = truth_of.trim_start_matches("truth.").replace('.', "/");
+                let found = truth.pointer(&format!("/{path}"));
+                assert!(found.is_some(), "{}: no `{truth_of}`", file.display());
+            }
             let value = &assertion.value;
             // Only where a game is played, as `simulated_nao`'s own scenarios show.
             let of_games = ["truth.game.", "Control.main_outputs.game_controller_state."];

@@ -23,6 +23,9 @@ pub struct Assertion {
     pub robot: usize,
     /// A truth; what counts is how far apart the value and it are.
     pub apart_from: Option<String>,
+    /// A truth; only looks at moments at which it is `true` count.
+    #[serde(rename = "while")]
+    pub only_while: Option<String>,
     equals: Option<Value>,
     is_not: Option<Value>,
     is_there: Option<bool>,
@@ -156,10 +159,17 @@ impl Assertion {
             }
         }
         if let Some(path) = &self.apart_from
-            && (!ranges || !path.starts_with("truth.") || path.parse::<Path>().is_err())
+            && (!ranges || !is_truth(path))
         {
             return wrong(format!(
                 "`apart_from = \"{path}\"`: expected a truth (`truth.NAME`), with `below` or `above`"
+            ));
+        }
+        if let Some(path) = &self.only_while
+            && !is_truth(path)
+        {
+            return wrong(format!(
+                "`while = \"{path}\"`: expected a truth (`truth.NAME`) that is `true` or `false`"
             ));
         }
         for (key, number) in [
@@ -184,6 +194,10 @@ impl Assertion {
 
 /// What paths of the hardware's truths begin with.
 pub(super) const TRUTH: &str = "truth";
+
+fn is_truth(path: &str) -> bool {
+    path.starts_with("truth.") && path.parse::<Path>().is_ok()
+}
 
 impl Condition<'_> {
     /// Whether a value is so.

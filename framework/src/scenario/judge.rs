@@ -85,6 +85,10 @@ impl<'a> Judge<'a> {
                 }
                 Some(_) => continue,
             };
+            let only_while = one.assertion.only_while.as_ref();
+            if only_while.is_some_and(|path| below(&truth, path) != Some(&Value::Bool(true))) {
+                continue;
+            }
             let value = value.map(|value| match &one.assertion.apart_from {
                 Some(path) => {
                     let apart = below(&truth, path).zip(value.as_ref());
@@ -159,7 +163,9 @@ impl Looked<'_> {
             (Some(_), Window::Always { .. }) => true,
             (Some(_), Window::AtEnd) => self.held,
         };
-        let never = || Value::from("nothing: no cycle ended in that time");
+        let only_while = self.assertion.only_while.as_ref();
+        let only_while = only_while.map_or_else(String::new, |path| format!(" while `{path}`"));
+        let never = || format!("nothing: no cycle ended in that time{only_while}").into();
         Verdict {
             what: self.assertion.what.clone(),
             passed: self.decided.unwrap_or(holds_at_last),

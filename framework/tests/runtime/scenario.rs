@@ -150,6 +150,25 @@ fn assertions_are_judged_over_outputs_and_truth() {
             "\"there is no `truth.events`",
         ),
         (
+            "value = 'truth.events'\nabove = 50\nwhile = 'truth.is_late'",
+            true,
+            Some(0.51),
+            "51",
+        ),
+        (
+            "value = 'truth.events'\nabove = 60\nshare = 0.8\nwhile = 'truth.is_late'",
+            true,
+            Some(1.0),
+            r#"{"share":0.8,"median":76.0}"#,
+        ),
+        // Neither what is not there nor what is no yes or no is a moment that counts.
+        (
+            "value = 'truth.events'\nabove = 0\nwhile = 'truth.late'",
+            false,
+            None,
+            "\"nothing: no cycle ended in that time while `truth.late`\"",
+        ),
+        (
             "value = 'truth.nothing'\nis_not = 0\nat_end = true",
             true,
             Some(1.0),

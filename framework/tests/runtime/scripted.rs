@@ -242,7 +242,7 @@ impl Hardware for ScriptedHardware {
         let jumped = self.happened.load(Ordering::Relaxed) / 1000 * 1000;
         let late = (until > 50).then_some(until);
         serde_json::json!({
-            "events": jumped + until, "late": late, "step": self.step, "entry": self.entry,
+            "events": jumped + until, "late": late, "is_late": late.is_some(), "step": self.step, "entry": self.entry,
         })
     }
 

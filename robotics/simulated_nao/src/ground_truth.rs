@@ -65,6 +65,8 @@ pub struct GameTruth {
     pub removed: usize,
     /// How often for where it stood or walked.
     pub misplaced: usize,
+    /// Whether the robot is not taken out now.
+    pub plays: bool,
 }
 
 /// The body when a state was sent.

@@ -149,6 +149,12 @@ impl Referee {
         self.removed.iter().filter_map(of)
     }
 
+    /// Whether a robot is not taken out now, by its place among the players.
+    pub fn plays(&self, player: usize) -> bool {
+        let record = self.records.get(player);
+        record.is_none_or(|record| record.penalty == Penalty::None)
+    }
+
     /// What time alone changes.
     fn go_on(&mut self, now: f64, players: &[Player], rulings: &mut Vec<Ruling>) {
         let since = now - self.since;

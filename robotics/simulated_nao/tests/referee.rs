@@ -208,6 +208,7 @@ fn robots_are_removed_and_come_back() {
     game.players[0].tilt = 1.5;
     game.run_until(24.0);
     assert_eq!(game.said().teams[0].players[0].penalty, Penalty::None);
+    assert!(game.referee.plays(0));
     game.run_until(25.0);
     let state = game.said().teams[0].players[0];
     assert_eq!(state.penalty, Penalty::InactivePlayer);
@@ -227,8 +228,10 @@ fn robots_are_removed_and_come_back() {
     game.move_player(1, [2.0, 3.2, 0.0]);
     game.run_until(63.0);
     assert_ne!(game.said().teams[0].players[0].penalty, Penalty::None);
+    assert!(!game.referee.plays(0));
     game.run_until(72.0);
     assert_eq!(game.said().teams[0].players[0].penalty, Penalty::None);
+    assert!(game.referee.plays(0));
 }
 
 #[test]

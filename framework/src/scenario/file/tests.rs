@@ -101,6 +101,10 @@ fn mistakes_are_told_with_their_place() {
         ),
         ("ends = 1".to_owned(), "there is no `[[assertion]]`"),
         (
+            format!("ends = 1\n{ASSERTION}while = 'plays'\n"),
+            "`while = \"plays\"`: expected a truth",
+        ),
+        (
             format!("ends = -1\n{ASSERTION}"),
             "`ends = -1` is no number of seconds",
         ),

@@ -147,7 +147,8 @@ impl Deed {
 /// beyond its limits; `ball.x`, `ball.y`, from the robot `ball.ahead`, `ball.aside`, `ball.seen` (both), `ball.distance`, and
 /// `ball_contacts` of all robots;
 /// `robots` are the others: `x`, `y`, `heading`, `team` (`own` or `opponent`), `number`;
-/// `removed`, how often the referee has taken the robot out, and `misplaced`, how often for where it stood or walked;
+/// `removed`, how often the referee has taken the robot out, and `misplaced`, how often for where it stood or walked; `plays`,
+/// whether it is not taken out now;
 /// `score.blue`, `score.red`, and where a game is played `game.state`, `game.set_play`, `game.kicking` (`blue` or `red`).
 pub(super) fn truth(truth: &GroundTruth) -> Value {
     let ground: Isometry3<f64> = truth.ground_to_field.cast();
@@ -206,6 +207,7 @@ pub(super) fn truth(truth: &GroundTruth) -> Value {
         "robots": robots,
         "removed": truth.game.map_or(0, |game| game.removed),
         "misplaced": truth.game.map_or(0, |game| game.misplaced),
+        "plays": truth.game.is_none_or(|game| game.plays),
         "score": { "blue": score[0], "red": score[1] },
         "game": game,
     })

@@ -79,11 +79,7 @@ impl Referee {
 
     /// Whom a robot pushes now.
     fn pushed_by(&self, pusher: usize, players: &[Player]) -> Option<usize> {
-        let plays = |place: usize, player: &Player| {
-            let record = self.records.get(place);
-            let is_free = record.is_none_or(|record| record.penalty == Penalty::None);
-            is_free && player.tilt < FALLING
-        };
+        let plays = |place: usize, player: &Player| self.plays(place) && player.tilt < FALLING;
         let own = players.get(pusher).filter(|own| plays(pusher, own))?;
         let mut others = players.iter().enumerate();
         others

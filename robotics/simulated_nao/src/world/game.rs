@@ -144,6 +144,7 @@ impl World {
             score: referee.score,
             removed: referee.removals(robot).count(),
             misplaced: referee.removals(robot).filter(is_of_place).count(),
+            plays: referee.plays(robot),
         })
     }
 
