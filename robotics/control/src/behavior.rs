@@ -115,7 +115,7 @@ fn decide(view: &View<'_>) -> Decision {
         }
         PrimaryState::Ready => make_room(view, get_ready(view)),
         PrimaryState::Set => still(Activity::WaitForWhistle, BodyMotion::Stand, view.head()),
-        PrimaryState::Playing => make_room(view, play(view)),
+        PrimaryState::Playing => make_room(view, give_way(view, play(view))),
         PrimaryState::Finished => still(Activity::AfterGame, BodyMotion::Stand, HeadMotion::Ahead),
     }
 }
@@ -139,6 +139,24 @@ fn make_room(view: &View<'_>, decision: Decision) -> Decision {
             Decision::of_body(Activity::BackOff, BodyMotion::Stand, view.head())
         }
         _ => decision,
+    }
+}
+
+/// Two that held each other at the ball, or fell over each other, would meet there again: the defender plays it first, and who has
+/// got away from somebody stands for a while where he would play it in the others' half.
+fn give_way(view: &View<'_>, decision: Decision) -> Decision {
+    let recovery = &view.parameters.recovery;
+    let would_play = decision.activity.plays_ball()
+        || matches!(
+            decision.activity,
+            Activity::WalkToBall | Activity::LookWhereTeamSees
+        );
+    let is_theirs = would_play
+        && view.memory.progress.has_just_got_away(recovery, view.now)
+        && view.ball_on_field().is_some_and(|ball| ball.x > 0.0);
+    match is_theirs {
+        true => Decision::of_body(Activity::BackOff, BodyMotion::Stand, view.head()),
+        false => decision,
     }
 }
 

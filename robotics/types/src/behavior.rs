@@ -76,7 +76,7 @@ pub enum Activity {
     Block,
     /// Squats with its feet apart before a ball that comes to them.
     Catch,
-    /// Walks away from where it got nowhere.
+    /// Walks away from where it got nowhere; in the others' half it stands then, and leaves the ball to them for a while.
     BackOff,
     /// Stands after its shot in a penalty shoot-out: it may not play the ball again.
     WatchShot,

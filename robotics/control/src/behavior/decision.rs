@@ -5,7 +5,7 @@ use nalgebra::{Isometry2, Point2};
 use serde::{Deserialize, Serialize};
 use types::behavior::{Activity, Plan, Role};
 use types::fall_state::FallState;
-use types::game::PrimaryState;
+use types::game::{PrimaryState, SetPlay};
 use types::motion::{BodyMotion, HeadMotion, MotionCommand, Step};
 use types::obstacles::ObstacleKind;
 use types::world_state::WorldState;
@@ -101,6 +101,9 @@ impl Memory {
             &parameters.recovery,
             now,
         );
+        if !is_playing || world.set_play != SetPlay::None {
+            self.progress.forget_others();
+        }
     }
 
     /// What they did by the robot's own decision: they move, too, where it waits until a place becomes free.

@@ -292,6 +292,9 @@ pub struct RecoveryParameters {
     /// So long it then walks away at most. Who lay beside somebody and knows its place no sooner than that after it is up does not.
     #[reflect(unit = "s", range = 0.0..)]
     pub duration: f32,
+    /// So long whoever has got away from somebody leaves a ball in the others' half to them.
+    #[reflect(unit = "s", range = 0.0..)]
+    pub gives_way: f32,
     /// Who has got farther has got somewhere.
     #[reflect(unit = "m", range = 0.0..)]
     pub distance: f32,

@@ -22,6 +22,10 @@ pub(super) struct Progress {
     /// When it lay where somebody had come near.
     lay_beside_somebody_at: Option<Timestamp>,
     retreat: Option<Retreat>,
+    /// When somebody was near last.
+    beside_somebody_at: Option<Timestamp>,
+    /// When it had got away from somebody, or had given up to.
+    got_away_at: Option<Timestamp>,
 }
 
 /// A pose of the field frame that was not yet left.
@@ -37,6 +41,8 @@ struct Retreat {
     since: Timestamp,
     /// In s.
     longest: f32,
+    /// From somebody, who may want the same ball.
+    is_from_somebody: bool,
 }
 
 /// What the robot does with its legs.
@@ -63,31 +69,38 @@ impl Progress {
         if legs != Legs::Wait {
             self.moved_at = now;
         }
+        let is_beside_somebody = nearest(obstacles, recovery).is_some();
+        if is_beside_somebody {
+            self.beside_somebody_at = Some(now);
+        }
         if legs == Legs::Down {
             self.free = None;
             self.retreat = None;
-            let is_beside_somebody =
-                self.lay_beside_somebody_at.is_some() || nearest(obstacles, recovery).is_some();
-            self.lay_beside_somebody_at = is_beside_somebody.then_some(now);
+            self.got_away_at = None;
+            let lay_beside_somebody = self.lay_beside_somebody_at.is_some() || is_beside_somebody;
+            self.lay_beside_somebody_at = lay_beside_somebody.then_some(now);
             return;
         }
         let waits = (now - self.moved_at).as_secs_f32() > recovery.waits;
         let is_over = self.retreat.is_some_and(|retreat| retreat.is_over(now));
         let Some(&pose) = ground_to_field.filter(|_| !waits && !is_over) else {
             self.free = None;
-            self.retreat = None;
+            self.end_retreat(now);
             if waits {
                 self.lay_beside_somebody_at = None;
             }
             return;
         };
+        let is_recent =
+            |at: Option<Timestamp>, seconds| at.is_some_and(|at| !is_long_ago(at, seconds, now));
         // Who pushed it over pushes on: getting up is no use before it is elsewhere.
         let lay_at = mem::take(&mut self.lay_beside_somebody_at);
-        if lay_at.is_some_and(|lay_at| !is_long_ago(lay_at, recovery.duration, now)) {
+        if is_recent(lay_at, recovery.duration) {
             self.free = Some(Free { pose, since: now });
             self.retreat = Some(Retreat {
                 since: now,
                 longest: recovery.after,
+                is_from_somebody: true,
             });
         }
         // Who is turned by whoever holds it has not got away.
@@ -101,19 +114,38 @@ impl Progress {
                     self.retreat = Some(Retreat {
                         since: now,
                         longest: recovery.duration,
+                        is_from_somebody: is_recent(self.beside_somebody_at, recovery.after),
                     });
                 }
             }
             _ => {
                 self.free = Some(Free { pose, since: now });
-                self.retreat = None;
+                self.end_retreat(now);
             }
         }
+    }
+
+    fn end_retreat(&mut self, now: Timestamp) {
+        let ended = self.retreat.take();
+        if ended.is_some_and(|retreat| retreat.is_from_somebody) {
+            self.got_away_at = Some(now);
+        }
+    }
+
+    /// The game goes on from another place, or the ball is one team's.
+    pub(super) fn forget_others(&mut self) {
+        self.got_away_at = None;
     }
 
     /// Whether it has to go elsewhere before anything else.
     pub(super) fn backs_off(&self) -> bool {
         self.retreat.is_some()
+    }
+
+    /// Whether it was stuck beside somebody, or pushed over, and has got away a short while ago.
+    pub(super) fn has_just_got_away(&self, recovery: &RecoveryParameters, now: Timestamp) -> bool {
+        self.got_away_at
+            .is_some_and(|at| !is_long_ago(at, recovery.gives_way, now))
     }
 }
 
@@ -230,6 +262,57 @@ mod tests {
     }
 
     #[test]
+    fn who_was_stuck_beside_somebody_has_just_got_away_for_a_while() {
+        let recovery = parameters().recovery;
+        let ahead = |distance: f32| Obstacle {
+            position: Point2::new(distance, 0.0),
+            ..Obstacle::default()
+        };
+        // Somebody, as long before it backs off, ms, who is seen in one cycle alone; and whether it falls once it has got away.
+        let in_time = (1000.0 * recovery.after) as u64 - 100;
+        for (obstacle, seen_before, falls, expected) in [
+            (ahead(0.9 * recovery.near), 100, false, recovery.gives_way),
+            (
+                ahead(0.9 * recovery.near),
+                in_time,
+                false,
+                recovery.gives_way,
+            ),
+            (ahead(0.9 * recovery.near), 100, true, 0.0),
+            (ahead(1.1 * recovery.near), 100, false, 0.0),
+        ] {
+            let mut progress = Progress::default();
+            let (mut backed_off, mut cycles) = (0, 0.0);
+            let until = recovery.after + recovery.duration + recovery.gives_way + 5.0;
+            for cycle in 0..(100.0 * until) as u64 {
+                let now = at_millis(10_000 + 10 * cycle);
+                let legs = match (progress.backs_off() || backed_off == 0, falls) {
+                    (true, _) => Legs::Move,
+                    (false, false) => Legs::Wait,
+                    (false, true) => Legs::Down,
+                };
+                let is_seen = 10 * cycle + seen_before == (1000.0 * recovery.after) as u64;
+                let obstacles = if is_seen { vec![obstacle] } else { Vec::new() };
+                progress.notice(
+                    legs,
+                    Some(&Isometry2::identity()),
+                    &obstacles,
+                    &recovery,
+                    now,
+                );
+                backed_off += u64::from(progress.backs_off());
+                cycles += f32::from(u8::from(progress.has_just_got_away(&recovery, now)));
+            }
+            assert!(backed_off > 0);
+            let got_away = 0.01 * cycles;
+            assert!(
+                (got_away - expected).abs() < 0.1,
+                "{seen_before} {falls}: {got_away} s"
+            );
+        }
+    }
+
+    #[test]
     fn who_gets_on_turns_waits_or_is_lost_does_not() {
         for (speed, turn, walks, knows) in [
             (0.1, 0.0, true, true),
@@ -289,6 +372,30 @@ mod tests {
         assert_eq!(backs_off_risen(0.1, 0.0, 1.1 * near, 0), 0.0);
         // Whoever was there has gone by then.
         assert_eq!(backs_off_risen(0.1, 0.0, 0.9 * near, late), 0.0);
+    }
+
+    #[test]
+    fn who_was_pushed_over_has_just_got_away_once_it_has_left() {
+        let recovery = parameters().recovery;
+        let somebody = [Obstacle {
+            position: Point2::new(0.5 * recovery.near, 0.0),
+            ..Obstacle::default()
+        }];
+        for (obstacles, expected) in [(somebody.as_slice(), true), (&[], false)] {
+            let mut progress = Progress::default();
+            let here = Isometry2::identity();
+            let there = Isometry2::translation(-1.1 * recovery.distance, 0.0);
+            progress.notice(Legs::Down, None, obstacles, &recovery, at_millis(10_000));
+            progress.notice(Legs::Move, Some(&here), &[], &recovery, at_millis(10_010));
+            assert!(!progress.has_just_got_away(&recovery, at_millis(10_010)));
+            progress.notice(Legs::Move, Some(&there), &[], &recovery, at_millis(12_000));
+            assert_eq!(
+                progress.has_just_got_away(&recovery, at_millis(12_000)),
+                expected
+            );
+            progress.forget_others();
+            assert!(!progress.has_just_got_away(&recovery, at_millis(12_000)));
+        }
     }
 
     #[test]

@@ -7,9 +7,12 @@ use types::ball::Ball;
 use types::fall_state::{Facing, FallDirection, FallState};
 use types::motion::{Script, Step};
 
+use self::way::stuck_in;
+
 use super::*;
 
 mod room;
+mod way;
 
 pub(super) fn parameters() -> BehaviorParameters {
     ParameterFile::new(include_str!("../../../parameters/default.toml")).get("behavior")
@@ -309,24 +312,16 @@ fn whoever_falls_protects_itself_and_whoever_lies_gets_up_where_it_plays() {
 
 #[test]
 fn a_robot_that_gets_nowhere_backs_off_and_begins_anew() {
+    let parameters = parameters();
+    let round = parameters.recovery.after + parameters.recovery.duration;
     let world_state = WorldState {
         primary_state: PrimaryState::Playing,
         ball: ball(1.5, -0.2),
         ground_to_field: Some(Isometry2::translation(-2.0, 0.0)),
         ..WorldState::default()
     };
-    let mut node = Behavior::new(CreationContext {}).unwrap();
-    let parameters = parameters();
-    let round = parameters.recovery.after + parameters.recovery.duration;
-    let mut activities = Vec::new();
-    for cycle in 0..(2.2 * round / 0.012) as u64 {
-        let millis = 1000 + 12 * cycle;
-        let (command, activity) = cycle_of(&mut node, &world_state, None, millis, &parameters);
-        assert_eq!(activity == Activity::BackOff, command.step.forward < 0.0);
-        if activities.last() != Some(&activity) {
-            activities.push(activity);
-        }
-    }
+    let done = stuck_in(2.2 * round, |_| world_state.clone());
+    let activities: Vec<_> = done.iter().map(|(activity, ..)| *activity).collect();
     let (walks, backs_off) = (Activity::WalkBehindBall, Activity::BackOff);
     assert_eq!(activities, [walks, backs_off, walks, backs_off, walks]);
 }
