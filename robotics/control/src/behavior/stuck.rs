@@ -91,11 +91,9 @@ impl Progress {
             }
             return;
         };
-        let is_recent =
-            |at: Option<Timestamp>, seconds| at.is_some_and(|at| !is_long_ago(at, seconds, now));
         // Who pushed it over pushes on: getting up is no use before it is elsewhere.
         let lay_at = mem::take(&mut self.lay_beside_somebody_at);
-        if is_recent(lay_at, recovery.duration) {
+        if is_recent(lay_at, recovery.duration, now) {
             self.free = Some(Free { pose, since: now });
             self.retreat = Some(Retreat {
                 since: now,
@@ -114,7 +112,7 @@ impl Progress {
                     self.retreat = Some(Retreat {
                         since: now,
                         longest: recovery.duration,
-                        is_from_somebody: is_recent(self.beside_somebody_at, recovery.after),
+                        is_from_somebody: is_recent(self.beside_somebody_at, recovery.after, now),
                     });
                 }
             }
@@ -144,8 +142,7 @@ impl Progress {
 
     /// Whether it was stuck beside somebody, or pushed over, and has got away a short while ago.
     pub(super) fn has_just_got_away(&self, recovery: &RecoveryParameters, now: Timestamp) -> bool {
-        self.got_away_at
-            .is_some_and(|at| !is_long_ago(at, recovery.gives_way, now))
+        is_recent(self.got_away_at, recovery.gives_way, now)
     }
 }
 
@@ -169,6 +166,10 @@ impl Retreat {
 
 fn is_long_ago(since: Timestamp, seconds: f32, now: Timestamp) -> bool {
     (now - since).as_secs_f32() >= seconds
+}
+
+fn is_recent(at: Option<Timestamp>, seconds: f32, now: Timestamp) -> bool {
+    at.is_some_and(|at| !is_long_ago(at, seconds, now))
 }
 
 /// Whoever is so near that both may touch.
