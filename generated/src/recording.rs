@@ -95,7 +95,7 @@ impl MessageInterface for Sink {
 }
 
 impl MicrophoneInterface for Sink {
-    fn read_audio(&self, _: &mut AudioBlock) -> Result<Timestamp> {
+    fn read_audio(&self) -> Result<(Timestamp, Leased<AudioBlock>)> {
         no_hardware()
     }
 }

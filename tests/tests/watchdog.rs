@@ -77,8 +77,8 @@ impl CameraInterface for Blocking {
 }
 
 impl MicrophoneInterface for Blocking {
-    fn read_audio(&self, block: &mut AudioBlock) -> Result<Timestamp> {
-        self.inner.read_audio(block)
+    fn read_audio(&self) -> Result<(Timestamp, Leased<AudioBlock>)> {
+        self.inner.read_audio()
     }
 }
 

@@ -5,7 +5,6 @@
 use audio::microphone_recorder;
 use audio::whistle_detection;
 use framework::AdditionalOutput;
-use framework::Clear;
 use framework::Guarded;
 use framework::InNode;
 use framework::OnFailure;
@@ -86,37 +85,42 @@ impl Nodes {
         &mut self,
         frame: &mut Frame<'_, impl MicrophoneInterface>,
     ) -> Result<()> {
-        Clear::clear(&mut frame.own.audio_block);
         let context = microphone_recorder::CycleContext {
             hardware_interface: frame.hardware_interface,
-            audio_block: &mut frame.own.audio_block,
         };
         let outputs = self
             .microphone_recorder
             .call(&frame.cycle, |node| node.cycle(context))?;
+        frame.own.audio_block = outputs.audio_block.value;
         *frame.capture_time = Some(outputs.captured_at.0);
         Ok(())
     }
 
-    /// audio_block -> whistle_evidence; when subscribed: whistle_detection.peaks
+    /// audio_block (required) -> whistle_evidence; when subscribed: whistle_detection.peaks
     #[inline(always)]
     fn whistle_detection<Hardware>(
         &mut self,
         frame: &mut Frame<'_, Hardware>,
     ) -> Result<()> {
-        let context = whistle_detection::CycleContext {
-            audio_block: &frame.own.audio_block,
-            parameters: &frame.parameters.whistle_detection,
-            peaks: AdditionalOutput::new(
-                frame.subscribed.whistle_detection_peaks,
-                frame.cycle.number,
-                &mut frame.additional_outputs.whistle_detection.peaks,
-            ),
-        };
-        let outputs = self
-            .whistle_detection
-            .call(&frame.cycle, |node| node.cycle(context))?;
-        frame.shared.whistle_evidence = outputs.whistle_evidence.value;
+        if let Some(audio_block) = frame.own.audio_block.as_ref() {
+            let context = whistle_detection::CycleContext {
+                audio_block,
+                parameters: &frame.parameters.whistle_detection,
+                peaks: AdditionalOutput::new(
+                    frame.subscribed.whistle_detection_peaks,
+                    frame.cycle.number,
+                    &mut frame.additional_outputs.whistle_detection.peaks,
+                ),
+            };
+            let outputs = self
+                .whistle_detection
+                .call(&frame.cycle, |node| node.cycle(context))?;
+            frame.shared.whistle_evidence = outputs.whistle_evidence.value;
+        } else {
+            // A required input is absent: the main outputs take their defaults.
+            self.whistle_detection.skip();
+            frame.shared.whistle_evidence = Default::default();
+        }
         if let Some(injections) = frame.injections {
             injections.whistle_evidence.replace(&mut frame.shared.whistle_evidence);
         }

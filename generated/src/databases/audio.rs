@@ -12,6 +12,7 @@ use framework::InjectionCell;
 use framework::InjectionTable;
 use framework::Reflect;
 use framework::Timestamp;
+use framework::pool::Leased;
 use serde::Deserialize;
 use serde::Serialize;
 use types::audio::AudioBlock;
@@ -24,7 +25,7 @@ use crate::parameters::Parameters;
 #[derive(Clone, Debug, Default, Deserialize, Reflect, Serialize)]
 pub struct OwnOutputs {
     /// audio::microphone_recorder
-    pub audio_block: AudioBlock,
+    pub audio_block: Option<Leased<AudioBlock>>,
 }
 
 /// Main outputs that other instances read, too: written in the slot that those will read.
@@ -55,7 +56,7 @@ pub struct Subscribed {
 /// Values of clients in place of main outputs.
 #[derive(Clone, Debug, Default, Deserialize, Serialize)]
 pub struct Injections {
-    pub audio_block: Injection<AudioBlock>,
+    pub audio_block: Injection<Option<Leased<AudioBlock>>>,
     pub whistle_evidence: Injection<WhistleEvidence>,
 }
 

@@ -1,5 +1,6 @@
 //! Waits for the next block of sound of all microphones.
 
+use framework::pool::Leased;
 use framework::{CaptureTime, HardwareInterface, MainOutput, Result, context};
 use hardware::MicrophoneInterface;
 use serde::{Deserialize, Serialize};
@@ -15,14 +16,14 @@ pub struct CreationContext {}
 #[context]
 pub struct CycleContext {
     hardware_interface: HardwareInterface,
-    /// The samples of all microphones, each of full scale.
-    audio_block: MainOutput<AudioBlock>,
 }
 
 #[context]
 pub struct MainOutputs {
     /// When the last sample of the block was taken.
     captured_at: CaptureTime,
+    /// The samples of all microphones, each of full scale; whoever keeps them keeps the handle.
+    audio_block: MainOutput<Option<Leased<AudioBlock>>>,
 }
 
 impl MicrophoneRecorder {
@@ -36,9 +37,10 @@ impl MicrophoneRecorder {
         &mut self,
         context: CycleContext<impl MicrophoneInterface>,
     ) -> Result<MainOutputs> {
-        let captured_at = context.hardware_interface.read_audio(context.audio_block)?;
+        let (captured_at, audio_block) = context.hardware_interface.read_audio()?;
         Ok(MainOutputs {
             captured_at: captured_at.into(),
+            audio_block: Some(audio_block).into(),
         })
     }
 }
@@ -58,34 +60,35 @@ mod tests {
     }
 
     impl MicrophoneInterface for Microphones {
-        fn read_audio(&self, block: &mut AudioBlock) -> Result<Timestamp> {
+        fn read_audio(&self) -> Result<(Timestamp, Leased<AudioBlock>)> {
             if self.are_silent {
                 return Err(NoEvent("no sound came".to_owned()).into());
             }
-            block.sample_rate = 44_100;
+            let mut block = AudioBlock {
+                sample_rate: 44_100,
+                ..AudioBlock::default()
+            };
             block.channels[0].push(0.5);
-            Ok(at_millis(46))
+            Ok((at_millis(46), Leased::of(block)))
         }
     }
 
-    fn cycle(are_silent: bool, audio_block: &mut AudioBlock) -> Result<MainOutputs> {
+    fn cycle(are_silent: bool) -> Result<MainOutputs> {
         MicrophoneRecorder::new(CreationContext {})?.cycle(CycleContext {
             hardware_interface: &Arc::new(Microphones { are_silent }),
-            audio_block,
         })
     }
 
     #[test]
     fn the_sound_comes_with_its_capture_time() {
-        let mut block = AudioBlock::default();
-        let outputs = cycle(false, &mut block).unwrap();
+        let outputs = cycle(false).unwrap();
         assert_eq!(outputs.captured_at.0, at_millis(46));
-        assert_eq!(block.channels[0], [0.5]);
+        assert_eq!(outputs.audio_block.value.unwrap().channels[0], [0.5]);
     }
 
     #[test]
     fn silent_microphones_are_no_event() {
-        let error = cycle(true, &mut AudioBlock::default()).err().unwrap();
+        let error = cycle(true).err().unwrap();
         assert!(error.is_no_event());
     }
 }

@@ -10,7 +10,8 @@
 mod peak;
 mod spectrum;
 
-use framework::{AdditionalOutput, Input, MainOutput, Parameter, Reflect, Result, context};
+use framework::pool::Leased;
+use framework::{AdditionalOutput, MainOutput, Parameter, Reflect, RequiredInput, Result, context};
 use serde::{Deserialize, Serialize};
 use types::audio::{AudioBlock, MICROPHONE_COUNT, WhistleEvidence};
 
@@ -70,7 +71,7 @@ pub struct CreationContext {}
 
 #[context]
 pub struct CycleContext {
-    audio_block: Input<AudioBlock, "audio_block">,
+    audio_block: RequiredInput<Option<Leased<AudioBlock>>, "audio_block?">,
     parameters: Parameter<WhistleDetectionParameters, "whistle_detection">,
     /// The strongest peak of each microphone, whistle or not; zeros where its samples are unusable.
     peaks: AdditionalOutput<[SpectralPeak; MICROPHONE_COUNT], "whistle_detection.peaks">,
@@ -191,7 +192,7 @@ mod tests {
     ) -> ([bool; MICROPHONE_COUNT], [SpectralPeak; MICROPHONE_COUNT]) {
         let mut probe = AdditionalProbe::default();
         let context = CycleContext {
-            audio_block: block,
+            audio_block: &Leased::of(block.clone()),
             parameters,
             peaks: probe.output(),
         };

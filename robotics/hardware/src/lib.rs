@@ -16,6 +16,9 @@ use types::sensor_data::SensorData;
 /// clients that watch. Those that a recording holds are beside them.
 pub const MOST_IMAGES: usize = 64;
 
+/// So many blocks of sound may be held at once, 2 MB of 2048 samples of each microphone.
+pub const MOST_BLOCKS: usize = 64;
+
 /// Reads the sensors of the body.
 pub trait SensorInterface {
     /// Waits for the next sample of all sensors and says when it was taken.
@@ -51,13 +54,13 @@ pub trait CameraInterface {
 
 /// Reads the microphones of the head.
 pub trait MicrophoneInterface {
-    /// Waits for the next block of sound, writes it into `block`, and says when its last sample was taken.
+    /// Waits for the next block of sound and says when its last sample was taken.
     ///
-    /// `block` keeps its heap, so that nothing is allocated once it has had its size.
+    /// Leased from a pool of the microphones, which has [`MOST_BLOCKS`] at most, and those that a recording holds: in the steady state nothing is allocated.
     ///
     /// # Errors
-    /// `Stopped` within 100 ms of a stop; `NoEvent` where no sound came: ask again.
-    fn read_audio(&self, block: &mut AudioBlock) -> Result<Timestamp>;
+    /// `Stopped` within 100 ms of a stop; `NoEvent` where no sound came, or readers hold all blocks: ask again.
+    fn read_audio(&self) -> Result<(Timestamp, Leased<AudioBlock>)>;
 }
 
 /// Plays sound.

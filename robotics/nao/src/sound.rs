@@ -7,8 +7,8 @@ mod wav;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-use framework::{Clock, Error, NoEvent, Result, Stop, Timestamp, blocking};
-use hardware::{MicrophoneInterface, SpeakerInterface};
+use framework::{Clock, Error, Leased, NoEvent, Pool, Result, Stop, Timestamp, blocking};
+use hardware::{MOST_BLOCKS, MicrophoneInterface, SpeakerInterface};
 use links::senses::Kind;
 use types::audio::{AudioBlock, MICROPHONE_COUNT, Tone};
 
@@ -30,7 +30,8 @@ const SILENCE: Duration = Duration::from_secs(1);
 
 /// The microphones, read by one thread.
 pub(crate) struct Microphones {
-    source: Mutex<Source>,
+    /// Blocks are leased from one pool, wherever they come from.
+    heard: Mutex<(Source, Pool<AudioBlock>)>,
     clock: Clock,
     stop: Stop,
 }
@@ -92,7 +93,7 @@ pub(crate) fn open(
         _ => Speaker::silent(),
     };
     let microphones = Microphones {
-        source: Mutex::new(source),
+        heard: Mutex::new((source, Pool::new(MOST_BLOCKS, AudioBlock::default))),
         clock: clock.clone(),
         stop: stop.clone(),
     };
@@ -100,11 +101,26 @@ pub(crate) fn open(
 }
 
 impl Microphones {
-    fn read(&self, block: &mut AudioBlock) -> Result<Timestamp> {
+    fn read(&self) -> Result<(Timestamp, Leased<AudioBlock>)> {
         // A reader that panicked left a source that goes on.
-        let mut source = self.source.lock().unwrap_or_else(PoisonError::into_inner);
-        let (clock, stop) = (&self.clock, &self.stop);
-        match &mut *source {
+        let mut heard = self.heard.lock().unwrap_or_else(PoisonError::into_inner);
+        let (source, blocks) = &mut *heard;
+        let mut block = match blocks.free() {
+            Ok(block) => block,
+            Err(held) => {
+                // Not as often as the processor can ask.
+                blocking(|| self.stop.wait(PATIENCE))?;
+                return Err(held.into());
+            }
+        };
+        let at = source.read(&mut block, &self.clock, &self.stop)?;
+        Ok((at, block.lease()))
+    }
+}
+
+impl Source {
+    fn read(&mut self, block: &mut AudioBlock, clock: &Clock, stop: &Stop) -> Result<Timestamp> {
+        match self {
             Source::Device(device) => device.read(block, clock, stop),
             Source::Wav(wav) => wav.read(block, clock, stop),
             Source::Remote(remote, bytes) => {
@@ -178,8 +194,8 @@ fn fill(block: &mut AudioBlock, sample_rate: u32, samples: impl Iterator<Item = 
 }
 
 impl MicrophoneInterface for Hardware {
-    fn read_audio(&self, block: &mut AudioBlock) -> Result<Timestamp> {
-        self.microphones.read(block)
+    fn read_audio(&self) -> Result<(Timestamp, Leased<AudioBlock>)> {
+        self.microphones.read()
     }
 }
 
@@ -203,12 +219,10 @@ mod tests {
     use super::*;
 
     /// Of sound that comes from these settings.
-    fn read(settings: &Settings) -> (Result<Timestamp>, AudioBlock, Speaker) {
+    fn read(settings: &Settings) -> (Result<(Timestamp, Leased<AudioBlock>)>, Speaker) {
         let (clock, stop) = (Clock::wall(), Stop::new());
         let (microphones, speaker) = open(settings, &clock, &stop).unwrap();
-        let mut block = AudioBlock::default();
-        let read = microphones.read(&mut block);
-        (read, block, speaker)
+        (microphones.read(), speaker)
     }
 
     #[test]
@@ -220,7 +234,7 @@ mod tests {
         let error = Library::load(&settings.alsa).err().unwrap().to_string();
         assert!(error.contains("libno-such-library.so.7"), "{error}");
         assert!(error.contains("hardware.nao.alsa"), "{error}");
-        let (read, _, speaker) = read(&settings);
+        let (read, speaker) = read(&settings);
         let error = read.unwrap_err();
         assert!(error.is_no_event(), "{error}");
         assert!(error.to_string().contains("ALSA"), "{error}");
@@ -259,8 +273,7 @@ mod tests {
         };
         let (clock, stop) = (Clock::wall(), Stop::new());
         let (microphones, speaker) = open(&settings, &clock, &stop).unwrap();
-        let mut block = AudioBlock::default();
-        microphones.read(&mut block).unwrap();
+        let (_, block) = microphones.read().unwrap();
         assert_eq!(block.sample_rate, 44_100);
         for (channel, samples) in block.channels.iter().enumerate() {
             assert_eq!(samples.len(), BLOCK_LENGTH);
@@ -268,10 +281,10 @@ mod tests {
             assert_eq!(samples[5], 5.0 + channel as f32 / 8.0);
         }
         // It has an overrun once, and then is unplugged once.
-        microphones.read(&mut block).unwrap();
-        let error = microphones.read(&mut block).unwrap_err();
+        microphones.read().unwrap();
+        let error = microphones.read().unwrap_err();
         assert!(error.to_string().contains("No such device"), "{error}");
-        microphones.read(&mut block).unwrap();
+        microphones.read().unwrap();
         speaker.play(Tone {
             frequency: 1000.0,
             duration: 0.1,
@@ -301,8 +314,8 @@ mod tests {
             speaker: settings::Speaker::Off,
             ..Settings::default()
         };
-        let (at, block, _) = read(&settings);
-        assert!((at.unwrap().as_nanos() as f64 / 1e9 - 2048.0 / 44_100.0).abs() < 0.01);
+        let (at, block) = read(&settings).0.unwrap();
+        assert!((at.as_nanos() as f64 / 1e9 - 2048.0 / 44_100.0).abs() < 0.01);
         assert_eq!(block.channels[0][100], 100.0 / 32_768.0);
         assert_eq!(block.channels[3][100], -100.0 / 32_768.0);
     }
@@ -317,7 +330,7 @@ mod tests {
         let stop = Stop::new();
         let (microphones, _) = open(&settings, &Clock::wall(), &stop).unwrap();
         stop.request();
-        let error = microphones.read(&mut AudioBlock::default()).unwrap_err();
+        let error = microphones.read().unwrap_err();
         assert!(error.is_stopped());
         assert!(PATIENCE < Duration::from_millis(100));
     }

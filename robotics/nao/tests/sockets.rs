@@ -12,7 +12,6 @@ use lola::Command;
 use nao::Hardware;
 use simulated_nao::Simulator;
 use simulated_nao::settings::{PhysicsChoice, Settings};
-use types::audio::AudioBlock;
 use types::camera::CameraPosition;
 use types::joints::Joints;
 use types::leds::Leds;
@@ -122,8 +121,7 @@ fn sensors_images_and_sound_come_and_say_when() {
         let (_, image) = until(|| hardware.read_image(position));
         assert_eq!(image.data.as_ptr(), heap, "nothing is allocated again");
     }
-    let mut block = AudioBlock::default();
-    let heard_at = until(|| hardware.read_audio(&mut block));
+    let (heard_at, block) = until(|| hardware.read_audio());
     assert!(heard_at > one);
     assert!(block.channels.iter().all(|channel| channel.len() == 2048));
     drop(hardware);
@@ -232,7 +230,7 @@ fn without_sound_there_is_silence_and_no_error() {
     let stop = Stop::new();
     let (hardware, _stream) = lola.connect(&stop);
     // Nobody serves the microphones of this one.
-    let error = hardware.read_audio(&mut AudioBlock::default()).unwrap_err();
+    let error = hardware.read_audio().unwrap_err();
     assert!(error.is_no_event(), "{error}");
 }
 

@@ -16,9 +16,10 @@ use std::time::Duration;
 use framework::{
     Clock, Error, Event, HardwareContext, Leased, NoEvent, Pool, Result, Stop, Timestamp, blocking,
 };
-use hardware::{ActuatorInterface, CameraInterface, MOST_IMAGES, SensorInterface};
+use hardware::{ActuatorInterface, CameraInterface, MOST_BLOCKS, MOST_IMAGES, SensorInterface};
 use links::sockets::RobotSockets;
 use lola::{Client, Safety};
+use types::audio::AudioBlock;
 use types::camera::CameraPosition;
 use types::image::YuyvImage;
 use types::leds::Leds;
@@ -48,6 +49,7 @@ pub struct Hardware {
     player: Vec<(String, String)>,
     field: Arc<Field>,
     images: PerCamera<Mutex<Pool<YuyvImage>>>,
+    blocks: Mutex<Pool<AudioBlock>>,
     /// In place of what the cameras would see; nothing else happens then.
     photograph: Option<Photograph>,
     sockets: Arc<RobotSockets>,
@@ -241,6 +243,7 @@ impl Hardware {
             player: settings.player_parameters(),
             field,
             images: PerCamera::each(|| Mutex::new(Pool::new(MOST_IMAGES, YuyvImage::default))),
+            blocks: Mutex::new(Pool::new(MOST_BLOCKS, AudioBlock::default)),
             photograph: None,
             sockets,
             return_port,
@@ -359,6 +362,6 @@ fn let_down(safety: &mut Safety, client: &Client, now: Timestamp) {
 }
 
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    // No safety can be half done, and an image that is half drawn is not leased.
+    // No safety can be half done, and what is half drawn or half heard is not leased.
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -11,7 +11,7 @@ use hardware::{
 };
 use simulated_nao::{Hardware, Received};
 use spl_messages::{ReturnData, return_data, team_message};
-use types::audio::{AudioBlock, Tone};
+use types::audio::Tone;
 use types::camera::CameraPosition;
 use types::joints::Joints;
 use types::leds::{Color, Leds};
@@ -210,7 +210,7 @@ fn nothing_is_read_before_it_is_there() {
     assert!(image.unwrap_err().is_no_event());
     let datagram = hardware.read_datagram(&mut Datagram::default());
     assert!(datagram.unwrap_err().is_no_event());
-    let sound = hardware.read_audio(&mut AudioBlock::default());
+    let sound = hardware.read_audio();
     assert!(sound.unwrap_err().is_no_event());
 }
 

@@ -6,8 +6,8 @@ use std::time::{Duration, Instant};
 
 use framework::{Clock, Hardware as _, HardwareContext, Stop};
 use hardware::{
-    ActuatorInterface, CameraInterface, MOST_IMAGES, MicrophoneInterface, NetworkInterface,
-    SensorInterface,
+    ActuatorInterface, CameraInterface, MOST_BLOCKS, MOST_IMAGES, MicrophoneInterface,
+    NetworkInterface, SensorInterface,
 };
 use simulated_nao::Hardware;
 use types::audio::AudioBlock;
@@ -104,15 +104,37 @@ fn somebody_presses_the_chest_button() {
 #[test]
 fn blocks_of_sound_come_one_after_the_other() {
     let hardware = create(&Stop::new());
-    let mut block = AudioBlock::default();
     let mut last = None;
     for _ in 0..5 {
-        let captured_at = hardware.read_audio(&mut block).unwrap();
+        let (captured_at, block) = hardware.read_audio().unwrap();
         assert!(last < Some(captured_at));
         last = Some(captured_at);
         assert_eq!(block.sample_rate, 44_100);
         assert!(block.channels.iter().all(|channel| channel.len() == 2048));
     }
+}
+
+#[test]
+fn blocks_that_nobody_holds_are_filled_again_and_readers_hold_so_many_at_most() {
+    let hardware = create(&Stop::new());
+    let place = |block: &AudioBlock| block.channels.each_ref().map(|channel| channel.as_ptr());
+    let (_, held) = hardware.read_audio().unwrap();
+    let heard = held.channels.clone();
+    let places: BTreeSet<_> = (0..3)
+        .map(|_| place(&hardware.read_audio().unwrap().1))
+        .collect();
+    assert_eq!(places.len(), 1, "who holds none needs one");
+    assert!(!places.contains(&place(&held)));
+    assert_eq!(held.channels, heard, "what is held stays as it was");
+
+    let more: Vec<_> = (1..MOST_BLOCKS)
+        .map(|_| hardware.read_audio().unwrap())
+        .collect();
+    let error = hardware.read_audio().unwrap_err();
+    assert!(error.is_no_event(), "{error}");
+    let last = more.last().map(|(captured_at, _)| *captured_at);
+    drop(held);
+    assert!(Some(hardware.read_audio().unwrap().0) > last);
 }
 
 #[test]
@@ -173,7 +195,7 @@ fn a_stop_ends_blocked_reads() {
             }),
             scope.spawn(|| {
                 loop {
-                    if let Err(error) = hardware.read_audio(&mut AudioBlock::default()) {
+                    if let Err(error) = hardware.read_audio() {
                         break error;
                     }
                 }

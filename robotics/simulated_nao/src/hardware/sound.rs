@@ -3,24 +3,26 @@
 use std::sync::PoisonError;
 use std::time::{Duration, Instant};
 
-use framework::{NoEvent, Result, Timestamp, blocking};
+use framework::{Leased, NoEvent, Result, Timestamp, blocking};
 use hardware::{MicrophoneInterface, SpeakerInterface};
 use types::audio::{AudioBlock, Tone};
 
-use super::{Hardware, PATIENCE};
+use super::{Hardware, PATIENCE, lock};
 use crate::simulation::block_time;
 
 /// Blocks come every 46 ms; after so long the caller hears about it.
 const SILENCE: Duration = Duration::from_secs(1);
 
 impl MicrophoneInterface for Hardware {
-    fn read_audio(&self, block: &mut AudioBlock) -> Result<Timestamp> {
+    fn read_audio(&self) -> Result<(Timestamp, Leased<AudioBlock>)> {
         // Making sound stands for the microphones' own work, so it counts as waiting for the hardware.
         blocking(|| {
             let number = self.next_block()?;
             let called = self.shared.stage.lock().world.whistles().to_vec();
-            self.shared.sound.record(number, &called, block);
-            Ok(block_time(number))
+            let mut blocks = lock(&self.blocks);
+            let mut block = blocks.free()?;
+            self.shared.sound.record(number, &called, &mut block);
+            Ok((block_time(number), block.lease()))
         })
     }
 }

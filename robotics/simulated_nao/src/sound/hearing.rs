@@ -6,7 +6,7 @@ use std::time::Duration;
 use audio::whistle_detection::{self, SpectralPeak, WhistleDetection, WhistleDetectionParameters};
 use control::whistle_filter::{self, WhistleFilter};
 use framework::testing::{AdditionalProbe, ParameterFile, perception};
-use framework::{CycleTime, Timestamp};
+use framework::{CycleTime, Leased, Timestamp};
 use types::audio::{AudioBlock, MICROPHONE_COUNT};
 
 use super::{BLOCK_LENGTH, SAMPLE_RATE, Sound, SoundSettings, WhistleTruth};
@@ -67,7 +67,7 @@ impl Listener {
     fn hear(&mut self, captured_at: Timestamp, block: &AudioBlock) -> (bool, f32) {
         let mut probe = AdditionalProbe::default();
         let context = whistle_detection::CycleContext {
-            audio_block: block,
+            audio_block: &Leased::of(block.clone()),
             parameters: &self.thresholds,
             peaks: probe.output(),
         };
