@@ -25,12 +25,13 @@ mod types;
 #[cfg(feature = "yardstick")]
 mod yardstick;
 
-pub use body::{Loaded, Recorded, Visit, digest};
+pub use body::{Loaded, Outputs, Recorded, Visit, digest};
 pub use bytes::{Loading, Reason, SaveError, Saving};
 pub(crate) use capture::{BEGUN, FINISHED, Written};
 pub use capture::{Capture, Head, PARAMETERS, Stored, VERSION, Values};
 pub(crate) use digests::DIGEST;
 pub use digests::Digests;
+pub use framework_macros::Outputs;
 pub use hulkgen_recording::{Counts, Settings};
 pub use inputs::{Foreign, Found};
 pub(crate) use logs::{from_log, recorded_logs};

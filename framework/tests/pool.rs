@@ -264,6 +264,49 @@ fn a_handle_in_an_additional_output_is_left_to_the_recording() {
     assert_eq!(again.get(6), None);
 }
 
+#[test]
+fn a_history_of_handles_is_left_to_the_recording() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let paths = ["left.mcap", "copied.mcap"].map(|name| folder.path().join(name));
+    let mut pool = Pool::new(8, || vec![0_u8; 3]);
+    let mut history = History::<Image>::new(Duration::from_secs(1));
+    // More than a block has of several frames.
+    for cycle in 1..=8 {
+        let mut image = pool.free().expect("there are enough");
+        image.fill(cycle);
+        history.push(at_millis(u64::from(cycle) * 33), &Some(image.lease()));
+    }
+    let values: Vec<(_, Image)> = (1..=8)
+        .map(|cycle: u8| {
+            let at = at_millis(u64::from(cycle) * 33);
+            (at, Some(Leased::of(vec![cycle; 3])))
+        })
+        .collect();
+
+    let (recorder, mut track) = start(&paths[0]);
+    let left = record_as(&mut track, 1, |saving| history.save(None, saving));
+    assert_eq!(left, Recorded::Whole);
+    drop(history);
+    let mut again: Vec<_> = (0..8)
+        .map(|_| pool.free().map(|free| free.lease()))
+        .collect();
+    assert!(again.iter().all(Result::is_ok) && pool.made() == 16);
+    again.clear();
+    drop(track);
+    assert!(recorder.end().is_complete);
+
+    let (recorder, mut track) = start(&paths[1]);
+    let copied = record_as(&mut track, 1, |saving| {
+        saving.put(&true);
+        saving.put(&8_u32);
+        values.iter().for_each(|value| saving.put(value));
+    });
+    assert_eq!(copied, Recorded::Whole);
+    drop(track);
+    assert!(recorder.end().is_complete);
+    assert_eq!(recorded(&paths[0]), recorded(&paths[1]));
+}
+
 /// Has no form, and says so in one of two ways.
 #[derive(Clone, Debug, Default, Deserialize, framework::Reflect)]
 struct Formless {

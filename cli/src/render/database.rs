@@ -45,7 +45,7 @@ pub(super) fn render_outside(cycler: &Outside) -> String {
     );
     let about = "Main outputs that come from outside; each names the node that writes it in the whole robot.";
     let outputs = cycler.outputs.iter();
-    layout::rust_file(&title, &[], quote_part("SharedOutputs", about, outputs))
+    layout::rust_file(&title, &[], quote_shared_part(about, outputs))
 }
 
 /// Modules of other cyclers' databases, which are imported whole.
@@ -81,19 +81,28 @@ fn quote_outputs(cycler: &CyclerModel) -> TokenStream {
         "Main outputs that only nodes of `{}` read: they stay with the instance.",
         cycler.name
     );
-    let own = quote_part("OwnOutputs", &about, outputs(false));
-    let shared = quote_part(
-        "SharedOutputs",
+    let own = quote_part("OwnOutputs", &about, quote!(), outputs(false));
+    let shared = quote_shared_part(
         "Main outputs that other instances read, too: written in the slot that those will read.",
         outputs(true),
     );
     quote!(#own #shared)
 }
 
-/// A struct of main outputs, if there are any.
+/// Recordings of those who read them have them, too.
+fn quote_shared_part<'a>(
+    about: &str,
+    outputs: impl Iterator<Item = &'a OutputField>,
+) -> TokenStream {
+    let recorded = quote!(::framework::recorded::Outputs,);
+    quote_part("SharedOutputs", about, recorded, outputs)
+}
+
+/// A struct of main outputs with these derives besides the others', if there are any.
 fn quote_part<'a>(
     name: &str,
     about: &str,
+    derives: TokenStream,
     outputs: impl Iterator<Item = &'a OutputField>,
 ) -> TokenStream {
     let fields: Vec<TokenStream> = outputs
@@ -105,7 +114,7 @@ fn quote_part<'a>(
     let (name, about) = (ident(name), doc(about));
     quote! {
         #about
-        #[derive(Clone, Debug, Default, ::serde::Deserialize, ::framework::Reflect, ::serde::Serialize)]
+        #[derive(Clone, Debug, Default, ::serde::Deserialize, #derives ::framework::Reflect, ::serde::Serialize)]
         pub struct #name { #(#fields)* }
     }
 }

@@ -1,9 +1,10 @@
-//! The macros of node files: `#[context]`, `#[derive(Reflect)]`, `#[derive(Clear)]`.
+//! The macros of node files: `#[context]`, `#[derive(Reflect)]`, `#[derive(Clear)]`; and of generated databases: `#[derive(Outputs)]`.
 //!
 //! What a context may say is decided by the crate `grammar`, which the scanner of `hulkgen` reads node files with, too.
 
 mod clear;
 mod context;
+mod outputs;
 mod reflect;
 mod serde_names;
 
@@ -39,6 +40,17 @@ pub fn derive_reflect(item: TokenStream) -> TokenStream {
 pub fn derive_clear(item: TokenStream) -> TokenStream {
     let item = parse_macro_input!(item as DeriveInput);
     clear::expand(&item)
+        .unwrap_or_else(|error| error.to_compile_error())
+        .into()
+}
+
+/// Lets a recording have the handles of a struct of outputs, in place of copies of what they are handles of.
+///
+/// Of generated structs, which serde writes field by field.
+#[proc_macro_derive(Outputs)]
+pub fn derive_outputs(item: TokenStream) -> TokenStream {
+    let item = parse_macro_input!(item as DeriveInput);
+    outputs::expand(&item)
         .unwrap_or_else(|error| error.to_compile_error())
         .into()
 }

@@ -75,7 +75,7 @@ impl Block {
 
     /// Whether it should go to the writer for the values that it left to it.
     pub(crate) fn is_laden(&self) -> bool {
-        self.late.is_full()
+        self.late.is_laden()
     }
 
     /// Whether the same track wrote it before the other one.

@@ -57,7 +57,8 @@ pub(crate) struct Parts {
 pub(crate) struct Room(AtomicUsize);
 
 /// With so many a block goes to the writer before the next frame: they are not held for long, and the writer gets no large pieces.
-const PER_BLOCK: usize = 4;
+/// One frame may have more.
+const LADEN: usize = 4;
 
 impl Room {
     pub(crate) fn of(values: usize) -> Self {
@@ -70,6 +71,10 @@ impl Room {
         self.0
             .fetch_update(Ordering::Relaxed, Ordering::Relaxed, take)
             .is_ok()
+    }
+
+    fn left(&self) -> usize {
+        self.0.load(Ordering::Relaxed)
     }
 
     fn give_back(&self, values: usize) {
@@ -105,7 +110,8 @@ impl fmt::Debug for Kept {
 impl Parts {
     pub(crate) fn new(room: Arc<Room>) -> Self {
         Self {
-            parts: Vec::with_capacity(PER_BLOCK),
+            // All that the recording takes may be of one frame.
+            parts: Vec::with_capacity(room.left()),
             room,
         }
     }
@@ -114,13 +120,13 @@ impl Parts {
         self.parts.len()
     }
 
-    pub(crate) fn is_full(&self) -> bool {
-        self.count() == PER_BLOCK
+    pub(crate) fn is_laden(&self) -> bool {
+        self.count() >= LADEN
     }
 
     /// At this place of the message that is being written; false: there is no room.
     pub(crate) fn add(&mut self, at: usize, value: Arc<dyn Late>) -> bool {
-        if self.is_full() || !self.room.take() {
+        if !self.room.take() {
             return false;
         }
         self.parts.push(Part {

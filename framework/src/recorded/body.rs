@@ -52,6 +52,12 @@ pub trait Recorded: Body {
     fn digests(&self, shared: &Self::Shared, digests: &mut Digests<'_, '_>);
 }
 
+/// Outputs of one instance that others read. Derived: `#[derive(Outputs)]`.
+pub trait Outputs {
+    /// Writes them as serde does, but of handles other ones are left to the thread that owns the file.
+    fn save(&self, out: &mut Saving<'_, '_>);
+}
+
 /// Is told of the digest of each output: node, output, digest.
 pub type Visit<'a> = &'a mut dyn FnMut(&'static str, &'static str, u64);
 

@@ -14,7 +14,7 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use super::target::Target;
-use super::{Foreign, Loading, SaveError, Saving};
+use super::{Foreign, Loading, Outputs, SaveError, Saving};
 use crate::buffer::Reader;
 use crate::error::{Error, Result};
 use crate::time::Timestamp;
@@ -132,7 +132,7 @@ impl Values<'_, '_> {
     ///
     /// # Errors
     /// If there is no room, or a value cannot be serialised.
-    pub fn of<T: Serialize>(
+    pub fn of<T: Outputs>(
         &mut self,
         instance: &str,
         input: &impl Foreign<T>,
@@ -142,7 +142,7 @@ impl Values<'_, '_> {
             .values(&mut |cycle, timestamp, value| {
                 // Cycles of an instance come in order.
                 if before.is_none_or(|before| cycle > before) {
-                    self.put(instance, (cycle, timestamp), value)?;
+                    self.put(instance, (cycle, timestamp), |out| value.save(out))?;
                 }
                 Ok(())
             })
@@ -156,7 +156,9 @@ impl Values<'_, '_> {
     pub fn parameters<P: Serialize>(&mut self, parameters: &Reader<P>) -> Result<(), SaveError> {
         let view = parameters.view();
         if self.before() != Some(view.cycle()) {
-            self.put(PARAMETERS, (view.cycle(), self.time), view.value())?;
+            self.put(PARAMETERS, (view.cycle(), self.time), |out| {
+                out.put(view.value())
+            })?;
         }
         self.position += 1;
         Ok(())
@@ -174,12 +176,11 @@ impl Values<'_, '_> {
         &mut self,
         name: &str,
         (cycle, timestamp): (u64, Timestamp),
-        value: &impl Serialize,
+        save: impl FnOnce(&mut Saving<'_, '_>),
     ) -> Result<(), SaveError> {
         self.written.0[self.position].next = Some(cycle);
         let place = (cycle as u32, timestamp.as_nanos());
-        self.target
-            .message(Some(name), place, |saving| saving.put(value))
+        self.target.message(Some(name), place, save)
     }
 }
 
@@ -222,5 +223,112 @@ impl<'chunk> Stored<'chunk> {
     /// As [`Self::value`].
     pub fn parameters<P: DeserializeOwned>(&self, from: &mut Loading<'_>) -> Result<P> {
         self.value(PARAMETERS, from.take()?)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use hulkgen_recording::{Channel, Description, Recorded, Recorder, Recording, Settings};
+    use serde::ser::Serializer;
+
+    use super::super::Outputs;
+    use super::*;
+    use crate::Reflect;
+    use crate::buffer::buffer;
+    use crate::pool::Leased;
+
+    const OWN: ChannelId = ChannelId(0);
+    const CAMERA: ChannelId = ChannelId(1);
+
+    /// Large: a cycler that writes it has lost.
+    #[derive(Clone, Debug, Default, Deserialize, PartialEq, Reflect)]
+    struct Image {
+        pixels: Vec<u8>,
+    }
+
+    impl Serialize for Image {
+        fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+            let writer = std::thread::current().name() == Some("recording");
+            assert!(writer, "it is for the thread that owns the file");
+            self.pixels.serialize(serializer)
+        }
+    }
+
+    #[derive(Clone, Debug, Default, Deserialize, Outputs, PartialEq, Reflect, Serialize)]
+    struct CameraOutputs {
+        count: u16,
+        image: Option<Leased<Image>>,
+        is_dark: bool,
+    }
+
+    fn channel(topic: &str) -> Channel {
+        Channel {
+            topic: topic.to_owned(),
+            schema: None,
+            encoding: "test".to_owned(),
+            metadata: Vec::new(),
+            once_per_chunk: false,
+        }
+    }
+
+    #[test]
+    fn a_handle_that_another_instance_wrote_is_left_to_the_recording() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("run.mcap");
+        let description = Description {
+            channels: vec![channel("frames"), channel("values")],
+            ..Description::default()
+        };
+        let started = Recorder::start(&path, description, &["Control"], Settings::default());
+        let (recorder, mut tracks) = started.expect("it is new");
+        let (mut camera, [mut reader], []) = buffer::<CameraOutputs, 1, 0>([]);
+        let mut written = Written::default();
+        for cycle in 1..=3_u64 {
+            // In the last cycle nothing is new.
+            if cycle < 3 {
+                *camera.slots().0 = CameraOutputs {
+                    count: 300,
+                    image: (cycle == 1).then(|| Leased::of(Image { pixels: vec![7; 3] })),
+                    is_dark: true,
+                };
+                camera.complete(cycle, Timestamp::from_nanos(cycle));
+            }
+            reader.take();
+            let recorded = tracks[0].frame(cycle, 0, |frame| {
+                let mut capture = Capture {
+                    target: Target::Frame {
+                        frame,
+                        own: OWN,
+                        channels: &[("Camera", CAMERA)],
+                    },
+                    written: &mut written,
+                    since: None,
+                };
+                let mut values = capture.values(Timestamp::from_nanos(cycle));
+                values.of("Camera", &reader)
+            });
+            assert_eq!(recorded, Recorded::Whole);
+            written.keep();
+        }
+        drop(tracks);
+        assert!(recorder.end().is_complete);
+        let recording = Recording::open(&path).expect("it can be read");
+        let messages: Vec<_> = recording
+            .chunks
+            .iter()
+            .flat_map(|chunk| chunk.messages())
+            .collect();
+        let data: Vec<_> = messages
+            .iter()
+            .map(|one| (one.sequence, one.data))
+            .collect();
+        let [first, second] = [&[0xac, 2, 1, 3, 7, 7, 7, 1][..], &[0xac, 2, 0, 1]];
+        assert_eq!(data, [(1, first), (2, second)]);
+        let read: CameraOutputs = Loading::new(first).take().expect("as serde writes it");
+        assert_eq!((read.count, read.is_dark), (300, true));
+        assert_eq!(
+            read.image.map(|image| image.pixels.clone()),
+            Some(vec![7; 3])
+        );
     }
 }

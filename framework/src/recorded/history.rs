@@ -6,9 +6,10 @@ use serde::de::DeserializeOwned;
 use super::{Loading, Saving};
 use crate::error::Result;
 use crate::history::{History, Past};
+use crate::reflect::Reflect;
 use crate::time::Timestamp;
 
-impl<T: Clone + Serialize> History<T> {
+impl<T: Clone + Reflect + Serialize> History<T> {
     /// Saves the values from `since` on, `None` for all of them.
     pub fn save(&self, since: Option<Timestamp>, out: &mut Saving<'_, '_>) {
         let all = self.project(|value| value);
@@ -18,7 +19,9 @@ impl<T: Clone + Serialize> History<T> {
         out.put(&since.is_none());
         out.put(&(newer as u32));
         for index in first..all.len() {
-            out.put(&all.value(index));
+            let (timestamp, value) = all.value(index);
+            out.put(&timestamp);
+            out.output(value);
         }
     }
 }

@@ -13,6 +13,7 @@ use framework::InjectionTable;
 use framework::Reflect;
 use framework::Timestamp;
 use framework::pool::Leased;
+use framework::recorded::Outputs;
 use serde::Deserialize;
 use serde::Serialize;
 use types::audio::AudioBlock;
@@ -29,7 +30,7 @@ pub struct OwnOutputs {
 }
 
 /// Main outputs that other instances read, too: written in the slot that those will read.
-#[derive(Clone, Debug, Default, Deserialize, Reflect, Serialize)]
+#[derive(Clone, Debug, Default, Deserialize, Outputs, Reflect, Serialize)]
 pub struct SharedOutputs {
     /// audio::whistle_detection
     pub whistle_evidence: WhistleEvidence,

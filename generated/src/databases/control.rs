@@ -18,6 +18,7 @@ use framework::InjectionTable;
 use framework::Interleaving;
 use framework::Reflect;
 use framework::Timestamp;
+use framework::recorded::Outputs;
 use nalgebra::Isometry2;
 use nalgebra::Point2;
 use nalgebra::Point3;
@@ -149,7 +150,7 @@ pub struct OwnOutputs {
 }
 
 /// Main outputs that other instances read, too: written in the slot that those will read.
-#[derive(Clone, Debug, Default, Deserialize, Reflect, Serialize)]
+#[derive(Clone, Debug, Default, Deserialize, Outputs, Reflect, Serialize)]
 pub struct SharedOutputs {
     /// control::camera_matrices
     pub camera_matrices: Option<CameraMatrices>,

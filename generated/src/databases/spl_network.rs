@@ -11,6 +11,7 @@ use framework::InjectionCell;
 use framework::InjectionTable;
 use framework::Reflect;
 use framework::Timestamp;
+use framework::recorded::Outputs;
 use serde::Deserialize;
 use serde::Serialize;
 use types::game::GameControllerPacket;
@@ -32,7 +33,7 @@ pub struct OwnOutputs {
 }
 
 /// Main outputs that other instances read, too: written in the slot that those will read.
-#[derive(Clone, Debug, Default, Deserialize, Reflect, Serialize)]
+#[derive(Clone, Debug, Default, Deserialize, Outputs, Reflect, Serialize)]
 pub struct SharedOutputs {
     /// spl_network::game_controller_parser
     pub game_controller_packet: Option<GameControllerPacket>,

@@ -13,6 +13,7 @@ use framework::Reflect;
 use framework::Timestamp;
 use framework::View;
 use framework::pool::Leased;
+use framework::recorded::Outputs;
 use nalgebra::Point2;
 use serde::Deserialize;
 use serde::Serialize;
@@ -49,7 +50,7 @@ pub struct OwnOutputs {
 }
 
 /// Main outputs that other instances read, too: written in the slot that those will read.
-#[derive(Clone, Debug, Default, Deserialize, Reflect, Serialize)]
+#[derive(Clone, Debug, Default, Deserialize, Outputs, Reflect, Serialize)]
 pub struct SharedOutputs {
     /// vision::ball_detection
     pub ball_view: Option<BallView>,

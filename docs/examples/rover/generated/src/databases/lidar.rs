@@ -10,6 +10,7 @@ use framework::InjectionCell;
 use framework::InjectionTable;
 use framework::Reflect;
 use framework::Timestamp;
+use framework::recorded::Outputs;
 use rover_nodes::types::Freeway;
 use rover_nodes::types::Scan;
 use serde::Deserialize;
@@ -25,7 +26,7 @@ pub struct OwnOutputs {
 }
 
 /// Main outputs that other instances read, too: written in the slot that those will read.
-#[derive(Clone, Debug, Default, Deserialize, Reflect, Serialize)]
+#[derive(Clone, Debug, Default, Deserialize, Outputs, Reflect, Serialize)]
 pub struct SharedOutputs {
     /// rover_nodes::lidar::freeway_detection
     pub freeways: Vec<Freeway>,

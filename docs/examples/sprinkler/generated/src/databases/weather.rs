@@ -10,6 +10,7 @@ use framework::InjectionCell;
 use framework::InjectionTable;
 use framework::Reflect;
 use framework::Timestamp;
+use framework::recorded::Outputs;
 use serde::Deserialize;
 use serde::Serialize;
 
@@ -23,7 +24,7 @@ pub struct OwnOutputs {
 }
 
 /// Main outputs that other instances read, too: written in the slot that those will read.
-#[derive(Clone, Debug, Default, Deserialize, Reflect, Serialize)]
+#[derive(Clone, Debug, Default, Deserialize, Outputs, Reflect, Serialize)]
 pub struct SharedOutputs {
     /// sprinkler_nodes::rain_mean
     pub mean_rain: f32,

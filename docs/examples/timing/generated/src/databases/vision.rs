@@ -10,6 +10,7 @@ use framework::InjectionCell;
 use framework::InjectionTable;
 use framework::Reflect;
 use framework::Timestamp;
+use framework::recorded::Outputs;
 use serde::Deserialize;
 use serde::Serialize;
 use timing_nodes::types::Measurement;
@@ -24,7 +25,7 @@ pub struct OwnOutputs {
 }
 
 /// Main outputs that other instances read, too: written in the slot that those will read.
-#[derive(Clone, Debug, Default, Deserialize, Reflect, Serialize)]
+#[derive(Clone, Debug, Default, Deserialize, Outputs, Reflect, Serialize)]
 pub struct SharedOutputs {
     /// timing_nodes::position_detection
     pub measurement: Measurement,

@@ -3,13 +3,14 @@
 //! Written by `hulkgen generate` from hulk.toml and the nodes it names. Do not edit.
 
 use framework::Reflect;
+use framework::recorded::Outputs;
 use serde::Deserialize;
 use serde::Serialize;
 use zoo_nodes::types::Whistle;
 
 /// Main outputs that come from outside; each names the node that writes it in the whole
 /// robot.
-#[derive(Clone, Debug, Default, Deserialize, Reflect, Serialize)]
+#[derive(Clone, Debug, Default, Deserialize, Outputs, Reflect, Serialize)]
 pub struct SharedOutputs {
     /// zoo_nodes::hearing::ear
     pub loudness: f32,

@@ -3,6 +3,7 @@
 //! Written by `hulkgen generate` from hulk.toml and the nodes it names. Do not edit.
 
 use framework::Reflect;
+use framework::recorded::Outputs;
 use serde::Deserialize;
 use serde::Serialize;
 use zoo_nodes::types::Pose;
@@ -10,7 +11,7 @@ use zoo_nodes::types::Spot;
 
 /// Main outputs that come from outside; each names the node that writes it in the whole
 /// robot.
-#[derive(Clone, Debug, Default, Deserialize, Reflect, Serialize)]
+#[derive(Clone, Debug, Default, Deserialize, Outputs, Reflect, Serialize)]
 pub struct SharedOutputs {
     /// zoo_nodes::control::pose_filter
     pub pose: Pose,

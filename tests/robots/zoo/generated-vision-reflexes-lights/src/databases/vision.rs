@@ -12,6 +12,7 @@ use framework::InjectionTable;
 use framework::Reflect;
 use framework::Timestamp;
 use framework::View;
+use framework::recorded::Outputs;
 use serde::Deserialize;
 use serde::Serialize;
 use zoo_nodes::types::Image;
@@ -37,7 +38,7 @@ pub struct OwnOutputs {
 }
 
 /// Main outputs that other instances read, too: written in the slot that those will read.
-#[derive(Clone, Debug, Default, Deserialize, Reflect, Serialize)]
+#[derive(Clone, Debug, Default, Deserialize, Outputs, Reflect, Serialize)]
 pub struct SharedOutputs {
     /// zoo_nodes::vision::spot_finder
     pub best: Option<Spot>,

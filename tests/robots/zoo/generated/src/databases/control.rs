@@ -16,6 +16,7 @@ use framework::InjectionTable;
 use framework::Interleaving;
 use framework::Reflect;
 use framework::Timestamp;
+use framework::recorded::Outputs;
 use serde::Deserialize;
 use serde::Serialize;
 use zoo_nodes::types::Point;
@@ -46,7 +47,7 @@ pub struct OwnOutputs {
 }
 
 /// Main outputs that other instances read, too: written in the slot that those will read.
-#[derive(Clone, Debug, Default, Deserialize, Reflect, Serialize)]
+#[derive(Clone, Debug, Default, Deserialize, Outputs, Reflect, Serialize)]
 pub struct SharedOutputs {
     /// zoo_nodes::control::pose_filter
     pub pose: Pose,

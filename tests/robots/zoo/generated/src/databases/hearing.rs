@@ -10,12 +10,13 @@ use framework::InjectionCell;
 use framework::InjectionTable;
 use framework::Reflect;
 use framework::Timestamp;
+use framework::recorded::Outputs;
 use serde::Deserialize;
 use serde::Serialize;
 use zoo_nodes::types::Whistle;
 
 /// Main outputs that other instances read, too: written in the slot that those will read.
-#[derive(Clone, Debug, Default, Deserialize, Reflect, Serialize)]
+#[derive(Clone, Debug, Default, Deserialize, Outputs, Reflect, Serialize)]
 pub struct SharedOutputs {
     /// zoo_nodes::hearing::ear
     pub loudness: f32,
