@@ -3,6 +3,7 @@
 mod chaos;
 pub mod lockstep;
 pub mod observer;
+mod overdue;
 pub mod safe_state;
 pub mod threads;
 

@@ -19,7 +19,7 @@ use std::ffi::OsString;
 use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use crate::data::ParameterData;
@@ -190,7 +190,7 @@ where
     let mut robot = create(&hardware, start)?;
     robot.parameters.came_from(layers, loaded)?;
     let identities = hardware.identities();
-    let mut recording = record::start(
+    let recording = record::start(
         target,
         options,
         &robot,
@@ -217,11 +217,14 @@ where
         None => None,
     };
     let page = served.as_ref().map(|served| page(served.as_ref()));
+    let recording = Mutex::new(recording);
+    let give_up = || give_up(&recording);
+    let threads = threads.giving_up(&give_up);
     let result = threads.run_observed(&mut robot.instances, |instance| {
-        recording.as_mut()?.observer(instance)
+        lock(&recording).as_mut()?.observer(instance)
     });
     let mut report = RobotReport::new(target.name, clock.now() - started, &robot);
-    report.recording = recording.map(Recording::end);
+    report.recording = lock(&recording).take().map(Recording::end);
     let written = match options.format {
         Format::Json => {
             let mut json = report.to_json();
@@ -237,6 +240,18 @@ where
     result?;
     written.map_err(|error| Error::from(error).context("cannot write the report"))?;
     Ok(DONE)
+}
+
+/// Ends the process in place of threads that do not end: what they have is lost, but not what is recorded.
+fn give_up(recording: &Mutex<Option<Recording>>) {
+    if let Some(recording) = lock(recording).take() {
+        tell(format_args!("{}", recording.end()));
+    }
+    std::process::exit(FAILED.into());
+}
+
+fn lock(recording: &Mutex<Option<Recording>>) -> MutexGuard<'_, Option<Recording>> {
+    recording.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 pub(crate) fn start_server(

@@ -6,6 +6,7 @@ use std::thread;
 use std::time::Duration;
 
 use super::observer::Observed;
+use super::overdue::{Overdue, Running};
 use super::{Observer, SafeState};
 use crate::clock::Clock;
 use crate::cycler::{
@@ -23,6 +24,9 @@ use crate::time::Timestamp;
 /// The watchdog looks at least so often, also where nobody moves.
 const LONGEST_PERIOD: Duration = Duration::from_millis(50);
 
+/// A perception cycle that takes longer is told: nobody else says why its instance shows nothing.
+const LONGEST_PERCEPTION: Duration = Duration::from_secs(5);
+
 /// The robot's threads and what they share.
 pub struct Threads<'robot> {
     clock: &'robot Clock,
@@ -30,6 +34,7 @@ pub struct Threads<'robot> {
     stop: &'robot Stop,
     rearm: Rearm,
     is_real_time: bool,
+    overdue: Overdue<'robot>,
 }
 
 impl<'robot> Threads<'robot> {
@@ -41,6 +46,7 @@ impl<'robot> Threads<'robot> {
             stop,
             rearm: Rearm::default(),
             is_real_time: false,
+            overdue: Overdue::default(),
         }
     }
 
@@ -48,6 +54,15 @@ impl<'robot> Threads<'robot> {
     pub fn real_time(self, is_real_time: bool) -> Self {
         Self {
             is_real_time,
+            ..self
+        }
+    }
+
+    /// What is done about threads that have not ended 10 s after the stop, once it was told whose they are. Nothing ends a
+    /// thread from outside: without this, or where it returns, they are waited for.
+    pub fn giving_up(self, give_up: &'robot dyn Fn()) -> Self {
+        Self {
+            overdue: Overdue::then(give_up),
             ..self
         }
     }
@@ -86,9 +101,10 @@ impl<'robot> Threads<'robot> {
             stop.request();
         };
         let safe_state = SafeState::new(self.hardware);
-        let watched = Watched::all(instances);
+        let mut watched = Watched::all(instances);
         let refusals = Refusals::default();
         thread::scope(|scope| {
+            let mut running = Running::default();
             for instance in instances {
                 let description = *instance.description();
                 let turning = Turning {
@@ -115,13 +131,17 @@ impl<'robot> Threads<'robot> {
                         // What a panic has left.
                         instance.abandon();
                     });
-                if let Err(error) = spawned {
-                    fail(Error::from(error).context(format!("no thread for {}", description.name)));
-                    break;
+                match spawned {
+                    Ok(thread) => running.add(description.name, thread),
+                    Err(error) => {
+                        let what = format!("no thread for {}", description.name);
+                        fail(Error::from(error).context(what));
+                        break;
+                    }
                 }
             }
             let watching = contain("watchdog", || {
-                self.watch(&watched, &safe_state);
+                self.watch(&mut watched, &safe_state);
                 Ok(())
             });
             watching.unwrap_or_else(|error| fail(error.context("the watchdog failed")));
@@ -131,6 +151,7 @@ impl<'robot> Threads<'robot> {
                 Ok(())
             });
             stopped.unwrap_or_else(fail);
+            self.overdue.await_end(&running);
         });
         let failure = failure.into_inner().unwrap_or_else(PoisonError::into_inner);
         failure.map_or(Ok(()), Err)
@@ -216,54 +237,70 @@ impl Turning<'_> {
     }
 }
 
-/// A real-time instance, as the watchdog sees it.
+/// An instance, as the watchdog sees it.
 struct Watched {
     description: InstanceDescription,
     counters: Arc<Counters>,
+    /// The cycle for which there was an alarm: after a re-arm it does not count again.
+    alarmed: Option<Timestamp>,
 }
 
 impl Watched {
     fn all(instances: &[Box<dyn Instance>]) -> Vec<Self> {
-        let real_time = instances
-            .iter()
-            .filter(|instance| instance.description().kind == Kind::RealTime);
-        real_time
-            .map(|instance| Self {
-                description: *instance.description(),
-                counters: instance.counters().clone(),
-            })
-            .collect()
+        let watched = instances.iter().map(|instance| Self {
+            description: *instance.description(),
+            counters: instance.counters().clone(),
+            alarmed: None,
+        });
+        watched.collect()
     }
 
-    /// When the cycle began that takes longer than the watchdog permits.
-    fn hangs_since(&self, now: Timestamp) -> Option<Timestamp> {
-        let begun_at = self.counters.begun_at()?;
-        (now - begun_at > self.description.watchdog).then_some(begun_at)
+    fn is_real_time(&self) -> bool {
+        self.description.kind == Kind::RealTime
+    }
+
+    /// A cycle may take so long.
+    fn limit(&self) -> Duration {
+        match self.is_real_time() {
+            true => self.description.watchdog,
+            false => LONGEST_PERCEPTION,
+        }
+    }
+
+    /// Whether a cycle takes longer now, and this was not told yet.
+    fn hangs_anew(&mut self, now: Timestamp) -> bool {
+        let begun_at = self.counters.begun_at();
+        let hangs = begun_at.is_some_and(|begun_at| now - begun_at > self.limit());
+        let is_new = hangs && self.alarmed != begun_at;
+        if is_new {
+            self.alarmed = begun_at;
+        }
+        is_new
     }
 }
 
 impl Threads<'_> {
-    /// Until the robot stops, looks for cycles that have begun and are not finished after `watchdog`, and for whoever wants
-    /// the actuators back.
-    fn watch(&self, watched: &[Watched], safe_state: &SafeState<'_>) {
-        let limits = watched.iter().map(|watched| watched.description.watchdog);
+    /// Until the robot stops, looks for cycles that have begun and are not finished for too long, and for whoever wants the
+    /// actuators back. Perception commands no actuators: it is told, and nothing else.
+    fn watch(&self, watched: &mut [Watched], safe_state: &SafeState<'_>) {
+        let limits = watched.iter().map(Watched::limit);
         let period = limits.min().map_or(LONGEST_PERIOD, |shortest| {
             (shortest / 4).clamp(Duration::from_millis(1), LONGEST_PERIOD)
         });
-        // One alarm per cycle that hangs: after a re-arm the same cycle does not count again.
-        let mut alarmed = vec![None; watched.len()];
         while self.stop.wait(period).is_ok() {
             safe_state.rearm_if_wanted(&self.rearm);
             let now = self.clock.now();
-            for (watched, alarmed) in watched.iter().zip(&mut alarmed) {
-                if let Some(begun_at) = watched.hangs_since(now)
-                    && *alarmed != Some(begun_at)
-                {
-                    *alarmed = Some(begun_at);
-                    let InstanceDescription { name, watchdog, .. } = watched.description;
-                    tell(format_args!(
-                        "{name} has not finished a cycle for {watchdog:?}: safe state"
-                    ));
+            for watched in &mut *watched {
+                if !watched.hangs_anew(now) {
+                    continue;
+                }
+                let (name, limit) = (watched.description.name, watched.limit());
+                let is_real_time = watched.is_real_time();
+                let then = if is_real_time { ": safe state" } else { "" };
+                tell(format_args!(
+                    "{name} has not finished a cycle for {limit:?}{then}"
+                ));
+                if is_real_time {
                     safe_state.enter();
                 }
             }

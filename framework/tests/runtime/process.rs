@@ -3,6 +3,7 @@
 use std::ffi::OsString;
 use std::fs::File;
 use std::io::{self, Read, Write};
+use std::path::Path;
 use std::process::{Command, ExitStatus, Stdio};
 use std::sync::Arc;
 use std::thread;
@@ -11,6 +12,7 @@ use std::time::{Duration, Instant};
 use framework::launch;
 use framework::testing::TARGET;
 use framework::{OnFailure, Start};
+use hulkgen_recording::Recording;
 use serde_json::Value;
 use signal_hook::consts::SIGHUP;
 use signal_hook::low_level::raise;
@@ -21,6 +23,9 @@ use crate::scripted::{Act, Script, ScriptedHardware};
 
 /// Tells a process of this test which of the runs below it is.
 const RUN: &str = "FRAMEWORK_TEST_RUN";
+
+/// What a run that hangs leaves in its folder.
+const RECORDING: &str = "run.mcap";
 
 /// A reader of the report who has left.
 struct Closed;
@@ -124,6 +129,19 @@ fn a_process_of_this_test_is_the_run_it_was_told_to_be() {
             };
             launch(&["--for", "1s"], &setting)
         }
+        Ok("hanging") => {
+            let eye = Plan {
+                work: Script::new([Act::Work, Act::Work, Act::Take(u64::from(u32::MAX))]),
+                ..Plan::default()
+            };
+            let setting = Setting {
+                eye,
+                ..Setting::default()
+            };
+            let recording = std::env::temp_dir().join(RECORDING);
+            let recording = recording.to_str().expect("it was told as text");
+            launch(&["--for", "5500ms", "--record", recording], &setting)
+        }
         // Without a run it is one of many tests, and there is nothing to do.
         _ => {}
     }
@@ -131,8 +149,14 @@ fn a_process_of_this_test_is_the_run_it_was_told_to_be() {
 
 /// How a run ends, by itself and in time.
 fn end_of(run: &str, errors: Stdio) -> (ExitStatus, String) {
+    end_within(Duration::from_secs(8), run, &std::env::temp_dir(), errors)
+}
+
+/// As [`end_of`], of a run that has a folder for what it leaves behind.
+fn end_within(limit: Duration, run: &str, folder: &Path, errors: Stdio) -> (ExitStatus, String) {
     let mut child = Command::new(std::env::current_exe().expect("this test"))
         .args(["--exact", "--nocapture"])
+        .env("TMPDIR", folder)
         .arg("process::a_process_of_this_test_is_the_run_it_was_told_to_be")
         .env(RUN, run)
         .stdout(Stdio::null())
@@ -144,7 +168,7 @@ fn end_of(run: &str, errors: Stdio) -> (ExitStatus, String) {
         if let Some(status) = child.try_wait().expect("it is a child") {
             break status;
         }
-        if started.elapsed() > Duration::from_secs(8) {
+        if started.elapsed() > limit {
             child.kill().expect("it is a child");
             child.wait().expect("it is a child");
             panic!("`{run}` does not end by itself");
@@ -156,6 +180,20 @@ fn end_of(run: &str, errors: Stdio) -> (ExitStatus, String) {
         errors.read_to_string(&mut text).expect("text");
     }
     (status, text)
+}
+
+#[test]
+fn a_node_that_never_returns_is_told_and_keeps_neither_process_nor_recording() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let limit = Duration::from_secs(60);
+    let (status, errors) = end_within(limit, "hanging", folder.path(), Stdio::piped());
+    assert_eq!(status.code(), Some(1), "{status}: {errors}");
+    let told = |what| errors.lines().any(|line| line.ends_with(what));
+    assert!(told("Eye has not finished a cycle for 5s"), "{errors}");
+    assert!(errors.contains("Eye did not end within 10s"), "{errors}");
+    assert!(!errors.contains("Legs did not"), "{errors}");
+    let recording = Recording::open(&folder.path().join(RECORDING)).expect("it can be read");
+    assert!(recording.is_complete(), "it has its end");
 }
 
 #[cfg(target_os = "linux")]
