@@ -51,7 +51,22 @@ impl YuyvImage {
     /// Whether `data` has as many bytes as width and height ask for.
     pub fn is_complete(&self) -> bool {
         self.width.is_multiple_of(2)
-            && self.data.len() as u64 == u64::from(self.width) * u64::from(self.height) * 2
+            && self.data.len() as u128 == u128::from(self.width) * u128::from(self.height) * 2
+    }
+
+    /// Pixels in a row; none in an image that is not complete, whatever it says of itself.
+    pub fn columns(&self) -> u32 {
+        if self.has_pixels() { self.width } else { 0 }
+    }
+
+    /// Rows; none in an image that is not complete.
+    pub fn rows(&self) -> u32 {
+        if self.has_pixels() { self.height } else { 0 }
+    }
+
+    /// Of no rows there may be ever so many columns.
+    fn has_pixels(&self) -> bool {
+        !self.data.is_empty() && self.is_complete()
     }
 
     /// Luminance of a pixel, 0 (black) to 255.
@@ -84,7 +99,7 @@ impl YuyvImage {
             width: self.width,
             height: self.height,
             encoding: "yuyv",
-            step: self.width * 2,
+            step: self.width.saturating_mul(2),
             data: Base64(self.data.clone()),
         }
     }
@@ -162,7 +177,17 @@ mod tests {
         let mut image = YuyvImage::new(4, 2);
         image.data.truncate(9);
         assert!(!image.is_complete());
+        assert_eq!((image.columns(), image.rows()), (0, 0));
         assert_eq!(image.yuv(3, 1), None);
+        // As a client may say it.
+        (image.width, image.height) = (u32::MAX - 1, u32::MAX);
+        assert_eq!((image.columns(), image.rows()), (0, 0));
+        image.data.clear();
+        image.height = 0;
+        assert!(image.is_complete());
+        assert_eq!((image.columns(), image.rows()), (0, 0));
+        let whole = YuyvImage::new(4, 2);
+        assert_eq!((whole.columns(), whole.rows()), (4, 2));
     }
 
     #[test]

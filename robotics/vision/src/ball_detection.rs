@@ -231,7 +231,7 @@ impl BallDetection {
         }
         let ball_view = BallView {
             camera_matrix: *context.camera_matrix,
-            size: Vector2::new(context.image.width as f32, context.image.height as f32),
+            size: Vector2::new(context.image.columns() as f32, context.image.rows() as f32),
             least_radius: parameters.least_radius,
             ball_radius: *context.ball_radius,
         };

@@ -67,7 +67,7 @@ impl CornerDetection {
     /// The corners that are seen whole.
     pub fn cycle(&mut self, context: CycleContext) -> Result<MainOutputs> {
         let view = View {
-            size: Vector2::new(context.image.width as f32, context.image.height as f32),
+            size: Vector2::new(context.image.columns() as f32, context.image.rows() as f32),
             lines: context.lines,
             center_circle: context.center_circle,
             limb_mask: context.limb_mask,

@@ -152,10 +152,10 @@ fn pixels(context: &CycleContext<'_>) -> impl Iterator<Item = [f32; 3]> {
     let brightest = context.parameters.brightest;
     let horizon = context.camera_matrix.and_then(CameraMatrix::horizon);
     let limb_mask = context.limb_mask;
-    (0..image.width).step_by(step).flat_map(move |column| {
+    (0..image.columns()).step_by(step).flat_map(move |column| {
         let first = horizon.map_or(0.0, |horizon| horizon.at(column as f32).max(0.0));
         let limb = limb_mask.first_row(column as f32);
-        let end = limb.map_or(image.height, |row| image.height.min(row as u32));
+        let end = limb.map_or(image.rows(), |row| image.rows().min(row as u32));
         (first as u32..end).step_by(step).filter_map(move |row| {
             let color = image.yuv(column, row)?;
             (darkest..brightest)
@@ -253,6 +253,19 @@ mod tests {
             (last.maximum_red - (60.0 / 220.0 + 0.13)).abs() < 0.01,
             "{last:?}"
         );
+    }
+
+    /// A client may inject one.
+    #[test]
+    fn an_image_that_lies_about_its_size_has_nothing_to_look_at() {
+        let mut node = FieldColorDetection { carpet: None };
+        let lying = YuyvImage {
+            width: u32::MAX - 1,
+            height: u32::MAX,
+            data: Vec::new(),
+        };
+        detect(&mut node, &lying);
+        assert_eq!(node.carpet, None);
     }
 
     #[test]

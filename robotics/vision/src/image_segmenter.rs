@@ -57,10 +57,10 @@ impl ImageSegmenter {
         let horizon = context.camera_matrix.and_then(CameraMatrix::horizon);
         context.image_segments.column_step = columns;
         // Not the first column: what is cut by the edge of the image is seen only in part.
-        for column in (columns / 2..image.width).step_by(columns as usize) {
+        for column in (columns / 2..image.columns()).step_by(columns as usize) {
             let first = horizon.map_or(0.0, |horizon| horizon.at(column as f32).max(0.0).ceil());
             let limb = context.limb_mask.first_row(column as f32);
-            let end = limb.map_or(image.height, |row| image.height.min(row as u32));
+            let end = limb.map_or(image.rows(), |row| image.rows().min(row as u32));
             let scan = Scan {
                 image,
                 color: context.field_color,
@@ -69,7 +69,7 @@ impl ImageSegmenter {
             };
             scan.cut(
                 first as u32,
-                context.steps.rows.clamp(1, image.height.max(1)),
+                context.steps.rows.clamp(1, image.rows().max(1)),
                 &mut context.image_segments.segments,
             );
         }

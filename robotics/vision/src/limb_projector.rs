@@ -83,8 +83,8 @@ impl LimbProjector {
         let projection = Projection {
             torso_to_camera: head_to_camera * kinematics.head_to_torso.inverse(),
             intrinsics: calibration.intrinsics(),
-            width: context.image.width as f32,
-            height: context.image.height as f32,
+            width: context.image.columns() as f32,
+            height: context.image.rows() as f32,
         };
         let outlines = parts(kinematics, context.parameters)
             .filter_map(|part| outline(&projection, &part, context.parameters.margin));

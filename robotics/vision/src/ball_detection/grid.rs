@@ -25,9 +25,9 @@ struct Row {
 impl Grid {
     /// Rows from the bottom of the image up to where a ball's radius falls below `smallest` px.
     pub(super) fn new(view: &View<'_>, smallest: f32) -> Self {
-        let width = view.image.width as f32;
+        let width = view.image.columns() as f32;
         let mut rows = Vec::new();
-        let mut bottom = view.image.height as f32;
+        let mut bottom = view.image.rows() as f32;
         while bottom > 0.0
             && let Some(radius) = view.expected_radius(Point2::new(width / 2.0, bottom))
             && radius >= smallest

@@ -47,8 +47,8 @@ pub fn normalized(patch: &Patch) -> [f32; SIDE * SIDE] {
 
 fn luminance(image: &YuyvImage, place: Vector2<f32>) -> u8 {
     // `as` saturates at 0.
-    let column = (place.x.round() as u32).min(image.width.saturating_sub(1));
-    let row = (place.y.round() as u32).min(image.height.saturating_sub(1));
+    let column = (place.x.round() as u32).min(image.columns().saturating_sub(1));
+    let row = (place.y.round() as u32).min(image.rows().saturating_sub(1));
     image.luminance(column, row).unwrap_or(0)
 }
 

@@ -13,10 +13,10 @@ pub(super) fn scan(
     limb_mask: &LimbMask,
     mut found: impl FnMut(Point2<f32>, Point2<f32>),
 ) {
-    let width = view.image.width;
+    let width = view.image.columns();
     let step = view.parameters.row_step.max(1);
     let sample_step = view.parameters.sample_step.max(1);
-    for row in (first_row(view)..view.image.height).step_by(step as usize) {
+    for row in (first_row(view)..view.image.rows()).step_by(step as usize) {
         let is_field = |column: u32| {
             let color_there = view.image.yuv(column, row);
             color_there.is_some_and(|there| color.matches(there))
@@ -54,7 +54,7 @@ fn first_like(column: u32, step: u32, wanted: bool, is_field: impl Fn(u32) -> bo
 
 /// The first row that shows some of the field.
 fn first_row(view: &View<'_>) -> u32 {
-    let right = view.image.width as f32;
+    let right = view.image.columns() as f32;
     let border = |x: f32| view.border.row_at(x);
     let horizon = view.matrix.horizon();
     let first = |x: f32| border(x).or(horizon.map(|horizon| horizon.at(x)));
