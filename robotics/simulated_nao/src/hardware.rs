@@ -257,7 +257,12 @@ impl Hardware {
 
 impl SensorInterface for Hardware {
     fn read_sensors(&self) -> Result<(Timestamp, SensorData)> {
-        if self.thread.is_some() {
+        if let Some(simulator) = &self.thread {
+            if !simulator.is_running() {
+                return Err(Error::new(
+                    "the world of the simulated NAO has ended, and nothing comes any more",
+                ));
+            }
             return self.client.read_state();
         }
         self.stop.check()?;
@@ -331,7 +336,8 @@ impl Drop for Hardware {
     /// Lets the robot down to the end before the world goes.
     fn drop(&mut self) {
         let never = Stop::new();
-        while self.thread.is_some() && lock(&self.safety).is_fading(self.clock.now()) {
+        let turns = || self.thread.as_ref().is_some_and(Simulator::is_running);
+        while turns() && lock(&self.safety).is_fading(self.clock.now()) {
             if never.wait(crate::simulation::TICK).is_err() {
                 break;
             }

@@ -9,7 +9,9 @@ use hardware::{
     ActuatorInterface, CameraInterface, MOST_BLOCKS, MOST_IMAGES, MicrophoneInterface,
     NetworkInterface, SensorInterface,
 };
+use nalgebra::{Point3, Vector3};
 use simulated_nao::Hardware;
+use simulated_nao::physics::Disturbance;
 use types::audio::AudioBlock;
 use types::camera::CameraPosition;
 use types::joints::Joints;
@@ -178,6 +180,30 @@ fn a_reader_that_holds_all_images_gets_the_newest_once_it_lets_one_go() {
     let last = held.pop().map(|(captured_at, _)| captured_at);
     assert!(Some(read().unwrap().0) > last);
     assert!(read().is_ok(), "it was not held");
+}
+
+#[test]
+fn a_world_that_ends_is_told_and_keeps_nobody() {
+    let mate = "robots = [{ position = [1.0, 0.5], team = 'own', number = 2 }]";
+    let options = ["--free-ports", "--ball", "2,1"];
+    let hardware = try_to_create(&Stop::new(), &options, mate).unwrap();
+    hardware.read_sensors().unwrap();
+    // The mate cannot say where that is.
+    hardware.disturb(&Disturbance::MoveBall {
+        position: Point3::new(f64::INFINITY, 0.0, 0.1),
+        velocity: Vector3::zeros(),
+    });
+    let has_ended = || match hardware.read_sensors() {
+        Err(error) => error
+            .to_string()
+            .contains("the world of the simulated NAO has ended"),
+        Ok(_) => false,
+    };
+    assert!(until(has_ended));
+    // It lets nobody down any more, and goes.
+    hardware.enter_safe_state();
+    hardware.stop();
+    drop(hardware);
 }
 
 #[test]

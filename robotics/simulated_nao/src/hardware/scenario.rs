@@ -14,6 +14,9 @@ use crate::settings::{Button, Press};
 use crate::silence::DropOut;
 use crate::simulation::Simulation;
 
+/// What happens is not farther, faster and harder: physics stays finite. Ten fields long, and for the robot's 5 kg 20 m/s.
+const GREATEST: f64 = 100.0;
+
 /// One `[[event]]`: everything in it happens at once.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq)]
 #[serde(default, deny_unknown_fields)]
@@ -56,9 +59,9 @@ impl Deed {
     /// Names what is not understood.
     pub(super) fn read(deed: &toml::Table) -> Result<Self> {
         let read: Self = deed.clone().try_into()?;
-        match read.numbers().find(|number| !number.is_finite()) {
+        match read.numbers().find(|number| !(number.abs() <= GREATEST)) {
             Some(number) => Err(Error::new(format!(
-                "{number} is no place, speed or impulse"
+                "{number} is no place, speed or impulse of this world: they are at most {GREATEST} m, m/s, rad and N s"
             ))),
             None => Ok(read),
         }
@@ -227,5 +230,7 @@ mod tests {
         assert!(message("psh = [1, 0, 0]").contains("unknown field `psh`"));
         assert!(message("push = [1, 0]").contains("push"));
         assert!(message("ball = [nan, 0]").contains("NaN is no place"));
+        let far = message("push = [0, -1e38, 0]");
+        assert!(far.contains("at most 100 m, m/s, rad and N s"), "{far}");
     }
 }
