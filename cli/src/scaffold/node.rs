@@ -19,6 +19,22 @@ pub struct NewNode<'a> {
     pub setup: bool,
 }
 
+/// What a new node's file names besides its own type.
+const NAMED: [&str; 12] = [
+    "CreationContext",
+    "CycleContext",
+    "CycleTime",
+    "Debug",
+    "Deserialize",
+    "Duration",
+    "MainOutput",
+    "MainOutputs",
+    "Ok",
+    "Result",
+    "Self",
+    "Serialize",
+];
+
 /// Crates that every node file names.
 const NEEDED: [&str; 2] = ["framework", "serde"];
 
@@ -82,7 +98,7 @@ pub(super) fn node_files(
     };
     let text = files::render_node(
         &NodeFile {
-            type_name: &schema::upper_camel_case(last),
+            type_name: &type_name(last),
             output: &output,
             paces: !paced,
         },
@@ -91,6 +107,15 @@ pub(super) fn node_files(
     changes.insert(file, Some(text));
     changes.extend(dependencies(workspace, member)?);
     Ok(changes)
+}
+
+/// What the state of a node with this name is called.
+fn type_name(node: &str) -> String {
+    let name = schema::upper_camel_case(node);
+    match NAMED.contains(&name.as_str()) {
+        true => format!("{name}Node"),
+        false => name,
+    }
 }
 
 /// Names of a cycler's main outputs and of its other outputs.
@@ -137,4 +162,48 @@ fn dependencies(
     }
     let text = document::written(&package, &before);
     Ok(Some((file, Some(text))))
+}
+
+#[cfg(test)]
+mod tests {
+    use proc_macro2::{TokenStream, TokenTree};
+
+    use super::*;
+
+    fn names(tokens: TokenStream, found: &mut BTreeSet<String>) {
+        for token in tokens {
+            match token {
+                TokenTree::Group(group) => names(group.stream(), found),
+                TokenTree::Ident(name) => {
+                    found.insert(name.to_string());
+                }
+                TokenTree::Punct(_) | TokenTree::Literal(_) => {}
+            }
+        }
+    }
+
+    #[test]
+    fn no_state_is_called_as_something_else_in_its_file() {
+        for setup in [false, true] {
+            let file = NodeFile {
+                type_name: "Own",
+                output: "own",
+                paces: true,
+            };
+            let text = files::render_node(&file, setup);
+            let mut found = BTreeSet::new();
+            names(text.parse().expect("it is Rust"), &mut found);
+            found.remove("Own");
+            let types = found
+                .iter()
+                .filter(|name| name.starts_with(char::is_uppercase));
+            // Constants have other names than types.
+            for name in types.filter(|name| name.contains(char::is_lowercase)) {
+                assert!(NAMED.contains(&name.as_str()), "{name}");
+            }
+        }
+        assert_eq!(type_name("result"), "ResultNode");
+        assert_eq!(type_name("self_"), "SelfNode");
+        assert_eq!(type_name("ball_filter"), "BallFilter");
+    }
 }
