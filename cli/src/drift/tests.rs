@@ -154,6 +154,43 @@ fn a_folder_with_files_that_hulkgen_did_not_write_is_never_cleaned() {
 }
 
 #[test]
+fn an_orphaned_link_goes_and_what_it_leads_to_stays() {
+    use std::os::unix::fs::symlink;
+    let folder = Folder::with(&[("generated/Cargo.toml", HEADER), ("mine/file", "mine\n")]);
+    let path = |name: &str| folder.root().join(name);
+    let links = [
+        ("generated/src/folder", "../../mine"),
+        ("generated/nowhere", "gone"),
+    ];
+    std::fs::create_dir(path("generated/src")).expect("the folder is ours");
+    for (link, target) in links {
+        symlink(target, path(link)).expect("the folder is ours");
+    }
+    let files = files(&[("generated/Cargo.toml", HEADER)]);
+    let drift = folder.compare(&files);
+    assert_eq!(
+        drift.orphaned,
+        ["generated/nowhere", "generated/src/folder"]
+    );
+    // A failure at the last of them brings the others back.
+    let mut asked = 0;
+    let refused = write_all_asking(folder.root(), &drift.changes(&files), |_| {
+        asked += 1;
+        match asked {
+            2 => Err(std::io::ErrorKind::PermissionDenied.into()),
+            _ => Ok(()),
+        }
+    });
+    assert!(refused.is_err());
+    assert_eq!(folder.compare(&files).orphaned, drift.orphaned);
+    let target = path("generated/nowhere").read_link_utf8();
+    assert_eq!(target.expect("it is back"), "gone");
+    drift.write(folder.root(), &files).expect("it is ours");
+    assert!(folder.compare(&files).is_empty());
+    assert!(path("mine/file").is_file() && !path("generated/src").exists());
+}
+
+#[test]
 fn text_that_is_no_utf_8_is_drift_and_no_failure() {
     let folder = Folder::with(&[("generated/Cargo.toml", HEADER), ("generated/a", "")]);
     std::fs::write(folder.root().join("generated/a"), [0xff]).expect("the file is writable");

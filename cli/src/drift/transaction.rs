@@ -49,27 +49,66 @@ pub fn write_all_asking(
 /// What was changed so far, and what was there before.
 struct Done<'a> {
     root: &'a Utf8Path,
-    files: Vec<(Utf8PathBuf, Option<Vec<u8>>)>,
+    files: Vec<(Utf8PathBuf, Before)>,
     /// Folders that were not there before, outer ones first.
     folders: Vec<Utf8PathBuf>,
+}
+
+/// What was in a place.
+#[derive(PartialEq, Eq)]
+enum Before {
+    Nothing,
+    File(Vec<u8>),
+    /// It goes alone, and not what it leads to, which may be a folder or nowhere.
+    Link(Utf8PathBuf),
+}
+
+impl Before {
+    fn read(file: &Utf8Path) -> Result<Self, DriftError> {
+        let content = disk::read(file)?;
+        Ok(content.map_or(Self::Nothing, Self::File))
+    }
+
+    /// As [`Self::read`], of what is to be removed.
+    fn read_itself(file: &Utf8Path) -> Result<Self, DriftError> {
+        if !file.is_symlink() {
+            return Self::read(file);
+        }
+        let target = file.read_link_utf8();
+        target
+            .map(Self::Link)
+            .map_err(|source| disk::failed("read", file, source))
+    }
+
+    /// Where something else is now.
+    fn restore(&self, file: &Utf8Path) -> Result<(), DriftError> {
+        let restored = match self {
+            Self::Nothing => fs::remove_file(file),
+            Self::File(content) => return disk::write_bytes(file, content),
+            Self::Link(target) => {
+                let folder = file.parent().unwrap_or(Utf8Path::new("."));
+                fs::create_dir_all(folder).and_then(|()| std::os::unix::fs::symlink(target, file))
+            }
+        };
+        restored.map_err(|source| disk::failed("restore", file, source))
+    }
 }
 
 impl Done<'_> {
     fn change(&mut self, path: &Utf8Path, text: Option<&str>) -> Result<(), DriftError> {
         let file = self.root.join(path);
-        let before = disk::read(&file)?;
-        match (text, &before) {
-            (Some(text), _) => {
-                self.folders.extend(missing_folders(&file));
-                self.files.push((path.to_owned(), before));
-                disk::write_file(&file, text)
+        let Some(text) = text else {
+            let before = Before::read_itself(&file)?;
+            if before == Before::Nothing {
+                return Ok(());
             }
-            (None, Some(_)) => {
-                self.files.push((path.to_owned(), before));
-                disk::remove(self.root, path)
-            }
-            (None, None) => Ok(()),
-        }
+            self.files.push((path.to_owned(), before));
+            return disk::remove(self.root, path);
+        };
+        let before = Before::read(&file)?;
+        self.folders.extend(missing_folders(&file));
+        self.files.push((path.to_owned(), before));
+        disk::write_file(&file, text)
     }
 
     /// Restores everything that can be restored; the first failure is told.
@@ -77,15 +116,14 @@ impl Done<'_> {
         let mut first = Ok(());
         for (path, before) in self.files.iter().rev() {
             let file = self.root.join(path);
-            let restored = match (before, disk::read(&file)) {
-                (Some(before), Ok(Some(now))) if *before == now => Ok(()),
-                (Some(before), _) => disk::write_bytes(&file, before),
-                (None, Ok(None)) => Ok(()),
-                (None, _) => {
-                    fs::remove_file(&file).map_err(|source| disk::failed("remove", &file, source))
-                }
+            let now = match before {
+                Before::Link(_) => Before::read_itself(&file),
+                Before::Nothing | Before::File(_) => Before::read(&file),
             };
-            first = first.and(restored);
+            let is_restored = now.is_ok_and(|now| now == *before);
+            if !is_restored {
+                first = first.and(before.restore(&file));
+            }
         }
         for folder in self.folders.iter().rev() {
             // It stays if somebody else has put something there meanwhile.
