@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
+use proc_macro2::{TokenStream, TokenTree};
 use syn::punctuated::Punctuated;
 use syn::spanned::Spanned as _;
 use syn::visit::{self, Visit};
@@ -316,9 +317,29 @@ impl<'ast> Visit<'ast> for Finder<'_> {
     fn visit_macro(&mut self, call: &'ast syn::Macro) {
         // `assert_eq!(…)` and its like take expressions.
         let arguments = call.parse_body_with(Punctuated::<Expr, Token![,]>::parse_terminated);
-        for argument in arguments.iter().flatten() {
-            Visit::visit_expr(&mut *self, argument);
+        match arguments {
+            Ok(arguments) => arguments
+                .iter()
+                .for_each(|argument| Visit::visit_expr(&mut *self, argument)),
+            // Patterns of a macro, or what it makes of words of its own.
+            Err(_) => accesses(call.tokens.clone(), self.field, &mut self.uses.unclear),
         }
+    }
+}
+
+/// Adds where `.field` stands among tokens.
+fn accesses(tokens: TokenStream, field: &str, found: &mut Vec<usize>) {
+    let mut is_behind_point = false;
+    for token in tokens {
+        let is_point = matches!(&token, TokenTree::Punct(mark) if mark.as_char() == '.');
+        match token {
+            TokenTree::Group(group) => accesses(group.stream(), field, found),
+            TokenTree::Ident(name) if is_behind_point && name == field => {
+                found.push(range(name.span()).start);
+            }
+            _ => {}
+        }
+        is_behind_point = is_point;
     }
 }
 
@@ -423,6 +444,15 @@ mod tests {
             impl CycleContext<'_> { fn fill(&mut self) { self.[ball].clear(); } } \
             fn test() { let context = |n| CycleContext { [ball]: &mut ball, n }; context(1).[ball]; }";
         assert_eq!(marked(text, "CycleContext"), expected);
+    }
+
+    #[test]
+    fn what_a_macro_makes_of_its_words_is_unclear() {
+        let text = "macro_rules! seen { ($of:expr) => { $of.ball.value + ball } } \
+            fn test() { seen!(seen.ball); select! { ball = node.ball => [1 - ball] } }";
+        let expected = "macro_rules! seen { ($of:expr) => { $of.?ball.value + ball } } \
+            fn test() { seen!(seen.?ball); select! { ball = node.?ball => [1 - ball] } }";
+        assert_eq!(marked(text, "MainOutputs"), expected);
     }
 
     #[test]
