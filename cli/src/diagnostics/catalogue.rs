@@ -125,6 +125,8 @@ catalogue! {
         "A node gets another answer in every run.";
     NotPublic, "not-public", Error,
         "Generated code cannot name something because it is private.";
+    NotReplayable, "not-replayable", Warning,
+        "Nothing can stand in for a hardware trait in a replay.";
     OptionMismatch, "option-mismatch", Error,
         "`?` in a path and `Option` in a type disagree.";
     OverlappingStates, "overlapping-states", Error,

@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use camino::Utf8Path;
 use grammar::CycleField;
+use proc_macro2::Span;
 
 use super::robot::{
     Bridge, BridgeKind, Content, CreationBinding, CycleBinding, Cycler, CyclerKind, Interface,
@@ -34,6 +35,7 @@ pub(super) fn warn(
                 unread_outputs(cycler, node, entry.range.clone(), diagnostics);
             }
             not_restorable(node, source, diagnostics);
+            not_replayable(cycler, node, source, diagnostics);
             read_outside_setup(cycler, node, source, diagnostics);
             actuator_takes_default(cycler, node, diagnostics);
             measurement_takes_default(robot, node, diagnostics);
@@ -211,6 +213,39 @@ fn not_restorable(node: &Node, source: &NodeSource, diagnostics: &mut Diagnostic
     }
 }
 
+/// One for each node: all its instances are not replayed for the first trait already.
+fn not_replayable(
+    cycler: &Cycler,
+    node: &Node,
+    source: &NodeSource,
+    diagnostics: &mut Diagnostics,
+) {
+    let mut asked = [&node.new_bounds, &node.cycle_bounds, &node.restore_bounds]
+        .into_iter()
+        .flatten();
+    let Some(interface) = asked.find(|one| one.methods.is_none()) else {
+        return;
+    };
+    let message = format!("nothing can stand in for `{}` in a replay", interface.path);
+    let label = format!("`{}` is not replayed", cycler.name);
+    let warning = Diagnostic::new(Code::NotReplayable, message)
+        .at(&node.file, range(hardware_place(source)), label)
+        .help(
+            "let it be a trait of the workspace without supertraits, parameters and associated items, and its methods \
+             plain ones without parameters of types",
+        );
+    diagnostics.add(warning);
+}
+
+/// Where a node asks for the hardware.
+fn hardware_place(source: &NodeSource) -> Span {
+    let fields = &source.cycle.fields;
+    let field = fields
+        .iter()
+        .find(|field| matches!(field.kind, CycleField::HardwareInterface));
+    field.map_or(source.signatures.cycle.span, |field| field.span)
+}
+
 fn read_outside_setup(
     cycler: &Cycler,
     node: &Node,
@@ -227,11 +262,7 @@ fn read_outside_setup(
     else {
         return;
     };
-    let fields = &source.cycle.fields;
-    let field = fields
-        .iter()
-        .find(|field| matches!(field.kind, CycleField::HardwareInterface));
-    let place = field.map_or(source.signatures.cycle.span, |field| field.span);
+    let place = hardware_place(source);
     let message = format!(
         "`{}` reads from the hardware in its cycle: `{}`",
         node.path, interface.path

@@ -323,7 +323,12 @@ fn a_hardware_trait_keeps_its_arguments() {
     let robot = Fixture::control(&["a"])
         .node("a", node("Drives<Vec<Arm>, 3> + Drives<u8, 3>"))
         .file("crates/hardware/src/lib.rs", hardware)
-        .robot();
+        .expect(
+            "not-replayable",
+            &["hardware::Drives<Vec<hardware::Arm>, 3>"],
+        )
+        .robot
+        .expect("it is a warning");
     let bounds = &robot.cyclers[0].nodes[0].cycle_bounds;
     let paths: Vec<&str> = bounds.iter().map(|bound| bound.path.as_str()).collect();
     assert_eq!(

@@ -85,6 +85,33 @@ fn reading_the_hardware_outside_of_setup_is_told() {
 }
 
 #[test]
+fn a_trait_that_nothing_can_stand_in_for_is_told() {
+    let asking = |definition: &str| {
+        let hardware =
+            format!("pub struct Hardware; pub trait Wheels {{ fn turn(&self); }} {definition}");
+        let node = Node {
+            cycle: "hardware: HardwareInterface,",
+            asks: "hardware::Drive",
+            ..Node::default()
+        };
+        Fixture::control(&["a"])
+            .node("a", node)
+            .file("crates/hardware/src/lib.rs", &hardware)
+    };
+    asking("pub trait Drive: Send { fn drive(&self, speed: f32) -> Result<()>; }").robot();
+    for definition in [
+        "pub trait Drive: Wheels { fn drive(&self); }",
+        "pub trait Drive { type Unit; fn drive(&self); }",
+        "pub trait Drive { fn drive<T>(&self, value: T); }",
+    ] {
+        asking(definition).expect(
+            "not-replayable",
+            &["`hardware::Drive`", "`Control` is not replayed"],
+        );
+    }
+}
+
+#[test]
 fn an_actuator_that_may_take_a_default_is_told() {
     let fixture = |output: &str, field: &str| {
         let output = format!("command: MainOutput<{output}>,");

@@ -1,0 +1,26 @@
+pub mod planner;
+pub mod sender;
+
+use framework::Result;
+
+pub struct Hardware;
+
+pub trait Motors {
+    fn write(&self, speed: f32) -> Result<()>;
+}
+
+pub trait Sensors {
+    fn read(&self) -> Result<f32>;
+}
+
+impl Sensors for Hardware {
+    fn read(&self) -> Result<f32> {
+        Ok(0.2)
+    }
+}
+
+impl Motors for Hardware {
+    fn write(&self, _speed: f32) -> Result<()> {
+        Ok(())
+    }
+}
