@@ -115,6 +115,27 @@ fn other_types_and_functions_do_not_disturb() {
     assert!(node.restore.is_none());
 }
 
+#[test]
+fn a_node_has_no_arguments() {
+    for (node, part) in [
+        ("Node<f32>", "parameters"),
+        ("Node<4>", "parameters"),
+        ("Node<'static>", "parameters"),
+        ("Node<'_>", "parameters"),
+    ] {
+        let source = format!("{NO_HARDWARE} impl {node} {{ {NEW} {CYCLE} }}");
+        let (found, mistakes) = read(&source);
+        assert!(found.is_none() && mistakes.len() == 1, "{mistakes:?}");
+        assert_eq!(mistakes[0].rule, Rule::InvalidSignature);
+        assert!(mistakes[0].message.contains(part), "{mistakes:?}");
+        let place = &source[mistakes[0].span.byte_range()];
+        assert_eq!(format!("Node<{place}>"), node);
+        let help = mistakes[0].help.as_deref().unwrap_or_default();
+        assert!(help.contains("give its struct no parameters"), "{help}");
+    }
+    found(&format!("{NO_HARDWARE} impl Node<> {{ {NEW} {CYCLE} }}"));
+}
+
 /// The one mistake of a node whose `new`, `cycle` and `restore` are these.
 fn mistake(contexts: &str, functions: &str) -> (Rule, String, String, String) {
     let source = format!("{contexts} impl Node {{ {functions} }}");

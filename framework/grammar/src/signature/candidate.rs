@@ -1,6 +1,10 @@
 //! Which type of a file is its node.
 
-use syn::{FnArg, GenericParam, Ident, ImplItem, ImplItemFn, Item, ItemImpl, Type, Visibility};
+use syn::spanned::Spanned;
+use syn::{
+    FnArg, GenericArgument, GenericParam, Ident, ImplItem, ImplItemFn, Item, ItemImpl,
+    PathArguments, Type, Visibility,
+};
 
 use super::check::last_segment;
 use crate::context::ContextKind;
@@ -96,16 +100,28 @@ impl<'file> Candidate<'file> {
         })
     }
 
-    /// A node is one type for all of the robot: it has no parameters.
+    /// A node is one type for all of the robot, which generated code writes by its name alone: it has no parameters.
     pub(super) fn generics_mistake(&self) -> Option<Mistake> {
         let mut parameters = self.impls.iter().flat_map(|block| &block.generics.params);
-        let (sort, span) = match parameters.next()? {
-            GenericParam::Lifetime(lifetime) => ("lifetimes", lifetime.lifetime.ident.span()),
-            GenericParam::Type(parameter) => ("type parameters", parameter.ident.span()),
-            GenericParam::Const(parameter) => ("const parameters", parameter.ident.span()),
+        let mut arguments = self.impls.iter().filter_map(|block| argument(block));
+        const ASKS: &str = "write what it asks of the hardware at `new` and `cycle`";
+        let (sort, span, help) = match (parameters.next(), arguments.next()) {
+            (Some(GenericParam::Lifetime(parameter)), _) => {
+                ("lifetimes", parameter.lifetime.ident.span(), ASKS)
+            }
+            (Some(GenericParam::Type(parameter)), _) => {
+                ("type parameters", parameter.ident.span(), ASKS)
+            }
+            (Some(GenericParam::Const(parameter)), _) => {
+                ("const parameters", parameter.ident.span(), ASKS)
+            }
+            (None, Some(argument)) => {
+                let help = "give its struct no parameters: write in their place what stands here";
+                ("parameters", argument.span(), help)
+            }
+            (None, None) => return None,
         };
         let message = format!("the node `{}` has {sort}", self.name);
-        let help = "write what it asks of the hardware at `new` and `cycle`";
         Some(Mistake::new(Rule::InvalidSignature, span, message).help(help))
     }
 
@@ -118,6 +134,14 @@ impl<'file> Candidate<'file> {
     fn takes_cycle(&self) -> Takes {
         self.method("cycle")
             .map_or(Takes::Nothing, |method| takes(method, ContextKind::Cycle))
+    }
+}
+
+/// The first of what stands between `<` and `>` of the type that an `impl` is for.
+fn argument(block: &ItemImpl) -> Option<&GenericArgument> {
+    match &last_segment(&block.self_ty)?.arguments {
+        PathArguments::AngleBracketed(arguments) => arguments.args.first(),
+        _ => None,
     }
 }
 
