@@ -83,7 +83,7 @@ impl Home<'_> {
             }
             (Level::Error, None) => self.of_author(Code::Rustc, message, place),
             (Level::Warning, _) => self.of_author(Code::RustcWarning, message, place),
-            (Level::Other, _) => return None,
+            (Level::Note | Level::Other, _) => return None,
         };
         Some(diagnostic)
     }
@@ -128,3 +128,6 @@ fn indented(text: &str) -> String {
         .trim_end()
         .to_owned()
 }
+
+#[cfg(test)]
+mod tests;

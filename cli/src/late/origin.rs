@@ -2,12 +2,12 @@
 
 use std::ops::Range;
 
-use camino::Utf8Path;
+use camino::{Utf8Path, Utf8PathBuf};
 
 use super::Home;
 use super::rustc::Message;
 use super::surroundings::Surroundings;
-use crate::diagnostics::{Diagnostic, listed};
+use crate::diagnostics::{Diagnostic, byte, listed};
 use crate::resolve::robot::{CreationBinding, CycleBinding, Cycler, Field, Node, Target};
 use crate::workspace::MANIFEST;
 
@@ -22,6 +22,13 @@ struct Origin<'a> {
     writer: Option<&'a Node>,
     /// What it writes.
     output: &'a str,
+}
+
+/// A place in a file of the robot's authors, and what rustc says about it.
+struct Seen {
+    file: Utf8PathBuf,
+    range: Range<usize>,
+    text: String,
 }
 
 impl<'a> Origin<'a> {
@@ -59,18 +66,22 @@ impl Home<'_> {
         let position = models.clone().position(|one| one.module == stem);
         let cycler = position.and_then(|position| self.robot.cyclers.get(position));
         let node = position.and_then(|position| self.node(position, surroundings));
-        let nodes: Vec<(&Cycler, &Node)> = match (cycler, node) {
+        let mut nodes: Vec<(&Cycler, &Node)> = match (cycler, node) {
             (Some(cycler), Some(node)) => vec![(cycler, node)],
             _ => self.named_nodes(cycler, surroundings),
         };
+        let seen = self.of_authors(message);
+        if nodes.is_empty() {
+            nodes = self.noted_nodes(seen.as_ref(), message);
+        }
         let field = nodes
             .iter()
             .find_map(|(cycler, node)| self.field(cycler, node, surroundings));
         match (field, nodes.first(), cycler) {
             (Some(origin), ..) => self.at_field(error, &origin),
-            (None, Some((cycler, node)), _) => self.at_node(error, cycler, node),
-            (None, None, Some(cycler)) => self.at_cycler(error, cycler),
-            (None, None, None) => error
+            (None, Some((cycler, node)), _) => self.at_node(at_seen(error, seen), cycler, node),
+            (None, None, Some(cycler)) => self.at_cycler(at_seen(error, seen), cycler),
+            (None, None, None) => at_seen(error, seen)
                 .at(Utf8Path::new(MANIFEST), self.manifest.generated_range.clone(), "in what is generated from it")
                 .help("look at rustc's words below; if neither a node nor the hardware is to blame, report a bug in hulkgen"),
         }
@@ -100,6 +111,64 @@ impl Home<'_> {
             .flat_map(|cycler| cycler.nodes.iter().map(move |node| (cycler, node)))
             .filter(|(_, node)| surroundings.texts.contains(&node.path))
             .collect()
+    }
+
+    /// The place in a file of the robot's authors that rustc names besides the generated one; one in a node's file goes
+    /// before others. The framework's own bounds are no place to mend.
+    fn of_authors(&self, message: &Message) -> Option<Seen> {
+        let members = self.workspace.members();
+        let framework = members.library("framework");
+        let mut seen = message.others().filter_map(|(span, text)| {
+            let (file, span) = self.place(span)?;
+            let is_foreign = self.files.contains_key(&file)
+                || framework.is_some_and(|member| file.starts_with(&member.folder));
+            if is_foreign {
+                return None;
+            }
+            let code = self.workspace.read(&file).ok()?;
+            let start = byte(&code, span.line_start, span.column_start);
+            let length = span.byte_end.saturating_sub(span.byte_start);
+            Some(Seen {
+                file,
+                range: start..start + length,
+                text: text.to_owned(),
+            })
+        });
+        let first = seen.next()?;
+        let is_in_node = |seen: &Seen| self.nodes().any(|(_, node)| node.file == seen.file);
+        if is_in_node(&first) {
+            return Some(first);
+        }
+        Some(seen.find(is_in_node).unwrap_or(first))
+    }
+
+    /// Nodes whose file rustc names, else whose state its notes name.
+    fn noted_nodes(&self, seen: Option<&Seen>, message: &Message) -> Vec<(&Cycler, &Node)> {
+        let in_file = |node: &Node| seen.is_some_and(|seen| seen.file == node.file);
+        let of_file: Vec<_> = self.nodes().filter(|(_, node)| in_file(node)).collect();
+        if !of_file.is_empty() {
+            return of_file;
+        }
+        let names = |node: &Node| {
+            let (plain, full) = (
+                format!("`{}`", node.type_name),
+                format!("{}::{}`", node.path, node.type_name),
+            );
+            let mut notes = message.notes().map(|note| note.message.as_str());
+            notes.any(|note| note.contains(&plain) || note.contains(&full))
+        };
+        let named: Vec<_> = self.nodes().filter(|(_, node)| names(node)).collect();
+        // Several nodes may be called alike: then none of them is surely meant.
+        let first = named.first().map(|(_, node)| &node.path);
+        if named.iter().all(|(_, node)| Some(&node.path) == first) {
+            return named;
+        }
+        Vec::new()
+    }
+
+    fn nodes(&self) -> impl Iterator<Item = (&Cycler, &Node)> {
+        let cyclers = self.robot.cyclers.iter();
+        cyclers.flat_map(|cycler| cycler.nodes.iter().map(move |node| (cycler, node)))
     }
 
     /// The field of the node that the surroundings name.
@@ -209,7 +278,9 @@ impl Home<'_> {
             .find(|one| one.name() == cycler.name)
             .map_or(0..0, |one| one.name_range.clone());
         let text = "what is generated for this cycler does not compile";
-        error.at(Utf8Path::new(MANIFEST), range, text)
+        error
+            .at(Utf8Path::new(MANIFEST), range, text)
+            .help("mend the node or the type that rustc names below; if it names none, report a bug in hulkgen")
     }
 
     /// A hardware that lacks what nodes ask for.
@@ -244,6 +315,13 @@ impl Home<'_> {
             target.hardware,
             listed(nodes.map(|(_, node)| *node))
         ))
+    }
+}
+
+fn at_seen(error: Diagnostic, seen: Option<Seen>) -> Diagnostic {
+    match seen {
+        Some(seen) => error.at(&seen.file, seen.range, seen.text),
+        None => error,
     }
 }
 

@@ -26,9 +26,20 @@ pub struct Message {
     pub message: String,
     pub level: Level,
     pub spans: Vec<Span>,
+    /// Notes and helps to it.
+    #[serde(default)]
+    pub children: Vec<Note>,
     /// As rustc shows it on a terminal.
     #[serde(default)]
     pub rendered: String,
+}
+
+/// A note or a help to an error.
+#[derive(Clone, Debug, Deserialize)]
+pub struct Note {
+    pub message: String,
+    pub level: Level,
+    pub spans: Vec<Span>,
 }
 
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
@@ -37,6 +48,7 @@ pub enum Level {
     #[serde(alias = "error: internal compiler error")]
     Error,
     Warning,
+    Note,
     #[serde(other)]
     Other,
 }
@@ -68,6 +80,23 @@ impl Message {
     /// Where it is; `None` for what concerns no file, as the linker's errors.
     pub(super) fn primary(&self) -> Option<&Span> {
         self.spans.iter().find(|span| span.is_primary)
+    }
+
+    /// Places besides the first, each with what is said about it: of the error itself, then of its notes.
+    pub(super) fn others(&self) -> impl Iterator<Item = (&Span, &str)> {
+        let own = self.spans.iter().filter(|span| !span.is_primary);
+        let own = own.map(|span| (span, span.label.as_deref().unwrap_or_default()));
+        let notes = self.notes().flat_map(|note| {
+            let spans = note.spans.iter();
+            spans.map(|span| (span, note.message.as_str()))
+        });
+        own.chain(notes)
+    }
+
+    /// What is said besides, without what rustc would write instead.
+    pub(super) fn notes(&self) -> impl Iterator<Item = &Note> {
+        let children = self.children.iter();
+        children.filter(|child| child.level == Level::Note)
     }
 
     /// "aborting due to 2 previous errors", "1 warning emitted": said of the others.
