@@ -7,6 +7,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use camino::{Utf8Path, Utf8PathBuf};
+use syn::ext::IdentExt;
 use syn::{Expr, ExprLit, Item, ItemMod, Lit, Meta};
 
 use super::brackets::unbalanced;
@@ -191,7 +192,6 @@ impl<'workspace> Library<'workspace> {
     }
 
     fn load(&self, parent: &Module, item: &ItemMod, path: String) -> Option<Rc<Module>> {
-        let name = item.ident.to_string();
         if let Some((_, items)) = &item.content {
             let syntax = syn::File {
                 shebang: None,
@@ -200,7 +200,7 @@ impl<'workspace> Library<'workspace> {
             };
             let folder = match path_attribute(item) {
                 Some(named) => base(parent).join(named),
-                None => parent.folder.join(&name),
+                None => parent.folder.join(item.ident.unraw().to_string()),
             };
             let mut module = Module::new(path, parent.file.clone(), folder, Rc::new(syntax));
             module.inline = true;
@@ -362,7 +362,7 @@ impl NotFound {
     }
 }
 
-/// Where the file of a module may lie.
+/// Where the file of a module may lie; files are called without `r#`.
 pub(crate) fn candidates(folder: &Utf8Path, name: &str) -> Vec<Utf8PathBuf> {
     vec![
         folder.join(format!("{name}.rs")),
@@ -381,6 +381,7 @@ fn base(module: &Module) -> &Utf8Path {
 /// Where the file of a module may lie; `#[path]` begins in `base`.
 pub(crate) fn places(base: &Utf8Path, folder: &Utf8Path, item: &ItemMod) -> Vec<Utf8PathBuf> {
     match path_attribute(item) {
+    let name = name.strip_prefix("r#").unwrap_or(name);
         Some(named) => vec![base.join(named)],
         None => candidates(folder, &item.ident.to_string()),
     }
