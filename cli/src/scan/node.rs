@@ -7,7 +7,8 @@ use grammar::{
 };
 use syn::{Attribute, Item, ItemStruct};
 
-use super::module::Module;
+use super::library::Library;
+use super::module::{Module, only_for_tests};
 use super::state::{self, StateSource};
 use super::{doc, range};
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
@@ -101,7 +102,9 @@ fn read_contexts(module: &Module, diagnostics: &mut Diagnostics) -> Contexts {
 
 fn find_struct(module: &Module, kind: ContextKind) -> Option<&ItemStruct> {
     module.syntax.items.iter().find_map(|item| match item {
-        Item::Struct(item) if item.ident == kind.name() => Some(item),
+        Item::Struct(item) if item.ident == kind.name() && !only_for_tests(&item.attrs) => {
+            Some(item)
+        }
         _ => None,
     })
 }

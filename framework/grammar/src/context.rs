@@ -106,6 +106,13 @@ pub fn structural_mistakes(item: &ItemStruct) -> Vec<Mistake> {
         let help = "write what the node asks of the hardware at `new` or `cycle`";
         mistakes.push(mistake(clause.where_token.span, message).help(help));
     }
+    let mut attributes = item.attrs.iter();
+    if let Some(condition) = attributes.find(|one| one.path().is_ident("cfg")) {
+        let message =
+            format!("`{name}` cannot be conditional: generated code knows one of each node");
+        let help = "remove `#[cfg(…)]`, and what is there in place of this struct";
+        mistakes.push(mistake(condition.span(), message).help(help));
+    }
     if !matches!(item.fields, Fields::Named(_)) {
         mistakes.push(
             mistake(name.span(), format!("`{name}` has no named fields")).help(format!(

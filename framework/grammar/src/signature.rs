@@ -128,7 +128,10 @@ fn structs(file: &syn::File) -> impl Iterator<Item = &ItemStruct> {
 
 /// Whether a context of the file has a field `HardwareInterface`; `None` if the file has no such context.
 fn asks_for_hardware(file: &syn::File, context: ContextKind) -> Option<bool> {
-    let item = structs(file).find(|item| item.ident == context.name())?;
+    // One under a condition is told where contexts are read.
+    let is_always = |item: &&ItemStruct| !item.attrs.iter().any(|one| one.path().is_ident("cfg"));
+    let mut items = structs(file).filter(is_always);
+    let item = items.find(|item| item.ident == context.name())?;
     let Fields::Named(fields) = &item.fields else {
         return Some(false);
     };
