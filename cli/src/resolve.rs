@@ -20,6 +20,7 @@ pub(crate) mod record;
 pub mod robot;
 mod scene;
 mod states;
+mod sendable;
 mod tree;
 mod warnings;
 

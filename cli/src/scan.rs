@@ -23,6 +23,7 @@ mod node;
 pub mod nondeterminism;
 mod public;
 pub mod served;
+pub mod sendable;
 mod state;
 pub mod traits;
 pub mod types;

@@ -165,6 +165,8 @@ catalogue! {
         "Two writers of a cycler state are ordered by the manifest alone.";
     UnreadOutputs, "unread-outputs", Warning,
         "Nobody reads what a node writes.";
+    UnsendableState, "unsendable-state", Error,
+        "A node's state cannot be moved to another thread.";
     UnservedTrait, "unserved-trait", Error,
         "A target's hardware does not serve a trait that a node asks for.";
     UnusedKey, "unused-key", Warning,

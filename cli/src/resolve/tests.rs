@@ -6,6 +6,7 @@ mod inputs;
 mod nondeterminism;
 mod served;
 mod trees;
+mod sendable;
 mod warnings;
 
 use crate::scan::fixture::{Fixture, Node, cycler};

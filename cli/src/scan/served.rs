@@ -113,6 +113,14 @@ impl Library<'_> {
             for item in &module.syntax.items {
                 match item {
                     _ if only_for_tests(attributes(item)) => {}
+    /// Whether an `impl` of a trait of the standard library may be written for a type of the workspace: one stands in its
+    /// crate, the only one where rustc would take it, or something there cannot be read.
+    pub(super) fn may_implement(&self, item: &ItemId, name: &str) -> bool {
+        let library = item.module.library();
+        let found = self.quietly(|| self.implemented(library, item));
+        found.is_none_or(|found| found.perhaps.contains(name))
+    }
+
                     Item::Impl(item) if self.is_of(&module, item, hardware, asked) => return true,
                     Item::Mod(item) if self.may_name(&module, item, &asked.name) => {
                         waiting.extend(self.declared(&module, &item.ident.to_string()));
@@ -287,6 +295,31 @@ fn derives_nothing_unknown(attributes: &[syn::Attribute]) -> bool {
         "Deserialize",
         "Eq",
         "Hash",
+                // Its own name, where a `use` gives it another.
+                match self.library.find(self.module, written) {
+                    Some(Found::Standard(path) | Found::Foreign(path)) => {
+                        found.perhaps.extend(path.into_iter().last());
+                    }
+                    _ => {}
+                }
+            }
+        }
+    }
+}
+
+impl Reading<'_> {
+    /// Notes an `impl From<Type> for …`, by which the type may become something of another crate.
+    fn add_conversion(&mut self, into: &Type, arguments: &AngleBracketedGenericArguments) {
+        let is_own = matches!(
+            self.library.resolve(self.module, into).shape,
+            Shape::Named {
+                definition: Definition::Workspace(_),
+                ..
+            }
+        );
+        let may_be_it = arguments.args.iter().any(|argument| match argument {
+            GenericArgument::Type(data) => {
+                self.library.is_type(self.module, data, self.hardware) != Some(false)
         "Ord",
         "PartialEq",
         "PartialOrd",

@@ -416,6 +416,8 @@ pub(super) fn written(tokens: &impl ToTokens) -> String {
         (" ,", ","),
         (" ;", ";"),
         ("& ", "&"),
+        ("* const ", "*const "),
+        ("* mut ", "*mut "),
     ] {
         text = text.replace(spaced, tight);
     }

@@ -1,0 +1,90 @@
+//! Nodes whose state keeps them on one thread.
+
+use super::ACTS;
+use crate::scan::fixture::{Fixture, Node};
+
+/// A node with these fields in its state, a `restore`, and this code above it.
+fn fixture(state: &str, head: &str) -> Fixture {
+    let node = Node {
+        state,
+        head,
+        more: "pub fn restore(&mut self, context: CreationContext) -> Result<()> {}",
+        ..ACTS
+    };
+    Fixture::control(&["a"]).node("a", node)
+}
+
+#[test]
+fn what_is_surely_not_send_is_told_at_the_field() {
+    fixture("#[serde(skip)] x: Option<std::rc::Rc<u8>>,", "").expect(
+        "unsendable-state",
+        &[
+            "the node `Node` cannot be moved to the thread of its cycler",
+            "crates/nodes/src/a.rs:",
+            "`std::rc::Rc<u8>` is not `Send`",
+            "`Arc` for `Rc`",
+        ],
+    );
+    for (field, blame) in [
+        ("Option<*const u8>", "`*const u8`"),
+        ("Option<Box<dyn Fn()>>", "`dyn Fn ()` is not"),
+        ("Vec<(u8, dyn hardware::Plain)>", "`dyn hardware::Plain`"),
+        ("Option<std::sync::MutexGuard<'static, u8>>", "MutexGuard"),
+        ("std::sync::Arc<std::cell::RefCell<u8>>", "RefCell<u8>"),
+        ("&'static std::cell::Cell<u8>", "Cell<u8>"),
+        ("std::sync::Mutex<S<u8>>", "`R<T>` is not"),
+        ("Within", "`Rc<u8>` in `nodes::a::Within` is not"),
+        ("Generic<S<u8>>", "in `nodes::a::Generic`"),
+        ("Many", "in `nodes::a::Many`"),
+    ] {
+        let head = "
+            use std::rc::{Rc, Rc as R};
+            type S<T> = R<T>;
+            pub struct Within { a: u8, b: Rc<u8> }
+            pub struct Generic<T> { inner: Option<T> }
+            enum Many { A, B(Rc<u8>) }
+        ";
+        fixture(&format!("#[serde(skip)] x: {field},"), head)
+            .file("crates/hardware/src/lib.rs", TRAITS)
+            .expect("unsendable-state", &[blame]);
+    }
+}
+
+const TRAITS: &str = "
+    pub trait Motors: Send { fn write(&self, value: u8) -> Result<()>; }
+    pub trait Plain { fn x(&self); }
+    pub trait Above: Motors + Plain {}
+";
+
+#[test]
+fn what_may_be_send_is_left_to_rustc() {
+    for (field, head) in [
+        ("std::cell::RefCell<u8>", ""),
+        (
+            "std::sync::Arc<std::sync::Mutex<std::cell::RefCell<u8>>>",
+            "",
+        ),
+        ("Box<dyn Fn() + Send>", ""),
+        ("Box<dyn hardware::Above>", ""),
+        ("Box<dyn framework::Elsewhere>", ""),
+        ("fn(std::rc::Rc<u8>)", ""),
+        ("framework::Elsewhere<std::rc::Rc<u8>>", ""),
+        (
+            "Within",
+            "struct Within(*const u8); unsafe impl Send for Within {}",
+        ),
+        ("Within", "struct Within(*const u8); sends!(Within);"),
+        ("Within", "#[sends] struct Within(*const u8);"),
+        ("Within", "struct Within { #[cfg(never)] x: *const u8 }"),
+        ("*const u8", "unsafe impl Send for Node {}"),
+        ("Ring", "struct Ring { next: Option<Box<Ring>> }"),
+        (
+            "Generic<std::rc::Rc<u8>>",
+            "struct Generic<T> { inner: framework::Elsewhere<T> }",
+        ),
+    ] {
+        fixture(&format!("#[serde(skip)] x: {field},"), head)
+            .file("crates/hardware/src/lib.rs", TRAITS)
+            .robot();
+    }
+}
