@@ -12,6 +12,7 @@ mod brackets;
 pub mod compare;
 pub mod components;
 mod depth;
+pub mod failure;
 pub mod fields;
 #[cfg(test)]
 pub(crate) mod fixture;
@@ -22,8 +23,8 @@ pub mod nalgebra;
 mod node;
 pub mod nondeterminism;
 mod public;
-pub mod served;
 pub mod sendable;
+pub mod served;
 mod state;
 pub mod traits;
 pub mod types;
@@ -74,7 +75,7 @@ pub fn scan<'workspace>(
             continue;
         }
         let node = match library.find_module(path) {
-            Ok(module) => node::scan(path, module, diagnostics),
+            Ok(module) => node::scan(&library, path, module, diagnostics),
             Err(error) => {
                 let found = match error {
                     NotFound::Told => &mut unread,

@@ -5,7 +5,7 @@ use std::rc::Rc;
 use grammar::{
     AnyContext, Context, ContextKind, CreationField, CycleField, Mistake, OutputField, Rule,
 };
-use syn::{Attribute, Item, ItemStruct};
+use syn::{Attribute, Item, ItemStruct, Type};
 
 use super::library::Library;
 use super::module::{Module, only_for_tests};
@@ -31,11 +31,13 @@ pub struct NodeSource {
 
 /// Reads a node file; `None` if a part of it is missing, which is then reported.
 pub(super) fn scan(
+    library: &Library<'_>,
     path: &str,
     module: Rc<Module>,
     diagnostics: &mut Diagnostics,
 ) -> Option<NodeSource> {
-    let (signatures, mistakes) = grammar::find_node(&module.syntax);
+    let meaning = |data: &Type| library.meaning_of_result(&module, data);
+    let (signatures, mistakes) = grammar::find_node_with(&module.syntax, &meaning);
     report(&module, mistakes, diagnostics);
     let contexts = read_contexts(&module, diagnostics);
     let signatures = signatures?;

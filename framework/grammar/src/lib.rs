@@ -26,4 +26,4 @@ pub use kind::kinds;
 pub use mistake::{Mistake, Rule};
 pub use nearest::nearest;
 pub use path::{DataPath, Name, Segment, SegmentName};
-pub use signature::{Signature, Signatures, find_node};
+pub use signature::{Meaning, Meanings, Signature, Signatures, find_node, find_node_with};

@@ -32,34 +32,65 @@ pub struct Signature {
     /// The traits that it asks of the hardware interface (`impl A + B`, generics, `where`), in the order of the file,
     /// each once.
     pub bounds: Vec<syn::Path>,
+    /// What it returns, as written.
+    pub returns: syn::Type,
 }
+
+/// What a type stands for that is not written as a `Result`.
+#[derive(Clone, Debug)]
+pub enum Meaning {
+    /// A result of this.
+    Result(Box<syn::Type>),
+    /// Nobody can tell.
+    Hidden,
+    /// No result.
+    Other,
+}
+
+/// What a type that a function returns stands for, by the names of its file.
+pub type Meanings<'a> = dyn Fn(&syn::Type) -> Meaning + 'a;
 
 /// Finds the node of a file: the type with `new(CreationContext)` and `cycle(&mut self, CycleContext)`. Helper types
 /// that have a `new` or a `cycle` of their own do not disturb. `None` if there is none or one of its functions has a
 /// mistake.
 pub fn find_node(file: &syn::File) -> (Option<Signatures>, Vec<Mistake>) {
+    find_node_with(file, &|_| Meaning::Other)
+}
+
+/// The same where somebody knows what aliases stand for.
+pub fn find_node_with(
+    file: &syn::File,
+    meanings: &Meanings<'_>,
+) -> (Option<Signatures>, Vec<Mistake>) {
     match choose(candidates(file)) {
-        Ok(candidate) => read_signatures(&candidate, file),
+        Ok(candidate) => read_signatures(&candidate, file, meanings),
         Err(several) if !several.is_empty() => (None, vec![ambiguous(&several)]),
         Err(_) => (None, vec![missing(file)]),
     }
 }
 
-fn read_signatures(node: &Candidate, file: &syn::File) -> (Option<Signatures>, Vec<Mistake>) {
+fn read_signatures(
+    node: &Candidate,
+    file: &syn::File,
+    meanings: &Meanings<'_>,
+) -> (Option<Signatures>, Vec<Mistake>) {
     let mut mistakes = Vec::new();
+    let read = |expected: Expected<'_>, method, mistakes: &mut Vec<Mistake>| {
+        check(&expected, method, meanings, mistakes)
+    };
     mistakes.extend(private_struct(node, file));
     mistakes.extend(node.generics_mistake());
     let new = match node.method("new") {
-        Some(method) => check(&Expected::new(&node.name, file), method, &mut mistakes),
+        Some(method) => read(Expected::new(&node.name, file), method, &mut mistakes),
         None => absent(node, "new", &mut mistakes),
     };
     let cycle = match node.method("cycle") {
-        Some(method) => check(&Expected::cycle(file), method, &mut mistakes),
+        Some(method) => read(Expected::cycle(file), method, &mut mistakes),
         None => absent(node, "cycle", &mut mistakes),
     };
     let restore = node
         .restore()
-        .and_then(|method| check(&Expected::restore(file), method, &mut mistakes));
+        .and_then(|method| read(Expected::restore(file), method, &mut mistakes));
     let signatures = match (new, cycle) {
         (Some(new), Some(cycle)) if mistakes.is_empty() => Some(Signatures {
             node: node.name.clone(),

@@ -8,7 +8,7 @@ use syn::{
 };
 
 use super::bounds::read_bounds;
-use super::{Signature, asks_for_hardware};
+use super::{Meaning, Meanings, Signature, asks_for_hardware};
 use crate::context::ContextKind;
 use crate::field::peel;
 use crate::mistake::{Mistake, Rule};
@@ -104,12 +104,19 @@ impl Returns<'_> {
 pub(super) fn check(
     expected: &Expected<'_>,
     method: &ImplItemFn,
+    meanings: &Meanings<'_>,
     mistakes: &mut Vec<Mistake>,
 ) -> Option<Signature> {
     let before = mistakes.len();
     mistakes.extend(qualifier_mistake(expected, method));
     mistakes.extend(receiver_mistake(expected, method));
-    mistakes.extend(return_mistake(expected, method));
+    let returns = match returned(expected, method, meanings) {
+        Ok(returns) => Some(returns.clone()),
+        Err(mistake) => {
+            mistakes.push(mistake);
+            None
+        }
+    };
     let bounds = match context_argument(expected, method) {
         Ok(context) => read_bounds(expected, method, context, mistakes),
         Err(mistake) => {
@@ -117,9 +124,11 @@ pub(super) fn check(
             Vec::new()
         }
     };
-    (mistakes.len() == before).then(|| Signature {
+    let returns = returns.filter(|_| mistakes.len() == before)?;
+    Some(Signature {
         span: method.sig.ident.span(),
         bounds,
+        returns,
     })
 }
 
@@ -210,7 +219,11 @@ fn context_argument<'method>(
     }
 }
 
-fn return_mistake(expected: &Expected<'_>, method: &ImplItemFn) -> Option<Mistake> {
+fn returned<'method>(
+    expected: &Expected<'_>,
+    method: &'method ImplItemFn,
+    meanings: &Meanings<'_>,
+) -> Result<&'method Type, Mistake> {
     let message = || {
         format!(
             "`{}` does not return a `Result<{}>`",
@@ -219,9 +232,10 @@ fn return_mistake(expected: &Expected<'_>, method: &ImplItemFn) -> Option<Mistak
         )
     };
     let ReturnType::Type(_, data) = &method.sig.output else {
-        return Some(expected.mistake(method.sig.ident.span(), message()));
+        return Err(expected.mistake(method.sig.ident.span(), message()));
     };
-    let inner = last_segment(data)
+    let accepts = |inner: &Type| expected.returns.accepts(inner);
+    let is_plain = last_segment(data)
         .filter(|last| last.ident.to_string().ends_with("Result"))
         .and_then(|last| match &last.arguments {
             PathArguments::AngleBracketed(arguments) => {
@@ -231,9 +245,20 @@ fn return_mistake(expected: &Expected<'_>, method: &ImplItemFn) -> Option<Mistak
                 })
             }
             _ => None,
-        });
-    match inner {
-        Some(inner) if expected.returns.accepts(inner) => None,
-        _ => Some(expected.mistake(data.span(), message())),
+        })
+        .is_some_and(accepts);
+    // An alias may be called and written otherwise.
+    let is_alias = || {
+        last_segment(data).is_some_and(|last| last.ident != "Self")
+            && match meanings(data) {
+                Meaning::Result(inner) => accepts(&inner),
+                Meaning::Hidden => true,
+                Meaning::Other => false,
+            }
+    };
+    if is_plain || is_alias() {
+        Ok(data)
+    } else {
+        Err(expected.mistake(data.span(), message()))
     }
 }
