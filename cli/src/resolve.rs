@@ -6,6 +6,7 @@
 
 mod bridges;
 mod crates;
+mod failures;
 mod hardware;
 mod hints;
 mod inputs;
@@ -19,8 +20,8 @@ mod readers;
 pub(crate) mod record;
 pub mod robot;
 mod scene;
-mod states;
 mod sendable;
+mod states;
 mod tree;
 mod warnings;
 
@@ -56,16 +57,18 @@ pub fn resolve(
     diagnostics: &mut Diagnostics,
 ) -> Result<Robot, Reported> {
     let scene = Scene::new(manifest, sources, diagnostics);
-    let mut left_to_rustc = 0;
+    let (mut left_to_rustc, mut besides_edges) = (0, 0);
     let mut cyclers: Vec<Cycler> = Vec::new();
     for index in 0..scene.cyclers.len() {
-        let (cycler, unchecked) = resolve_cycler(workspace, &scene, index, diagnostics);
+        let (cycler, unchecked, hidden) = resolve_cycler(workspace, &scene, index, diagnostics);
         left_to_rustc += unchecked;
+        besides_edges += hidden;
         cyclers.push(cycler);
     }
     mark_readers(&mut cyclers);
     let parameters = parameters::parameters(&scene, diagnostics);
     left_to_rustc += parameters.unchecked;
+    besides_edges += parameters.unchecked;
     let mut robot = Robot {
         name: manifest.robot.name.to_string(),
         generated: manifest.robot.generated.clone(),
@@ -79,6 +82,7 @@ pub fn resolve(
         recording_budget: manifest.robot.recording_budget.bytes(),
         targets: hardware::targets(workspace, manifest, &sources.library, diagnostics),
         left_to_rustc: left_to_rustc + cyclers.iter().map(unchecked_edges).sum::<usize>(),
+        besides_edges,
         cyclers,
         partial: None,
         parameter_tree: parameters.tree,
@@ -87,7 +91,9 @@ pub fn resolve(
         crates: Vec::new(),
         inherited: workspace.members().inherited.clone(),
     };
-    hardware::check_served(manifest, sources, diagnostics);
+    let left = check_nodes(manifest, sources, diagnostics);
+    robot.left_to_rustc += left;
+    robot.besides_edges += left;
     robot.crates = dependencies(workspace, &here(&robot));
     sources.library.report_problems(diagnostics);
     diagnostics.stop_at_errors()?;
@@ -95,12 +101,23 @@ pub fn resolve(
     Ok(robot)
 }
 
+/// What makes a node as a whole useless for the generated crate; the number of questions that are left to rustc.
+fn check_nodes(manifest: &Manifest, sources: &Sources<'_>, diagnostics: &mut Diagnostics) -> usize {
+    let here = || hardware::running_here(manifest, sources);
+    sendable::check_states(here(), sources, diagnostics);
+    let conditional = here().filter(|node| sources.library.is_conditional(&node.module));
+    conditional.count()
+        + hardware::foreign_bounds(here(), &sources.library)
+        + failures::check(here(), sources, diagnostics)
+        + hardware::check_served(manifest, sources, diagnostics)
+}
+
 fn resolve_cycler(
     workspace: &Workspace,
     scene: &Scene<'_>,
     index: usize,
     diagnostics: &mut Diagnostics,
-) -> (Cycler, usize) {
+) -> (Cycler, usize, usize) {
     let cycler = &scene.cyclers[index];
     let declared = &cycler.declared.declared;
     let nodes = cycler.nodes.iter().map(|node| {
@@ -109,7 +126,7 @@ fn resolve_cycler(
     });
     let nodes: Vec<Node> = nodes.collect();
     procedures::check(cycler, diagnostics);
-    let (states, unchecked) = states::states(scene, cycler, diagnostics);
+    let (states, unchecked, hidden) = states::states(scene, cycler, diagnostics);
     let resolved = Cycler {
         name: cycler.declared.name().to_owned(),
         left_out: false,
@@ -137,7 +154,7 @@ fn resolve_cycler(
             .map_or_else(|| longest_pending_timeout(scene), Into::into),
         lockstep_duration: declared.lockstep_duration.map(Into::into),
     };
-    (resolved, unchecked)
+    (resolved, unchecked, hidden)
 }
 
 fn longest_pending_timeout(scene: &Scene<'_>) -> Duration {

@@ -81,6 +81,7 @@ fn answer(session: &mut Session<'_>, check: &Check) -> Result<Answer, Failure> {
                 let opaque = understood.unchecked.opaque.len();
                 text.push_str(&summary_of_robot(
                     &graph,
+                    understood.robot.besides_edges,
                     if check.cargo { 0 } else { opaque },
                 ));
             }
@@ -157,15 +158,15 @@ fn summary_of_diagnostics(found: &Diagnostics) -> String {
 
 /// How much there is, and how much of it was checked.
 ///
-/// `opaque` parameters were left to the robot's program.
-fn summary_of_robot(graph: &Graph, opaque: usize) -> String {
+/// `besides` the edges something was left to rustc, `opaque` parameters to the robot's program.
+fn summary_of_robot(graph: &Graph, besides: usize, opaque: usize) -> String {
     let instances = graph
         .cyclers
         .iter()
         .map(|cycler| cycler.instances.len())
         .sum();
     let nodes = graph.cyclers.iter().map(|cycler| cycler.nodes.len()).sum();
-    let left = graph.edges.len() - graph.checked_edges();
+    let left = graph.edges.len() - graph.checked_edges() + besides;
     let checked = match left {
         0 => "all checked".to_owned(),
         left => format!("{left} left to rustc"),

@@ -39,6 +39,7 @@ pub(crate) fn robot() -> Robot {
         inherited: Vec::new(),
         crates: Vec::new(),
         left_to_rustc: 1,
+        besides_edges: 0,
     }
 }
 

@@ -2,16 +2,59 @@
 
 mod served;
 
+use std::collections::BTreeSet;
+
 use camino::Utf8Path;
+use syn::spanned::Spanned as _;
 
 use super::robot::{Interface, Target};
 use super::scene::OTHER_NAME;
 use crate::diagnostics::{Code, Diagnostic, Diagnostics, nearest};
 use crate::manifest::{self, Manifest};
-use crate::scan::{Library, NodeSource, range};
+use crate::scan::traits::Bound;
+use crate::scan::{Library, NodeSource, Sources, range};
 use crate::workspace::{MANIFEST, Workspace};
 
 pub(super) use served::check_served;
+
+/// The nodes that the robot's own crate runs, each once: those of other machines are theirs.
+pub(super) fn running_here<'a>(
+    manifest: &'a Manifest,
+    sources: &'a Sources<'_>,
+) -> impl Iterator<Item = &'a NodeSource> {
+    let cyclers = manifest.cyclers.iter();
+    let here: BTreeSet<&str> = cyclers
+        .filter(|cycler| !cycler.declared.remote)
+        .flat_map(|cycler| &cycler.nodes)
+        .map(|node| node.path.as_str())
+        .collect();
+    let nodes = sources.nodes.iter();
+    nodes
+        .filter(move |(path, _)| here.contains(path.as_str()))
+        .map(|(_, node)| node)
+}
+
+/// How many bounds of nodes name what is no trait of the workspace, so that nobody sees who implements it.
+pub(super) fn foreign_bounds<'a>(
+    nodes: impl Iterator<Item = &'a NodeSource>,
+    library: &Library<'_>,
+) -> usize {
+    let is_foreign = |node: &NodeSource, bound: &syn::Path| {
+        matches!(library.hardware_trait(&node.module, bound), Bound::Trait(_))
+            && library.trait_of_workspace(&node.module, bound).is_none()
+    };
+    let bounds = nodes.map(|node| {
+        let signatures = &node.signatures;
+        let all = [
+            Some(&signatures.new),
+            Some(&signatures.cycle),
+            signatures.restore.as_ref(),
+        ];
+        let bounds = all.into_iter().flatten().flat_map(|one| &one.bounds);
+        bounds.filter(|bound| is_foreign(node, bound)).count()
+    });
+    bounds.sum()
+}
 
 /// The traits of one function, sorted by path.
 pub(super) fn interfaces(
@@ -22,8 +65,21 @@ pub(super) fn interfaces(
 ) -> Vec<Interface> {
     let mut interfaces = Vec::new();
     for bound in &signature.bounds {
-        let Some(found) = library.hardware_trait(&source.module, bound) else {
-            continue;
+        let found = match library.hardware_trait(&source.module, bound) {
+            Bound::Marker => continue,
+            Bound::Refused(name) => {
+                let message = format!("`{name}` is nothing that a hardware does");
+                let error = Diagnostic::new(Code::InvalidSignature, message)
+                    .at(
+                        source.file(),
+                        range(bound.span()),
+                        "generated code cannot pass it on",
+                    )
+                    .help("name the hardware's own traits alone");
+                diagnostics.add(error);
+                continue;
+            }
+            Bound::Trait(found) => found,
         };
         for name in &found.lost {
             let message = format!("`{name}` cannot be followed to where it is defined");

@@ -6,6 +6,7 @@ use super::robot::{Access, Segment};
 use crate::scan::Library;
 use crate::scan::compare::{Comparison, compare};
 use crate::scan::components::{Component, component};
+use crate::scan::module::is_conditional;
 use crate::scan::nalgebra::Geometry;
 use crate::scan::types::{Definition, Resolved, Shape};
 
@@ -204,6 +205,7 @@ fn enter(
         return enter_other(library, data, field);
     };
     match structure.fields.iter().find(|one| one.name == *field) {
+        Some(found) if is_conditional(&found.attributes) => Err(Agreement::Unknown),
         Some(found) if found.public => Ok(found.data.clone()),
         Some(_) => Err(Agreement::Private {
             structure: structure.path,

@@ -41,6 +41,10 @@ pub struct Robot {
     pub inherited: Vec<String>,
     /// Edges whose types could not be resolved fully and are left to rustc.
     pub left_to_rustc: usize,
+    /// Of all else in the generated crate what only rustc can judge: conditional nodes, fields and `impl`s, errors that
+    /// macros and other crates define.
+    #[serde(skip)]
+    pub besides_edges: usize,
 }
 
 /// A robot of some cyclers, to be driven by a test, a simulator or a tool: it has no targets.

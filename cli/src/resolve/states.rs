@@ -11,12 +11,12 @@ use super::tree::{Declaration, Rules, merge};
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::scan::{NodeSource, range};
 
-/// States of a cycler, and how many paths could not be compared.
+/// States of a cycler, and how many paths could not be compared: all, and those whose types are known.
 pub(super) fn states(
     scene: &Scene<'_>,
     cycler: &SceneCycler<'_>,
     diagnostics: &mut Diagnostics,
-) -> (Tree<StateUse>, usize) {
+) -> (Tree<StateUse>, usize, usize) {
     let mut declarations = Vec::new();
     for node in &cycler.nodes {
         let source = node.source;
@@ -61,7 +61,7 @@ pub(super) fn states(
     merged
         .tree
         .for_each_leaf(&mut |users| one_use_per_node(users));
-    (merged.tree, merged.unchecked)
+    (merged.tree, merged.unchecked, merged.hidden)
 }
 
 /// A node that writes a state in one field and reads it in another is a writer.

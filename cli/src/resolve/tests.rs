@@ -2,11 +2,13 @@
 
 mod agreement;
 mod bridges;
+mod conditional;
+mod failures;
 mod inputs;
 mod nondeterminism;
+mod sendable;
 mod served;
 mod trees;
-mod sendable;
 mod warnings;
 
 use crate::scan::fixture::{Fixture, Node, cycler};

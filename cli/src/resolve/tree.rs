@@ -39,6 +39,8 @@ pub(super) struct Rules {
 pub(super) struct Merged<U> {
     pub(super) tree: Tree<U>,
     pub(super) unchecked: usize,
+    /// Those of them whose own types are known.
+    pub(super) hidden: usize,
 }
 
 impl<U> Declaration<'_, U> {
@@ -74,14 +76,18 @@ pub(super) fn merge<U: Clone + Ord>(
     // Shorter paths first; the manifest's order decides which of two equals is the first.
     declarations.sort_by_key(|one| one.segments.len());
     let mut leaves: Vec<(Declaration<'_, U>, Vec<U>)> = Vec::new();
-    let mut unchecked = 0;
+    let (mut unchecked, mut hidden) = (0, 0);
     for declaration in declarations {
         let above = leaves
             .iter_mut()
             .find(|(leaf, _)| declaration.names().starts_with(&leaf.names()));
         match above {
             Some((leaf, users)) => {
-                unchecked += usize::from(!agree(library, leaf, &declaration, rules, diagnostics));
+                if !agree(library, leaf, &declaration, rules, diagnostics) {
+                    unchecked += 1;
+                    let is_known = leaf.data.is_known() && declaration.data.is_known();
+                    hidden += usize::from(is_known);
+                }
                 users.push(declaration.user);
             }
             None => {
@@ -100,6 +106,7 @@ pub(super) fn merge<U: Clone + Ord>(
     Merged {
         tree: root.into_tree(),
         unchecked,
+        hidden,
     }
 }
 

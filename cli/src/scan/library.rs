@@ -12,7 +12,7 @@ use syn::{Expr, ExprLit, Item, ItemMod, Lit, Meta};
 
 use super::brackets::unbalanced;
 use super::depth::too_deep;
-use super::module::{Entry, Module, Visible, folder_of};
+use super::module::{Entry, Module, Visible, attributes, folder_of, is_conditional};
 use super::range;
 use crate::diagnostics::{Code, Diagnostic, Diagnostics, listed, nearest};
 use crate::workspace::{Member, Workspace};
@@ -158,6 +158,23 @@ impl<'workspace> Library<'workspace> {
             let folder = folder_of(&member.root_file, true);
             self.parse(library.to_owned(), member.root_file.clone(), folder)
         })
+    }
+
+    /// Whether a `#[cfg(…)]` stands at a module or at one around it.
+    pub fn is_conditional(&self, module: &Module) -> bool {
+        let Some((parent, name)) = module.path.rsplit_once("::") else {
+            return is_conditional(&module.syntax.attrs);
+        };
+        let Some(parent) = self.module(parent) else {
+            return false;
+        };
+        let declaration = match parent.entries.get(name) {
+            Some(Entry::Item { index, .. }) => attributes(parent.item(*index)),
+            _ => &[],
+        };
+        is_conditional(declaration)
+            || is_conditional(&module.syntax.attrs)
+            || self.is_conditional(&parent)
     }
 
     /// A module of a member by its absolute path.
@@ -364,6 +381,7 @@ impl NotFound {
 
 /// Where the file of a module may lie; files are called without `r#`.
 pub(crate) fn candidates(folder: &Utf8Path, name: &str) -> Vec<Utf8PathBuf> {
+    let name = name.strip_prefix("r#").unwrap_or(name);
     vec![
         folder.join(format!("{name}.rs")),
         folder.join(name).join("mod.rs"),
@@ -381,7 +399,6 @@ fn base(module: &Module) -> &Utf8Path {
 /// Where the file of a module may lie; `#[path]` begins in `base`.
 pub(crate) fn places(base: &Utf8Path, folder: &Utf8Path, item: &ItemMod) -> Vec<Utf8PathBuf> {
     match path_attribute(item) {
-    let name = name.strip_prefix("r#").unwrap_or(name);
         Some(named) => vec![base.join(named)],
         None => candidates(folder, &item.ident.to_string()),
     }

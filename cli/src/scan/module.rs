@@ -240,6 +240,11 @@ pub(crate) fn folder_of(file: &Utf8Path, is_root: bool) -> Utf8PathBuf {
     }
 }
 
+/// Whether a `#[cfg(…)]` decides about what these stand at.
+pub(crate) fn is_conditional(attributes: &[Attribute]) -> bool {
+    attributes.iter().any(|one| one.path().is_ident("cfg"))
+}
+
 /// `#[cfg(test)]`, also among other conditions that all have to hold.
 pub(crate) fn only_for_tests(attributes: &[Attribute]) -> bool {
     attributes

@@ -10,12 +10,15 @@ use std::rc::Rc;
 use camino::Utf8PathBuf;
 use syn::punctuated::Punctuated;
 use syn::visit::{self, Visit};
-use syn::{Attribute, GenericParam, Item, ItemImpl, ItemMod, Meta, Token, Type};
+use syn::{
+    AngleBracketedGenericArguments, Attribute, GenericArgument, GenericParam, Item, ItemImpl,
+    ItemMod, Meta, PathArguments, Token, Type,
+};
 
 use super::fields::is_harmless;
 use super::library::Library;
 use super::lookup::{Found, ItemId};
-use super::module::{Module, attributes, only_for_tests};
+use super::module::{Module, attributes, is_conditional, only_for_tests};
 use super::types::{Definition, Shape};
 
 /// The hardware type of a target, and everything that was found about it.
@@ -35,6 +38,15 @@ struct Implemented {
     perhaps: BTreeSet<String>,
 }
 
+/// Whether a hardware type implements a trait.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Serves {
+    Surely,
+    /// Under a condition, or something hides it.
+    Perhaps,
+    Never,
+}
+
 impl Hardware {
     /// File and place of the type's name.
     pub fn place(&self, library: &Library<'_>) -> (Utf8PathBuf, Range<usize>) {
@@ -49,13 +61,15 @@ impl Hardware {
         &self.item.name
     }
 
-    /// Whether rustc will certainly not find the trait implemented.
-    pub fn lacks(&mut self, library: &Library<'_>, asked: &ItemId) -> bool {
-        if library.quietly(|| library.implements(&self.item, asked)) {
-            return false;
+    /// Whether rustc will find the trait implemented.
+    pub fn serves(&mut self, library: &Library<'_>, asked: &ItemId) -> Serves {
+        match library.quietly(|| library.implements(&self.item, asked)) {
+            Some(true) => return Serves::Surely,
+            Some(false) => return Serves::Perhaps,
+            None => {}
         }
         let crates = [self.item.module.library(), asked.module.library()];
-        crates.into_iter().all(|name| {
+        let is_lacking = crates.into_iter().all(|name| {
             let found = self
                 .crates
                 .entry(name.to_owned())
@@ -63,7 +77,11 @@ impl Hardware {
             found.as_ref().is_some_and(|found| {
                 !found.traits.contains(&asked.path()) && !found.perhaps.contains(&asked.name)
             })
-        })
+        });
+        match is_lacking {
+            true => Serves::Never,
+            false => Serves::Perhaps,
+        }
     }
 }
 
@@ -95,24 +113,6 @@ impl Library<'_> {
         })
     }
 
-    /// The trait of the workspace that a bound names.
-    pub fn trait_of_workspace(&self, module: &Rc<Module>, bound: &syn::Path) -> Option<ItemId> {
-        match self.find(module, bound)? {
-            Found::Item(item) if matches!(item.item(), Item::Trait(_)) => Some(item),
-            _ => None,
-        }
-    }
-
-    /// Whether the crate of a hardware type plainly has an `impl` of a trait for it.
-    ///
-    /// The usual case, for which few files are needed: those with the trait's name, and those around them.
-    fn implements(&self, hardware: &ItemId, asked: &ItemId) -> bool {
-        let mut waiting: Vec<Rc<Module>> =
-            self.root(hardware.module.library()).into_iter().collect();
-        while let Some(module) = waiting.pop() {
-            for item in &module.syntax.items {
-                match item {
-                    _ if only_for_tests(attributes(item)) => {}
     /// Whether an `impl` of a trait of the standard library may be written for a type of the workspace: one stands in its
     /// crate, the only one where rustc would take it, or something there cannot be read.
     pub(super) fn may_implement(&self, item: &ItemId, name: &str) -> bool {
@@ -121,15 +121,43 @@ impl Library<'_> {
         found.is_none_or(|found| found.perhaps.contains(name))
     }
 
-                    Item::Impl(item) if self.is_of(&module, item, hardware, asked) => return true,
+    /// The trait of the workspace that a bound names.
+    pub fn trait_of_workspace(&self, module: &Rc<Module>, bound: &syn::Path) -> Option<ItemId> {
+        match self.find(module, bound)? {
+            Found::Item(item) if matches!(item.item(), Item::Trait(_)) => Some(item),
+            _ => None,
+        }
+    }
+
+    /// Whether the crate of a hardware type plainly has an `impl` of a trait for it; `Some(false)`: under a condition.
+    ///
+    /// The usual case, for which few files are needed: those with the trait's name, and those around them.
+    fn implements(&self, hardware: &ItemId, asked: &ItemId) -> Option<bool> {
+        let root = self.root(hardware.module.library());
+        let mut waiting: Vec<(Rc<Module>, bool)> =
+            root.into_iter().map(|root| (root, true)).collect();
+        let mut found = None;
+        while let Some((module, is_always)) = waiting.pop() {
+            let is_always = is_always && !is_conditional(&module.syntax.attrs);
+            for item in &module.syntax.items {
+                let is_always = is_always && !is_conditional(attributes(item));
+                match item {
+                    _ if only_for_tests(attributes(item)) => {}
+                    Item::Impl(item) if self.is_of(&module, item, hardware, asked) => {
+                        if is_always {
+                            return Some(true);
+                        }
+                        found = Some(false);
+                    }
                     Item::Mod(item) if self.may_name(&module, item, &asked.name) => {
-                        waiting.extend(self.declared(&module, &item.ident.to_string()));
+                        let below = self.declared(&module, &item.ident.to_string());
+                        waiting.extend(below.map(|below| (below, is_always)));
                     }
                     _ => {}
                 }
             }
         }
-        false
+        found
     }
 
     fn is_of(
@@ -237,6 +265,15 @@ impl<'ast> Visit<'ast> for Reading<'_> {
         let Some((None, written, _)) = &item.trait_ else {
             return;
         };
+        let arguments = written.segments.last().map(|last| &last.arguments);
+        if let Some(PathArguments::AngleBracketed(arguments)) = arguments
+            && written
+                .segments
+                .last()
+                .is_some_and(|last| last.ident == "From")
+        {
+            self.add_conversion(&item.self_ty, arguments);
+        }
         let serves = if is_parameter(item, &item.self_ty) {
             None
         } else {
@@ -258,7 +295,36 @@ impl<'ast> Visit<'ast> for Reading<'_> {
             (_, None) => {
                 let name = written.segments.last().map(|last| last.ident.to_string());
                 found.perhaps.extend(name);
+                // Its own name, where a `use` gives it another.
+                match self.library.find(self.module, written) {
+                    Some(Found::Standard(path) | Found::Foreign(path)) => {
+                        found.perhaps.extend(path.into_iter().last());
+                    }
+                    _ => {}
+                }
             }
+        }
+    }
+}
+
+impl Reading<'_> {
+    /// Notes an `impl From<Type> for …`, by which the type may become something of another crate.
+    fn add_conversion(&mut self, into: &Type, arguments: &AngleBracketedGenericArguments) {
+        let is_own = matches!(
+            self.library.resolve(self.module, into).shape,
+            Shape::Named {
+                definition: Definition::Workspace(_),
+                ..
+            }
+        );
+        let may_be_it = arguments.args.iter().any(|argument| match argument {
+            GenericArgument::Type(data) => {
+                self.library.is_type(self.module, data, self.hardware) != Some(false)
+            }
+            _ => false,
+        });
+        if let Some(found) = self.found.as_mut().filter(|_| may_be_it && !is_own) {
+            found.perhaps.insert("From".to_owned());
         }
     }
 }
@@ -286,7 +352,7 @@ fn is_parameter(item: &ItemImpl, data: &Type) -> bool {
 }
 
 /// Derives of the standard library and serde implement no trait of a robot.
-fn derives_nothing_unknown(attributes: &[syn::Attribute]) -> bool {
+pub(super) fn derives_nothing_unknown(attributes: &[syn::Attribute]) -> bool {
     const KNOWN: &[&str] = &[
         "Clone",
         "Copy",
@@ -295,31 +361,6 @@ fn derives_nothing_unknown(attributes: &[syn::Attribute]) -> bool {
         "Deserialize",
         "Eq",
         "Hash",
-                // Its own name, where a `use` gives it another.
-                match self.library.find(self.module, written) {
-                    Some(Found::Standard(path) | Found::Foreign(path)) => {
-                        found.perhaps.extend(path.into_iter().last());
-                    }
-                    _ => {}
-                }
-            }
-        }
-    }
-}
-
-impl Reading<'_> {
-    /// Notes an `impl From<Type> for …`, by which the type may become something of another crate.
-    fn add_conversion(&mut self, into: &Type, arguments: &AngleBracketedGenericArguments) {
-        let is_own = matches!(
-            self.library.resolve(self.module, into).shape,
-            Shape::Named {
-                definition: Definition::Workspace(_),
-                ..
-            }
-        );
-        let may_be_it = arguments.args.iter().any(|argument| match argument {
-            GenericArgument::Type(data) => {
-                self.library.is_type(self.module, data, self.hardware) != Some(false)
         "Ord",
         "PartialEq",
         "PartialOrd",

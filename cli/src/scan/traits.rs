@@ -37,6 +37,16 @@ pub struct HardwareTrait {
     pub lost: Vec<String>,
 }
 
+/// What a bound of a node asks for.
+#[derive(Clone, Debug)]
+pub enum Bound {
+    /// What every hardware is.
+    Marker,
+    /// What no generated code passes on; its name.
+    Refused(String),
+    Trait(Box<HardwareTrait>),
+}
+
 /// Supertraits may lead in circles; no honest trait has more.
 const DEEPEST: usize = 8;
 
@@ -52,8 +62,26 @@ impl Interface {
 }
 
 impl Library<'_> {
-    /// The trait of a bound that is written in a module; nothing for markers such as `Send`.
-    pub fn hardware_trait(&self, module: &Rc<Module>, bound: &syn::Path) -> Option<HardwareTrait> {
+    /// The trait of a bound that is written in a module.
+    pub fn hardware_trait(&self, module: &Rc<Module>, bound: &syn::Path) -> Bound {
+        let name = match self.find(module, bound) {
+            Some(Found::Prelude(name)) => Some(name),
+            Some(Found::Standard(path)) if path.first().is_some_and(|one| one == "marker") => {
+                path.into_iter().last()
+            }
+            _ => None,
+        };
+        if let Some(name) = name.filter(|name| MARKERS.contains(&name.as_str())) {
+            return match name.as_str() {
+                // Nothing says that a hardware is.
+                "Unpin" => Bound::Refused(name),
+                _ => Bound::Marker,
+            };
+        }
+        Bound::Trait(Box::new(self.proper_trait(module, bound)))
+    }
+
+    fn proper_trait(&self, module: &Rc<Module>, bound: &syn::Path) -> HardwareTrait {
         let arguments = bound.segments.last().map(|last| &last.arguments);
         let arguments = arguments.unwrap_or(&PathArguments::None);
         let arguments = self.absolute_arguments(module, arguments);
@@ -65,34 +93,31 @@ impl Library<'_> {
             };
             let private = private.or_else(|| arguments.private.first().cloned());
             let lost = arguments.lost.clone();
-            Some(HardwareTrait {
+            HardwareTrait {
                 interface,
                 private,
                 lost,
-            })
+            }
         };
         match self.find(module, bound) {
-            Some(Found::Prelude(name)) if MARKERS.contains(&name.as_str()) => None,
             Some(Found::Prelude(name)) => known(name, None, None),
             Some(Found::Standard(path)) => known(format!("std::{}", path.join("::")), None, None),
             Some(Found::Foreign(path)) => known(path.join("::"), None, None),
             Some(Found::Item(item)) => {
                 let reading = self.is_reading(&item, 0);
-                let found = match self.public_path(&item) {
+                let mut found = match self.public_path(&item) {
                     Some(path) => known(path, reading, None),
                     None => known(item.path(), reading, Some(item.clone())),
                 };
-                found.map(|mut found| {
-                    found.interface.methods = self.quietly(|| self.methods(&item));
-                    found
-                })
+                found.interface.methods = self.quietly(|| self.methods(&item));
+                found
             }
             Some(Found::Module(_)) | None => self.lost_trait(module, bound),
         }
     }
 
     /// A trait whose definition is not to be seen.
-    fn lost_trait(&self, module: &Rc<Module>, bound: &syn::Path) -> Option<HardwareTrait> {
+    fn lost_trait(&self, module: &Rc<Module>, bound: &syn::Path) -> HardwareTrait {
         let found = self.absolute_path(module, bound, &Substitutions::new());
         let interface = Interface {
             path: found.text,
@@ -100,11 +125,11 @@ impl Library<'_> {
             methods: None,
         };
         let private = found.private.into_iter().next();
-        Some(HardwareTrait {
+        HardwareTrait {
             interface,
             private,
             lost: found.lost,
-        })
+        }
     }
 
     /// Why `crate::Type` of a member names no type that others can name, and what to do; `None`: nothing is wrong.

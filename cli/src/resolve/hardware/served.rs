@@ -1,14 +1,15 @@
 //! Whether every target's hardware serves what the nodes ask, where that can be known.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use camino::Utf8Path;
 use syn::spanned::Spanned as _;
 
+use super::running_here;
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::manifest::{Manifest, Target};
 use crate::scan::lookup::ItemId;
-use crate::scan::served::Hardware;
+use crate::scan::served::{Hardware, Serves};
 use crate::scan::{Library, NodeSource, Sources, range};
 use crate::workspace::MANIFEST;
 
@@ -24,12 +25,14 @@ struct Union<'a> {
     asked: Vec<Asked<'a>>,
 }
 
-/// Adds an error for each trait that some node asks for and a hardware type does not implement.
+/// Adds an error for each trait that some node asks for and a hardware type does not implement; the number of those of
+/// which nobody can tell.
 pub(in crate::resolve) fn check_served(
     manifest: &Manifest,
     sources: &Sources<'_>,
     diagnostics: &mut Diagnostics,
-) {
+) -> usize {
+    let mut unknown = 0;
     let union = union_of_bounds(manifest, sources);
     let mut targets: BTreeMap<&str, Vec<&Target>> = BTreeMap::new();
     for target in &manifest.targets {
@@ -38,31 +41,29 @@ pub(in crate::resolve) fn check_served(
     }
     for (path, targets) in targets {
         let Some(mut hardware) = sources.library.hardware(path) else {
+            unknown += union.len();
             continue;
         };
         for one in union.values() {
-            if hardware.lacks(&sources.library, &one.definition) {
-                diagnostics.add(unserved(one, &hardware, &targets, &sources.library));
+            match hardware.serves(&sources.library, &one.definition) {
+                Serves::Surely => {}
+                Serves::Perhaps => unknown += 1,
+                Serves::Never => {
+                    diagnostics.add(unserved(one, &hardware, &targets, &sources.library));
+                }
             }
         }
     }
+    unknown
 }
 
 /// Traits of the workspace by their definition, as far as nodes ask for them that run with the hardware.
 fn union_of_bounds<'a>(
-    manifest: &Manifest,
+    manifest: &'a Manifest,
     sources: &'a Sources<'_>,
 ) -> BTreeMap<String, Union<'a>> {
-    let cyclers = manifest.cyclers.iter();
-    let here: BTreeSet<&str> = cyclers
-        .filter(|cycler| !cycler.declared.remote)
-        .flat_map(|cycler| &cycler.nodes)
-        .map(|node| node.path.as_str())
-        .collect();
-    let nodes = sources.nodes.iter();
-    let nodes = nodes.filter(|(path, _)| here.contains(path.as_str()));
     let mut union: BTreeMap<String, Union> = BTreeMap::new();
-    for (_, node) in nodes {
+    for node in running_here(manifest, sources) {
         let signatures = &node.signatures;
         let all = [
             Some(&signatures.cycle),

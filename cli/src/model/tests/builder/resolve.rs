@@ -60,6 +60,7 @@ pub(crate) fn robot(cyclers: Vec<CyclerBuilder>) -> Robot {
         ],
         inherited: vec!["edition".to_owned(), "version".to_owned()],
         left_to_rustc: 0,
+        besides_edges: 0,
     }
 }
 

@@ -1,0 +1,141 @@
+//! What stands under a `#[cfg]`: rustc alone knows whether it is there.
+
+use super::{ACTS, writes};
+use crate::scan::fixture::{Fixture, Node, cycler};
+
+fn control() -> Fixture {
+    Fixture::control(&["a"]).node("a", ACTS)
+}
+
+#[test]
+fn a_conditional_node_is_counted() {
+    assert_eq!(control().robot().besides_edges, 0);
+    for library in [
+        "#[cfg(feature = \"no\")] pub mod a;",
+        "#![cfg(feature = \"no\")] pub mod a;",
+    ] {
+        let robot = control().file("crates/nodes/src/lib.rs", library).robot();
+        assert_eq!(
+            (robot.besides_edges, robot.left_to_rustc),
+            (1, 1),
+            "{library}"
+        );
+    }
+}
+
+#[test]
+fn a_conditional_context_is_told_at_the_condition() {
+    let text = control().text("crates/nodes/src/a.rs");
+    let other = "#[cfg(any())]\n#[context]\npub struct CycleContext {}\n#[context]\npub struct CycleContext";
+    let twice = text.replace("#[context]\npub struct CycleContext", other);
+    control().file("crates/nodes/src/a.rs", &twice).expect(
+        "invalid-context",
+        &["`CycleContext` cannot be conditional", "remove `#[cfg(…)]`"],
+    );
+    let tested = twice.replace("cfg(any())", "cfg(test)");
+    control().file("crates/nodes/src/a.rs", &tested).robot();
+}
+
+#[test]
+fn a_conditional_field_is_left_to_rustc() {
+    let library = "
+        pub struct Outer { #[cfg(any())] pub x: f32, pub y: f32 }
+    ";
+    for (field, left) in [("x", 1), ("y", 0)] {
+        let cycle = format!("v: Input<f32, \"outer.{field}\">, hardware: HardwareInterface,");
+        let reader = Node {
+            cycle: &cycle,
+            ..ACTS
+        };
+        let robot = Fixture::control(&["a", "b"])
+            .file("crates/types/src/lib.rs", library)
+            .node("a", writes("outer: MainOutput<types::Outer>,"))
+            .node("b", reader)
+            .answer()
+            .robot
+            .expect("there are only warnings");
+        assert_eq!(robot.left_to_rustc, left, "{field}");
+        // It is an edge, and counted as such.
+        assert_eq!(robot.besides_edges, 0);
+
+        let cycle = format!(
+            "s: CyclerState<types::Outer, \"s\">, t: CyclerState<&f32, \"s.{field}\">, hardware: HardwareInterface,"
+        );
+        let (first, second) = cycle.split_at(cycle.find(" t:").expect("it is there"));
+        let state = |cycle| Node { cycle, ..ACTS };
+        let first = format!("{first} hardware: HardwareInterface,");
+        let robot = Fixture::control(&["a", "b"])
+            .file("crates/types/src/lib.rs", library)
+            .node("a", state(&first))
+            .node("b", state(second))
+            .robot();
+        assert_eq!(robot.besides_edges, left, "{field}");
+    }
+}
+
+#[test]
+fn a_conditional_impl_of_the_hardware_is_counted() {
+    let target = "[[target]]\nname = \"bench\"\nhardware = \"hardware::Hardware\"\n";
+    let control = cycler("Control", "real-time", "", &[], &["a"]);
+    for (condition, unknown) in [("", 0), ("#[cfg(any())]", 1)] {
+        let library = format!(
+            "pub struct Hardware; pub trait Motors {{ fn write(&self); }} {condition} impl Motors for Hardware {{}}"
+        );
+        let robot = Fixture::new(&format!("{control}{target}"))
+            .node("a", ACTS)
+            .file("crates/hardware/src/lib.rs", &library)
+            .robot();
+        assert_eq!(robot.besides_edges, unknown, "{condition}");
+    }
+}
+
+#[test]
+fn bounds_that_are_no_trait_of_the_workspace() {
+    let asking = |asks| Fixture::control(&["a"]).node("a", Node { asks, ..ACTS });
+    assert_eq!(
+        asking("hardware::Motors + Send + std::marker::Sync")
+            .robot()
+            .besides_edges,
+        0
+    );
+    assert_eq!(
+        asking("hardware::Motors + std::fmt::Debug")
+            .robot()
+            .besides_edges,
+        1
+    );
+    asking("hardware::Motors + Unpin").expect(
+        "invalid-signature",
+        &[
+            "`Unpin` is nothing that a hardware does",
+            "crates/nodes/src/a.rs:",
+        ],
+    );
+}
+
+#[test]
+fn files_of_modules_with_raw_names_are_called_without_the_mark() {
+    let answer = Fixture::control(&["a"])
+        .node("a", writes("x: MainOutput<crate::r#type::Foo>,"))
+        .node(
+            "b",
+            Node {
+                cycle: "x: Input<crate::r#type::Foo, \"x\">, hardware: HardwareInterface,",
+                ..ACTS
+            },
+        )
+        .file(
+            "hulk.toml",
+            &format!(
+                "[robot]\nname = \"test\"\n{}",
+                cycler("Control", "real-time", "", &[], &["a", "b"])
+            ),
+        )
+        .file(
+            "crates/nodes/src/lib.rs",
+            "pub mod a; pub mod b; pub mod r#type;",
+        )
+        .file("crates/nodes/src/type.rs", "pub struct Foo;")
+        .answer();
+    assert_eq!(answer.codes, ["actuator-takes-default"], "{}", answer.text);
+}
