@@ -143,7 +143,7 @@ pub fn workspace_files(folder: &str) -> Vec<(String, String)> {
         modules.push_str(&format!("pub mod {module};\n"));
         files.push((path, source.text));
     }
-    modules.push_str("pub struct Hardware;\n");
+    modules.push_str("pub struct Hardware;\nimpl framework::Hardware for Hardware {}\n");
     if !own_library {
         files.push(("nodes/src/lib.rs".to_owned(), modules));
     }

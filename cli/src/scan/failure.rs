@@ -149,7 +149,7 @@ impl Library<'_> {
     }
 
     /// Whether the module of a type has an `impl` of this trait for it, under no condition.
-    fn plainly_implements(&self, item: &ItemId, name: &str) -> bool {
+    pub(super) fn plainly_implements(&self, item: &ItemId, name: &str) -> bool {
         let mut items = item.module.syntax.items.iter();
         items.any(|other| {
             let Item::Impl(block) = other else {

@@ -66,6 +66,7 @@ const HARDWARE: &str = "
     pub trait Motors: Send { fn write(&self, value: u8) -> Result<()>; }
     pub trait Both: Camera + Motors {}
     trait Secret { fn write(&self); }
+    impl framework::Hardware for Hardware {}
     impl Camera for Hardware {}
     impl Motors for Hardware {}
     impl Both for Hardware {}

@@ -3,28 +3,34 @@
 //! Invariant: a trait is called lacking only if every place was read where rustc would find the `impl`: the crate of the
 //! type and the crate of the trait, without macros, attributes or blanket `impl`s that might write it.
 
+mod attributes;
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::rc::Rc;
 
 use camino::Utf8PathBuf;
-use syn::punctuated::Punctuated;
 use syn::visit::{self, Visit};
 use syn::{
-    AngleBracketedGenericArguments, Attribute, GenericArgument, GenericParam, Item, ItemImpl,
-    ItemMod, Meta, PathArguments, Token, Type,
+    AngleBracketedGenericArguments, Attribute, GenericArgument, GenericParam, Generics, Item,
+    ItemImpl, ItemMod, PathArguments, Type,
 };
 
 use super::fields::is_harmless;
 use super::library::Library;
 use super::lookup::{Found, ItemId};
-use super::module::{Module, attributes, is_conditional, only_for_tests};
+use super::module::{Entry, Module, attributes, is_conditional, only_for_tests};
 use super::types::{Definition, Shape};
+use attributes::writes_nothing;
+
+pub(super) use attributes::derives_nothing_unknown;
 
 /// The hardware type of a target, and everything that was found about it.
 #[derive(Debug)]
 pub struct Hardware {
     item: ItemId,
+    /// A parameter that the target gives no argument, and that has no default.
+    open: Option<String>,
     /// By library.
     crates: BTreeMap<String, Option<Implemented>>,
 }
@@ -61,6 +67,33 @@ impl Hardware {
         &self.item.name
     }
 
+    /// The parameter of the type that nobody says what it is.
+    pub fn open_parameter(&self) -> Option<&str> {
+        self.open.as_deref()
+    }
+
+    /// Whether rustc will certainly not find `framework::Hardware` implemented.
+    pub fn is_none(&mut self, library: &Library<'_>) -> bool {
+        if library.quietly(|| library.plainly_implements(&self.item, FRAMEWORK)) {
+            return false;
+        }
+        self.implemented_in(library, self.item.module.library().to_owned())
+            .is_some_and(|found| {
+                let mut traits = found.traits.iter();
+                let is_it =
+                    |path: &String| path.starts_with("framework::") && path.ends_with("::Hardware");
+                !found.perhaps.contains(FRAMEWORK) && !traits.any(is_it)
+            })
+    }
+
+    /// What one crate implements for the type; `None`: something there cannot be read.
+    fn implemented_in(&mut self, library: &Library<'_>, name: String) -> Option<&Implemented> {
+        let found = self.crates.entry(name);
+        let found = found
+            .or_insert_with_key(|name| library.quietly(|| library.implemented(name, &self.item)));
+        found.as_ref()
+    }
+
     /// Whether rustc will find the trait implemented.
     pub fn serves(&mut self, library: &Library<'_>, asked: &ItemId) -> Serves {
         match library.quietly(|| library.implements(&self.item, asked)) {
@@ -68,13 +101,9 @@ impl Hardware {
             Some(false) => return Serves::Perhaps,
             None => {}
         }
-        let crates = [self.item.module.library(), asked.module.library()];
+        let crates = [self.item.module.library(), asked.module.library()].map(str::to_owned);
         let is_lacking = crates.into_iter().all(|name| {
-            let found = self
-                .crates
-                .entry(name.to_owned())
-                .or_insert_with(|| library.quietly(|| library.implemented(name, &self.item)));
-            found.as_ref().is_some_and(|found| {
+            self.implemented_in(library, name).is_some_and(|found| {
                 !found.traits.contains(&asked.path()) && !found.perhaps.contains(&asked.name)
             })
         });
@@ -85,6 +114,9 @@ impl Hardware {
     }
 }
 
+/// The trait that the framework asks of every hardware.
+const FRAMEWORK: &str = "Hardware";
+
 impl Library<'_> {
     /// The hardware type `crate::Type` of a target; `None` if it is not plainly a type of the workspace.
     pub fn hardware(&self, path: &str) -> Option<Hardware> {
@@ -92,15 +124,20 @@ impl Library<'_> {
         let root = self.root(path.split("::").next()?)?;
         let Shape::Named {
             definition: Definition::Workspace(item),
-            ..
+            arguments,
         } = self.resolve_absolute(&root, &path).shape
         else {
             return None;
         };
-        let attributes = match item.item() {
-            Item::Struct(item) => &item.attrs,
-            Item::Enum(item) => &item.attrs,
+        let (attributes, generics) = match item.item() {
+            Item::Struct(item) => (&item.attrs, &item.generics),
+            Item::Enum(item) => (&item.attrs, &item.generics),
             _ => return None,
+        };
+        let open = if arguments.is_empty() {
+            open_parameter(generics)
+        } else {
+            None
         };
         // A derive or an attribute that is not known might implement anything, and so might one behind a condition.
         let plain = attributes
@@ -109,6 +146,7 @@ impl Library<'_> {
             && derives_nothing_unknown(attributes);
         plain.then_some(Hardware {
             item,
+            open,
             crates: BTreeMap::new(),
         })
     }
@@ -300,7 +338,16 @@ impl<'ast> Visit<'ast> for Reading<'_> {
                     Some(Found::Standard(path) | Found::Foreign(path)) => {
                         found.perhaps.extend(path.into_iter().last());
                     }
-                    _ => {}
+                    _ => {
+                        let first = written
+                            .segments
+                            .first()
+                            .map(|first| first.ident.to_string());
+                        let entry = first.and_then(|first| self.module.entries.get(&first));
+                        if let Some(Entry::Import(import)) = entry {
+                            found.perhaps.extend(import.segments.last().cloned());
+                        }
+                    }
                 }
             }
         }
@@ -338,6 +385,22 @@ fn declares_module(text: &str) -> bool {
     })
 }
 
+/// A type or a constant that whoever names the type has to give.
+fn open_parameter(generics: &Generics) -> Option<String> {
+    generics
+        .params
+        .iter()
+        .find_map(|parameter| match parameter {
+            GenericParam::Type(parameter) if parameter.default.is_none() => {
+                Some(parameter.ident.to_string())
+            }
+            GenericParam::Const(parameter) if parameter.default.is_none() => {
+                Some(parameter.ident.to_string())
+            }
+            _ => None,
+        })
+}
+
 /// `impl<T> Trait for T`.
 fn is_parameter(item: &ItemImpl, data: &Type) -> bool {
     let Type::Path(path) = data else {
@@ -349,95 +412,4 @@ fn is_parameter(item: &ItemImpl, data: &Type) -> bool {
         _ => None,
     });
     types.any(|parameter| path.path.is_ident(parameter))
-}
-
-/// Derives of the standard library and serde implement no trait of a robot.
-pub(super) fn derives_nothing_unknown(attributes: &[syn::Attribute]) -> bool {
-    const KNOWN: &[&str] = &[
-        "Clone",
-        "Copy",
-        "Debug",
-        "Default",
-        "Deserialize",
-        "Eq",
-        "Hash",
-        "Ord",
-        "PartialEq",
-        "PartialOrd",
-        "Serialize",
-    ];
-    let mut all = true;
-    for attribute in attributes
-        .iter()
-        .filter(|one| one.path().is_ident("derive"))
-    {
-        let parsed = attribute.parse_nested_meta(|meta| {
-            let last = meta.path.segments.last();
-            all &= last.is_some_and(|last| KNOWN.contains(&last.ident.to_string().as_str()));
-            Ok(())
-        });
-        all &= parsed.is_ok();
-    }
-    all
-}
-
-/// Attributes of rustc, and two that only change what they stand at.
-const WRITING_NOTHING: &[&str] = &[
-    "allow",
-    "automatically_derived",
-    "cfg",
-    "cold",
-    "context",
-    "deny",
-    "deprecated",
-    "derive",
-    "doc",
-    "expect",
-    "forbid",
-    "global_allocator",
-    "ignore",
-    "inline",
-    "link",
-    "link_name",
-    "link_section",
-    "macro_export",
-    "macro_use",
-    "must_use",
-    "no_mangle",
-    "non_exhaustive",
-    "repr",
-    "serde",
-    "should_panic",
-    "target_feature",
-    "test",
-    "track_caller",
-    "unsafe",
-    "used",
-    "warn",
-];
-
-/// Attributes with these in front are for tools.
-const TOOLS: &[&str] = &["clippy", "diagnostic", "rust_analyzer", "rustfmt"];
-
-/// Whether an attribute of an item certainly adds no other item.
-fn writes_nothing(attribute: &Attribute) -> bool {
-    match &attribute.meta {
-        Meta::List(list) if list.path.is_ident("cfg_attr") => {
-            let conditional = Punctuated::<Meta, Token![,]>::parse_terminated;
-            list.parse_args_with(conditional)
-                .is_ok_and(|metas| metas.iter().skip(1).all(|meta| is_known(meta.path())))
-        }
-        meta => meta.path().is_ident("path") || is_known(meta.path()),
-    }
-}
-
-fn is_known(path: &syn::Path) -> bool {
-    let Some(first) = path.segments.first() else {
-        return false;
-    };
-    let known = match path.segments.len() {
-        1 => WRITING_NOTHING,
-        _ => TOOLS,
-    };
-    known.contains(&first.ident.to_string().as_str())
 }

@@ -41,9 +41,13 @@ pub(in crate::resolve) fn check_served(
     }
     for (path, targets) in targets {
         let Some(mut hardware) = sources.library.hardware(path) else {
-            unknown += union.len();
+            unknown += 1 + union.len();
             continue;
         };
+        if let Some(error) = useless(&mut hardware, &targets, &sources.library) {
+            diagnostics.add(error);
+            continue;
+        }
         for one in union.values() {
             match hardware.serves(&sources.library, &one.definition) {
                 Serves::Surely => {}
@@ -83,6 +87,45 @@ fn union_of_bounds<'a>(
         }
     }
     union
+}
+
+/// A type that is no hardware for the framework, or of which nobody says which one it is.
+fn useless(
+    hardware: &mut Hardware,
+    targets: &[&Target],
+    library: &Library<'_>,
+) -> Option<Diagnostic> {
+    let name = hardware.name().to_owned();
+    let path = targets
+        .first()
+        .map_or("", |one| one.declared.hardware.as_str());
+    let (message, label, help) = if let Some(parameter) = hardware.open_parameter() {
+        (
+            format!("nothing tells what `{parameter}` of `{path}` is"),
+            "it has parameters",
+            format!(
+                "name it with its arguments by `pub type`, and write that name, or give `{parameter}` a default"
+            ),
+        )
+    } else if hardware.is_none(library) {
+        (
+            format!("`{path}` does not implement `framework::Hardware`"),
+            "has no such `impl`",
+            format!(
+                "write `impl framework::Hardware for {name} {{ … }}`, or name the type that has it"
+            ),
+        )
+    } else {
+        return None;
+    };
+    let mut error = Diagnostic::new(Code::UnknownHardware, message);
+    for target in targets {
+        let label = format!("target `{}`", target.declared.name);
+        let place = target.hardware_range.clone();
+        error = error.at(Utf8Path::new(MANIFEST), place, label);
+    }
+    let (file, place) = hardware.place(library);
+    Some(error.at(&file, place, label).help(help))
 }
 
 fn unserved(

@@ -79,7 +79,7 @@ fn a_conditional_impl_of_the_hardware_is_counted() {
     let control = cycler("Control", "real-time", "", &[], &["a"]);
     for (condition, unknown) in [("", 0), ("#[cfg(any())]", 1)] {
         let library = format!(
-            "pub struct Hardware; pub trait Motors {{ fn write(&self); }} {condition} impl Motors for Hardware {{}}"
+            "pub struct Hardware; impl framework::Hardware for Hardware {{}} pub trait Motors {{ fn write(&self); }} {condition} impl Motors for Hardware {{}}"
         );
         let robot = Fixture::new(&format!("{control}{target}"))
             .node("a", ACTS)

@@ -7,6 +7,7 @@ const TRAITS: &str = "
     pub trait Camera { fn read(&self) -> Result<u8>; }
     pub trait Motors { fn write(&self, value: u8) -> Result<()>; }
     mod inner;
+    impl framework::Hardware for Hardware {}
 ";
 
 /// A node that asks for `hardware::Motors`, and this code in the crate of the hardware.
@@ -129,4 +130,62 @@ fn what_cannot_be_known_is_left_to_rustc() {
         let answer = fixture(library, inner).answer();
         assert!(!answer.codes.contains(&"unserved-trait"), "{}", answer.text);
     }
+}
+
+/// A robot whose target has this hardware, and this code in its crate.
+fn with_hardware(path: &str, library: &str) -> Fixture {
+    let target = format!("[[target]]\nname = \"bench\"\nhardware = \"{path}\"\n");
+    let control = cycler("Control", "real-time", "", &[], &["a"]);
+    let library =
+        format!("pub trait Motors {{ fn write(&self, value: u8) -> Result<()>; }} {library}");
+    Fixture::new(&format!("{control}{target}"))
+        .node("a", ACTS)
+        .file("crates/hardware/src/lib.rs", &library)
+}
+
+#[test]
+fn what_is_no_hardware_for_the_framework_is_told_at_the_target() {
+    for library in [
+        "pub struct Hardware; impl Motors for Hardware {}",
+        "pub struct Hardware; trait Other {} impl Other for Hardware {} impl Motors for Hardware {}",
+        "pub struct Hardware; struct X; impl framework::Hardware for X {} impl Motors for Hardware {}",
+    ] {
+        with_hardware("hardware::Hardware", library).expect(
+            "unknown-hardware",
+            &[
+                "`hardware::Hardware` does not implement `framework::Hardware`",
+                "hulk.toml:",
+                "target `bench`",
+                "write `impl framework::Hardware for Hardware",
+            ],
+        );
+    }
+    for library in [
+        "pub struct Robot; impl framework::Hardware for Robot {} impl Motors for Robot {}",
+        "use framework::Hardware as H; pub struct Robot; impl H for Robot {} impl Motors for Robot {}",
+        "use framework::*; pub struct Robot; mod x { use super::*; impl Hardware for Robot {} } impl Motors for Robot {}",
+        "pub struct Robot; is_hardware!(Robot); impl Motors for Robot {}",
+        "pub struct Robot; impl<T> framework::Hardware for T {} impl Motors for Robot {}",
+    ] {
+        with_hardware("hardware::Robot", library).robot();
+    }
+}
+
+#[test]
+fn a_hardware_with_parameters_needs_their_arguments() {
+    let library = "pub struct Hardware<T>(T); impl framework::Hardware for Hardware<f32> {} impl Motors for Hardware<f32> {}";
+    with_hardware("hardware::Hardware", library).expect(
+        "unknown-hardware",
+        &[
+            "nothing tells what `T` of `hardware::Hardware` is",
+            "hulk.toml:",
+            "`pub type`",
+        ],
+    );
+    let constant = library.replace("<T>(T)", "<const N: usize>");
+    with_hardware("hardware::Hardware", &constant).expect("unknown-hardware", &["`N`"]);
+    let default = library.replace("<T>(T)", "<T = f32>(T)");
+    with_hardware("hardware::Hardware", &default).robot();
+    let alias = format!("{library} pub type Robot = Hardware<f32>;");
+    with_hardware("hardware::Robot", &alias).robot();
 }

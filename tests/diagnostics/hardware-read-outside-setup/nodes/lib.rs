@@ -24,3 +24,5 @@ impl Motors for Hardware {
         Ok(())
     }
 }
+
+impl framework::Hardware for Hardware {}

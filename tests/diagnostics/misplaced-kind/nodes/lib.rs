@@ -14,3 +14,5 @@ impl Motors for Hardware {
         Ok(())
     }
 }
+
+impl framework::Hardware for Hardware {}

@@ -8,3 +8,5 @@ pub struct Hardware;
 pub trait Motors {
     fn write(&self, speed: f32) -> Result<()>;
 }
+
+impl framework::Hardware for Hardware {}
