@@ -113,6 +113,17 @@ pub fn structural_mistakes(item: &ItemStruct) -> Vec<Mistake> {
         let help = "remove `#[cfg(…)]`, and what is there in place of this struct";
         mistakes.push(mistake(condition.span(), message).help(help));
     }
+    let is_made = name != ContextKind::MainOutputs.name();
+    let closed = item
+        .attrs
+        .iter()
+        .find(|one| one.path().is_ident("non_exhaustive"));
+    if let Some(closed) = closed.filter(|_| is_made) {
+        let message =
+            format!("`{name}` is `#[non_exhaustive]`, so that no other crate can make one");
+        let help = "remove the attribute: generated code makes its values";
+        mistakes.push(mistake(closed.span(), message).help(help));
+    }
     if !matches!(item.fields, Fields::Named(_)) {
         mistakes.push(
             mistake(name.span(), format!("`{name}` has no named fields")).help(format!(

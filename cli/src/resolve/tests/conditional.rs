@@ -37,6 +37,31 @@ fn a_conditional_context_is_told_at_the_condition() {
 }
 
 #[test]
+fn a_context_that_no_other_crate_can_make_is_told() {
+    let text = control().text("crates/nodes/src/a.rs");
+    for (name, is_made) in [
+        ("CreationContext", true),
+        ("CycleContext", true),
+        ("MainOutputs", false),
+    ] {
+        let line = format!("pub struct {name}");
+        let closed = text.replace(&line, &format!("#[non_exhaustive]\n{line}"));
+        let fixture = control().file("crates/nodes/src/a.rs", &closed);
+        if is_made {
+            fixture.expect(
+                "invalid-context",
+                &[
+                    &format!("`{name}` is `#[non_exhaustive]`"),
+                    "remove the attribute",
+                ],
+            );
+        } else {
+            fixture.robot();
+        }
+    }
+}
+
+#[test]
 fn a_conditional_field_is_left_to_rustc() {
     let library = "
         pub struct Outer { #[cfg(any())] pub x: f32, pub y: f32 }
