@@ -77,10 +77,10 @@ fn dependency(
     }
 }
 
-/// First names of all paths in a type, but for the standard library's.
+/// First names of all paths in a type, but for the standard library's; `#` stands in raw names.
 fn crates_of(text: &str) -> impl Iterator<Item = String> {
     let paths =
-        text.split(|letter: char| !(letter.is_alphanumeric() || matches!(letter, '_' | ':')));
+        text.split(|letter: char| !(letter.is_alphanumeric() || matches!(letter, '_' | ':' | '#')));
     let roots = paths.filter_map(|path| path.split_once("::").map(|(root, _)| root));
     let is_crate = |root: &&str| {
         let is_standard = matches!(*root, "std" | "core" | "alloc");

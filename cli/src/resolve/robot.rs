@@ -3,6 +3,7 @@
 //! Invariant: no file is needed any more to understand it, and nothing in it is undecided.
 
 mod read;
+mod users;
 
 use std::collections::BTreeMap;
 use std::time::Duration;
@@ -12,6 +13,7 @@ use serde::Serialize;
 
 pub use crate::scan::traits::{Answer, Interface, Method};
 pub use read::OutputRead;
+pub use users::{Reader, StateUse, Writer};
 
 /// A robot: its cyclers, what they exchange, and the targets it runs on.
 #[derive(Clone, Debug, Serialize)]
@@ -41,8 +43,7 @@ pub struct Robot {
     pub inherited: Vec<String>,
     /// Edges whose types could not be resolved fully and are left to rustc.
     pub left_to_rustc: usize,
-    /// Of all else in the generated crate what only rustc can judge: conditional nodes, fields and `impl`s, errors that
-    /// macros and other crates define.
+    /// What else only rustc can judge: what is conditional, and what macros and other crates define.
     #[serde(skip)]
     pub besides_edges: usize,
 }
@@ -481,24 +482,4 @@ pub struct Hints {
     pub range: Option<String>,
     /// Nodes read it only when they are created.
     pub creation_only: bool,
-}
-
-/// Who reads a parameter: a node of a cycler, by path.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
-pub struct Reader {
-    pub cycler: usize,
-    pub node: String,
-}
-
-/// Who writes an additional output.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
-pub struct Writer {
-    pub node: String,
-}
-
-/// Who uses a cycler state, and how.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
-pub struct StateUse {
-    pub node: String,
-    pub shared: bool,
 }

@@ -160,4 +160,10 @@ fn files_of_modules_with_raw_names_are_called_without_the_mark() {
         .file("crates/nodes/src/type.rs", "pub struct Foo;")
         .answer();
     assert_eq!(answer.codes, ["actuator-takes-default"], "{}", answer.text);
+    let robot = answer.robot.expect("there are only warnings");
+    let crates = robot.crates.iter().map(|one| one.name.as_str());
+    assert_eq!(
+        crates.collect::<Vec<_>>(),
+        ["framework", "hardware", "nodes", "serde"]
+    );
 }
