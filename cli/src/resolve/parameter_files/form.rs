@@ -12,7 +12,9 @@ use crate::scan::types::{Definition, Resolved, Shape};
 #[derive(Clone, Debug)]
 pub(super) enum Form {
     Boolean,
-    Number,
+    Number {
+        name: &'static str,
+    },
     Whole {
         /// Of the type: `u8`.
         name: String,
@@ -175,7 +177,8 @@ fn of_prelude(name: &str, arguments: &[Resolved]) -> Form {
     match (name, arguments) {
         ("Vec", [element]) => Form::List(element.clone()),
         ("bool", []) => Form::Boolean,
-        ("f32" | "f64", []) => Form::Number,
+        ("f32", []) => Form::Number { name: "f32" },
+        ("f64", []) => Form::Number { name: "f64" },
         ("String" | "str", []) => Form::Text,
         ("char", []) => Form::Letter,
         (name, []) => whole(name, true),

@@ -85,7 +85,7 @@ impl Search<'_> {
         };
         match Form::of(data, self.sources) {
             Form::Boolean
-            | Form::Number
+            | Form::Number { .. }
             | Form::Whole { .. }
             | Form::Text
             | Form::Letter

@@ -23,7 +23,7 @@ pub(in crate::resolve) fn part(data: &Resolved, name: &str, sources: &Sources<'_
     let Some(structure) = sources.library.fields(data) else {
         return if matches!(
             Form::of_itself(data, sources),
-            Form::Boolean | Form::Number | Form::Text
+            Form::Boolean | Form::Number { .. } | Form::Text
         ) {
             Part::None(Vec::new())
         } else {

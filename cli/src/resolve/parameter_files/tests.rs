@@ -254,6 +254,8 @@ fn values_of_the_wrong_type_are_told() {
         ("f32", "\"one\"", "is a string, not a number"),
         ("bool", "1", "is a number, not true or false"),
         ("u8", "300", "write a number from 0 to 255"),
+        ("f32", "-1e39", "does not fit into a `f32`"),
+        ("f64", "1e999", "does not fit into a `f64`"),
         ("u8", "1.5", "is a number, not a whole number"),
         ("String", "1", "is a number, not a string"),
         ("Vec<u8>", "[1, \"a\"]", "is a string, not a whole number"),
@@ -285,6 +287,15 @@ fn values_of_the_wrong_type_are_told() {
             &["missing-parameter", "mistyped-parameter"],
             &["`a` is a number, not a table"],
         );
+}
+
+#[test]
+fn floats_that_their_types_hold_are_right() {
+    for (data, value) in [("f32", "-inf"), ("f32", "3e38"), ("f64", "1e39")] {
+        robot(&format!("a: Parameter<{data}, \"a\">,"), "")
+            .file("parameters/default.toml", &format!("a = {value}\n"))
+            .robot();
+    }
 }
 
 #[test]

@@ -199,10 +199,17 @@ fn check_simple(value: &Spanned<DeValue<'_>>, form: &Form) -> Option<Mistake> {
     let expected = match (form, value.get_ref()) {
         (Form::Boolean, DeValue::Boolean(_))
         | (Form::Text, DeValue::String(_))
-        | (Form::Number, DeValue::Float(_) | DeValue::Integer(_)) => return None,
+        | (Form::Number { .. }, DeValue::Integer(_)) => return None,
+        (Form::Number { name }, DeValue::Float(number)) => {
+            return is_too_large(name, number.as_str()).then(|| Mistake {
+                message: format!("does not fit into a `{name}`"),
+                place: value.span(),
+                help: None,
+            });
+        }
         (Form::Boolean, _) => "true or false",
         (Form::Text, _) => "a string",
-        (Form::Number, _) => "a number",
+        (Form::Number { .. }, _) => "a number",
         (Form::Letter, DeValue::String(text)) if text.chars().count() == 1 => return None,
         (Form::Letter, _) => "a string of one character",
         (Form::Address(is_right), DeValue::String(text)) if is_right(text) => return None,
@@ -231,6 +238,15 @@ fn check_simple(value: &Spanned<DeValue<'_>>, form: &Form) -> Option<Mistake> {
         _ => return None,
     };
     Some(wrong(value, expected))
+}
+
+/// A finite number that would become infinite.
+fn is_too_large(name: &str, text: &str) -> bool {
+    let is_infinite = match name {
+        "f32" => text.parse().is_ok_and(f32::is_infinite),
+        _ => text.parse().is_ok_and(f64::is_infinite),
+    };
+    is_infinite && !text.ends_with("inf")
 }
 
 /// A number that its field's `#[reflect(range = …)]` leaves out.
