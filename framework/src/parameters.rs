@@ -8,6 +8,7 @@
 mod combinations;
 mod deserialize;
 mod error;
+mod exact;
 mod layers;
 mod live;
 mod nearest;
@@ -27,11 +28,6 @@ use tree::Tree;
 /// A type from the text of one TOML file; `name` is the file's in errors.
 pub fn from_text<T: DeserializeOwned>(name: &str, text: &str) -> Result<T, ParameterError> {
     deserialize::deserialize(&tree::parse(name, text)?)
-}
-
-/// The value of `--set path=value`, as clients would write it.
-pub(crate) fn setting_as_json(text: &str) -> serde_json::Value {
-    serde_json::to_value(tree::setting(text)).unwrap_or_default()
 }
 
 /// A type from a table; errors name the key.

@@ -266,7 +266,9 @@ impl Hub {
             .parameters
             .change(&changes)
             .map_err(parameters::refusals)?;
-        self.parameters_changed();
+        if version != self.told_parameters {
+            self.parameters_changed();
+        }
         Ok(Some(Good::Written { version: version.0 }))
     }
 

@@ -21,11 +21,11 @@ pub(super) fn deserialize<T: DeserializeOwned>(tree: &Tree) -> Result<T, Paramet
 }
 
 #[derive(Clone, Copy)]
-struct Node<'tree>(&'tree Tree);
+pub(super) struct Node<'tree>(pub(super) &'tree Tree);
 
 /// What is wrong, with as much of the place as is known on the way out.
 #[derive(Debug)]
-struct Mistake {
+pub(super) struct Mistake {
     fault: Fault,
     message: String,
     /// Innermost first.
@@ -137,15 +137,19 @@ impl<'de> Deserializer<'de> for Node<'_> {
                 }
             }
             Value::String(text) | Value::Datetime(text) => visitor.visit_str(text),
-            Value::Integer(integer) => visitor.visit_i64(*integer),
+            Value::Integer(integer) => visit_integer(*integer, visitor),
             Value::Float(float) => visitor.visit_f64(*float),
             Value::Boolean(boolean) => visitor.visit_bool(*boolean),
+            Value::Absent => visitor.visit_unit(),
         };
         result.map_err(|mistake| mistake.at(self.0))
     }
 
     fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Mistake> {
-        visitor.visit_some(self)
+        match &self.0.value {
+            Value::Absent => visitor.visit_none(),
+            _ => visitor.visit_some(self),
+        }
     }
 
     fn deserialize_newtype_struct<V: Visitor<'de>>(
@@ -198,6 +202,15 @@ impl<'de> Deserializer<'de> for Node<'_> {
     forward_to_deserialize_any! {
         bool i8 i16 i32 i64 i128 u8 u16 u32 u64 u128 f32 f64 char str string bytes byte_buf
         seq tuple tuple_struct map struct identifier ignored_any
+    }
+}
+
+/// With the smallest type that holds it, which most visitors take.
+fn visit_integer<'de, V: Visitor<'de>>(integer: i128, visitor: V) -> Result<V::Value, Mistake> {
+    match (i64::try_from(integer), u64::try_from(integer)) {
+        (Ok(integer), _) => visitor.visit_i64(integer),
+        (Err(_), Ok(integer)) => visitor.visit_u64(integer),
+        (Err(_), Err(_)) => visitor.visit_i128(integer),
     }
 }
 

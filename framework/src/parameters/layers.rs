@@ -7,10 +7,10 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
-use super::error::{Origin, ParameterError};
+use super::error::{Fault, Origin, ParameterError};
 use super::nearest::nearest;
-use super::tree::{self, Tree, Value};
-use super::{deserialize, from_text};
+use super::tree::{self, Removed, Tree, UNSET, Value};
+use super::{deserialize, exact, from_text};
 use crate::error::{Error, Result};
 use crate::reflect::{Reflect, Shape};
 
@@ -40,6 +40,8 @@ pub struct Parameters {
     pub(super) tree: Tree,
     /// The files that were read, in order.
     files: Vec<PathBuf>,
+    /// What a layer says `unset` of.
+    removed: Removed,
 }
 
 /// `parameters.toml` beside the layers.
@@ -57,6 +59,27 @@ impl Layers {
 
     /// As [`Layers::load`], with another text in place of that of one file.
     pub(super) fn load_with(&self, replaced: Option<(&Path, &str)>) -> Result<Parameters> {
+        let mut parameters = self.load_files(replaced, None)?;
+        for (variable, value) in &self.environment {
+            if let Some(path) = variable.strip_prefix(ENVIRONMENT_PREFIX) {
+                let origin = Origin::Environment(variable.as_str().into());
+                let setting = tree::parse_setting(value, &origin);
+                parameters.overlay(setting.below(path, ENVIRONMENT_SEPARATOR));
+            }
+        }
+        for (path, value) in &self.settings {
+            let origin = Origin::Setting(format!("{path}={value}").into());
+            parameters.overlay(tree::parse_setting(value, &origin).below(path, "."));
+        }
+        Ok(parameters)
+    }
+
+    /// The layers that are files, all of them or up to one: what nobody adds at the start.
+    pub(super) fn load_files(
+        &self,
+        replaced: Option<(&Path, &str)>,
+        last: Option<&Path>,
+    ) -> Result<Parameters> {
         let location = self.location()?;
         if let Some(location) = &location {
             self.check_location(location)?;
@@ -67,28 +90,18 @@ impl Layers {
                 line: 1,
             }),
             files: Vec::new(),
+            removed: Vec::new(),
         };
         for (file, required) in self.files(location.as_deref()) {
             let text = match replaced {
                 Some((path, text)) if path == file => Some(text.to_owned()),
                 _ => read(&file)?,
             };
+            let is_last = last == Some(&file);
             parameters.add(file, text, required)?;
-        }
-        for (variable, value) in &self.environment {
-            if let Some(path) = variable.strip_prefix(ENVIRONMENT_PREFIX) {
-                let origin = Origin::Environment(variable.as_str().into());
-                let setting = tree::parse_setting(value, &origin);
-                parameters
-                    .tree
-                    .overlay(setting.below(path, ENVIRONMENT_SEPARATOR));
+            if is_last {
+                break;
             }
-        }
-        for (path, value) in &self.settings {
-            let origin = Origin::Setting(format!("{path}={value}").into());
-            parameters
-                .tree
-                .overlay(tree::parse_setting(value, &origin).below(path, "."));
         }
         Ok(parameters)
     }
@@ -178,26 +191,33 @@ impl Parameters {
             entries.remove("hardware");
         }
         let values: P = deserialize::deserialize(&tree).map_err(|error| self.with_layers(error))?;
+        if let Some((path, number)) = exact::too_large(&tree, &exact::of(&values)?) {
+            let message = exact::is_too_large(number);
+            return Err(ParameterError::new(self.nearest_origin(&path), path, message).into());
+        }
         self.check_ranges(&P::shape(), &values)?;
         Ok(values)
     }
 
     /// The first number that is not in the range of its field is an error, with its place.
     pub(super) fn check_ranges(&self, shape: &Shape, values: &dyn Reflect) -> Result<()> {
-        let json = serde_json::to_value(values.as_serialize())?;
+        let json = exact::of(values)?.to_json();
         let Some(outside) = shape.out_of_range(&json, None).into_iter().next() else {
             return Ok(());
         };
-        // A part of an array may have no place of its own.
-        let mut path = outside.path.as_str();
-        let origin = loop {
-            match (self.origin(path), path.rfind('.')) {
-                (Some(origin), _) => break origin.clone(),
-                (None, Some(end)) => path = &path[..end],
-                (None, None) => break Origin::Unknown,
-            }
-        };
+        let origin = self.nearest_origin(&outside.path);
         Err(ParameterError::new(origin, outside.path.clone(), outside.to_string()).into())
+    }
+
+    /// Where the value at this path was written, or what it lies in: a part of an array may have no place of its own.
+    fn nearest_origin(&self, mut path: &str) -> Origin {
+        loop {
+            match (self.origin(path), path.rfind('.')) {
+                (Some(origin), _) => return origin.clone(),
+                (None, Some(end)) => path = &path[..end],
+                (None, None) => return Origin::Unknown,
+            }
+        }
     }
 
     /// `[hardware.<target>]`, empty if no layer has it.
@@ -247,10 +267,14 @@ impl Parameters {
         }
     }
 
+    fn overlay(&mut self, later: Tree) {
+        self.tree.overlay(later, &mut self.removed);
+    }
+
     fn add(&mut self, file: PathBuf, text: Option<String>, required: bool) -> Result<()> {
         match text {
             Some(text) => {
-                self.tree.overlay(tree::parse(&display(&file), &text)?);
+                self.overlay(tree::parse(&display(&file), &text)?);
                 self.files.push(file);
                 Ok(())
             }
@@ -263,7 +287,18 @@ impl Parameters {
     }
 
     /// Where a value is missing, the layers that could have it help more than the line of the table.
-    fn with_layers(&self, error: ParameterError) -> Error {
+    fn with_layers(&self, mut error: ParameterError) -> Error {
+        let mut removed = self.removed.iter().rev();
+        if error.fault == Fault::Missing
+            && let Some((path, origin)) = removed.find(|(path, _)| is_within(&error.key, path))
+        {
+            error.origin = origin.clone();
+            error.message = match *path == error.key {
+                true => format!("is missing: `{UNSET} = true` takes it away here"),
+                false => format!("is missing: `{UNSET} = true` takes `{path}` away here"),
+            };
+            return error.into();
+        }
         let is_missing = self.tree.get(&error.key).is_none();
         let error = Error::from(error);
         if !is_missing || self.files.is_empty() {
@@ -281,6 +316,12 @@ fn read(path: &Path) -> Result<Option<String>> {
         Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
         Err(error) => Err(Error::from(error).context(format!("cannot read {}", path.display()))),
     }
+}
+
+/// Whether a path is `upper` or below it.
+fn is_within(path: &str, upper: &str) -> bool {
+    let rest = path.strip_prefix(upper);
+    rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
 }
 
 fn display(path: &Path) -> String {

@@ -16,14 +16,17 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use serde::Serialize;
 use serde_json::Value;
 
+use super::error::Origin;
+use super::exact;
 use super::layers::{Layers, Parameters};
+use super::tree::{self, Tree};
 use crate::buffer::Writer;
 use crate::clock::Clock;
 use crate::data::ParameterData;
 use crate::error::Result;
 use crate::reflect::{Content, Path, Shape};
 use files::Files;
-use values::{Typed, Values, plain};
+use values::{Given, Typed, Values, plain};
 
 pub use provenance::{Leaf, Provenance, Reading};
 pub use refusal::{Refusal, Refusals};
@@ -138,7 +141,21 @@ impl Live {
     pub fn change<T: AsRef<str>>(&self, changes: &[(T, Value)]) -> Result<Version, Refusals> {
         let changes: Vec<_> = changes
             .iter()
-            .map(|(path, value)| (path.as_ref(), value))
+            .map(|(path, value)| (path.as_ref(), Given::Json(value)))
+            .collect();
+        self.state().change(&self.shape, &changes)
+    }
+
+    /// As [`Live::change`], with values as `--set` has them.
+    pub(crate) fn set(&self, settings: &[(String, String)]) -> Result<Version, Refusals> {
+        let values = settings.iter().map(|(path, text)| {
+            let value = tree::parse_setting(text, &Origin::Unknown);
+            (path.as_str(), value)
+        });
+        let values: Vec<_> = values.collect();
+        let changes = values.iter();
+        let changes: Vec<_> = changes
+            .map(|(path, value)| (*path, Given::Tree(value)))
             .collect();
         self.state().change(&self.shape, &changes)
     }
@@ -221,13 +238,20 @@ fn collect_creation_only(shape: &Shape, prefix: &str, paths: &mut Vec<String>) {
 }
 
 impl State {
-    fn change(&mut self, shape: &Shape, changes: &[(&str, &Value)]) -> Result<Version, Refusals> {
+    fn change(
+        &mut self,
+        shape: &Shape,
+        changes: &[(&str, Given<'_>)],
+    ) -> Result<Version, Refusals> {
         self.check_frozen()?;
+        if changes.is_empty() {
+            return Ok(self.version);
+        }
         let mut refusals = Vec::new();
         let mut paths = Vec::new();
         self.values.discard();
         for (path, value) in changes {
-            match self.values.write(path, value) {
+            match self.values.write(path, *value) {
                 Ok(path) => paths.push(path),
                 Err(refusal) => refusals.push(refusal),
             }
@@ -276,8 +300,13 @@ impl State {
 
     fn forget_what_is_stored(&mut self) {
         let values = &self.values;
-        self.changes
-            .retain(|(path, _)| plain(values.current(), path) != plain(values.stored(), path));
+        self.changes.retain(|(path, _)| {
+            let current = exact::part(values.current(), path);
+            match (current, exact::part(values.stored(), path)) {
+                (Some(current), Some(stored)) => !current.is_same(&stored),
+                (current, stored) => current.is_some() || stored.is_some(),
+            }
+        });
         self.changes.sort_unstable();
     }
 
@@ -289,6 +318,13 @@ impl State {
             version: *version,
         });
         unstored.collect()
+    }
+
+    /// A change, to be made again.
+    fn kept(&self, path: &Path) -> (String, Tree) {
+        let value = exact::part(self.values.current(), path);
+        let value = value.unwrap_or_else(|| tree::Value::Absent.into());
+        (path.to_string(), value)
     }
 
     fn reload(&mut self, shape: &Shape) -> Result<Version> {
@@ -311,14 +347,18 @@ impl State {
         let files = self.files.as_mut().ok_or_else(files::without)?;
         let loaded = files.load()?;
         let kept: Vec<_> = match with_changes {
-            true => self.unstored(),
+            true => self
+                .changes
+                .iter()
+                .map(|(path, _)| self.kept(path))
+                .collect(),
             false => Vec::new(),
         };
         self.values.discard();
         let stored = self.values.load(&loaded)?;
         loaded.check_ranges(shape, self.values.draft())?;
-        for change in &kept {
-            self.values.write(&change.path, &change.value)?;
+        for (path, value) in &kept {
+            self.values.write(path, Given::Tree(value))?;
         }
         self.values.set_stored(stored);
         if let Some(files) = &mut self.files {

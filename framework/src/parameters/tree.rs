@@ -25,12 +25,17 @@ pub(super) enum Value {
     Table(BTreeMap<String, Tree>),
     Array(Vec<Tree>),
     String(String),
-    Integer(i64),
+    Integer(i128),
     Float(f64),
     Boolean(bool),
     /// As TOML writes it.
     Datetime(String),
+    /// An `Option` that has no value: no file says so.
+    Absent,
 }
+
+/// What was taken away, by path, and where.
+pub(super) type Removed = Vec<(String, Origin)>;
 
 /// The tree of one file.
 pub(super) fn parse(path: &str, text: &str) -> Result<Tree, ParameterError> {
@@ -78,7 +83,7 @@ impl Tree {
             ),
             toml::Value::Array(array) => Value::Array(array.iter().map(below).collect()),
             toml::Value::String(text) => Value::String(text.clone()),
-            toml::Value::Integer(integer) => Value::Integer(*integer),
+            toml::Value::Integer(integer) => Value::Integer((*integer).into()),
             toml::Value::Float(float) => Value::Float(*float),
             toml::Value::Boolean(boolean) => Value::Boolean(*boolean),
             toml::Value::Datetime(datetime) => Value::Datetime(datetime.to_string()),
@@ -101,9 +106,14 @@ impl Tree {
             ),
             Value::Array(items) => toml::Value::Array(items.iter().map(Self::to_value).collect()),
             Value::String(text) | Value::Datetime(text) => toml::Value::String(text.clone()),
-            Value::Integer(integer) => toml::Value::Integer(*integer),
+            Value::Integer(integer) => match i64::try_from(*integer) {
+                Ok(integer) => toml::Value::Integer(integer),
+                // Only values that no file gave are so large.
+                Err(_) => toml::Value::String(integer.to_string()),
+            },
             Value::Float(float) => toml::Value::Float(*float),
             Value::Boolean(boolean) => toml::Value::Boolean(*boolean),
+            Value::Absent => toml::Value::String(String::new()),
         }
     }
 
@@ -116,13 +126,13 @@ impl Tree {
         }
     }
 
-    /// Puts a later layer over this one.
-    pub(super) fn overlay(&mut self, mut later: Self) {
+    /// Puts a later layer over this one; adds to what was taken away.
+    pub(super) fn overlay(&mut self, mut later: Self, removed: &mut Removed) {
         later.mark(self.layer + 1);
-        self.merge(later);
+        self.merge(later, "", removed);
     }
 
-    fn merge(&mut self, later: Self) {
+    fn merge(&mut self, later: Self, path: &str, removed: &mut Removed) {
         self.layer = later.layer;
         match (&mut self.value, later) {
             (
@@ -133,21 +143,23 @@ impl Tree {
                 },
             ) => {
                 for (key, mut tree) in later {
+                    let path = below(path, &key);
                     if tree.is_unset() {
                         entries.remove(&key);
+                        removed.push((path, tree.origin));
                         continue;
                     }
                     match entries.get_mut(&key) {
-                        Some(entry) => entry.merge(tree),
+                        Some(entry) => entry.merge(tree, &path, removed),
                         None => {
-                            tree.drop_unset();
+                            tree.drop_unset(&path, removed);
                             entries.insert(key, tree);
                         }
                     }
                 }
             }
             (_, mut later) => {
-                later.drop_unset();
+                later.drop_unset(path, removed);
                 *self = later;
             }
         }
@@ -163,10 +175,17 @@ impl Tree {
     }
 
     /// What would take away values of earlier layers, where there are none.
-    fn drop_unset(&mut self) {
+    fn drop_unset(&mut self, path: &str, removed: &mut Removed) {
         if let Value::Table(entries) = &mut self.value {
-            entries.retain(|_, below| !below.is_unset());
-            entries.values_mut().for_each(Self::drop_unset);
+            entries.retain(|key, tree| {
+                let path = below(path, key);
+                let is_unset = tree.is_unset();
+                match is_unset {
+                    true => removed.push((path, tree.origin.clone())),
+                    false => tree.drop_unset(&path, removed),
+                }
+                !is_unset
+            });
         }
     }
 
@@ -242,7 +261,15 @@ impl Tree {
             Value::Float(_) => "a float",
             Value::Boolean(_) => "a boolean",
             Value::Datetime(_) => "a date or time",
+            Value::Absent => "nothing",
         }
+    }
+}
+
+fn below(path: &str, key: &str) -> String {
+    match path {
+        "" => key.to_owned(),
+        _ => format!("{path}.{key}"),
     }
 }
 
@@ -287,19 +314,24 @@ impl Lines<'_> {
             DeValue::String(text) => Value::String(text.to_string()),
             DeValue::Integer(integer) => {
                 let parsed = i64::from_str_radix(integer.as_str(), integer.radix());
-                Value::Integer(parsed.map_err(|error| {
+                let parsed: i64 = parsed.map_err(|error| {
                     ParameterError::new(
                         origin.clone(),
                         "",
                         format!("{}: {error}", integer.as_str()),
                     )
-                })?)
+                })?;
+                Value::Integer(parsed.into())
             }
             DeValue::Float(float) => {
-                let parsed = float.as_str().parse();
-                Value::Float(parsed.map_err(|error| {
-                    ParameterError::new(origin.clone(), "", format!("{}: {error}", float.as_str()))
-                })?)
+                let text = float.as_str();
+                let wrong =
+                    |why: String| ParameterError::new(origin.clone(), "", format!("{text}{why}"));
+                let parsed: f64 = text.parse().map_err(|error| wrong(format!(": {error}")))?;
+                if parsed.is_infinite() && !text.ends_with("inf") {
+                    return Err(wrong(" is outside of what f64 holds".to_owned()));
+                }
+                Value::Float(parsed)
             }
             DeValue::Boolean(boolean) => Value::Boolean(*boolean),
             DeValue::Datetime(datetime) => Value::Datetime(datetime.to_string()),

@@ -23,7 +23,7 @@ pub struct Limits {
 pub struct OutOfRange {
     /// From the value downwards, as a path names it; empty for the value itself.
     pub path: String,
-    /// As JSON shows it: `null` is no finite number.
+    /// As JSON shows it, and files `inf` and `nan`.
     pub found: String,
     pub limits: Limits,
 }
@@ -39,12 +39,10 @@ impl Limits {
     }
 
     /// With bounds as an `f32` has them, so that `0.1` is within `..=0.1`.
-    #[expect(clippy::cast_possible_truncation, reason = "that is what is wanted")]
     pub(super) fn rounded(&self) -> Self {
-        let round = |bound: f64| f64::from(bound as f32);
         Self {
-            minimum: self.minimum.map(round),
-            maximum: self.maximum.map(round),
+            minimum: self.minimum.map(rounded),
+            maximum: self.maximum.map(rounded),
             is_half_open: self.is_half_open,
         }
     }
@@ -53,7 +51,7 @@ impl Limits {
 impl Shape {
     /// Every number of a value of this shape, given as JSON, that lies outside of the range of its field.
     ///
-    /// `limits` are those of the field that holds the value.
+    /// `limits` are those of the field that holds the value. A number that is not finite may be a text.
     pub fn out_of_range(&self, value: &Value, limits: Option<Limits>) -> Vec<OutOfRange> {
         let mut search = Search::default();
         search.look(self, value, limits);
@@ -149,7 +147,7 @@ impl Search {
             return;
         };
         let (number, exact) = match leaf {
-            Leaf::Float { bits: 32 } => (value.as_f64(), limits.rounded()),
+            Leaf::Float { bits: 32 } => (value.as_f64().map(rounded), limits.rounded()),
             Leaf::Float { .. } | Leaf::Signed { .. } | Leaf::Unsigned { .. } => {
                 (value.as_f64(), limits)
             }
@@ -160,11 +158,18 @@ impl Search {
         if !number.is_some_and(|number| exact.contains(number)) {
             self.found.push(OutOfRange {
                 path: self.path.join("."),
-                found: value.to_string(),
+                found: value
+                    .as_str()
+                    .map_or_else(|| value.to_string(), str::to_owned),
                 limits,
             });
         }
     }
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "that is what is wanted")]
+fn rounded(number: f64) -> f64 {
+    f64::from(number as f32)
 }
 
 fn seconds(duration: &Value) -> Option<f64> {

@@ -9,7 +9,7 @@ use crate::buffer::buffer_of;
 use crate::clock::Clock;
 use crate::data::ParameterData;
 use crate::error::{Error, Result};
-use crate::parameters::{LiveParameters, setting_as_json};
+use crate::parameters::LiveParameters;
 use crate::recorded::{Loading, PARAMETERS};
 
 /// What stands in place of each version of the parameters that a recording has.
@@ -98,12 +98,8 @@ pub fn with_settings<P: ParameterData>(
     })?;
     let (writer, [mut reader], []) = buffer_of(|| start.clone(), []);
     let parameters = LiveParameters::new(writer, start.clone(), Clock::stepped());
-    let settings = settings.iter();
-    let changes: Vec<_> = settings
-        .map(|(path, text)| (path, setting_as_json(text)))
-        .collect();
     parameters
-        .change(&changes)
+        .set(settings)
         .map_err(|refusals| Error::new(format!("--set: {refusals}")))?;
     reader.take();
     Ok(postcard::to_stdvec(reader.view().value())?)

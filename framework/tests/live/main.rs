@@ -1,5 +1,6 @@
 //! Parameters of a running robot: read, changed, stored, reloaded.
 
+mod exact;
 mod store;
 
 use std::collections::BTreeMap;
@@ -15,13 +16,14 @@ use tempfile::TempDir;
 #[derive(Clone, Debug, Deserialize, PartialEq, Reflect, Serialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Parameters {
+    pub(crate) extra: Extra,
     pub(crate) lamp: Lamp,
     #[serde(default)]
     name: Option<String>,
     motion: Motion,
     offsets: Vec<f32>,
     #[serde(default)]
-    rooms: BTreeMap<String, Room>,
+    pub(crate) rooms: BTreeMap<String, Room>,
     #[reflect(creation_only)]
     steps: u16,
 }
@@ -36,8 +38,26 @@ pub(crate) struct Lamp {
 
 #[derive(Clone, Debug, Deserialize, PartialEq, Reflect, Serialize)]
 #[serde(deny_unknown_fields)]
-struct Room {
-    width: f32,
+pub(crate) struct Room {
+    pub(crate) width: f32,
+}
+
+#[derive(Clone, Debug, Deserialize, PartialEq, Reflect, Serialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Extra {
+    // Has to be there, which no file can say of what is absent.
+    #[serde(deserialize_with = "Option::deserialize")]
+    pub(crate) limit: Option<f32>,
+    #[serde(default)]
+    pub(crate) poses: Vec<Pose>,
+}
+
+#[derive(Clone, Debug, Deserialize, PartialEq, Reflect, Serialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Pose {
+    x: f32,
+    #[serde(default)]
+    y: Option<f32>,
 }
 
 #[derive(Clone, Debug, Deserialize, PartialEq, Reflect, Serialize)]
@@ -61,6 +81,9 @@ brightness = 7
 
 [rooms.hall]
 width = 4.0
+
+[extra]
+limit = 2.0
 ";
 
 /// A robot's parameters and their files.
@@ -307,7 +330,7 @@ fn a_mistake_in_a_file_changes_nothing() {
         ),
         (
             DEFAULT.replace("radius = 0.25", "radius = nan"),
-            "default.toml:9: `lamp.radius`: null is outside of 0..=1",
+            "default.toml:9: `lamp.radius`: nan is outside of 0..=1",
         ),
         (
             DEFAULT.replace("steps = 5", "steps = \"many\""),

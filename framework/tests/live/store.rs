@@ -138,7 +138,7 @@ fn what_cannot_be_stored_leaves_the_file_as_it_was() {
     );
     assert_eq!(
         told(live.store("default", &["stops"])),
-        "`stops`: no `stops`: the value has `lamp`, `motion`, `name`, `offsets`, `rooms`, `steps`"
+        "`stops`: no `stops`: the value has `extra`, `lamp`, `motion`, `name`, `offsets`, `rooms`, `steps`"
     );
     assert_eq!(
         told(live.store("default", &[""])),

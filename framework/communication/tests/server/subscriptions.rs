@@ -280,6 +280,9 @@ fn parameters_are_told_with_each_change() {
     assert_eq!(one.update(speed)["value"], json!(0.2));
     let changes = json!([{ "path": "walking_speed", "value": 0.5 }]);
     let written = other.ok(json!({ "write": { "changes": changes } }));
+    // No change is no version.
+    let nothing = other.ok(json!({ "write": { "changes": [] } }));
+    assert_eq!(nothing, written);
     let update = one.update(speed);
     assert_eq!(
         (&update["value"], &update["cycle"]),

@@ -4,6 +4,7 @@ use std::fmt;
 
 use serde::Serialize;
 
+use crate::parameters::exact;
 use crate::reflect::{Path, Reflect, Shape};
 
 /// What is wrong with one path, or with the value for it, and what would be right.
@@ -45,8 +46,8 @@ impl From<Refusal> for Refusals {
 
 /// Every number that is not in the range of its field.
 pub(super) fn out_of_range(shape: &Shape, values: &dyn Reflect) -> Vec<Refusal> {
-    let json = match serde_json::to_value(values.as_serialize()) {
-        Ok(json) => json,
+    let json = match exact::of(values) {
+        Ok(tree) => tree.to_json(),
         Err(error) => return vec![Refusal::new("", error.to_string())],
     };
     let found = shape.out_of_range(&json, None).into_iter();

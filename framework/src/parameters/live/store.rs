@@ -1,17 +1,19 @@
 //! Values into the file of a layer, in which everything else stays as it is.
 
+mod layout;
+mod text;
+
 use std::fs;
 use std::path::{Path as FilePath, PathBuf};
 
 use serde::Serialize;
-use serde_json::Value;
-use toml_edit::{DocumentMut, InlineTable, Item, Table, TableLike};
+use toml_edit::{InlineTable, Item, Table, TableLike};
 
 use super::refusal::{Refusal, Refusals};
-use super::values::plain;
 use super::{Parameters, State, files};
-use crate::parameters::Origin;
-use crate::parameters::tree::{self, Tree};
+use crate::error::Result;
+use crate::parameters::tree::{self, Tree, Value};
+use crate::parameters::{Origin, exact};
 use crate::reflect::{Content, Path, Segment, Shape};
 
 /// What was written.
@@ -33,7 +35,7 @@ impl State {
     ) -> Result<Stored, Refusals> {
         self.check_frozen()?;
         let paths = self.paths_to_store(shape, paths)?;
-        let files = self.files.as_mut().ok_or_else(|| whole(files::without()))?;
+        let files = self.files.as_ref().ok_or_else(|| whole(files::without()))?;
         let file = files
             .file(layer)
             .map_err(|message| Refusal::new("", message))?;
@@ -42,38 +44,23 @@ impl State {
             _ => Err(whole(format!("cannot read {}: {error}", file.display()))),
         })?;
         let without = files.layers.load_with(Some((&file, ""))).map_err(whole)?;
-        let mut document: DocumentMut = before
-            .parse()
-            .map_err(|error| whole(format!("{}: {error}", file.display())))?;
-        // Comments in front of nothing stay in front.
-        let is_new = document.is_empty() && (before.is_empty() || before.ends_with('\n'));
-        if is_new {
-            document = DocumentMut::new();
-        }
-        for path in &paths {
+        let entries = paths.iter().map(|path| {
             let part = shape.at(path).map_err(whole)?;
-            let value = plain(self.values.current(), path).unwrap_or_default();
-            let entry = Entry {
+            Ok(Entry {
                 path,
-                value: &value,
+                value: exact::part(self.values.current(), path)
+                    .ok_or_else(|| Refusal::new(&path.to_string(), "it has no form"))?,
                 is_replaced_whole: !is_table(&part),
                 others: without.tree.get(&path.to_string()),
-            };
-            entry.write(document.as_table_mut())?;
-        }
-        let text = match is_new {
-            true => format!("{before}{document}"),
-            false => document.to_string(),
-        };
-        // Nothing is written that the next start would refuse.
-        let after = files
-            .layers
-            .load_with(Some((&file, &text)))
-            .map_err(whole)?;
-        self.values.discard();
-        self.values.load(&after).map_err(whole)?;
-        self.values.discard();
+            })
+        });
+        let entries: Vec<Entry<'_>> = entries.collect::<Result<_, Refusals>>()?;
+        let text = text::with(&before, &file, |root| {
+            entries.iter().try_for_each(|entry| entry.write(root))
+        })?;
+        let after = self.check_stored(&file, &before, &text)?;
         write(&file, &text).map_err(whole)?;
+        let files = self.files.as_mut().ok_or_else(|| whole(files::without()))?;
         files.wrote(&file, &before, &text);
         let warnings = paths
             .iter()
@@ -86,6 +73,34 @@ impl State {
             paths: paths.iter().map(ToString::to_string).collect(),
             warnings,
         })
+    }
+
+    /// What all layers are with that text, under which the next start succeeds, also without what it may have beside the
+    /// files: later layers must not hide what the file lost.
+    fn check_stored(
+        &mut self,
+        file: &FilePath,
+        before: &str,
+        text: &str,
+    ) -> Result<Parameters, Refusals> {
+        let files = self.files.as_ref().ok_or_else(|| whole(files::without()))?;
+        let layers = &files.layers;
+        let values = &mut self.values;
+        let mut check = |loaded: Result<Parameters>| -> Result<Parameters> {
+            let loaded = loaded?;
+            let checked = values.load(&loaded).map(drop);
+            values.discard();
+            checked.map(|()| loaded)
+        };
+        let refused = |error| whole(format!("with it the next start would fail: {error}"));
+        let after = check(layers.load_with(Some((file, text)))).map_err(refused)?;
+        for last in [Some(file), None] {
+            // Alone, a layer need not have everything.
+            if check(layers.load_files(Some((file, before)), last)).is_ok() {
+                check(layers.load_files(Some((file, text)), last)).map_err(refused)?;
+            }
+        }
+        Ok(after)
     }
 
     /// Without any: everything that was changed and not stored.
@@ -154,7 +169,7 @@ fn replaced_whole(shape: &Shape, path: &Path) -> Path {
 /// A value on its way into a file.
 struct Entry<'all> {
     path: &'all Path,
-    value: &'all Value,
+    value: Tree,
     is_replaced_whole: bool,
     /// What all other layers have at the path.
     others: Option<&'all Tree>,
@@ -185,83 +200,67 @@ impl Entry<'_> {
                 .as_table_like_mut()
                 .ok_or_else(|| self.refuse("its key in the file is no table"))?;
         }
-        self.put(table, last, self.value, self.others, self.is_replaced_whole)
+        self.put(
+            table,
+            last,
+            &self.value,
+            self.others,
+            self.is_replaced_whole,
+        )
     }
 
     fn put(
         &self,
         table: &mut dyn TableLike,
         key: &str,
-        value: &Value,
+        value: &Tree,
         others: Option<&Tree>,
         is_replaced_whole: bool,
     ) -> Result<(), Refusal> {
-        if value.is_null() {
+        if matches!(value.value, Value::Absent) {
             match others {
-                Some(_) => set(table, key, unset()),
+                Some(_) => layout::set(table, key, unset()),
                 None => _ = table.remove(key),
             }
             return Ok(());
         }
+        let Value::Table(entries) = &value.value else {
+            return self.replace(table, key, value);
+        };
+        if is_replaced_whole {
+            return self.replace(table, key, value);
+        }
         let known = table.get_mut(key).and_then(Item::as_table_like_mut);
-        match (value, known) {
-            (Value::Object(entries), Some(known)) if !is_replaced_whole => {
-                let old: Vec<String> = known.iter().map(|(key, _)| key.to_owned()).collect();
-                for key in old.iter().filter(|key| !entries.contains_key(*key)) {
-                    known.remove(key);
-                }
+        let Some(known) = known else {
+            let mut new = layout::to_toml(value).map_err(|message| self.refuse(message))?;
+            if let toml_edit::Value::InlineTable(new) = &mut new {
                 for key in others.into_iter().flat_map(Tree::keys) {
                     if !entries.contains_key(key) {
-                        set(known, key, unset());
+                        new.insert(key, unset());
                     }
                 }
-                for (key, value) in entries {
-                    let others = others.and_then(|others| others.get(key));
-                    self.put(known, key, value, others, false)?;
-                }
             }
-            _ => {
-                let mut new = self.to_toml(value)?;
-                if let (toml_edit::Value::InlineTable(new), Value::Object(entries)) =
-                    (&mut new, value)
-                    && !is_replaced_whole
-                {
-                    for key in others.into_iter().flat_map(Tree::keys) {
-                        if !entries.contains_key(key) {
-                            new.insert(key, unset());
-                        }
-                    }
-                }
-                set(table, key, new);
+            layout::set(table, key, new);
+            return Ok(());
+        };
+        let old: Vec<String> = known.iter().map(|(key, _)| key.to_owned()).collect();
+        for key in old.iter().filter(|key| !entries.contains_key(*key)) {
+            known.remove(key);
+        }
+        for key in others.into_iter().flat_map(Tree::keys) {
+            if !entries.contains_key(key) {
+                layout::set(known, key, unset());
             }
+        }
+        for (key, value) in entries {
+            let others = others.and_then(|others| others.get(key));
+            self.put(known, key, value, others, false)?;
         }
         Ok(())
     }
 
-    fn to_toml(&self, value: &Value) -> Result<toml_edit::Value, Refusal> {
-        Ok(match value {
-            Value::Null => {
-                return Err(self.refuse("TOML has no word for what is absent within a list"));
-            }
-            Value::Bool(flag) => (*flag).into(),
-            Value::String(text) => text.as_str().into(),
-            Value::Number(number) => match (number.as_i64(), number.as_f64()) {
-                (Some(integer), _) => integer.into(),
-                (None, Some(float)) if number.is_f64() => float.into(),
-                _ => return Err(self.refuse(format!("{number} is too large for TOML"))),
-            },
-            Value::Array(items) => {
-                let items = items.iter().map(|item| self.to_toml(item));
-                toml_edit::Value::Array(items.collect::<Result<_, _>>()?)
-            }
-            Value::Object(entries) => {
-                let mut table = InlineTable::new();
-                for (key, value) in entries.iter().filter(|(_, value)| !value.is_null()) {
-                    table.insert(key, self.to_toml(value)?);
-                }
-                toml_edit::Value::InlineTable(table)
-            }
-        })
+    fn replace(&self, table: &mut dyn TableLike, key: &str, value: &Tree) -> Result<(), Refusal> {
+        layout::replace(table, key, value).map_err(|message| self.refuse(message))
     }
 
     fn refuse(&self, message: impl Into<String>) -> Refusal {
@@ -271,19 +270,6 @@ impl Entry<'_> {
 
 fn unset() -> toml_edit::Value {
     InlineTable::from_iter([(tree::UNSET, true)]).into()
-}
-
-/// In place of the value that is there, whose comments stay.
-fn set(table: &mut dyn TableLike, key: &str, mut value: toml_edit::Value) {
-    match table.get_mut(key) {
-        Some(item) => {
-            if let Some(old) = item.as_value() {
-                *value.decor_mut() = old.decor().clone();
-            }
-            *item = Item::Value(value);
-        }
-        None => _ = table.insert(key, Item::Value(value)),
-    }
 }
 
 /// Where a later layer than the file has a value at the path or below it.

@@ -8,6 +8,9 @@ use crate::buffer::Writer;
 use crate::clock::Clock;
 use crate::data::ParameterData;
 use crate::error::Result;
+use crate::parameters::deserialize::Node;
+use crate::parameters::exact;
+use crate::parameters::tree::Tree;
 use crate::recorded::Loading;
 use crate::reflect::{self, Path, Reflect};
 
@@ -24,7 +27,7 @@ pub(super) trait Values: Send {
     fn discard(&mut self);
 
     /// Gives a part of the draft another value.
-    fn write(&mut self, path: &str, value: &Value) -> Result<Path, Refusal>;
+    fn write(&mut self, path: &str, value: Given<'_>) -> Result<Path, Refusal>;
 
     /// The draft becomes what was loaded; the same, for [`Values::set_stored`].
     fn load(&mut self, loaded: &Parameters) -> Result<Box<dyn std::any::Any>>;
@@ -40,6 +43,15 @@ pub(super) trait Values: Send {
 
     /// The draft becomes current, also for the cyclers.
     fn publish(&mut self, version: Version);
+}
+
+/// What a part shall be.
+#[derive(Clone, Copy)]
+pub(super) enum Given<'value> {
+    /// As a client writes it.
+    Json(&'value Value),
+    /// As the command line and the files do, or as it was.
+    Tree(&'value Tree),
 }
 
 pub(super) struct Typed<P> {
@@ -79,15 +91,33 @@ impl<P: ParameterData> Values for Typed<P> {
         self.draft = None;
     }
 
-    fn write(&mut self, path: &str, value: &Value) -> Result<Path, Refusal> {
+    fn write(&mut self, path: &str, value: Given<'_>) -> Result<Path, Refusal> {
         let parsed = Refusal::parse(path)?;
         let draft = self.draft.get_or_insert_with(|| self.current.clone());
         let part = reflect::at_mut(draft, &parsed)
             .map_err(|unknown| Refusal::new(path, unknown.to_string()))?;
-        let deserializer = &mut <dyn erased_serde::Deserializer<'_>>::erase(value);
-        part.deserialize_from(deserializer)
-            .map_err(|error| Refusal::new(path, error.to_string()))?;
-        Ok(parsed)
+        let written = match value {
+            Given::Json(value) => {
+                part.deserialize_from(&mut <dyn erased_serde::Deserializer<'_>>::erase(value))
+            }
+            Given::Tree(tree) => {
+                part.deserialize_from(&mut <dyn erased_serde::Deserializer<'_>>::erase(Node(tree)))
+            }
+        };
+        written.map_err(|error| Refusal::new(path, error.to_string()))?;
+        let held = exact::of(part).map_err(|error| Refusal::new(path, error.to_string()))?;
+        let too_large = match value {
+            Given::Json(value) => exact::too_large(&Tree::from_json(value), &held),
+            Given::Tree(tree) => exact::too_large(tree, &held),
+        };
+        match too_large {
+            Some((below, number)) => {
+                let path = [path, below.as_str()];
+                let path: Vec<_> = path.into_iter().filter(|part| !part.is_empty()).collect();
+                Err(Refusal::new(&path.join("."), exact::is_too_large(number)))
+            }
+            None => Ok(parsed),
+        }
     }
 
     fn load(&mut self, loaded: &Parameters) -> Result<Box<dyn std::any::Any>> {
@@ -112,9 +142,9 @@ impl<P: ParameterData> Values for Typed<P> {
     fn adopt(&mut self, loaded: &Parameters, paths: &[Path]) -> Result<()> {
         let loaded: P = loaded.deserialize()?;
         for path in paths {
-            let value = serde_json::to_value(reflect::at(&loaded, path)?.as_serialize())?;
+            let value = exact::of(reflect::at(&loaded, path)?)?;
             let part = reflect::at_mut(&mut self.stored, path)?;
-            let deserializer = &mut <dyn erased_serde::Deserializer<'_>>::erase(value);
+            let deserializer = &mut <dyn erased_serde::Deserializer<'_>>::erase(Node(&value));
             part.deserialize_from(deserializer)?;
         }
         Ok(())
