@@ -178,7 +178,7 @@ where
     });
     let clock = Clock::wall();
     // The identities that choose layers come from the hardware, whose own table therefore comes first.
-    let mut layers = layers(target, options);
+    let mut layers = layers(target, options)?;
     let hardware = connect::<H>(target, options, &layers.load()?, &clock, stop)?;
     layers.identities = known_identities(target, hardware.identities());
     let loaded = layers.load()?;
@@ -291,12 +291,8 @@ fn connect<H: Hardware>(
     })?))
 }
 
-fn layers(target: &Target, options: &Options) -> Layers {
-    let environment = std::env::vars_os().filter_map(|(variable, value)| {
-        // What is no text cannot be a parameter.
-        Some((variable.into_string().ok()?, value.into_string().ok()?))
-    });
-    Layers {
+fn layers(target: &Target, options: &Options) -> Result<Layers> {
+    Ok(Layers {
         directory: options
             .parameters
             .clone()
@@ -307,9 +303,9 @@ fn layers(target: &Target, options: &Options) -> Layers {
             .or_else(|| target.location.map(str::to_owned))
             .filter(|location| !location.is_empty()),
         identities: Vec::new(),
-        environment: environment.collect(),
+        environment: Layers::environment_of(std::env::vars_os())?,
         settings: options.settings.clone(),
-    }
+    })
 }
 
 /// In the manifest's order; what the hardware reports beyond it chooses nothing.

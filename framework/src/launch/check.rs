@@ -10,7 +10,7 @@ use serde_json::json;
 use super::options::{Format, Options};
 use super::{DONE, FAILED, Target, layers};
 use crate::error::Error;
-use crate::parameters::{Fault, Origin, ParameterError};
+use crate::parameters::{Fault, Layers, Origin, ParameterError};
 use crate::reflect::Reflect;
 use crate::report::tell;
 
@@ -38,22 +38,10 @@ pub(super) fn parameters<P: DeserializeOwned + Reflect>(
     options: &Options,
     output: &mut dyn Write,
 ) -> u8 {
-    let robots = layers(target, options).combinations(target.identities);
-    let count = robots.len();
-    let mut found: Vec<(Mistake, usize)> = Vec::new();
-    for robot in robots {
-        let loaded = robot.load().and_then(|all| all.deserialize::<P>());
-        let Err(error) = loaded.map(drop) else {
-            continue;
-        };
-        let mistake = Mistake::new(&error, robot.identities);
-        match found.iter_mut().find(|(one, _)| one.is_same(&mistake)) {
-            Some((_, robots)) => *robots += 1,
-            None => found.push((mistake, 1)),
-        }
-    }
-    found.retain(|(mistake, robots)| mistake.fault != Fault::Missing || *robots == count);
-    let mistakes: Vec<Mistake> = found.into_iter().map(|(mistake, _)| mistake).collect();
+    let mistakes = match layers(target, options) {
+        Ok(layers) => mistakes::<P>(&layers.combinations(target.identities)),
+        Err(error) => vec![Mistake::new(&error, Vec::new())],
+    };
     let written = match options.format {
         Format::Json => tell_programs(&mistakes, output),
         Format::Text => {
@@ -66,6 +54,25 @@ pub(super) fn parameters<P: DeserializeOwned + Reflect>(
     } else {
         FAILED
     }
+}
+
+/// Why robots would not start, each reason once.
+fn mistakes<P: DeserializeOwned + Reflect>(robots: &[Layers]) -> Vec<Mistake> {
+    let count = robots.len();
+    let mut found: Vec<(Mistake, usize)> = Vec::new();
+    for robot in robots {
+        let loaded = robot.load().and_then(|all| all.deserialize::<P>());
+        let Err(error) = loaded.map(drop) else {
+            continue;
+        };
+        let mistake = Mistake::new(&error, robot.identities.clone());
+        match found.iter_mut().find(|(one, _)| one.is_same(&mistake)) {
+            Some((_, robots)) => *robots += 1,
+            None => found.push((mistake, 1)),
+        }
+    }
+    found.retain(|(mistake, robots)| mistake.fault != Fault::Missing || *robots == count);
+    found.into_iter().map(|(mistake, _)| mistake).collect()
 }
 
 fn tell_programs(mistakes: &[Mistake], output: &mut dyn Write) -> io::Result<()> {

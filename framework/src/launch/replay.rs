@@ -121,7 +121,7 @@ fn served<P: ParameterData>(
     let parameters: P = match recorded_parameters(recording, &values) {
         Ok(parameters) => parameters,
         Err(why) => {
-            let files = super::layers(target, options).load();
+            let files = super::layers(target, options).and_then(|layers| layers.load());
             let parameters = files.and_then(|files| files.deserialize());
             let parameters = parameters.map_err(|error| error.context(why.to_string()))?;
             tell(format_args!("{why}; those of the files are shown"));

@@ -204,7 +204,7 @@ impl Stage<'_> {
         // One that stops ends nothing but itself.
         let (clock, stop) = (Clock::stepped(), Stop::new());
         let _within = logs::within(&clock);
-        let mut layers = layers(self.target, self.options);
+        let mut layers = layers(self.target, self.options)?;
         // Later ones win: what somebody says on the command line stands behind.
         let own = self.scenario.robots.get(robot);
         let own = own.into_iter().flat_map(|robot| &robot.settings);

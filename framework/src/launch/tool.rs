@@ -37,7 +37,7 @@ pub(super) fn run<H: Hardware, P: ParameterData>(
     }
     let context = HardwareContext {
         options: options.hardware.clone(),
-        table: layers(target, options).load()?.hardware(target.name)?,
+        table: layers(target, options)?.load()?.hardware(target.name)?,
         run_folder: options.run_folder.clone(),
         clock: Clock::stepped(),
         stop: stop.clone(),
@@ -64,7 +64,7 @@ struct Workbench<'run, H, P> {
 impl<H: Hardware, P: ParameterData> Workbench<'_, H, P> {
     /// As the layers for this hardware say.
     fn parameters(&self, hardware: &H) -> Result<P> {
-        let mut layers = layers(self.target, self.options);
+        let mut layers = layers(self.target, self.options)?;
         layers.identities = known_identities(self.target, hardware.identities());
         layers.load()?.deserialize()
     }

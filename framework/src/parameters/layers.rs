@@ -1,5 +1,6 @@
 //! Which files are layers, and what they are merged to.
 
+use std::ffi::OsString;
 use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -72,6 +73,30 @@ impl Layers {
             parameters.overlay(tree::parse_setting(value, &origin).below(path, "."));
         }
         Ok(parameters)
+    }
+
+    /// Those of a process's environment variables that are a layer.
+    ///
+    /// # Errors
+    /// If one is not UTF-8: it would be no parameter, and nobody would be told.
+    pub(crate) fn environment_of(
+        variables: impl IntoIterator<Item = (OsString, OsString)>,
+    ) -> Result<Vec<(String, String)>> {
+        let variables = variables.into_iter();
+        let ours = variables.filter(|(variable, _)| {
+            let name = variable.as_encoded_bytes();
+            name.starts_with(ENVIRONMENT_PREFIX.as_bytes())
+        });
+        let read = ours.map(|(variable, value)| {
+            let origin = Origin::Environment(variable.to_string_lossy().into());
+            let wrong = |what| ParameterError::new(origin.clone(), "", what);
+            let variable = variable.into_string();
+            let variable = variable.map_err(|_| wrong("the name of the variable is not UTF-8"))?;
+            let value = value.into_string();
+            let value = value.map_err(|_| wrong("the value of the variable is not UTF-8"))?;
+            Ok((variable, value))
+        });
+        read.collect()
     }
 
     /// The layers that are files, all of them or up to one: what nobody adds at the start.
@@ -326,4 +351,36 @@ fn is_within(path: &str, upper: &str) -> bool {
 
 fn display(path: &Path) -> String {
     path.display().to_string()
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use std::ffi::OsString;
+    use std::os::unix::ffi::OsStringExt;
+
+    use super::Layers;
+
+    fn read(name: &[u8], value: &[u8]) -> Result<Vec<(String, String)>, String> {
+        let variable = (
+            OsString::from_vec(name.to_vec()),
+            OsString::from_vec(value.to_vec()),
+        );
+        Layers::environment_of([variable]).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn a_variable_that_is_not_utf_8_is_an_error_where_it_is_a_layer() {
+        let one = vec![("HULK_PARAMETERS__a__b".to_owned(), "1".to_owned())];
+        assert_eq!(read(b"HULK_PARAMETERS__a__b", b"1"), Ok(one));
+        let error = "environment HULK_PARAMETERS__a__b: the value of the variable is not UTF-8";
+        assert_eq!(
+            read(b"HULK_PARAMETERS__a__b", b"\xff"),
+            Err(error.to_owned())
+        );
+        let error = "environment HULK_PARAMETERS__a\u{fffd}: the name of the variable is not UTF-8";
+        assert_eq!(read(b"HULK_PARAMETERS__a\xff", b"1"), Err(error.to_owned()));
+        for (name, value) in [(b"OTHER", b"\xff"), (b"OTH\xff ", b"1")] {
+            assert_eq!(read(name, value), Ok(Vec::new()));
+        }
+    }
 }
