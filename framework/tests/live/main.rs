@@ -1,6 +1,7 @@
 //! Parameters of a running robot: read, changed, stored, reloaded.
 
 mod exact;
+mod layout;
 mod store;
 
 use std::collections::BTreeMap;

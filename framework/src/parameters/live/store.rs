@@ -1,6 +1,8 @@
 //! Values into the file of a layer, in which everything else stays as it is.
 
+mod array;
 mod layout;
+mod tables;
 mod text;
 
 use std::fs;
