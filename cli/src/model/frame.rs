@@ -1,14 +1,16 @@
 //! What the nodes of one cycler may touch: the fields of its `Frame` and `Creation`.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 
 use serde::Serialize;
 
+use super::accessor::Accessor;
 use super::names::{Names, joined, snake_case};
 use super::parameters::Parameters;
 use super::structs::FieldType;
 use crate::resolve::robot::{
-    Access, CreationBinding, CycleBinding, Cycler, Field, Node, OnFailure, OutputBinding,
+    Access, CreationBinding, CycleBinding, Cycler, DataType, Field, Node, OnFailure, OutputBinding,
+    Segment,
 };
 
 /// A field of `Frame` or `Creation`, which have only those that some node needs.
@@ -33,16 +35,42 @@ pub enum FrameField {
 }
 
 /// A part of the parameter tree that is different for each instance: what stands in place of
-/// `$cycler_instance` behind one prefix.
+/// `$cycler_instance` behind one prefix, or one value there that is a field of what another node reads whole.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct InstanceParameters {
     /// Its field in `Frame`: `instance_parameters`.
     pub field: String,
     /// The field that selects it: `select`.
     pub select: String,
-    /// What stands in front of `$cycler_instance`.
-    pub prefix: Vec<String>,
+    /// Where it is, with `$cycler_instance`.
+    pub path: Vec<Segment>,
+    /// Its type; where an option on the way may be absent, that of the content.
     pub content: FieldType,
+}
+
+impl InstanceParameters {
+    /// Whether an option on the way is looked into, so that it may be absent.
+    pub fn may_be_absent(&self) -> bool {
+        self.path.iter().any(|segment| segment.optional)
+    }
+
+    /// What is left of a path that leads through it.
+    pub fn below<'a>(&self, access: &'a Access) -> Option<&'a [Segment]> {
+        let below = access.segments.strip_prefix(self.path.as_slice())?;
+        (below.is_empty() || !self.may_be_absent()).then_some(below)
+    }
+
+    /// How it is reached for one instance.
+    pub fn of_instance(&self, base: &[&str], instance: &str) -> Accessor {
+        let own = |segment: &Segment| Segment {
+            name: match segment.instance {
+                true => snake_case(instance),
+                false => segment.name.clone(),
+            },
+            ..segment.clone()
+        };
+        Accessor::below(base, &self.path.iter().map(own).collect::<Vec<_>>())
+    }
 }
 
 /// Whether something has a type parameter for the hardware, and what it asks of it.
@@ -83,35 +111,31 @@ impl FrameField {
     }
 }
 
+/// Names without that of the instance, by which parts are sorted and called, and the path.
+type PartKey = (Vec<String>, Vec<Segment>);
+
 /// Parts of the parameter tree that the nodes of a cycler read by `$cycler_instance`.
 pub fn instance_parameters(cycler: &Cycler, parameters: &Parameters) -> Vec<InstanceParameters> {
-    let prefixes: BTreeSet<Vec<String>> = cycler
-        .nodes
-        .iter()
-        .flat_map(|node| {
-            let created = node
-                .creation
-                .iter()
-                .filter_map(|field| created_from(&field.binding));
-            let cycled = node
-                .cycle
-                .iter()
-                .filter_map(|field| read_from(&field.binding));
-            created.chain(cycled)
-        })
-        .filter_map(instance_prefix)
-        .collect();
-    let only = prefixes.len() == 1;
+    let mut found: BTreeMap<PartKey, FieldType> = BTreeMap::new();
+    for (access, data) in cycler.nodes.iter().flat_map(read_parameters) {
+        if let Some((key, content)) = selected(cycler, parameters, access, data) {
+            found.entry(key).or_insert(content);
+        }
+    }
+    // What lies below another part is reached through that one.
+    let paths: Vec<Vec<Segment>> = found.keys().map(|(_, path)| path.clone()).collect();
+    let leads = |above: &[Segment], path: &[Segment]| {
+        above.len() < path.len()
+            && path.starts_with(above)
+            && above.iter().all(|segment| !segment.optional)
+    };
+    found.retain(|(_, path), _| !paths.iter().any(|above| leads(above, path)));
+    let only = found.len() == 1;
     let (mut fields, mut selects) = (Names::default(), Names::default());
-    let instance = snake_case(&cycler.instances[0].name);
-    prefixes
+    found
         .into_iter()
-        .map(|prefix| {
-            let path = prefix.iter().chain([&instance]);
-            let content = parameters
-                .content(path)
-                .expect("declared paths are in the tree");
-            let whose = joined(prefix.iter().map(String::as_str));
+        .map(|((names, path), content)| {
+            let whose = joined(names.iter().map(String::as_str));
             let (field, select) = if only || whose.is_empty() {
                 ("instance_parameters".to_owned(), "select".to_owned())
             } else {
@@ -120,39 +144,66 @@ pub fn instance_parameters(cycler: &Cycler, parameters: &Parameters) -> Vec<Inst
             InstanceParameters {
                 field: fields.give(&field),
                 select: selects.give(&select),
-                prefix,
+                path,
                 content,
             }
         })
         .collect()
 }
 
-/// What stands in front of `$cycler_instance`, if that is part of the path.
-pub fn instance_prefix(access: &Access) -> Option<Vec<String>> {
-    let position = access
-        .segments
+/// What has to be selected for a path with `$cycler_instance`, by its names without that of the
+/// instance. It ends at the instance where the tree knows what all instances have there; below a
+/// value that is read whole only the end of the path has a type that is written.
+fn selected(
+    cycler: &Cycler,
+    parameters: &Parameters,
+    access: &Access,
+    data: &DataType,
+) -> Option<(PartKey, FieldType)> {
+    let segments = &access.segments;
+    let place = segments.iter().position(|segment| segment.instance)?;
+    let names = |segments: &[Segment]| -> Vec<String> {
+        segments.iter().map(|one| one.name.clone()).collect()
+    };
+    let mut path = names(&segments[..place]);
+    let (prefix, instance) = (path.clone(), snake_case(&cycler.instances[0].name));
+    let looks = segments[..=place].iter().any(|segment| segment.optional);
+    if !looks && let Some(content) = parameters.content(prefix.iter().chain([&instance])) {
+        return Some(((prefix, segments[..=place].to_vec()), content));
+    }
+    path.extend(names(&segments[place + 1..]));
+    let text = data.text.as_str();
+    let inner = text
+        .strip_prefix("Option<")
+        .and_then(|text| text.strip_suffix('>'));
+    let text = inner.filter(|_| access.is_optional()).unwrap_or(text);
+    Some(((path, segments.clone()), FieldType::Data(text.to_owned())))
+}
+
+/// Every parameter that a node reads, and its type as written.
+fn read_parameters(node: &Node) -> impl Iterator<Item = (&Access, &DataType)> {
+    let created = node
+        .creation
         .iter()
-        .position(|segment| segment.instance)?;
-    Some(
-        access.segments[..position]
-            .iter()
-            .map(|segment| segment.name.clone())
-            .collect(),
-    )
+        .filter_map(|field| match &field.binding {
+            CreationBinding::Parameter { access, data } => Some((access, data)),
+            _ => None,
+        });
+    let cycled = node.cycle.iter().filter_map(|field| match &field.binding {
+        CycleBinding::Parameter { access, data } => Some((access, data)),
+        _ => None,
+    });
+    created.chain(cycled)
 }
 
-fn created_from(binding: &CreationBinding) -> Option<&Access> {
-    match binding {
-        CreationBinding::Parameter { access, .. } => Some(access),
-        _ => None,
-    }
-}
-
-fn read_from(binding: &CycleBinding) -> Option<&Access> {
-    match binding {
-        CycleBinding::Parameter { access, .. } => Some(access),
-        _ => None,
-    }
+/// The part that a path leads through, and what is left of the path.
+pub fn part_of<'a>(
+    parts: &'a [InstanceParameters],
+    access: &'a Access,
+) -> Option<(&'a InstanceParameters, &'a [Segment])> {
+    parts
+        .iter()
+        .find_map(|part| Some((part, part.below(access)?)))
 }
 
 /// Fields of `Creation`, sorted: what `new` of any node needs.
@@ -237,9 +288,7 @@ fn cycle_fields(binding: &CycleBinding, parts: &[InstanceParameters]) -> Vec<Fra
 }
 
 fn parameter_field(access: &Access, parts: &[InstanceParameters]) -> FrameField {
-    let part =
-        instance_prefix(access).and_then(|prefix| parts.iter().find(|part| part.prefix == prefix));
-    part.map_or(FrameField::Parameters, |part| {
+    part_of(parts, access).map_or(FrameField::Parameters, |(part, _)| {
         FrameField::Instance(part.clone())
     })
 }

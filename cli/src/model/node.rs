@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::accessor::Accessor;
 use super::cycler::AdditionalOutput;
-use super::frame::{Hardware, InstanceParameters, instance_prefix, renews};
+use super::frame::{Hardware, InstanceParameters, part_of, renews};
 use super::names::snake_case;
 use super::{frame, sentences};
 use crate::resolve::robot::{
@@ -396,16 +396,8 @@ impl Surroundings<'_> {
     }
 
     fn parameter(&self, base: &str, access: &Access) -> Value {
-        let part = instance_prefix(access).and_then(|prefix| {
-            self.instance_parameters
-                .iter()
-                .find(|part| part.prefix == prefix)
-        });
-        Value::Read(match part {
-            Some(part) => {
-                let below = &access.segments[part.prefix.len() + 1..];
-                Accessor::below(&[base, &part.field], below)
-            }
+        Value::Read(match part_of(self.instance_parameters, access) {
+            Some((part, below)) => Accessor::below(&[base, &part.field], below),
             None => Accessor::below(&[base, "parameters"], &access.segments),
         })
     }

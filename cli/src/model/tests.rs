@@ -348,3 +348,36 @@ fn flows_name_what_is_read_and_written() {
         ]
     );
 }
+
+#[test]
+fn a_value_of_the_instance_below_a_struct_that_is_read_whole_is_selected_by_its_whole_path() {
+    let model = model_of(&robot(vec![
+        real_time("Control").node(
+            node("control::a")
+                .parameter("whole", "types::Arms", "p")
+                .parameter("other", "types::Hands", "q")
+                .parameter("through", "f32", "p.$cycler_instance.x")
+                .parameter("own", "f32", "p.$cycler_instance")
+                .parameter("below", "Option<u8>", "q.$cycler_instance.grip?"),
+        ),
+    ]));
+    let parts: Vec<(&str, String, bool)> = model.cyclers[0]
+        .instance_parameters
+        .iter()
+        .map(|part| {
+            let place = part.of_instance(&["parameters"], "Control").place.join(".");
+            (part.field.as_str(), place, part.may_be_absent())
+        })
+        .collect();
+    assert_eq!(
+        parts,
+        [
+            ("instance_p", "parameters.p.control".to_owned(), false),
+            (
+                "instance_q_grip",
+                "parameters.q.control.grip".to_owned(),
+                true
+            ),
+        ]
+    );
+}

@@ -105,8 +105,11 @@ fn quote_body(cycler: &CyclerModel) -> TokenStream {
         quote!(pub #name: ::framework::Reader<#shared>,)
     });
     let selects = cycler.instance_parameters.iter().map(|part| {
-        let (name, content) = (ident(&part.select), quote_instance_parameters(part));
-        quote!(pub #name: fn(&crate::parameters::Parameters) -> &#content,)
+        let (name, content) = (
+            ident(&part.select),
+            quote_instance_parameters(part, &quote!(&)),
+        );
+        quote!(pub #name: fn(&crate::parameters::Parameters) -> #content,)
     });
     let about = doc("One instance: its nodes, and its ends of all buffers.");
     let (name, (parameter, _)) = (ident(&cycler.body), quote_generics(cycler, false));

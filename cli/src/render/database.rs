@@ -346,10 +346,7 @@ fn quote_frame_field(field: &FrameField) -> TokenStream {
         FrameField::HardwareInterface => quote!(&'a ::std::sync::Arc<Hardware>),
         FrameField::Historic => quote!(&'a Historic),
         FrameField::Injections => quote!(Option<&'a Injections>),
-        FrameField::Instance(part) => {
-            let content = quote_instance_parameters(part);
-            quote!(&'a #content)
-        }
+        FrameField::Instance(part) => quote_instance_parameters(part, &quote!(&'a)),
         FrameField::Latest => quote!(Latest<'a>),
         FrameField::Own => quote!(&'a mut OwnOutputs),
         FrameField::Parameters => quote!(&'a crate::parameters::Parameters),
@@ -362,10 +359,17 @@ fn quote_frame_field(field: &FrameField) -> TokenStream {
     quote!(pub #name: #content,)
 }
 
-/// The type of what stands in place of `$cycler_instance`.
-pub(super) fn quote_instance_parameters(part: &InstanceParameters) -> TokenStream {
-    match &part.content {
+/// The type of what stands in place of `$cycler_instance`, behind such a reference.
+pub(super) fn quote_instance_parameters(
+    part: &InstanceParameters,
+    reference: &TokenStream,
+) -> TokenStream {
+    let content = match &part.content {
         FieldType::Struct(name) => path(&format!("crate::parameters::{name}")),
         FieldType::Data(data) => data_type(data),
+    };
+    match part.may_be_absent() {
+        true => quote!(Option<#reference #content>),
+        false => quote!(#reference #content),
     }
 }

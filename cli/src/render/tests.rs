@@ -164,3 +164,34 @@ fn names_of_the_prelude_are_names_like_others() {
         "{runtime}"
     );
 }
+
+#[test]
+fn a_value_of_the_instance_below_a_struct_that_is_read_whole_has_the_type_its_reader_wrote() {
+    let files = render(&model_of(&robot(vec![
+        real_time("Control").node(
+            node("control::a")
+                .parameter("whole", "types::Arms", "p")
+                .parameter("other", "types::Hands", "q")
+                .parameter("through", "f32", "p.$cycler_instance.x")
+                .parameter("own", "f32", "p.$cycler_instance")
+                .parameter("below", "Option<types::Grip>", "q.$cycler_instance.grip?"),
+        ),
+    ])));
+    let file = |path: &str| files[&Utf8PathBuf::from("generated").join(path)].as_str();
+    let all = [
+        "src/databases/control.rs",
+        "src/runtime/control.rs",
+        "src/runtime.rs",
+    ];
+    let all: String = all.iter().map(|path| file(path)).collect();
+    for text in [
+        "pub instance_p: &'a f32,",
+        "pub instance_q_grip: Option<&'a Grip>,",
+        "pub select_p: fn(&Parameters) -> &f32,",
+        "pub select_q_grip: fn(&Parameters) -> Option<&Grip>,",
+        "select_p: |parameters| &parameters.p.control,",
+        "select_q_grip: |parameters| parameters.q.control.grip.as_ref(),",
+    ] {
+        assert!(all.contains(text), "{text}\n{all}");
+    }
+}

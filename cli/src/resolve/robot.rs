@@ -305,7 +305,7 @@ pub struct Access {
     pub written: String,
 }
 
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub struct Segment {
     pub name: String,
     /// `?` stands behind it.

@@ -5,12 +5,11 @@ use quote::quote;
 
 use super::database;
 use crate::model::frame::FrameField;
-use crate::model::names::snake_case;
 use crate::model::runtime::{InstanceModel, end, queue};
 use crate::model::{CyclerModel, RuntimeModel};
 use crate::render::instance::quote_duration;
 use crate::render::layout::empty_line;
-use crate::render::spelling::{ident, path, place};
+use crate::render::spelling::{ident, path, quote_accessor};
 
 /// An instance around its body.
 pub(super) fn quote_instance(model: &RuntimeModel, instance: &InstanceModel) -> TokenStream {
@@ -58,8 +57,9 @@ fn quote_creation(cycler: &CyclerModel, instance: &InstanceModel) -> TokenStream
             FrameField::CyclerState => quote!(#name: &mut #name,),
             FrameField::HardwareInterface => quote!(#name: hardware,),
             FrameField::Instance(part) => {
-                let path = place(&instance_path("start.parameters", &part.prefix, instance));
-                quote!(#name: &#path,)
+                let part = part.of_instance(&["start", "parameters"], &instance.name);
+                let part = quote_accessor(&part);
+                quote!(#name: #part,)
             }
             _ => quote!(#name: &start.parameters,),
         }
@@ -87,8 +87,8 @@ pub(in crate::render) fn quote_body_fields(
     });
     let selects = cycler.instance_parameters.iter().map(|part| {
         let select = ident(&part.select);
-        let path = place(&instance_path("parameters", &part.prefix, instance));
-        quote!(#select: |parameters| &#path,)
+        let part = quote_accessor(&part.of_instance(&["parameters"], &instance.name));
+        quote!(#select: |parameters| #part,)
     });
     quote! {
         nodes: #nodes,
@@ -224,14 +224,4 @@ fn quote_procedures(cycler: &CyclerModel, instance: &InstanceModel) -> TokenStre
         quote!(#name: #answerer,)
     });
     quote!(#procedures { #(#answerers)* })
-}
-
-/// Where the parameters of one instance are.
-fn instance_path(base: &str, prefix: &[String], instance: &InstanceModel) -> Vec<String> {
-    let own = snake_case(&instance.name);
-    base.split('.')
-        .map(str::to_owned)
-        .chain(prefix.iter().cloned())
-        .chain([own])
-        .collect()
 }

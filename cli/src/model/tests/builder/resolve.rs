@@ -357,7 +357,9 @@ fn insert<U: PartialEq>(
     data: &DataType,
     user: U,
 ) {
-    let ((name, instance), below) = path.split_first().expect("a path has a segment");
+    let Some(((name, instance), below)) = path.split_first() else {
+        return;
+    };
     let position = tree.branches.iter().position(|branch| branch.name == *name);
     let position = position.unwrap_or_else(|| {
         let content = match (below, instance) {
