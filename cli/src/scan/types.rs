@@ -331,7 +331,10 @@ impl Library<'_> {
                             GenericArgument::Type(data) => {
                                 self.type_or_constant(module, data, generics, depth)
                             }
-                            GenericArgument::Const(value) => self.constant(module, value, generics),
+                            GenericArgument::Const(value) => {
+                                let constant = self.constant(module, value, generics);
+                                in_braces(value, constant)
+                            }
                             GenericArgument::Lifetime(lifetime) => {
                                 let text = lifetime.to_string();
                                 Resolved::constant(text.clone(), text)
@@ -362,6 +365,19 @@ impl Library<'_> {
             return self.constant_item(&item);
         }
         self.resolve_with(module, data, generics, depth)
+    }
+}
+
+/// A computed constant stays in the braces that its author wrote: without them it would be read as a type.
+fn in_braces(written: &syn::Expr, constant: Resolved) -> Resolved {
+    let is_computed = matches!(constant.shape, Shape::Unknown);
+    let bare = is_computed && matches!(written, syn::Expr::Block(_));
+    if !bare || constant.text.starts_with('{') {
+        return constant;
+    }
+    Resolved {
+        text: format!("{{ {} }}", constant.text),
+        ..constant
     }
 }
 

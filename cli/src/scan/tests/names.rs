@@ -295,6 +295,18 @@ fn what_cannot_be_known_is_written_with_absolute_names() {
             "[u8; nodes::a::made::size ()]",
             false,
         ),
+        (
+            "pub struct W<const N: usize>; pub struct Foo; impl Foo { pub const N: usize = 2; }",
+            "(W<{ 1 + 2 }>, W<{ Foo::N }>, W<{ 3 }>)",
+            "(nodes::a::W<{ 1 + 2 }>, nodes::a::W<{ nodes::a::Foo::N }>, nodes::a::W<3>)",
+            false,
+        ),
+        (
+            "pub struct W<const N: usize>; pub type V<const M: usize> = W<{ M }>;",
+            "(W<{ let x = 1; x }>, V<{ 1 + 2 }>)",
+            "(nodes::a::W<{ let x = 1; x }>, nodes::a::V<{ 1 + 2 }>)",
+            false,
+        ),
     ] {
         let resolved = resolve(head, written);
         assert_eq!(resolved.text, text, "{head} {written}");

@@ -17,9 +17,6 @@ impl Library<'_> {
         value: &Expr,
         generics: &Substitutions,
     ) -> Resolved {
-        if let Some(number) = number(value) {
-            return Resolved::constant(number.clone(), number);
-        }
         let value = match value {
             Expr::Block(block) => match block.block.stmts.as_slice() {
                 [syn::Stmt::Expr(value, None)] => value,
@@ -27,6 +24,9 @@ impl Library<'_> {
             },
             value => value,
         };
+        if let Some(number) = number(value) {
+            return Resolved::constant(number.clone(), number);
+        }
         if let Expr::Path(path) = value
             && path.qself.is_none()
         {
