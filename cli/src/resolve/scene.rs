@@ -125,20 +125,10 @@ fn collect_outputs<'a>(
             let data = sources.library.resolve(&source.module, data);
             report_unnameable(&data, source, &range, sources, diagnostics);
             if let Some(first) = outputs.get(&name) {
-                let cycler = cycler.name();
-                let message = format!("two nodes of cycler `{cycler}` write `{name}`");
-                let error = Diagnostic::new(Code::DuplicateOutput, message)
-                    .at(
-                        source.file(),
-                        range,
-                        format!("written by `{}`", source.path),
-                    )
-                    .at(
-                        first.source.file(),
-                        first.range.clone(),
-                        format!("and by `{}`", first.source.path),
-                    )
-                    .help("rename one of the two outputs, or remove one of the nodes");
+                let error = match first.node == node {
+                    true => declared_twice(source, &name, range, first),
+                    false => written_by_two(cycler, source, &name, range, first),
+                };
                 diagnostics.add(error);
                 continue;
             }
@@ -155,6 +145,43 @@ fn collect_outputs<'a>(
         }
     }
     outputs
+}
+
+fn written_by_two(
+    cycler: &manifest::Cycler,
+    source: &NodeSource,
+    name: &str,
+    range: Range<usize>,
+    first: &Producer<'_>,
+) -> Diagnostic {
+    let cycler = cycler.name();
+    let message = format!("two nodes of cycler `{cycler}` write `{name}`");
+    Diagnostic::new(Code::DuplicateOutput, message)
+        .at(
+            source.file(),
+            range,
+            format!("written by `{}`", source.path),
+        )
+        .at(
+            first.source.file(),
+            first.range.clone(),
+            format!("and by `{}`", first.source.path),
+        )
+        .help("rename one of the two outputs, or remove one of the nodes")
+}
+
+/// One node has two fields for it: of one struct, or one that it returns and one that it writes in place.
+fn declared_twice(
+    source: &NodeSource,
+    name: &str,
+    range: Range<usize>,
+    first: &Producer<'_>,
+) -> Diagnostic {
+    let message = format!("`{}` declares the output `{name}` twice", source.path);
+    Diagnostic::new(Code::DuplicateOutput, message)
+        .at(source.file(), range, "declared here, too")
+        .at(first.source.file(), first.range.clone(), "declared here")
+        .help("rename one of the two fields, or remove it")
 }
 
 /// Name, type, whether it is written in place, and the place of every main output of a node.

@@ -227,6 +227,23 @@ fn two_nodes_cannot_write_one_output() {
 }
 
 #[test]
+fn one_node_cannot_declare_an_output_twice() {
+    let node = Node {
+        cycle: "ball: MainOutput<u8>,",
+        ..writes("ball: MainOutput<u8>,")
+    };
+    let fixture = Fixture::control(&["a"]).node("a", node);
+    fixture.answer().expect_error(
+        "duplicate-output",
+        &[
+            "`nodes::a` declares the output `ball` twice",
+            "declared here, too",
+            "rename one of the two fields, or remove it",
+        ],
+    );
+}
+
+#[test]
 fn kinds_of_real_time_cyclers_mean_nothing_elsewhere() {
     for field in [
         "x: HistoricInput<u8, \"y\">",
