@@ -177,7 +177,7 @@ pub(super) fn additional_outputs(
             };
             match declarations
                 .iter()
-                .find(|other| overlaps(other, &declaration))
+                .find(|other| overlaps(cycler, other, &declaration))
             {
                 Some(other) => diagnostics.add(duplicate(cycler, other, &declaration)),
                 None => declarations.push(declaration),
@@ -191,11 +191,16 @@ pub(super) fn additional_outputs(
     merge(&scene.sources.library, declarations, &rules, diagnostics).tree
 }
 
-fn overlaps<U>(a: &Declaration<'_, U>, b: &Declaration<'_, U>) -> bool {
+/// Whether one path leads through the other, for one instance at least.
+fn overlaps<U>(cycler: &SceneCycler<'_>, a: &Declaration<'_, U>, b: &Declaration<'_, U>) -> bool {
+    let stands_for = |instance: &Segment, name: &Segment| {
+        let mut instances = cycler.declared.instances.iter();
+        instance.instance && instances.any(|one| schema::snake_case(one.name.as_str()) == name.name)
+    };
     a.segments
         .iter()
         .zip(&b.segments)
-        .all(|(a, b)| a.name == b.name)
+        .all(|(a, b)| a.name == b.name || stands_for(a, b) || stands_for(b, a))
 }
 
 fn duplicate(
@@ -204,12 +209,19 @@ fn duplicate(
     second: &Declaration<'_, Writer>,
 ) -> Diagnostic {
     let path = |one: &Declaration<'_, Writer>| {
-        let names: Vec<&str> = one.segments.iter().map(|one| one.name.as_str()).collect();
-        names.join(".")
+        let name = |one: &Segment| match one.instance {
+            true => "$cycler_instance".to_owned(),
+            false => one.name.clone(),
+        };
+        one.segments.iter().map(name).collect::<Vec<_>>().join(".")
     };
     let (a, b, name) = (path(first), path(second), cycler.declared.name());
     let message = if a == b {
         format!("the additional output `{b}` of cycler `{name}` is written twice")
+    } else if first.segments.len() == second.segments.len() {
+        format!(
+            "the additional outputs `{a}` and `{b}` of cycler `{name}` are one in one of its instances"
+        )
     } else {
         format!(
             "of the additional outputs `{a}` and `{b}` of cycler `{name}` one lies below the other"

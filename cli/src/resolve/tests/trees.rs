@@ -250,6 +250,24 @@ fn additional_outputs_are_unique() {
         "x: AdditionalOutput<f32, \"a.x\">",
     )
     .expect("duplicate-output", &["one lies below the other"]);
+    for (instance, message) in [
+        (
+            "a.$cycler_instance",
+            "`a.control` and `a.$cycler_instance` of cycler `Control` are one in one of its instances",
+        ),
+        ("a.$cycler_instance.x", "one lies below the other"),
+        ("$cycler_instance", ""),
+    ] {
+        let fixture = two(
+            "x: AdditionalOutput<f32, \"a.control\">",
+            &format!("x: AdditionalOutput<f32, {instance:?}>"),
+        );
+        if message.is_empty() {
+            fixture.robot();
+        } else {
+            fixture.expect("duplicate-output", &[message]);
+        }
+    }
 }
 
 #[test]
