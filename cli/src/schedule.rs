@@ -4,6 +4,8 @@
 //! stands first in the manifest, so that a new node never moves unrelated lines. petgraph's own
 //! topological sort promises no such order and is therefore not used.
 //!
+//! Writers of one state whom no input orders keep the order of the manifest, whatever else they wait for.
+//!
 //! Invariant: every node stands in the order of its cycler exactly once.
 
 mod edges;
@@ -59,6 +61,8 @@ pub enum Reason {
     HistoricInput,
     /// A `CyclerState` that is only read runs after the nodes that write it.
     CyclerState,
+    /// Both write one state, and `from` stands first in the manifest.
+    Manifest,
 }
 
 impl Reason {
@@ -68,7 +72,7 @@ impl Reason {
             Self::Input => "Input",
             Self::RequiredInput => "RequiredInput",
             Self::HistoricInput => "HistoricInput",
-            Self::CyclerState => "CyclerState",
+            Self::CyclerState | Self::Manifest => "CyclerState",
         }
     }
 }
@@ -93,12 +97,14 @@ pub fn schedule(robot: &Robot, diagnostics: &mut Diagnostics) -> Result<Schedule
     let mut cyclers = Vec::new();
     let mut reported = None;
     for cycler in &robot.cyclers {
-        let edges = edges::edges(cycler);
-        let graph = graph(cycler, &edges);
+        let mut edges = edges::edges(cycler);
+        let mut graph = graph(cycler, &edges);
         for ring in rings::rings(&graph) {
             reported = Some(diagnostics.fail(rings::describe(cycler, &ring)));
         }
         writers::warn(cycler, &graph, diagnostics);
+        edges.extend(writers::keep_order(cycler, &mut graph));
+        edges.sort();
         cyclers.push(CyclerSchedule {
             order: order(cycler, &graph),
             edges,

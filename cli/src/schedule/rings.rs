@@ -84,7 +84,7 @@ fn label(cycler: &Cycler, edge: &Edge) -> Label {
     let (from, to) = (&cycler.nodes[edge.from], &cycler.nodes[edge.to]);
     let what = match edge.reason {
         Reason::Input | Reason::RequiredInput | Reason::HistoricInput => "reads",
-        Reason::CyclerState => "reads the state",
+        Reason::CyclerState | Reason::Manifest => "reads the state",
     };
     Label {
         file: to.file.clone(),

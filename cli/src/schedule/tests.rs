@@ -148,3 +148,100 @@ fn every_ring_is_told_also_the_smallest() {
     assert!(rings[0].contains("`a` → `a`"), "{}", rings[0]);
     assert!(rings[1].contains("`b` → `c` → `b`"), "{}", rings[1]);
 }
+
+#[test]
+fn writers_of_one_state_keep_the_order_of_the_manifest_when_one_of_them_waits() {
+    let robot = robot(vec![
+        real_time("Control")
+            .node(node("n1").input("x", "f32", "x").state("s", "f32", "s"))
+            .node(node("n2").state("s", "f32", "s"))
+            .node(node("n3").output("x", "f32"))
+            .node(node("n4").reads_state("s", "f32", "s")),
+    ]);
+    assert_eq!(order_of(&robot), ["n3", "n1", "n2", "n4"]);
+}
+
+#[test]
+fn of_orders_of_writers_that_contradict_each_other_the_earlier_pair_wins() {
+    // n1 before n2 for `s`, n3 before n4 for `t`; inputs put n4 before n1 and n2 before n3.
+    let robot = robot(vec![
+        real_time("Control")
+            .node(node("n1").input("x", "f32", "x").state("s", "f32", "s"))
+            .node(node("n2").state("s", "f32", "s").output("y", "f32"))
+            .node(node("n3").input("y", "f32", "y").state("t", "f32", "t"))
+            .node(node("n4").state("t", "f32", "t").output("x", "f32")),
+    ]);
+    assert_eq!(order_of(&robot), ["n4", "n1", "n2", "n3"]);
+}
+
+/// Numbers that look random, the same ones every time.
+struct Numbers(u64);
+
+impl Numbers {
+    fn below(&mut self, bound: usize) -> usize {
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1);
+        usize::try_from((self.0 >> 33) % bound as u64).unwrap_or_default()
+    }
+}
+
+/// A cycler without rings: nodes read only what stands before them in an order that is not the manifest's.
+fn any_robot(numbers: &mut Numbers, states: usize) -> Robot {
+    const NODES: usize = 7;
+    let mut hidden: Vec<usize> = (0..NODES).collect();
+    for last in (1..NODES).rev() {
+        hidden.swap(last, numbers.below(last + 1));
+    }
+    let mut cycler = real_time("Control");
+    for one in 0..NODES {
+        let mut node = node(&format!("n{one}")).output(&format!("x{one}"), "f32");
+        for other in (0..NODES).filter(|other| hidden[*other] < hidden[one]) {
+            if numbers.below(5) == 0 {
+                node = node.input(&format!("i{other}"), "f32", &format!("x{other}"));
+            }
+        }
+        for state in 0..states {
+            if numbers.below(3) == 0 {
+                node = node.state(&format!("s{state}"), "f32", &format!("s{state}"));
+            }
+        }
+        cycler = cycler.node(node);
+    }
+    robot(vec![cycler])
+}
+
+#[test]
+fn in_any_graph_no_ring_arises_and_writers_stand_in_manifest_order_where_they_can() {
+    let mut numbers = Numbers(7);
+    let mut moved = 0;
+    for round in 0..500 {
+        let states = 1 + round % 3;
+        let robot = any_robot(&mut numbers, states);
+        let cycler = &robot.cyclers[0];
+        let schedule = schedule(&robot, &mut Diagnostics::new()).expect("there is no ring");
+        let schedule = &schedule.cyclers[0];
+        assert_eq!(schedule.order.len(), cycler.nodes.len(), "a ring arose");
+        let place = |node: usize| schedule.place(node).expect("every node is placed");
+        for edge in &schedule.edges {
+            assert!(place(edge.from) < place(edge.to), "{edge:?}");
+        }
+        let data = graph(cycler, &edges::edges(cycler));
+        moved += usize::from(order(cycler, &data) != schedule.order);
+        let whole = graph(cycler, &schedule.edges);
+        for pair in writers::pairs(cycler) {
+            let (earlier, later) = (pair.earlier, pair.later);
+            if place(earlier) < place(later) {
+                continue;
+            }
+            // Only a way there, of inputs or of pairs that won, lets the later one run first.
+            let way = |graph: &Graph, from: usize, to: usize| {
+                let (from, to) = (NodeIndex::new(from), NodeIndex::new(to));
+                petgraph::algo::has_path_connecting(graph, from, to, None)
+            };
+            assert!(way(&whole, later, earlier), "{earlier} {later}");
+        }
+    }
+    assert!(moved > 50, "the graphs ask for nothing: {moved}");
+}

@@ -13,7 +13,7 @@ use crate::graph::{Edge as GraphEdge, Graph};
 use crate::outcome::Refusal;
 use crate::pipeline::Understood;
 use crate::resolve::robot::{Cycler, Robot};
-use crate::schedule::{CyclerSchedule, Edge};
+use crate::schedule::{CyclerSchedule, Edge, Reason};
 
 pub(super) use page::text;
 
@@ -59,6 +59,13 @@ enum Why {
     Field {
         field: String,
         kind: &'static str,
+        path: String,
+        file: Utf8PathBuf,
+        line: usize,
+    },
+    /// Both write this state, and the earlier one stands first in the manifest.
+    Writers {
+        field: String,
         path: String,
         file: Utf8PathBuf,
         line: usize,
@@ -178,12 +185,22 @@ impl Reasons<'_> {
     fn field(&self, edge: &Edge) -> Step {
         let reader = &self.cycler.nodes[edge.to];
         let field = &reader.cycle[edge.field];
-        let why = Why::Field {
-            field: field.name.clone(),
-            kind: edge.reason.kind(),
-            path: edge.path.clone(),
-            file: reader.file.clone(),
-            line: field.line,
+        let (name, path) = (field.name.clone(), edge.path.clone());
+        let (file, line) = (reader.file.clone(), field.line);
+        let why = match edge.reason {
+            Reason::Manifest => Why::Writers {
+                field: name,
+                path,
+                file,
+                line,
+            },
+            _ => Why::Field {
+                field: name,
+                kind: edge.reason.kind(),
+                path,
+                file,
+                line,
+            },
         };
         self.step(edge.from, edge.to, why)
     }

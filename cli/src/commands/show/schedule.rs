@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use crate::resolve::robot::Robot;
-use crate::schedule::Schedule;
+use crate::schedule::{Reason, Schedule};
 
 /// Each cycler's nodes in the order they run; under a node what it waits for.
 pub fn text(robot: &Robot, schedule: &Schedule) -> String {
@@ -18,8 +18,12 @@ pub fn text(robot: &Robot, schedule: &Schedule) -> String {
                 let (before, field) = (&cycler.nodes[edge.from], &node.cycle[edge.field]);
                 let kind = edge.reason.kind();
                 let (name, path) = (&field.name, &edge.path);
+                let why = match edge.reason {
+                    Reason::Manifest => ", both write it: by the order of the manifest",
+                    _ => "",
+                };
                 text.push_str(&format!(
-                    "      after {}: {name} ({kind} \"{path}\")\n",
+                    "      after {}: {name} ({kind} \"{path}\"{why})\n",
                     before.path
                 ));
             }
@@ -35,12 +39,16 @@ pub fn to_json(robot: &Robot, schedule: &Schedule) -> Value {
         let nodes = order.order.iter().enumerate().map(|(place, &position)| {
             let node = &cycler.nodes[position];
             let after = order.reasons(position).map(|edge| {
-                json!({
+                let mut after = json!({
                     "node": cycler.nodes[edge.from].path,
                     "field": node.cycle[edge.field].name,
                     "kind": edge.reason.kind(),
                     "path": edge.path,
-                })
+                });
+                if edge.reason == Reason::Manifest {
+                    after["by"] = "manifest".into();
+                }
+                after
             });
             json!({
                 "node": node.path,

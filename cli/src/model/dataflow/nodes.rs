@@ -163,6 +163,10 @@ fn place(cycler: &Cycler, schedule: &CyclerSchedule, position: usize, node: &Nod
 fn reason(edge: &Edge) -> String {
     match edge.reason {
         Reason::CyclerState => format!("state `{}`", edge.path),
+        Reason::Manifest => format!(
+            "writes state `{}`, too, and stands first in the manifest",
+            edge.path
+        ),
         Reason::Input | Reason::RequiredInput | Reason::HistoricInput => format!("`{}`", edge.path),
     }
 }

@@ -41,6 +41,15 @@ fn step(step: &Step) -> String {
             };
             format!("  {after} reads {noun}{path} of {before}: {field} ({kind}, {file}:{line})\n")
         }
+        Why::Writers {
+            field,
+            path,
+            file,
+            line,
+        } => format!(
+            "  {after} writes the state {path} as {before} does: {field} (CyclerState, {file}:{line}); \
+             {before} stands first in hulk.toml\n"
+        ),
         Why::Setup => {
             format!("  {before} is a setup node, {after} is none: setup nodes run first\n")
         }

@@ -93,3 +93,22 @@ fn nothing_orders_nodes_of_different_cyclers() {
          nothing orders nodes of different cyclers\n"
     );
 }
+
+#[test]
+fn a_writer_of_the_same_state_that_stands_first_is_told() {
+    let robot = robot(vec![
+        real_time("Control")
+            .node(node("a::n1").input("x", "f32", "x").state("s", "f32", "s"))
+            .node(node("a::n2").state("s", "f32", "s"))
+            .node(node("a::n3").output("x", "f32")),
+    ]);
+    let text = ordered(robot, "n2", "n3");
+    assert_eq!(
+        text,
+        "\
+a::n3 runs before a::n2 in Control, as 0 and 2
+  a::n1 reads x of a::n3: x (Input, a/n1.rs:1)
+  a::n2 writes the state s as a::n1 does: s (CyclerState, a/n2.rs:1); a::n1 stands first in hulk.toml
+"
+    );
+}
