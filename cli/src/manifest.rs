@@ -23,6 +23,8 @@ pub struct Manifest {
     pub robot: schema::Robot,
     /// Of the folder of the generated crate, or of `[robot]` where the manifest does not name it.
     pub generated_range: Range<usize>,
+    /// Of each of the robot's identities.
+    pub identity_ranges: Vec<Range<usize>>,
     /// In manifest order.
     pub cyclers: Vec<Cycler>,
     /// In manifest order; the first is the default.

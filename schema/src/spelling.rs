@@ -2,9 +2,11 @@
 
 use std::borrow::Cow;
 use std::fmt;
+use std::marker::PhantomData;
 use std::str::FromStr;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::de::Visitor;
 use serde::{Deserialize, Deserializer, Serialize};
 
 /// A name is not spelled as its kind has to be.
@@ -17,6 +19,21 @@ pub struct SpellingError {
     pub kind: &'static str,
     /// How that is spelled.
     pub rule: &'static str,
+}
+
+/// Reads a text that keeps a rule.
+struct Spelled<T>(PhantomData<T>);
+
+impl<T: FromStr<Err = SpellingError>> Visitor<'_> for Spelled<T> {
+    type Value = T;
+
+    fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str("a string")
+    }
+
+    fn visit_str<E: serde::de::Error>(self, text: &str) -> Result<T, E> {
+        text.parse().map_err(E::custom)
+    }
 }
 
 /// A newtype around a string that keeps a rule.
@@ -53,8 +70,8 @@ macro_rules! spelled {
 
         impl<'de> Deserialize<'de> for $name {
             fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-                let text = String::deserialize(deserializer)?;
-                text.parse().map_err(serde::de::Error::custom)
+                // Within the visitor, so that a mistake has the place of the text and not that of the list around it.
+                deserializer.deserialize_str(Spelled(PhantomData))
             }
         }
 

@@ -75,18 +75,10 @@ fn check_targets(manifest: &Manifest, diagnostics: &mut Diagnostics) {
         );
     }
     let mut identities = Seen::new("identity");
-    for identity in &manifest.robot.identities {
-        let quoted = format!("\"{identity}\"");
-        let list = manifest.text.find("identities").unwrap_or(0);
-        let start = manifest.text[list..]
-            .rfind(&quoted)
-            .map_or(0, |start| list + start);
-        identities.see(
-            identity.as_str(),
-            identity.as_str(),
-            &(start..start + quoted.len()),
-            diagnostics,
-        );
+    let places = manifest.identity_ranges.iter();
+    for (identity, place) in manifest.robot.identities.iter().zip(places) {
+        let name = identity.as_str();
+        identities.see(name, name, place, diagnostics);
     }
 }
 

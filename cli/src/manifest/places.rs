@@ -15,7 +15,9 @@ pub(super) fn locate(declared: schema::Manifest, table: &DeTable<'_>, text: Arc<
     let bridges = elements(table, "bridge");
     let robot = table.get("robot");
     let generated = robot.and_then(|robot| range_of(robot, "generated").or(Some(robot.span())));
+    let identities = robot.map_or(&[][..], |robot| list(robot, "identities"));
     Manifest {
+        identity_ranges: identities.iter().map(Spanned::span).collect(),
         robot: declared.robot,
         generated_range: generated.unwrap_or(0..0),
         cyclers: zip(declared.cycler, cyclers, locate_cycler),
