@@ -1,7 +1,8 @@
 //! Cyclers, their instances and their nodes.
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::either::{deserialize_either, either};
 use crate::length::Duration;
@@ -178,13 +179,49 @@ pub enum Switch {
 }
 
 /// Some cycles.
-#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[derive(Clone, Debug, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub enum RecordSome {
     /// Every so many cycles one.
     Every(#[schemars(range(min = 1))] u32),
     /// Cycles that begin while this output of the newest finished cycle is true.
     While(String),
+}
+
+/// The keys of [`RecordSome`]: an enum alone would take the first and pass over the other.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RecordKeys {
+    #[serde(default, deserialize_with = "cycles")]
+    every: Option<u32>,
+    #[serde(default, rename = "while")]
+    condition: Option<String>,
+}
+
+impl<'de> Deserialize<'de> for RecordSome {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let keys = RecordKeys::deserialize(deserializer)?;
+        match (keys.every, keys.condition) {
+            (Some(cycles), None) => Ok(Self::Every(cycles)),
+            (None, Some(output)) => Ok(Self::While(output)),
+            (Some(_), Some(_)) => Err(D::Error::custom(
+                "`every` together with `while` is no choice of cycles: remove one of the two",
+            )),
+            (None, None) => Err(D::Error::custom("missing field `every` or `while`")),
+        }
+    }
+}
+
+fn cycles<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<u32>, D::Error> {
+    let written = i64::deserialize(deserializer)?;
+    let cycles = u32::try_from(written).ok().filter(|cycles| *cycles > 0);
+    match cycles {
+        Some(cycles) => Ok(Some(cycles)),
+        None => Err(D::Error::custom(format!(
+            "`{written}` is no number of cycles: write a whole number from 1 to {}",
+            u32::MAX
+        ))),
+    }
 }
 
 impl NodeEntry {

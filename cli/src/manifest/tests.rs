@@ -231,3 +231,93 @@ fn a_missing_manifest_is_an_error() {
     let mut diagnostics = Diagnostics::new();
     assert!(load(&workspace, &mut diagnostics).is_err());
 }
+
+#[test]
+fn every_identity_that_is_no_name_is_told_at_its_own_place() {
+    let robot = |list: &str| format!("[robot]\nname = \"x\"\nidentities = {list}\n");
+    let (codes, text) = mistakes(&robot("[\"body\", \"a/b\", \"\", \"Ü\"]"));
+    assert_eq!(codes, ["invalid-name"; 3], "{text}");
+    for part in [
+        "`a/b` is no name",
+        "`` is no name",
+        "`Ü` is no name",
+        "hulk.toml:3:23",
+        "hulk.toml:3:30",
+        "hulk.toml:3:34",
+    ] {
+        assert!(text.contains(part), "{part}\n{text}");
+    }
+    let (codes, text) = mistakes(&robot("[\"body\", \"head\", \"body\"]"));
+    assert_eq!(codes, ["duplicate-name"], "{text}");
+    for part in [
+        "hulk.toml:3:31",
+        "               ------          ^^^^^^ again",
+    ] {
+        assert!(text.contains(part), "{part}\n{text}");
+    }
+}
+
+#[test]
+fn which_cycles_are_recorded_is_one_choice() {
+    let record = |record: &str| {
+        mistakes(&format!(
+            "{ROBOT}[[cycler]]\nname = \"A\"\nkind = \"real-time\"\nnodes = [\"a::b\"]\n\
+             record = {record}\n[[target]]\nname = \"t\"\nhardware = \"h::H\"\n"
+        ))
+    };
+    for (written, code, message, place) in [
+        (
+            "{ every = 2, while = \"x\" }",
+            "invalid-value",
+            "`every` together with `while` is no choice of cycles",
+            "hulk.toml:7:10",
+        ),
+        (
+            "{ every = 0 }",
+            "invalid-value",
+            "`0` is no number of cycles",
+            "hulk.toml:7:20",
+        ),
+        (
+            "{ every = -1 }",
+            "invalid-value",
+            "`-1` is no number of cycles",
+            "hulk.toml:7:20",
+        ),
+        (
+            "{ while = 1 }",
+            "invalid-value",
+            "expected a string",
+            "hulk.toml:7:20",
+        ),
+        (
+            "{ evry = 1 }",
+            "unknown-key",
+            "did you mean `every`?",
+            "hulk.toml:7:12",
+        ),
+        (
+            "{}",
+            "missing-key",
+            "`every` or `while` is missing",
+            "hulk.toml:7:10",
+        ),
+    ] {
+        let (codes, text) = record(written);
+        assert_eq!(codes, [code], "{written}\n{text}");
+        assert!(
+            text.contains(message) && text.contains(place),
+            "{written}\n{text}"
+        );
+    }
+    for written in ["{ every = 1 }", "{ while = \"x\" }", "\"off\""] {
+        assert_eq!(record(written).0, [""; 0], "{written}");
+    }
+}
+
+#[test]
+fn what_an_empty_manifest_lacks_is_a_table() {
+    let (codes, text) = mistakes("");
+    assert_eq!(codes, ["missing-key"], "{text}");
+    assert!(text.contains("add a table `[robot]`"), "{text}");
+}

@@ -30,16 +30,19 @@ pub(super) fn read(
         };
         let range = mistake.span().unwrap_or_else(|| table.span());
         let follows = quoted(mistake.message(), "missing field ").is_some_and(|key| {
+            // Where one of several keys is missing, it may be the one that was left out.
+            let is_choice = mistake.message().contains("` or `");
             left_out
                 .iter()
-                .any(|one| one.key == key && one.table == range)
+                .any(|one| (one.key == key || is_choice) && one.table == range)
         });
         if !follows {
-            reported = Some(fail(
-                diagnostics,
-                &mistake,
-                first_line(table, range.clone()),
-            ));
+            let place = first_line(table, range.clone());
+            let error = describe(mistake.message()).at(file, place, "");
+            reported = Some(diagnostics.fail(match range == table.span() {
+                true => error.help_if(missing_table(mistake.message())),
+                false => error,
+            }));
         }
         match (leave_out(&mut rest, &range), reported) {
             (Some(entry), _) => left_out.push(entry),
@@ -47,6 +50,12 @@ pub(super) fn read(
             (None, None) => return Err(fail(diagnostics, &mistake, range)),
         }
     }
+}
+
+/// What the manifest itself lacks is a table: `robot`.
+fn missing_table(message: &str) -> Option<String> {
+    let key = quoted(message, "missing field ")?;
+    Some(format!("add a table `[{key}]`"))
 }
 
 /// A missing key is reported at its whole table, of which the beginning is enough.
@@ -118,6 +127,13 @@ fn describe(message: &str) -> Diagnostic {
         let valid = expected(message);
         let help = suggestion(key, &valid);
         return Diagnostic::new(Code::UnknownKey, format!("`{key}` is no key here")).help_if(help);
+    }
+    if let Some(keys) = message
+        .strip_prefix("missing field ")
+        .filter(|keys| keys.contains("` or `"))
+    {
+        return Diagnostic::new(Code::MissingKey, format!("{keys} is missing"))
+            .help("add one of the two");
     }
     if let Some(key) = quoted(message, "missing field ") {
         return Diagnostic::new(Code::MissingKey, format!("`{key}` is missing"))
