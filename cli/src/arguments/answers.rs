@@ -46,6 +46,10 @@ pub struct Explain {
 ///
 /// The revision's files are read out of git; nothing is checked out. Where one of the two robots has errors, only what
 /// hulk.toml says is compared.
+///
+/// The JSON has `before` and `after` (hash and errors of each robot), a list of what was `added`, `removed` and `changed`
+/// for each of `targets`, `cyclers`, `nodes`, `fields`, `parameters`, `bridges` and `edges`, the nodes that moved in
+/// `order`, and `robot`, `target_order` and `cycler_order`: null, or what it was `before` and is `after`.
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "\
 Exit status: 0 compared, whatever changed; 2 the revision cannot be read.

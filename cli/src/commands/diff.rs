@@ -6,7 +6,7 @@ use super::session::Session;
 use super::{Failure, plural};
 use crate::arguments::{Diff, TextOrJson};
 use crate::diagnostics::{Diagnostics, Severity};
-use crate::graph::difference::{Changes, Difference, Move};
+use crate::graph::difference::{Both, Changes, Difference, Move};
 use crate::graph::{self, Graph, listed};
 use crate::manifest;
 use crate::outcome::{Outcome, Refusal};
@@ -48,7 +48,10 @@ pub(super) fn run(session: &mut Session<'_>, diff: &Diff) -> Result<Outcome, Fai
         }
     }
     session.terminal.data(&match diff.format {
-        TextOrJson::Text => text(revision, &difference),
+        TextOrJson::Text => {
+            let is_whole = before.whole.is_some() && after.whole.is_some();
+            text(revision, &difference, is_whole)
+        }
         TextOrJson::Json => format!("{}\n", to_json(revision, &before, &after, &difference)),
     })?;
     Ok(Outcome::Good)
@@ -86,11 +89,29 @@ fn refusal(error: RevisionError) -> Failure {
     })
 }
 
-fn text(revision: &str, difference: &Difference) -> String {
-    if difference.is_empty() {
+/// What changed; `is_whole`: both robots are without errors, so everything was compared.
+fn text(revision: &str, difference: &Difference, is_whole: bool) -> String {
+    if difference.is_empty() && is_whole {
         return format!("the graph is that of `{revision}`\n");
     }
+    if difference.is_empty() {
+        return format!(
+            "name, targets, cyclers and nodes are those of `{revision}`; the rest is not compared\n"
+        );
+    }
     let mut text = String::new();
+    if let Some(Both { before, after }) = &difference.robot {
+        text.push_str(&format!("robot\n  ~ {after}\n      was {before}\n"));
+    }
+    for (aspect, order) in [
+        ("order of targets", &difference.target_order),
+        ("order of cyclers", &difference.cycler_order),
+    ] {
+        if let Some(Both { before, after }) = order {
+            let (before, after) = (before.join(", "), after.join(", "));
+            text.push_str(&format!("{aspect}\n  ~ {after}\n      was {before}\n"));
+        }
+    }
     for (aspect, changes) in difference.aspects() {
         if !changes.is_empty() {
             text.push_str(&format!("{aspect}\n{}", lines(changes)));
@@ -146,4 +167,35 @@ fn to_json(revision: &str, before: &Side, after: &Side, difference: &Difference)
 fn side_to_json(side: &Side) -> Value {
     let hash = side.whole.as_ref().map(|graph| graph.hash.as_str());
     json!({ "hash": hash, "errors": side.errors })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_was_not_compared_is_not_said_to_be_the_same() {
+        let same = Difference::default();
+        assert_eq!(text("main", &same, true), "the graph is that of `main`\n");
+        assert_eq!(
+            text("main", &same, false),
+            "name, targets, cyclers and nodes are those of `main`; the rest is not compared\n"
+        );
+        let order = |first: &str, second: &str| vec![first.to_owned(), second.to_owned()];
+        let other = Difference {
+            robot: Some(Both {
+                before: "a".to_owned(),
+                after: "b".to_owned(),
+            }),
+            cycler_order: Some(Both {
+                before: order("A", "B"),
+                after: order("B", "A"),
+            }),
+            ..same
+        };
+        assert_eq!(
+            text("main", &other, true),
+            "robot\n  ~ b\n      was a\norder of cyclers\n  ~ B, A\n      was A, B\n"
+        );
+    }
 }

@@ -84,6 +84,21 @@ pub(super) fn parameters(graph: &Graph, _: &Graph) -> Vec<Item> {
     parameters.collect()
 }
 
+pub(super) fn bridges(graph: &Graph, _: &Graph) -> Vec<Item> {
+    let bridges = graph.bridges.iter().map(|bridge| {
+        let name = format!("{} at {}", bridge.path, bridge.key);
+        let value = serde_json::to_value(bridge).expect("a bridge has only string keys");
+        let words = ["kind", "type", "direction", "encoding", "rate"].map(|key| &value[key]);
+        let words = words.into_iter().filter(|word| !word.is_null());
+        let words = words.map(|word| {
+            word.as_str()
+                .map_or_else(|| word.to_string(), str::to_owned)
+        });
+        item(name, words.collect::<Vec<_>>().join(", "), &value)
+    });
+    bridges.collect()
+}
+
 pub(super) fn edges(graph: &Graph, _: &Graph) -> Vec<Item> {
     let edges = graph.edges.iter().map(|edge| {
         let (from, to) = (&edge.from, &edge.to);

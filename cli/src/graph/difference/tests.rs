@@ -94,3 +94,39 @@ fn a_new_node_moves_no_other() {
     );
     assert!(difference.fields.is_empty());
 }
+
+#[test]
+fn another_name_and_another_order_of_cyclers_and_targets_are_told() {
+    let mut after = graph();
+    after.robot = "other".to_owned();
+    after.cyclers.reverse();
+    for difference in [
+        Difference::between(&graph(), &after),
+        Difference::of_manifests(&graph(), &after),
+    ] {
+        assert!(!difference.is_empty());
+        let robot = difference.robot.expect("the name is another");
+        assert_eq!(
+            (robot.before, robot.after),
+            (graph().robot, "other".to_owned())
+        );
+        let order = difference.cycler_order.expect("the order is another");
+        assert_eq!(
+            (order.before[0].as_str(), order.after[0].as_str()),
+            ("Vision", "Control")
+        );
+        assert_eq!(difference.target_order, None);
+        assert!(difference.cyclers.is_empty() && difference.nodes.is_empty());
+    }
+    let mut fewer = graph();
+    fewer.cyclers.remove(0);
+    assert_eq!(Difference::between(&graph(), &fewer).cycler_order, None);
+    let mut swapped = graph();
+    let mut another = swapped.targets[0].clone();
+    another.name = "another".to_owned();
+    swapped.targets.push(another);
+    let before = swapped.clone();
+    swapped.targets.reverse();
+    let difference = Difference::between(&before, &swapped);
+    assert!(difference.target_order.is_some() && difference.targets.is_empty());
+}
