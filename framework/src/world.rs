@@ -61,7 +61,12 @@ impl CallAny for Disturb {
         request: &mut dyn erased_serde::Deserializer<'_>,
     ) -> Result<Box<dyn PendingAny>> {
         let deed: toml::Table = erased_serde::deserialize(request)?;
-        let done = contain("Hardware::disturb", || self.0.disturb(&deed));
+        let done = match deed.is_empty() {
+            true => Err(Error::new(
+                "it does not say what happens: add a key that the hardware understands",
+            )),
+            false => contain("Hardware::disturb", || self.0.disturb(&deed)),
+        };
         let answer = done.map(|()| Value::Null);
         Ok(Box::new(Answered(answer.map_err(refused))))
     }
@@ -80,4 +85,42 @@ impl PendingAny for Answered {
 fn refused(error: Error) -> Refused {
     let lines: Vec<_> = error.to_string().lines().map(str::to_owned).collect();
     Refused(lines.join(" ").into())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::hardware::HardwareContext;
+
+    /// Whatever it is told happens.
+    struct Obedient;
+
+    impl Hardware for Obedient {
+        fn new(_context: HardwareContext) -> Result<Self> {
+            Ok(Self)
+        }
+
+        fn stop(&self) {}
+
+        fn enter_safe_state(&self) {}
+
+        fn disturb(&self, _deed: &toml::Table) -> Result<()> {
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn who_does_not_say_what_happens_is_told_so() {
+        let answer = |asked: &str| {
+            let asked: Value = serde_json::from_str(asked).expect("it is JSON");
+            let mut request = <dyn erased_serde::Deserializer<'_>>::erase(asked);
+            let disturb = Disturb(Arc::new(Obedient));
+            let pending = disturb.call_any(&mut request).expect("it is a table");
+            let answer = pending.wait_any(Duration::ZERO).expect("it is there");
+            answer.map(drop).map_err(|refused| refused.0.to_string())
+        };
+        assert_eq!(answer(r#"{ "push": [1] }"#), Ok(()));
+        let refused = answer("{}").expect_err("nothing is to happen");
+        assert!(refused.contains("does not say what happens"), "{refused}");
+    }
 }

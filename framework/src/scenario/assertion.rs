@@ -5,7 +5,7 @@ use std::time::Duration;
 use serde::Deserialize;
 use serde_json::Value;
 
-use super::file::{first, seconds};
+use super::file::{first, in_order, seconds, within_run};
 use crate::error::{Error, Result};
 use crate::reflect::Path;
 use crate::time::Timestamp;
@@ -172,16 +172,8 @@ impl Assertion {
                 "`while = \"{path}\"`: expected a truth (`truth.NAME`) that is `true` or `false`"
             ));
         }
-        for (key, number) in [
-            ("from", self.from),
-            ("until", self.until),
-            ("before", self.before),
-        ] {
-            let Some(number) = number else { continue };
-            if seconds(key, number)? > ends {
-                return wrong(format!("`{key} = {number}` comes after the end"));
-            }
-        }
+        self.check_times(ends)
+            .map_err(|error| error.context(format!("assertion `{}`", self.what)))?;
         if self.value.parse::<Path>().is_err() || !self.value.contains('.') {
             return wrong(format!(
                 "`{}` is no value: expected `truth.NAME` or an output like `Control.main_outputs.NAME`",
@@ -189,6 +181,26 @@ impl Assertion {
             ));
         }
         Ok(())
+    }
+}
+
+impl Assertion {
+    /// A time in which nothing is looked at would be told of only when all is played.
+    fn check_times(&self, ends: Duration) -> Result<()> {
+        let later = [("until", self.until), ("before", self.before)];
+        for (key, number) in later.into_iter().chain([("from", self.from)]) {
+            within_run(key, number, ends)?;
+        }
+        let from = self.from.unwrap_or_default();
+        for (key, number) in later {
+            in_order(from, key, number)?;
+        }
+        match self.from {
+            Some(from) if seconds("from", from)? == ends => Err(Error::new(format!(
+                "`from = {from}` is the end: say `at_end = true` for what has to be so then"
+            ))),
+            _ => Ok(()),
+        }
     }
 }
 

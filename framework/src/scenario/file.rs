@@ -169,8 +169,7 @@ impl Scenario {
         };
         for call in &written.calls {
             has_robot(call.robot, format!("call of `{}`", call.path))?;
-            let _times = call
-                .times()
+            call.check(ends)
                 .map_err(|error| error.context(format!("call of `{}`", call.path)))?;
         }
         for assertion in &written.assertions {
@@ -191,6 +190,11 @@ impl Scenario {
         for event in &events {
             let at = (event.at - Timestamp::ZERO).as_secs_f64();
             has_robot(event.robot + 1, format!("the event at {at} s"))?;
+            if event.deed.is_empty() {
+                return Err(Error::new(format!(
+                    "the event at {at} s does not say what happens: add a key that the hardware understands"
+                )));
+            }
             let within = event.within.as_secs_f64();
             if within > at || at + within > ends.as_secs_f64() {
                 return Err(Error::new(format!(
@@ -306,6 +310,15 @@ impl Participant {
 }
 
 impl Call {
+    /// A time that never comes would be a call that is never made.
+    fn check(&self, ends: Duration) -> Result<()> {
+        let _times = self.times()?;
+        for (key, number) in [("from", Some(self.from)), ("until", self.until)] {
+            within_run(key, number, ends)?;
+        }
+        in_order(self.from, "until", self.until)
+    }
+
     /// When it is made.
     pub(super) fn times(&self) -> Result<impl Iterator<Item = Timestamp> + use<>> {
         let from = Timestamp::ZERO + seconds("from", self.from)?;
@@ -375,6 +388,26 @@ impl Event {
 pub(super) fn seconds(key: &str, number: f64) -> Result<Duration> {
     Duration::try_from_secs_f64(number)
         .map_err(|_| Error::new(format!("`{key} = {number}` is no number of seconds")))
+}
+
+/// Nothing comes after the end.
+pub(super) fn within_run(key: &str, number: Option<f64>, ends: Duration) -> Result<()> {
+    match number {
+        Some(number) if seconds(key, number)? > ends => Err(Error::new(format!(
+            "`{key} = {number}` comes after the end"
+        ))),
+        _ => Ok(()),
+    }
+}
+
+/// What ends before it begins never is.
+pub(super) fn in_order(from: f64, key: &str, later: Option<f64>) -> Result<()> {
+    match later {
+        Some(later) if later < from => Err(Error::new(format!(
+            "`{key} = {later}` comes before `from = {from}`"
+        ))),
+        _ => Ok(()),
+    }
 }
 
 /// Puts a later table over an earlier one: tables merge, everything else is replaced.

@@ -71,7 +71,7 @@ fn whole_numbers_stay_whole_where_they_are_moved_by_whole_numbers() {
 #[test]
 fn a_seed_moves_events_that_may_be_moved_and_no_others() {
     let text = format!(
-        "ends = 9\n[[event]]\nat = 4\nwithin = 2.0\npush = [1]\n[[event]]\nat = 5\n{ASSERTION}"
+        "ends = 9\n[[event]]\nat = 4\nwithin = 2.0\npush = [1]\n[[event]]\nat = 5\nkick = true\n{ASSERTION}"
     );
     let scenario = Scenario::parse(&text).expect("it is right");
     let times = |seed: u64| {
@@ -123,7 +123,7 @@ fn mistakes_are_told_with_their_place() {
             "an `[[event]]` needs `at = SECONDS`",
         ),
         (
-            format!("ends = 1\n[[event]]\nat = 0.5\nwithin = 0.6\n{ASSERTION}"),
+            format!("ends = 1\n[[event]]\nat = 0.5\nwithin = 0.6\npush = 1\n{ASSERTION}"),
             "the event at 0.5 s may be moved by 0.6 s, beyond the start or the end",
         ),
         (
@@ -131,8 +131,49 @@ fn mistakes_are_told_with_their_place() {
             "of an `[[event]]` is no number of seconds",
         ),
         (
-            format!("ends = 1\n[[event]]\nat = 1.5\n{ASSERTION}"),
+            format!("ends = 1\n[[event]]\nat = 1.5\npush = 1\n{ASSERTION}"),
             "the event at 1.5 s comes after the end",
+        ),
+        (
+            format!("ends = 1\n[[event]]\nat = 0.5\nwithin = 0.1\nrobot = 1\n{ASSERTION}"),
+            "the event at 0.5 s does not say what happens",
+        ),
+    ] {
+        let message = message(&text);
+        assert!(message.contains(expected), "{message}");
+    }
+}
+
+#[test]
+fn times_that_never_come_are_told() {
+    let call =
+        |times: &str| format!("ends = 1\n[[call]]\npath = 'a.procedures.b'\n{times}\n{ASSERTION}");
+    let assertion = |times: &str| format!("ends = 1\n{ASSERTION}{times}\n");
+    for (text, expected) in [
+        (
+            call("from = 0.5\nuntil = 0.1"),
+            "call of `a.procedures.b`: `until = 0.1` comes before `from = 0.5`",
+        ),
+        (call("from = 1.5"), "`from = 1.5` comes after the end"),
+        (
+            call("from = 0.5\nuntil = 1.5"),
+            "`until = 1.5` comes after the end",
+        ),
+        (
+            assertion("from = 0.8\nuntil = 0.2"),
+            "assertion `a`: `until = 0.2` comes before `from = 0.8`",
+        ),
+        (
+            assertion("from = 0.8\nbefore = 0.2"),
+            "assertion `a`: `before = 0.2` comes before `from = 0.8`",
+        ),
+        (
+            assertion("from = 1.0"),
+            "assertion `a`: `from = 1` is the end: say `at_end = true`",
+        ),
+        (
+            assertion("until = 1.5"),
+            "assertion `a`: `until = 1.5` comes after the end",
         ),
     ] {
         let message = message(&text);
