@@ -7,6 +7,8 @@ use serde_json::{Value, json};
 
 use super::assertion::{Assertion, TRUTH, Window, distance};
 use crate::cycler::Instance;
+use crate::error::{Error, Result};
+use crate::parameters::nearest;
 use crate::robot;
 use crate::time::Timestamp;
 
@@ -43,6 +45,20 @@ struct Looked<'a> {
     decided: Option<bool>,
     /// Where a share decides.
     counted: Counted,
+    /// What was seen of the truth at which moments count.
+    only_while: Seen,
+}
+
+/// Whether a truth can be one by which moments count.
+#[derive(Debug, Default, PartialEq)]
+enum Seen {
+    /// It may still come: nothing was seen, or no value.
+    #[default]
+    Nothing,
+    /// It was `true` or `false` once.
+    Usable,
+    /// Why it cannot.
+    Wrong(String),
 }
 
 /// How often something was looked at.
@@ -66,6 +82,7 @@ impl<'a> Judge<'a> {
             held: false,
             decided: None,
             counted: Counted::default(),
+            only_while: Seen::Nothing,
         });
         Self {
             assertions: assertions.collect(),
@@ -85,16 +102,13 @@ impl<'a> Judge<'a> {
                 }
                 Some(_) => continue,
             };
-            let only_while = one.assertion.only_while.as_ref();
-            if only_while.is_some_and(|path| below(&truth, path) != Some(&Value::Bool(true))) {
+            // What nobody asks for stays unread.
+            if one.assertion.only_while.is_some() && !one.counts_while(&truth) {
                 continue;
             }
-            let value = value.map(|value| match &one.assertion.apart_from {
-                Some(path) => {
-                    let apart = below(&truth, path).zip(value.as_ref());
-                    apart.and_then(|(truth, value)| distance(value, truth).map(Value::from))
-                }
-                None => value,
+            let value = value.and_then(|value| match &one.assertion.apart_from {
+                Some(path) => apart(&one.assertion.value, value, path, &truth),
+                None => Ok(value),
             });
             let condition = one.assertion.condition();
             // What is not there is told as what was seen.
@@ -125,6 +139,29 @@ impl Looked<'_> {
                 | Window::Mostly { from, until, .. } => from <= now && now <= until,
                 Window::AtEnd => true,
             }
+    }
+
+    /// Whether this moment counts.
+    fn counts_while(&mut self, truth: &Value) -> bool {
+        let Some(path) = &self.assertion.only_while else {
+            return true;
+        };
+        match below(truth, path) {
+            Some(Value::Bool(counts)) => {
+                self.only_while = Seen::Usable;
+                return *counts;
+            }
+            Some(Value::Null) => {}
+            found if self.only_while == Seen::Nothing => {
+                let why = match found {
+                    Some(other) => Some(format!("`{path}` is {other}, neither true nor false")),
+                    None => missing(truth, path),
+                };
+                self.only_while = why.map_or(Seen::Nothing, Seen::Wrong);
+            }
+            _ => {}
+        }
+        false
     }
 
     fn judge(&mut self, now: Timestamp, value: Value, holds: bool) {
@@ -165,7 +202,12 @@ impl Looked<'_> {
         };
         let only_while = self.assertion.only_while.as_ref();
         let only_while = only_while.map_or_else(String::new, |path| format!(" while `{path}`"));
-        let never = || format!("nothing: no cycle ended in that time{only_while}").into();
+        let never = || match &self.only_while {
+            Seen::Wrong(why) => format!("nothing: {why}").into(),
+            Seen::Nothing | Seen::Usable => {
+                format!("nothing: no cycle ended in that time{only_while}").into()
+            }
+        };
         Verdict {
             what: self.assertion.what.clone(),
             passed: self.decided.unwrap_or(holds_at_last),
@@ -200,4 +242,54 @@ fn below<'a>(truth: &'a Value, path: &str) -> Option<&'a Value> {
             Value::Array(items) => items.get(name.parse::<usize>().ok()?),
             value => value.get(name),
         })
+}
+
+/// How far a value and a truth are apart; `None` where there is no value.
+fn apart(name: &str, value: Option<Value>, path: &str, truth: &Value) -> Result<Option<Value>> {
+    let Some(value) = value.filter(|value| !value.is_null()) else {
+        return Ok(None);
+    };
+    let Some(truth) = below(truth, path).filter(|truth| !truth.is_null()) else {
+        let absent = || format!("there is no `{path}`");
+        return Err(Error::new(missing(truth, path).unwrap_or_else(absent)));
+    };
+    let apart = distance(&value, truth).ok_or_else(|| {
+        Error::new(format!(
+            "`{name}` is {value} and `{path}` is {truth}: expected two numbers, or two lists of as many numbers"
+        ))
+    })?;
+    Ok(Some(apart.into()))
+}
+
+/// That there is no such truth, unless it lies in one without a value, where it may come.
+fn missing(truth: &Value, path: &str) -> Option<String> {
+    let mut known = TRUTH.to_owned();
+    let mut value = truth;
+    for name in path.split('.').skip_while(|name| *name == TRUTH) {
+        let (next, names): (_, Vec<&str>) = match value {
+            Value::Null => return None,
+            Value::Array(items) => {
+                let index = name.parse::<usize>().ok();
+                (index.and_then(|index| items.get(index)), Vec::new())
+            }
+            value => {
+                let entries = value.as_object().into_iter().flatten();
+                (
+                    value.get(name),
+                    entries.map(|(key, _)| key.as_str()).collect(),
+                )
+            }
+        };
+        let Some(next) = next else {
+            let hint = match (nearest(name, names.iter().copied()), names.as_slice()) {
+                (Some(near), _) => format!("; did you mean `{known}.{near}`?"),
+                (None, []) => String::new(),
+                (None, _) => format!("; `{known}` has {}", names.join(", ")),
+            };
+            return Some(format!("there is no `{path}`{hint}"));
+        };
+        known = format!("{known}.{name}");
+        value = next;
+    }
+    None
 }

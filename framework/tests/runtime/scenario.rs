@@ -147,7 +147,13 @@ fn assertions_are_judged_over_outputs_and_truth() {
             "value = 'truth.events'\napart_from = 'truth.nothing'\nbelow = 0.1",
             false,
             Some(0.01),
-            "\"there is no `truth.events`",
+            "\"there is no `truth.nothing`",
+        ),
+        (
+            "value = 'truth.is_late'\napart_from = 'truth.events'\nbelow = 0.1",
+            false,
+            Some(0.01),
+            "\"`truth.is_late` is false and `truth.events` is 1: expected two numbers",
         ),
         (
             "value = 'truth.events'\nabove = 50\nwhile = 'truth.is_late'",
@@ -166,7 +172,25 @@ fn assertions_are_judged_over_outputs_and_truth() {
             "value = 'truth.events'\nabove = 0\nwhile = 'truth.late'",
             false,
             None,
+            "\"nothing: `truth.late` is 51, neither true nor false\"",
+        ),
+        (
+            "value = 'truth.events'\nabove = 0\nwhile = 'truth.late'\nuntil = 0.4",
+            false,
+            None,
             "\"nothing: no cycle ended in that time while `truth.late`\"",
+        ),
+        (
+            "value = 'truth.events'\nabove = 0\nwhile = 'truth.is_lat'",
+            false,
+            None,
+            "\"nothing: there is no `truth.is_lat`; did you mean `truth.is_late`?\"",
+        ),
+        (
+            "value = 'truth.events'\nabove = 0\nwhile = 'truth.is_late'\nuntil = 0.4",
+            false,
+            None,
+            "\"nothing: no cycle ended in that time while `truth.is_late`\"",
         ),
         (
             "value = 'truth.nothing'\nis_not = 0\nat_end = true",
