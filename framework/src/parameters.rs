@@ -30,6 +30,12 @@ pub fn from_text<T: DeserializeOwned>(name: &str, text: &str) -> Result<T, Param
     deserialize::deserialize(&tree::parse(name, text)?)
 }
 
+/// Where a text of TOML has the value at this path; `None`: nowhere.
+pub(crate) fn place(name: &str, text: &str, path: &str) -> Option<Origin> {
+    let tree = tree::parse(name, text).ok()?;
+    Some(tree.get(path)?.origin.clone())
+}
+
 /// A type from a table; errors name the key.
 pub fn from_table<T: DeserializeOwned>(table: &toml::Table) -> Result<T, ParameterError> {
     let origin = Origin::Unknown;

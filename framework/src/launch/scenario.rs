@@ -1,10 +1,13 @@
 //! `--scenario`: plays a file in place of running, and those that clients choose after it, and tells what came of each.
 
+mod blame;
+
 use std::io::Write;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use self::blame::blame;
 use super::options::{Format, Options, Record};
 use super::{DONE, FAILED, Serve, Target, known_identities, layers, record};
 use crate::clock::Clock;
@@ -210,7 +213,8 @@ impl Stage<'_> {
         let own = own.into_iter().flat_map(|robot| &robot.settings);
         let settings = self.scenario.settings.iter().chain(own).cloned();
         layers.settings.splice(0..0, settings);
-        let table = layers.load()?.hardware(self.target.name)?;
+        let loaded = layers.load()?;
+        let table = loaded.hardware(self.target.name)?;
         let context = HardwareContext {
             options: self.options.hardware.clone(),
             table: self.scenario.world_of(robot, table, seed)?,
@@ -223,6 +227,7 @@ impl Stage<'_> {
             Some(first) => first.hardware.join(context),
         };
         let hardware = Arc::new(hardware.map_err(|error| {
+            let error = loaded.locate(self.target.name, self.blame(robot, error));
             error.context(match self.scenario.robot_count() {
                 1 => format!("hardware of `{}`", self.target.name),
                 _ => format!("hardware of `{}`, robot {}", self.target.name, robot + 1),
@@ -233,7 +238,7 @@ impl Stage<'_> {
         let start = Start {
             clock,
             stop,
-            parameters: layers.load()?.deserialize()?,
+            parameters: (layers.load()?.deserialize()).map_err(|error| self.blame(robot, error))?,
         };
         let robot = create(&hardware, start)?;
         Ok(Cast {
@@ -241,6 +246,11 @@ impl Stage<'_> {
             robot,
             recording: None,
         })
+    }
+
+    /// With the place in the file of what the scenario says.
+    fn blame(&self, robot: usize, error: Error) -> Error {
+        blame(self.file, &self.options.settings, robot, error)
     }
 
     fn record<H: Hardware, P: ParameterData>(

@@ -199,9 +199,26 @@ impl<'de> Deserializer<'de> for Node<'_> {
         result.map_err(|mistake| mistake.at(self.0))
     }
 
+    fn deserialize_struct<V: Visitor<'de>>(
+        self,
+        _name: &'static str,
+        fields: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, Mistake> {
+        let read = self.deserialize_any(visitor);
+        match &self.0.value {
+            // Its items were taken for the fields in their order, which hardly anybody means.
+            Value::Array(_) if !fields.is_empty() => read.map_err(|_| {
+                let fields = fields.join(", ");
+                Mistake::new(format!("expected a table of {fields}; found an array")).at(self.0)
+            }),
+            _ => read,
+        }
+    }
+
     forward_to_deserialize_any! {
         bool i8 i16 i32 i64 i128 u8 u16 u32 u64 u128 f32 f64 char str string bytes byte_buf
-        seq tuple tuple_struct map struct identifier ignored_any
+        seq tuple tuple_struct map identifier ignored_any
     }
 }
 

@@ -1,0 +1,149 @@
+//! Which line of a scenario's file a wrong value comes from: whoever merged it into others does not know.
+
+use std::path::Path;
+
+use crate::error::Error;
+use crate::parameters::{self, Origin, ParameterError};
+
+/// Gives an error of what the scenario says about a robot, counted from 0, its place in the file. `settings` are those of the
+/// command line.
+pub(super) fn blame(
+    file: &Path,
+    settings: &[(String, String)],
+    robot: usize,
+    error: Error,
+) -> Error {
+    let Some(found) = error.find::<ParameterError>() else {
+        return error;
+    };
+    let mut located = found.clone();
+    let own = format!("robot.{robot}");
+    // Later ones win.
+    let places = match &found.origin {
+        Origin::Setting(setting) => {
+            let is_setting =
+                |(path, value): &(String, String)| **setting == *format!("{path}={value}");
+            if settings.iter().any(is_setting) {
+                return error;
+            }
+            let path = setting.split('=').next().unwrap_or_default();
+            vec![
+                format!("{own}.parameters.{path}"),
+                format!("parameters.{path}"),
+            ]
+        }
+        // Of the hardware's table.
+        Origin::Unknown => match found.key.strip_prefix("robot.") {
+            Some(key) => vec![format!("{own}.{key}"), own],
+            None => {
+                located.key = format!("world.{}", found.key);
+                vec![located.key.clone()]
+            }
+        },
+        Origin::File { .. } | Origin::Environment(_) => return error,
+    };
+    // Who edits it meanwhile gets the error without its line.
+    let text = std::fs::read_to_string(file).unwrap_or_default();
+    let name = file.display().to_string();
+    let mut places = places.iter();
+    match places.find_map(|path| parameters::place(&name, &text, path)) {
+        Some(origin) => ParameterError { origin, ..located }.into(),
+        None => error,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde::Deserialize;
+
+    use super::*;
+    use crate::parameters::Layers;
+
+    const SCENARIO: &str = "\
+ends = 1.0
+parameters = { filter.gian = 2.5 }
+[world]
+lamp = [inf, 0.0]
+[[robot]]
+parameters = { filter.step = 3 }
+pose = 'here'
+";
+
+    #[derive(Debug, Deserialize)]
+    #[expect(dead_code, reason = "it is only read")]
+    struct Table {
+        lamp: Option<Lamp>,
+        robot: Option<Robot>,
+    }
+
+    #[derive(Debug, Deserialize)]
+    #[expect(dead_code, reason = "it is only read")]
+    struct Lamp {
+        is_on: bool,
+        place: f64,
+    }
+
+    #[derive(Debug, Deserialize)]
+    #[expect(dead_code, reason = "it is only read")]
+    struct Robot {
+        pose: f64,
+    }
+
+    /// What is told of a wrong value in the hardware's table.
+    fn of_table(text: &str) -> Error {
+        let table = toml::from_str(text).expect("it is TOML");
+        let read = parameters::from_table::<Table>(&table);
+        read.expect_err("it is wrong").into()
+    }
+
+    /// What is told of a setting that is a table of parameters and should be something else.
+    fn of_setting(path: &str, value: &str) -> Error {
+        let folder = tempfile::tempdir().expect("a folder");
+        std::fs::write(folder.path().join("default.toml"), "").expect("it is written");
+        let layers = Layers {
+            directory: folder.path().to_owned(),
+            settings: vec![(format!("hardware.{path}"), value.to_owned())],
+            ..Layers::default()
+        };
+        let loaded = layers.load().expect("it is read");
+        let mut error = loaded.hardware(path).expect_err("it is no table");
+        if let Some(found) = error.find::<ParameterError>() {
+            error = ParameterError {
+                origin: Origin::Setting(format!("{path}={value}").into()),
+                key: path.to_owned(),
+                ..found.clone()
+            }
+            .into();
+        }
+        error
+    }
+
+    #[test]
+    fn the_line_of_the_scenario_is_told_and_nothing_that_others_gave() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let file = folder.path().join("a.toml");
+        std::fs::write(&file, SCENARIO).expect("it is written");
+        let told = |settings: &[(String, String)], error| {
+            let text = blame(&file, settings, 0, error).to_string();
+            text.replace(&file.display().to_string(), "a.toml")
+        };
+        let parameter = told(&[], of_setting("filter.gian", "2.5"));
+        assert!(
+            parameter.starts_with("a.toml:2: `filter.gian`: "),
+            "{parameter}"
+        );
+        let own = told(&[], of_setting("filter.step", "3"));
+        assert!(own.starts_with("a.toml:6: `filter.step`: "), "{own}");
+        let given = [("filter.gian".to_owned(), "2.5".to_owned())];
+        let given = told(&given, of_setting("filter.gian", "2.5"));
+        assert!(given.starts_with("--set filter.gian=2.5: "), "{given}");
+        let hardware = told(&[], of_setting("number", "2"));
+        assert!(hardware.starts_with("--set number=2: "), "{hardware}");
+        assert_eq!(
+            told(&[], of_table("lamp = [inf, 0.0]")),
+            "a.toml:4: `world.lamp`: expected a table of is_on, place; found an array"
+        );
+        let robot = told(&[], of_table("robot = { pose = 'here' }"));
+        assert!(robot.starts_with("a.toml:7: `robot.pose`: "), "{robot}");
+    }
+}
