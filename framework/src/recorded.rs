@@ -10,6 +10,7 @@ mod body;
 mod bytes;
 mod capture;
 mod digests;
+mod disk;
 mod encode;
 mod ends;
 mod history;

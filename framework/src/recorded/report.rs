@@ -34,6 +34,7 @@ pub struct InstanceRecorded {
     pub instance: &'static str,
     /// Cycles that its `record` asks for.
     pub wanted: u64,
+    /// Handed over; those that are lost or overwritten are among them.
     pub recorded: u64,
     /// There was no room for them.
     pub dropped: u64,
@@ -53,6 +54,11 @@ impl RecordingReport {
         } else {
             "INCOMPLETE"
         }
+    }
+
+    /// What the disk said first.
+    pub fn error(&self) -> Option<String> {
+        self.ended.error.as_ref().map(ToString::to_string)
     }
 
     /// Counts by instance.

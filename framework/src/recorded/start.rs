@@ -10,6 +10,7 @@ use hulkgen_recording::{
     Attachment, Channel, ChannelId, Counts, Description, Metadata, Recorder, Settings,
 };
 
+use super::disk;
 use super::logs::{self, LOGS, LogRecorder};
 use super::output::{self, OutputChannels};
 use super::recorder::{Condition, CycleObserver, CycleRecorder, Wanted};
@@ -96,12 +97,10 @@ impl Recording {
         let all = names.iter().copied().chain(of_outputs).chain([LOGS]);
         let all: Vec<_> = all.collect();
         let rewrites = outputs.rewrites();
-        let (recorder, mut tracks) =
-            Recorder::start_rewriting(path, description, &all, settings, rewrites).map_err(
-                |error| {
-                    Error::from(error).context(format!("cannot record into {}", path.display()))
-                },
-            )?;
+        let (recorder, mut tracks) = disk::start(path, description, &all, settings, rewrites)
+            .map_err(|error| {
+                Error::from(error).context(format!("cannot record into {}", path.display()))
+            })?;
         let logs = tracks
             .pop()
             .map(|track| LogRecorder::start(track, of_logs, robot.clock.clone()));

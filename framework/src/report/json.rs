@@ -23,6 +23,7 @@ impl RobotReport {
             "instances": instances.collect::<Vec<_>>(),
             "recording": self.recording.as_ref().map(|one| one.ended.path.display().to_string()),
             "recording_state": self.recording.as_ref().map(RecordingReport::state),
+            "recording_error": self.recording.as_ref().and_then(RecordingReport::error),
             "recorded": self.recording.as_ref().map(RecordingReport::to_json),
         })
     }

@@ -153,6 +153,7 @@ fn the_json_has_the_keys_of_the_contract() {
             "instances",
             "recording",
             "recording_state",
+            "recording_error",
             "recorded"
         ]
     );
