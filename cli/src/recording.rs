@@ -61,6 +61,8 @@ pub struct Recovered {
     pub chunks: u64,
     /// Bytes behind the last whole chunk.
     pub lost: u64,
+    /// Offsets of chunks that are damaged.
+    pub damaged: Vec<u64>,
 }
 
 /// Writes a whole file with all whole chunks of this one.
@@ -77,5 +79,6 @@ pub fn recover(path: &Utf8Path, into: Option<&Utf8Path>) -> Result<Recovered, Re
         into,
         chunks: recovered.chunks,
         lost: recovered.lost,
+        damaged: recovered.damaged,
     })
 }

@@ -51,14 +51,16 @@ pub(super) fn run(terminal: &Terminal, recording: &Recording) -> Result<Outcome,
         RecordingCommand::Recover { file, into, format } => {
             let recovered = recording::recover(file, into.as_deref())?;
             let (into, chunks, lost) = (recovered.into, recovered.chunks, recovered.lost);
+            let damaged = recovered.damaged;
             terminal.data(&match format {
                 TextOrJson::Text => format!(
-                    "{into}: {}, {} behind them lost\n",
+                    "{into}: {}, {} behind them lost\n{}",
                     plural(chunks as usize, "chunk"),
-                    plural(lost as usize, "byte")
+                    plural(lost as usize, "byte"),
+                    damaged_lines(&damaged)
                 ),
                 TextOrJson::Json => line(&json!({
-                    "version": 1, "file": into, "chunks": chunks, "lost_bytes": lost,
+                    "version": 1, "file": into, "chunks": chunks, "lost_bytes": lost, "damaged": damaged,
                 })),
             })?;
         }
@@ -91,6 +93,16 @@ pub(super) fn run(terminal: &Terminal, recording: &Recording) -> Result<Outcome,
         }
     }
     Ok(Outcome::Good)
+}
+
+/// One for each chunk that is lost.
+fn damaged_lines(damaged: &[u64]) -> String {
+    let lines = damaged.iter().map(|offset| {
+        format!(
+            "the chunk at byte {offset} is damaged (its check sum is wrong): what it had is lost\n"
+        )
+    });
+    lines.collect()
 }
 
 fn note_silent(terminal: &Terminal, silent: &[String]) {
@@ -161,6 +173,9 @@ fn info_text(info: &Info) -> String {
     text += &format!("state      {}", info.state);
     if let Some(behind) = info.cut_behind {
         text += &format!(": it breaks off behind byte {behind} (`hulkgen recording recover`)");
+    }
+    for line in damaged_lines(&info.damaged).lines() {
+        text += &format!("\n           {line}");
     }
     text += &format!(
         "\nduration   {:.3} s\nsize       {} ({} before compression), {}",

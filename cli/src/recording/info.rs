@@ -21,6 +21,8 @@ pub struct Info {
     pub state: &'static str,
     /// Where the file breaks off; absent where it does not.
     pub cut_behind: Option<u64>,
+    /// Offsets of chunks that are not what was written.
+    pub damaged: Vec<u64>,
     /// What the recording says of its run: robot, target, revision, identities.
     pub run: BTreeMap<String, String>,
     /// From its first to its last message.
@@ -102,12 +104,12 @@ pub fn info(path: &Utf8Path) -> Result<Info, Refusal> {
         channels.insert(*number, Counted::new(channel, &layouts));
     }
     let (mut chunks, mut uncompressed) = (0, 0);
-    let mut way = contents.way.clone();
+    let mut damaged = contents.damaged.clone();
     for place in &contents.chunks {
         let chunk = match file.chunk(place) {
             Err(ReadError::Damaged { offset }) => {
-                way = Way::Cut { behind: offset };
-                break;
+                damaged.push(offset);
+                continue;
             }
             read => read.map_err(|error| Refusal::bad(format!("`{path}`: {error}")))?,
         };
@@ -119,7 +121,7 @@ pub fn info(path: &Utf8Path) -> Result<Info, Refusal> {
             }
         }
     }
-    let is_complete = contents.is_complete() && way == Way::Whole;
+    let is_complete = contents.is_complete() && damaged.is_empty();
     let run = contents.metadata("run");
     let mut states: Vec<_> = channels.values().flat_map(Counted::states).collect();
     states.sort_by(|one, other| other.bytes.cmp(&one.bytes).then(one.node.cmp(&other.node)));
@@ -127,10 +129,11 @@ pub fn info(path: &Utf8Path) -> Result<Info, Refusal> {
     let bytes = fs::metadata(path).map_or(0, |metadata| super::list::used(&metadata));
     Ok(Info {
         state: state(is_complete),
-        cut_behind: match way {
+        cut_behind: match contents.way {
             Way::Whole => None,
             Way::Cut { behind } => Some(behind),
         },
+        damaged,
         run: run
             .map(|run| run.entries.iter().cloned().collect())
             .unwrap_or_default(),

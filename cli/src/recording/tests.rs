@@ -365,8 +365,23 @@ fn a_recovered_file_is_complete_only_where_nothing_was_lost() {
     std::fs::write(&path, &bytes).expect("there is room");
     let into = folder.join("b.mcap");
     let some = recover(&path, Some(&into)).expect("the other file is new");
-    assert_eq!(some.chunks, 2);
-    assert!(some.lost > 0);
+    let damaged = file.contents().chunks[2].offset;
+    let of_damaged = info(&path).expect("the others can be read");
+    assert_eq!((of_damaged.state, of_damaged.chunks), ("INCOMPLETE", 4));
+    assert_eq!(
+        (of_damaged.cut_behind, of_damaged.damaged),
+        (None, vec![damaged])
+    );
+    assert_eq!((some.chunks, some.lost), (4, 0));
+    assert_eq!(some.damaged, [damaged]);
+    let file = super::open(&path).expect("its index is right");
+    let mut shown = 0;
+    let told = super::cat(&file, &of(&["Control.main_outputs.ball"]), &mut |_| {
+        shown += 1;
+        Ok(true)
+    });
+    assert!(told.is_err(), "the chunk is told");
+    assert_eq!(shown, 32, "those behind it are shown");
     assert_eq!(info(&into).expect("it is whole").state, "INCOMPLETE");
 }
 

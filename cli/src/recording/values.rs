@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 use hulkgen_mcap::layout::{Layout, Layouts, Part, PartKind, Values};
-use hulkgen_mcap::{Channel, Message, RecordingFile};
+use hulkgen_mcap::{Channel, Message, ReadError, RecordingFile};
 use serde_json::Value;
 
 use super::{FRAMES, JSON, LOGS, TYPES, VALUES};
@@ -81,13 +81,20 @@ pub fn cat(
         silent.retain(|path| !below(&found.path, path));
         show(found)
     };
+    let mut damaged = None;
     for place in &contents.chunks {
         if !overlaps(&selection.span.times, place.times) {
             continue;
         }
-        let chunk = file
-            .chunk(place)
-            .map_err(|error| Refusal::bad(error.to_string()))?;
+        let chunk = match file.chunk(place) {
+            Ok(chunk) => chunk,
+            // Those behind it are shown first.
+            Err(error @ ReadError::Damaged { .. }) => {
+                damaged.get_or_insert(error);
+                continue;
+            }
+            Err(error) => return Err(Refusal::bad(error.to_string())),
+        };
         for message in chunk.messages() {
             let Some(read) = channels.get_mut(&message.channel) else {
                 continue;
@@ -97,7 +104,12 @@ pub fn cat(
             }
         }
     }
-    Ok(silent)
+    match damaged {
+        Some(error) => Err(Refusal::bad(format!(
+            "{error}: what it had is missing, everything else is there"
+        ))),
+        None => Ok(silent),
+    }
 }
 
 fn overlaps(wanted: &Option<Range<u64>>, (first, last): (u64, u64)) -> bool {

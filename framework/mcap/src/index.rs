@@ -109,12 +109,20 @@ pub(crate) fn scan(
         return Err(ReadError::Other);
     }
     let mut contents = Contents::default();
+    // The record before, if it is a chunk that is damaged.
+    let mut doubtful = None;
     loop {
         let understood = scan_record(source, (position, length), &mut contents, chunk)?;
         let Some((kind, next)) = understood else {
+            // Then the length of that chunk is not right either, or it is the one that breaks off.
+            if let Some(offset) = doubtful {
+                contents.damaged.pop();
+                position = offset;
+            }
             contents.way = Way::Cut { behind: position };
             return Ok(contents);
         };
+        doubtful = (contents.damaged.last() == Some(&position)).then_some(position);
         position = next;
         if kind == opcode::DATA_END {
             break;
@@ -163,19 +171,30 @@ fn scan_record(
     }
     let content = source.read_at(start, length)?;
     let understood = match kind {
-        opcode::CHUNK => Chunk::understood(&content, position).and_then(|found| {
-            let mut times = Take(&content);
-            contents.chunks.push(ChunkPlace {
-                offset: position,
-                length: next - position,
-                times: (times.u64()?, times.u64()?),
-            });
-            chunk(found);
+        opcode::CHUNK => {
+            match Chunk::understood(&content, position).zip(times(&content)) {
+                Some((found, times)) => {
+                    contents.chunks.push(ChunkPlace {
+                        offset: position,
+                        length: next - position,
+                        times,
+                    });
+                    chunk(found);
+                }
+                // Its own end is known, and the next one can be understood without it.
+                None => contents.damaged.push(position),
+            }
             Some(())
-        }),
+        }
         kind => contents.add(kind, &content),
     };
     Ok(understood.map(|()| (kind, next)))
+}
+
+/// Of the first and the last message of a chunk.
+fn times(content: &[u8]) -> Option<(u64, u64)> {
+    let mut content = Take(content);
+    content.u64().zip(content.u64())
 }
 
 impl Contents {

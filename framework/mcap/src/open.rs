@@ -29,6 +29,8 @@ pub struct Contents {
     pub chunks: Vec<ChunkPlace>,
     /// How many chunks the ring closed over.
     pub gone: u64,
+    /// Offsets of chunks that are not what was written, where every record was looked at; [`RecordingFile::chunk`] finds others.
+    pub damaged: Vec<u64>,
     pub way: Way,
     /// Whether the file's own index told it; else every record was looked at.
     pub is_indexed: bool,
@@ -102,7 +104,7 @@ impl Contents {
 
     /// Whether the run ended and everything was recorded.
     pub fn is_complete(&self) -> bool {
-        self.way == Way::Whole && is_said_complete(self.metadata("end"))
+        self.way == Way::Whole && self.damaged.is_empty() && is_said_complete(self.metadata("end"))
     }
 }
 

@@ -23,6 +23,8 @@ pub struct Recording {
     pub chunks: Vec<Chunk>,
     /// How many chunks the ring closed over.
     pub gone: u64,
+    /// Offsets of chunks that are not what was written; those behind them are read.
+    pub damaged: Vec<u64>,
     pub way: Way,
 }
 
@@ -69,24 +71,21 @@ pub enum ReadError {
 }
 
 impl Recording {
-    /// Reads a file up to where it breaks off, all of it into memory; [`RecordingFile`] does not.
+    /// Reads a file up to where it breaks off, without chunks that are damaged, all of it into memory; [`RecordingFile`] does not.
     pub fn open(path: &Path) -> Result<Self, ReadError> {
         let file = RecordingFile::open(path)?;
         let mut chunks = Vec::new();
-        let mut way = file.contents().way.clone();
+        let mut damaged = file.contents().damaged.clone();
         for place in &file.contents().chunks {
             match file.chunk(place) {
                 Ok(chunk) => chunks.push(chunk),
-                Err(ReadError::Damaged { offset }) => {
-                    way = Way::Cut { behind: offset };
-                    break;
-                }
+                Err(ReadError::Damaged { offset }) => damaged.push(offset),
                 Err(error) => return Err(error),
             }
         }
         let contents = file.into_contents();
         Ok(Self {
-            way,
+            damaged,
             ..Self::of(contents, chunks)
         })
     }
@@ -106,6 +105,7 @@ impl Recording {
             attachments: contents.attachments,
             chunks,
             gone: contents.gone,
+            damaged: contents.damaged,
             way: contents.way,
         }
     }
@@ -117,7 +117,7 @@ impl Recording {
 
     /// Whether the run ended and everything was recorded.
     pub fn is_complete(&self) -> bool {
-        self.way == Way::Whole && is_said_complete(self.metadata("end"))
+        self.way == Way::Whole && self.damaged.is_empty() && is_said_complete(self.metadata("end"))
     }
 }
 

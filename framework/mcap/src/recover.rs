@@ -10,15 +10,18 @@ use crate::read::{ReadError, Way};
 const END: &str = "end";
 
 /// What became of the chunks of a file that breaks off.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Recovered {
     /// That are in the new file.
     pub chunks: u64,
     /// Bytes of the old file behind its last whole chunk.
     pub lost: u64,
+    /// Offsets of chunks of the old file that are damaged, and not in the new one.
+    pub damaged: Vec<u64>,
 }
 
-/// Writes a whole file, which must not exist, with all chunks of this one up to the first that is damaged.
+/// Writes a whole file, which must not exist, with all chunks of this one that are not damaged. Where that fails there is
+/// no new file.
 ///
 /// # Errors
 /// If a disk fails, or the channels are not numbered as those of recordings are.
@@ -49,20 +52,31 @@ pub fn recover(file: &RecordingFile, into: &Path) -> Result<Recovered, ReadError
         metadata: metadata.cloned().collect(),
         attachments: contents.attachments.clone(),
     };
-    let mut writer = Writer::create(into, description, u64::MAX)?;
+    let writer = Writer::create(into, description, u64::MAX)?;
+    let recovered = copy(file, writer, length);
+    if recovered.is_err() {
+        // Half a file would look like a whole one.
+        let _ = std::fs::remove_file(into);
+    }
+    recovered
+}
+
+fn copy(file: &RecordingFile, mut writer: Writer, length: u64) -> Result<Recovered, ReadError> {
+    let contents = file.contents();
     let mut recovered = Recovered {
         chunks: 0,
         lost: match contents.way {
             Way::Whole => 0,
             Way::Cut { behind } => length.saturating_sub(behind),
         },
+        damaged: contents.damaged.clone(),
     };
     for place in &contents.chunks {
         match file.chunk(place) {
             Ok(chunk) => writer.add(chunk.bytes()),
             Err(ReadError::Damaged { offset }) => {
-                recovered.lost = length.saturating_sub(offset);
-                break;
+                recovered.damaged.push(offset);
+                continue;
             }
             Err(error) => return Err(error),
         }
@@ -71,6 +85,7 @@ pub fn recover(file: &RecordingFile, into: &Path) -> Result<Recovered, ReadError
     }
     // What the old file says of its end holds for the new one only where nothing is lost.
     if recovered.lost == 0
+        && recovered.damaged.is_empty()
         && let Some(end) = contents.metadata(END)
     {
         writer.write_metadata(end)?;

@@ -241,9 +241,14 @@ fn replayed<P: ParameterData>(
         )?;
         verification.is_good()
     };
+    for offset in &recording.damaged {
+        tell(format_args!(
+            "the chunk at byte {offset} is damaged (its check sum is wrong): what it had is lost"
+        ));
+    }
     if !recording.is_complete() {
         tell(format_args!(
-            "the recording is INCOMPLETE: frames were dropped, or it was cut off"
+            "the recording is INCOMPLETE: frames were dropped, a chunk is damaged, or it was cut off"
         ));
     }
     Ok(is_good)

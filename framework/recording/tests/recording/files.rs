@@ -79,14 +79,13 @@ fn a_damaged_chunk_is_told_when_it_is_read() {
     assert!(file.chunk(&file.contents().chunks[2]).is_ok());
     let read = file.chunk(&damaged);
     assert!(matches!(read, Err(ReadError::Damaged { offset }) if offset == damaged.offset));
-    let all = Recording::open(&path).expect("what is before it can be read");
-    assert_eq!(all.chunks.len(), 3);
+    let all = Recording::open(&path).expect("the others can be read");
+    assert_eq!(all.chunks.len(), file.contents().chunks.len() - 1);
     assert_eq!(
-        all.way,
-        Way::Cut {
-            behind: damaged.offset
-        }
+        (all.way.clone(), &*all.damaged),
+        (Way::Whole, &[damaged.offset][..])
     );
+    assert!(!all.is_complete());
 }
 
 #[test]
@@ -97,4 +96,66 @@ fn what_is_no_recording_is_refused() {
         std::fs::write(&path, bytes).expect("there is room");
         assert!(matches!(RecordingFile::open(&path), Err(ReadError::Other)));
     }
+}
+
+/// Offsets of what chunks begin with, and of the bytes of their messages.
+fn sound(recording: &Recording) -> Vec<(u64, &[u8])> {
+    let chunks = recording.chunks.iter();
+    chunks.map(|chunk| (chunk.offset, chunk.bytes())).collect()
+}
+
+#[test]
+fn whatever_bit_is_wrong_the_chunks_beside_it_are_there() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("run.mcap");
+    record(&path, 1500, 20, settings());
+    let bytes = std::fs::read(&path).expect("it was written");
+    let whole = Recording::read(&bytes).expect("it can be read");
+    let file = RecordingFile::open(&path).expect("it can be read");
+    let places = file.contents().chunks.clone();
+    assert!(places.len() > 5);
+    // Any odd number that has nothing to do with the file.
+    let mut random = 0x9e37_79b9_7f4a_7c15_u64;
+    for _ in 0..300 {
+        random = random
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1);
+        let place = places[(random >> 33) as usize % places.len()];
+        // Behind kind and length of the record.
+        let byte = place.offset + 9 + (random >> 20) % (place.length - 9);
+        let mut damaged = bytes.clone();
+        damaged[byte as usize] ^= 1 << (random >> 60 & 7);
+        let others: Vec<_> = (sound(&whole).into_iter())
+            .filter(|(offset, _)| *offset != place.offset)
+            .collect();
+        std::fs::write(&path, &damaged).expect("there is room");
+        // Once by its index, once without.
+        let indexed = Recording::open(&path).expect("it can be read");
+        let scanned = Recording::read(&damaged).expect("it can be read");
+        for read in [indexed, scanned] {
+            let mut found = sound(&read);
+            // Times of a chunk have no check sum.
+            found.retain(|(offset, _)| *offset != place.offset);
+            assert_eq!(found, others, "byte {byte}");
+            assert_eq!(read.way, Way::Whole, "byte {byte}");
+            let is_told = read.damaged == [place.offset];
+            assert!(is_told || read.chunks.len() == places.len(), "byte {byte}");
+        }
+    }
+}
+
+#[test]
+fn where_the_length_of_a_damaged_chunk_is_wrong_the_file_breaks_off_there() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("run.mcap");
+    record(&path, 1500, 20, settings());
+    let mut bytes = std::fs::read(&path).expect("it was written");
+    let file = RecordingFile::open(&path).expect("it can be read");
+    let place = file.contents().chunks[3];
+    let length = place.offset as usize + 1;
+    bytes[length..length + 8].copy_from_slice(&(place.length / 2).to_le_bytes());
+    let read = Recording::read(&bytes).expect("what is before it can be read");
+    assert_eq!(read.chunks.len(), 3);
+    let behind = place.offset;
+    assert_eq!((read.way, read.damaged), (Way::Cut { behind }, Vec::new()));
 }
