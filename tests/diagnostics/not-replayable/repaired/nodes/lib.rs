@@ -5,6 +5,8 @@ use framework::Result;
 
 pub struct Hardware;
 
+impl framework::Hardware for Hardware {}
+
 pub trait Motors {
     fn write(&self, speed: f32) -> Result<()>;
 }
