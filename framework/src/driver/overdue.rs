@@ -14,7 +14,7 @@ const GLANCE: Duration = Duration::from_millis(2);
 /// What is done about them.
 #[derive(Default)]
 pub(super) struct Overdue<'robot> {
-    give_up: Option<&'robot dyn Fn()>,
+    give_up: Option<&'robot (dyn Fn() + Sync)>,
 }
 
 /// The threads of the instances, by name.
@@ -33,7 +33,7 @@ impl<'scope> Running<'scope> {
 }
 
 impl<'robot> Overdue<'robot> {
-    pub(super) fn then(give_up: &'robot dyn Fn()) -> Self {
+    pub(super) fn then(give_up: &'robot (dyn Fn() + Sync)) -> Self {
         Self {
             give_up: Some(give_up),
         }

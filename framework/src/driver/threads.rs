@@ -60,7 +60,7 @@ impl<'robot> Threads<'robot> {
 
     /// What is done about threads that have not ended 10 s after the stop, once it was told whose they are. Nothing ends a
     /// thread from outside: without this, or where it returns, they are waited for.
-    pub fn giving_up(self, give_up: &'robot dyn Fn()) -> Self {
+    pub fn giving_up(self, give_up: &'robot (dyn Fn() + Sync)) -> Self {
         Self {
             overdue: Overdue::then(give_up),
             ..self
