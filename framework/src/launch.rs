@@ -225,7 +225,20 @@ where
     });
     let mut report = RobotReport::new(target.name, clock.now() - started, &robot);
     report.recording = lock(&recording).take().map(Recording::end);
-    let written = match options.format {
+    let written = write_report(&report, page, options.format, output);
+    // Why the robot failed matters more than a reader who left.
+    result?;
+    written.map_err(|error| Error::from(error).context("cannot write the report"))?;
+    Ok(DONE)
+}
+
+fn write_report(
+    report: &RobotReport,
+    page: Option<String>,
+    format: Format,
+    output: &mut dyn Write,
+) -> std::io::Result<()> {
+    match format {
         Format::Json => {
             let mut json = report.to_json();
             json["page"] = page.into();
@@ -235,11 +248,7 @@ where
             tell(format_args!("{}", report.to_string().trim_end()));
             Ok(())
         }
-    };
-    // Why the robot failed matters more than a reader who left.
-    result?;
-    written.map_err(|error| Error::from(error).context("cannot write the report"))?;
-    Ok(DONE)
+    }
 }
 
 /// Ends the process in place of threads that do not end: what they have is lost, but not what is recorded.

@@ -6,6 +6,7 @@
 use std::rc::Rc;
 
 use grammar::Meaning;
+use quote::ToTokens as _;
 use syn::{Item, Type};
 
 use super::fields::is_harmless;
@@ -63,6 +64,9 @@ impl Library<'_> {
 
     /// What is known about the error of a type that a node's function returns.
     pub fn failure(&self, module: &Rc<Module>, returns: &Type) -> Failure {
+        if module.is_uncertain(returns.to_token_stream()) {
+            return Failure::Unknown;
+        }
         let returned = self.quietly(|| self.resolve(module, returns));
         let Shape::Named {
             definition,

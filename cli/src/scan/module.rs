@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use camino::{Utf8Path, Utf8PathBuf};
+use proc_macro2::{TokenStream, TokenTree};
 use syn::{Attribute, Item, UseTree, Visibility};
 
 /// A module and everything that has a name in it.
@@ -42,6 +43,8 @@ pub(super) struct Import {
     /// It begins with `::`.
     pub(super) absolute: bool,
     pub(super) visible: Visible,
+    /// It, or another one of this name, is there only sometimes.
+    pub(super) is_conditional: bool,
 }
 
 /// Who can see a name of a module.
@@ -102,6 +105,18 @@ impl Module {
         })
     }
 
+    /// Whether a name among these may stand for something else under another condition.
+    pub(super) fn is_uncertain(&self, tokens: TokenStream) -> bool {
+        tokens.into_iter().any(|token| match token {
+            TokenTree::Group(group) => self.is_uncertain(group.stream()),
+            TokenTree::Ident(name) => {
+                let entry = self.entries.get(&name.to_string());
+                matches!(entry, Some(Entry::Import(import)) if import.is_conditional)
+            }
+            TokenTree::Punct(_) | TokenTree::Literal(_) => false,
+        })
+    }
+
     /// Names that other crates can see.
     pub(super) fn public_names(&self) -> Vec<String> {
         let public = self.entries.iter().filter(|(_, entry)| entry.is_public());
@@ -118,6 +133,7 @@ impl Module {
                         segments: Vec::new(),
                         absolute,
                         visible,
+                        is_conditional: is_conditional(&item.attrs),
                     };
                     self.add_use(&start, &item.tree);
                 }
@@ -131,6 +147,7 @@ impl Module {
                     segments,
                     absolute: true,
                     visible,
+                    is_conditional: is_conditional(&item.attrs),
                 };
                 self.insert(name.to_string(), Entry::Import(import));
                 return;
@@ -190,9 +207,14 @@ impl Module {
     }
 
     fn add_import(&mut self, name: String, import: Import) {
-        if name != "_" {
-            // A macro or function of the same name is none of ours: the first import stays.
-            self.entries.entry(name).or_insert(Entry::Import(import));
+        if name == "_" {
+            return;
+        }
+        let is_conditional = import.is_conditional;
+        // A macro or function of the same name is none of ours: the first import stays.
+        let entry = self.entries.entry(name).or_insert(Entry::Import(import));
+        if let Entry::Import(first) = entry {
+            first.is_conditional |= is_conditional;
         }
     }
 }

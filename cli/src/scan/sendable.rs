@@ -7,6 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::rc::Rc;
 
+use quote::ToTokens as _;
 use syn::{
     Attribute, Fields, GenericArgument, GenericParam, Generics, Item, PathArguments, Type,
     TypeParamBound,
@@ -15,8 +16,9 @@ use syn::{
 use super::fields::is_harmless;
 use super::library::Library;
 use super::lookup::{Found, ItemId};
-use super::module::Module;
+use super::module::{Module, is_conditional};
 use super::range;
+use super::served::derives_nothing_unknown;
 use super::types::written;
 
 /// A field of a node's state that keeps the node on the thread that made it.
@@ -163,7 +165,9 @@ impl Library<'_> {
         });
         let tied: Vec<Tied> = tied.collect();
         let by_hand = || self.may_implement(&item, "Send");
-        if tied.is_empty() || !definition.attrs.iter().all(is_harmless) || by_hand() {
+        let attributes = &definition.attrs;
+        let is_plain = attributes.iter().all(is_harmless) && derives_nothing_unknown(attributes);
+        if tied.is_empty() || !is_plain || by_hand() {
             return Vec::new();
         }
         tied
@@ -227,6 +231,9 @@ impl Search<'_> {
         {
             return known.clone();
         }
+        if module.is_uncertain(path.to_token_stream()) {
+            return None;
+        }
         let arguments = arguments(path)?;
         let rule = match self.library.find(module, path)? {
             Found::Prelude(name) => Rule::of(&name, marker),
@@ -266,7 +273,7 @@ impl Search<'_> {
             Item::Enum(item) => (&item.attrs, &item.generics),
             _ => return None,
         };
-        let is_plain = attributes.iter().all(is_harmless);
+        let is_plain = attributes.iter().all(is_harmless) && derives_nothing_unknown(attributes);
         let path = item.path();
         if !is_plain || self.around.len() > DEEPEST || !self.around.insert(path.clone()) {
             return None;
@@ -274,7 +281,11 @@ impl Search<'_> {
         let own = self.parameters(module, generics, arguments, parameters);
         let fields: Vec<&Fields> = match item.item() {
             Item::Struct(item) => vec![&item.fields],
-            Item::Enum(item) => item.variants.iter().map(|one| &one.fields).collect(),
+            Item::Enum(item) => {
+                let variants = item.variants.iter();
+                let always = variants.filter(|one| !is_conditional(&one.attrs));
+                always.map(|one| &one.fields).collect()
+            }
             _ => Vec::new(),
         };
         let mut fields = fields.into_iter().flatten().filter(|one| is_always(one));

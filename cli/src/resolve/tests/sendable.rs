@@ -76,6 +76,12 @@ fn what_may_be_send_is_left_to_rustc() {
         ("Within", "struct Within(*const u8); sends!(Within);"),
         ("Within", "#[sends] struct Within(*const u8);"),
         ("Within", "struct Within { #[cfg(never)] x: *const u8 }"),
+        ("Within", "#[derive(Sends)] struct Within(*const u8);"),
+        ("Within", "enum Within { A, #[cfg(never)] B(*const u8) }"),
+        (
+            "Shared<u8>",
+            "#[cfg(never)] use std::rc::Rc as Shared; #[cfg(not(never))] use std::sync::Arc as Shared;",
+        ),
         ("*const u8", "unsafe impl Send for Node {}"),
         ("Ring", "struct Ring { next: Option<Box<Ring>> }"),
         (
