@@ -22,7 +22,7 @@ pub use images::Images;
 pub use info::{Info, InstanceInfo, PartInfo, info};
 pub use list::{Run, list};
 pub(crate) use values::part;
-pub use values::{Found, Selection, Span, cat};
+pub use values::{Found, Selection, Shown, Span, cat};
 
 /// Encodings of the channels that a robot's recording has; all others are JSON or nothing that hulkgen knows.
 const FRAMES: &str = "hulkgen-frames";

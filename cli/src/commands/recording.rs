@@ -38,7 +38,7 @@ pub(super) fn run(terminal: &Terminal, recording: &Recording) -> Result<Outcome,
             format,
         } => {
             let file = recording::open(file)?;
-            let silent = recording::cat(&file, &wanted(selection), &mut |found| {
+            let shown = recording::cat(&file, &wanted(selection), &mut |found| {
                 terminal.more_data(&match format {
                     TextOrJson::Json => line(&found.to_json()),
                     TextOrJson::Text => {
@@ -46,7 +46,7 @@ pub(super) fn run(terminal: &Terminal, recording: &Recording) -> Result<Outcome,
                     }
                 })
             })?;
-            note_silent(terminal, &silent);
+            note_silent(terminal, &shown.complete(None)?);
         }
         RecordingCommand::Recover { file, into, format } => {
             let recovered = recording::recover(file, into.as_deref())?;

@@ -11,7 +11,7 @@ use hulkgen_mcap::RecordingFile;
 use hulkgen_mcap::layout::Layouts;
 use serde_json::{Value, json};
 
-use super::values::{Found, Selection, cat};
+use super::values::{Found, Selection, Shown, cat};
 use crate::outcome::Refusal;
 
 /// What is made of the values.
@@ -34,7 +34,10 @@ pub struct Exported {
     pub silent: Vec<String>,
 }
 
-/// Writes values of a recording into a file, or into a folder of images; neither may exist. All of it or nothing.
+/// Writes values of a recording into a file, or into a folder of images; neither may exist. All that can be read of it or nothing.
+///
+/// # Errors
+/// If nothing could be written; or if chunks of the recording are damaged: then all others are written.
 pub fn export(
     path: &Utf8Path,
     selection: &Selection,
@@ -53,14 +56,16 @@ pub fn export(
     let name = into.file_name().unwrap_or("export");
     let half = into.with_file_name(format!("{name}.{}.half", std::process::id()));
     let written = write(&file, selection, kind, &half)
-        .and_then(|exported| fs::rename(&half, into).map(|()| exported).map_err(failed));
+        .and_then(|written| fs::rename(&half, into).map(|()| written).map_err(failed));
     if written.is_err() {
         let _ = match kind {
             Export::Png => fs::remove_dir_all(&half),
             Export::Csv | Export::Json => fs::remove_file(&half),
         };
     }
-    written
+    let (mut exported, shown) = written?;
+    exported.silent = shown.complete(Some(into))?;
+    Ok(exported)
 }
 
 fn write(
@@ -68,14 +73,14 @@ fn write(
     selection: &Selection,
     kind: Export,
     into: &Utf8Path,
-) -> Result<Exported, Refusal> {
+) -> Result<(Exported, Shown), Refusal> {
     let failed = |error: std::io::Error| Refusal::bad(format!("cannot write `{into}`: {error}"));
     let mut exported = Exported::default();
     if kind == Export::Png {
         let mut count = 0;
         fs::create_dir_all(into).map_err(failed)?;
         let images = Layouts::of(&file.contents().attachments).images;
-        exported.silent = cat(file, selection, &mut |found| {
+        let shown = cat(file, selection, &mut |found| {
             if found.value.is_null() {
                 // None in this cycle.
                 return Ok(true);
@@ -90,14 +95,14 @@ fn write(
             Ok(true)
         })?;
         (exported.files, exported.values) = (count, count);
-        return Ok(exported);
+        return Ok((exported, shown));
     }
     let out = fs::File::create_new(into).map_err(failed)?;
     let mut out = BufWriter::new(out);
     exported.files = 1;
     let mut table = table::Table::default();
     let mut values = 0;
-    exported.silent = cat(file, selection, &mut |found| {
+    let shown = cat(file, selection, &mut |found| {
         let text = match kind {
             Export::Csv => table.row(&found),
             Export::Json | Export::Png => format!("{}\n", found.to_json()),
@@ -108,7 +113,7 @@ fn write(
     })?;
     exported.values = values;
     out.flush().map_err(failed)?;
-    Ok(exported)
+    Ok((exported, shown))
 }
 
 fn no_image(found: &Found) -> Refusal {

@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
+use camino::Utf8Path;
 use hulkgen_mcap::layout::{Layout, Layouts, Part, PartKind, Values};
 use hulkgen_mcap::{Channel, Message, ReadError, RecordingFile};
 use serde_json::Value;
@@ -40,6 +41,38 @@ pub struct Found {
     pub value: Value,
 }
 
+/// What became of a selection.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[must_use]
+pub struct Shown {
+    /// Paths that had no value.
+    silent: Vec<String>,
+    /// Offsets of chunks that are damaged: what they had is missing.
+    damaged: Vec<u64>,
+}
+
+impl Shown {
+    /// The paths that had no value; `into`: where the values are.
+    ///
+    /// # Errors
+    /// If chunks are damaged: what was asked for may have been in them.
+    pub fn complete(self, into: Option<&Utf8Path>) -> Result<Vec<String>, Refusal> {
+        let Some(offset) = self.damaged.first() else {
+            return Ok(self.silent);
+        };
+        let what = match self.damaged.len() - 1 {
+            0 => format!("the chunk at byte {offset} is damaged: what it had"),
+            more => {
+                format!("the chunk at byte {offset} and {more} more are damaged: what they had")
+            }
+        };
+        let place = into.map_or(String::new(), |into| format!(" in `{into}`"));
+        Err(Refusal::bad(format!(
+            "{what} is missing{place}, everything else is there"
+        )))
+    }
+}
+
 /// `Control` of `frames/Control`.
 pub(super) fn instance_of(topic: &str) -> &str {
     topic
@@ -47,7 +80,7 @@ pub(super) fn instance_of(topic: &str) -> &str {
         .map_or(topic, |(_, instance)| instance)
 }
 
-/// Shows every value that is wanted, in the order of the file, until nobody wants more. Gives the paths that had no value.
+/// Shows every value that is wanted, in the order of the file, until nobody wants more. Damaged chunks are passed over: [`Shown::complete`] tells of them.
 ///
 /// # Errors
 /// If a path names nothing that is recorded, or the file cannot be read.
@@ -55,7 +88,7 @@ pub fn cat(
     file: &RecordingFile,
     selection: &Selection,
     show: &mut dyn FnMut(Found) -> Result<bool, Refusal>,
-) -> Result<Vec<String>, Refusal> {
+) -> Result<Shown, Refusal> {
     let contents = file.contents();
     let layouts = Layouts::of(&contents.attachments);
     let mut channels = BTreeMap::new();
@@ -81,16 +114,16 @@ pub fn cat(
         silent.retain(|path| !below(&found.path, path));
         show(found)
     };
-    let mut damaged = None;
+    // Without an index all were looked at, and these are not among the chunks; when they were is not known.
+    let mut damaged = contents.damaged.clone();
     for place in &contents.chunks {
         if !overlaps(&selection.span.times, place.times) {
             continue;
         }
         let chunk = match file.chunk(place) {
             Ok(chunk) => chunk,
-            // Those behind it are shown first.
-            Err(error @ ReadError::Damaged { .. }) => {
-                damaged.get_or_insert(error);
+            Err(ReadError::Damaged { offset }) => {
+                damaged.push(offset);
                 continue;
             }
             Err(error) => return Err(Refusal::bad(error.to_string())),
@@ -100,16 +133,11 @@ pub fn cat(
                 continue;
             };
             if !read.show(&message, selection, show)? {
-                return Ok(Vec::new());
+                return Ok(Shown::default());
             }
         }
     }
-    match damaged {
-        Some(error) => Err(Refusal::bad(format!(
-            "{error}: what it had is missing, everything else is there"
-        ))),
-        None => Ok(silent),
-    }
+    Ok(Shown { silent, damaged })
 }
 
 fn overlaps(wanted: &Option<Range<u64>>, (first, last): (u64, u64)) -> bool {
