@@ -85,6 +85,68 @@ fn a_list_without_a_last_comma_keeps_its_lines() {
     assert_eq!(stored(text, json!([pose(1.0), pose(2.0)])), expected);
 }
 
+#[test]
+fn the_bracket_never_gets_into_a_comment() {
+    let text = "poses = [{x = 1.0}, # one\n  {x = 2.0}]\n";
+    let expected = "poses = [{x = 1.5} # one\n]\n";
+    assert_eq!(stored(text, json!([pose(1.5)])), expected);
+    let grown = "poses = [{x = 1.5}, # one\n    {x = 2.5}\n]\n";
+    assert_eq!(stored(expected, json!([pose(1.5), pose(2.5)])), grown);
+    let text = "poses = [{x = 1.0}, # one\n  {x = 2.0},]\n";
+    let expected = "poses = [{x = 1.0}, # one\n]\n";
+    assert_eq!(stored(text, json!([pose(1.0)])), expected);
+    let text = "poses = [ # note\n {x = 1.0} ]\n";
+    let expected = "poses = [ # note\n]\n";
+    assert_eq!(stored(text, json!([])), expected);
+    let grown = "poses = [ # note\n    { x = 1.5 },\n]\n";
+    assert_eq!(stored(expected, json!([pose(1.5)])), grown);
+    // Without a comment it stays in the line.
+    let text = "poses = [\n  {x = 1.0},\n  {x = 2.0} ]\n";
+    let expected = "poses = [\n  {x = 1.0} ]\n";
+    assert_eq!(stored(text, json!([pose(1.0)])), expected);
+}
+
+/// As many poses, in every layout.
+fn in_every_layout(length: u8) -> Vec<String> {
+    let mut texts = Vec::new();
+    for head in ["", "\n  ", " # head\n  "] {
+        for between in [
+            ", ",
+            ", # behind\n  ",
+            " # inside\n  , ",
+            ",\n  # before\n  ",
+        ] {
+            let items: Vec<String> = (1..=length).map(|x| format!("{{x = {x}.0}}")).collect();
+            let items = items.join(between);
+            for comma in ["", ","] {
+                let comma = if length == 0 { "" } else { comma };
+                for end in [" ", "\n", " # end\n"] {
+                    texts.push(format!("poses = [{head}{items}{comma}{end}]\n"));
+                }
+            }
+        }
+    }
+    texts.sort();
+    texts.dedup();
+    texts
+}
+
+#[test]
+fn every_layout_survives_every_length() {
+    let poses = |length: u8| -> Vec<Value> { (1..=length).map(|x| pose(f32::from(x))).collect() };
+    for old in 0..=3 {
+        for text in in_every_layout(old) {
+            for new in 0..=3 {
+                let after = stored(&text, json!(poses(new)));
+                let back = stored(&after, json!(poses(old)));
+                // What stands in front of all of them belongs to none.
+                let has_head = text.contains("# head");
+                assert_eq!(back.contains("# head"), has_head, "{text}{after}{back}");
+            }
+        }
+    }
+}
+
 const TABLES: &str = "
 # before all
 

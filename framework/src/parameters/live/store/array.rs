@@ -127,7 +127,14 @@ impl Laid {
             array.push_formatted(value);
             gap = behind;
         }
-        array.set_trailing(gap + &self.end);
+        // The line that ended the comment may have gone with its element.
+        if gap.contains('#') && !self.end.contains('\n') {
+            gap.push('\n');
+            gap.push_str(self.end.trim_start());
+        } else {
+            gap.push_str(&self.end);
+        }
+        array.set_trailing(gap);
     }
 }
 
