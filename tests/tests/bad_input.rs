@@ -186,7 +186,7 @@ fn links_that_lead_in_circles_are_no_hang() {
     robot.write("nodes/src/mod.rs", "pub mod a;\npub mod b;\n");
     robot.write(
         "nodes/src/lib.rs",
-        "pub mod a;\npub mod b;\npub mod counter;\npub struct Hardware;\n",
+        "pub mod a;\npub mod b;\npub mod counter;\npub struct Hardware;\nimpl framework::Hardware for Hardware {}\n",
     );
     let node = fs::read_to_string(robot.path("nodes/src/counter.rs")).expect("the fixture has it");
     let reads = "pub struct CycleContext { x: framework::Input<u64, \"nothing\">, ";

@@ -242,8 +242,8 @@ fn varied() -> Robot {
     robot.write("outside/src/lib.rs", "pub type Step = u64;\n");
     robot.edit(
         "nodes/Cargo.toml",
-        "edition = \"2024\"\n",
-        "edition = \"2024\"\n[dependencies]\noutside = { path = \"../outside\" }\n",
+        "[dependencies]\n",
+        "[dependencies]\noutside = { path = \"../outside\" }\n",
     );
     robot.edit(
         "nodes/src/counter.rs",

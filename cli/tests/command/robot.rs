@@ -39,11 +39,11 @@ hardware = "nodes::Hardware"
     ("parameters/default.toml", "step = 1\n"),
     (
         "nodes/Cargo.toml",
-        "[package]\nname = \"nodes\"\nversion = \"0.1.0\"\nedition = \"2024\"\n",
+        "[package]\nname = \"nodes\"\nversion = \"0.1.0\"\nedition = \"2024\"\n\n[dependencies]\nframework = \"*\"\nserde = \"*\"\n",
     ),
     (
         "nodes/src/lib.rs",
-        "pub mod clock;\npub mod counter;\n\n/// Nothing to control.\npub struct Hardware;\n",
+        "pub mod clock;\npub mod counter;\n\n/// Nothing to control.\npub struct Hardware;\n\nimpl framework::Hardware for Hardware {}\n",
     ),
     (
         "nodes/src/clock.rs",

@@ -10,5 +10,6 @@ use interfaces::{BodyInterface, EyeInterface};
 
 pub struct Hardware;
 
+impl framework::Hardware for Hardware {}
 impl BodyInterface for Hardware {}
 impl EyeInterface for Hardware {}
