@@ -59,7 +59,10 @@ impl Deed {
     /// Names what is not understood.
     pub(super) fn read(deed: &toml::Table) -> Result<Self> {
         let read: Self = deed.clone().try_into()?;
-        match read.numbers().find(|number| !(number.abs() <= GREATEST)) {
+        match read
+            .numbers()
+            .find(|number| number.is_nan() || number.abs() > GREATEST)
+        {
             Some(number) => Err(Error::new(format!(
                 "{number} is no place, speed or impulse of this world: they are at most {GREATEST} m, m/s, rad and N s"
             ))),
