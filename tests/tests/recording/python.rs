@@ -46,10 +46,11 @@ fn lines(arguments: &[&str]) -> Option<Vec<Value>> {
 /// What `recording cat` prints, and the paths of which there is nothing.
 fn printed(path: &Utf8Path, selection: &Selection) -> (Vec<Value>, Vec<String>) {
     let mut printed = Vec::new();
-    let silent = cat(&open(path).expect("it is there"), selection, &mut |found| {
+    let shown = cat(&open(path).expect("it is there"), selection, &mut |found| {
         printed.push(found.to_json());
         Ok(true)
     });
+    let silent = shown.and_then(|shown| shown.complete(None));
     (printed, silent.expect("all of it can be read"))
 }
 
