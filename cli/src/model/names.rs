@@ -32,9 +32,14 @@ const FUNCTIONS_OF_NODES: [&str; 7] = [
     "setup",
 ];
 
+/// Whether this is `f32` or another type that no `use` has to bring in, but may hide.
+pub fn is_primitive(name: &str) -> bool {
+    PRIMITIVE.contains(&name)
+}
+
 /// Whether a path that begins so begins with a type that is in scope everywhere, and not with a crate: `u8::MAX`.
 pub fn begins_with_type(first: &str) -> bool {
-    PRIMITIVE.contains(&first) || PRELUDE.contains(&first)
+    is_primitive(first) || PRELUDE.contains(&first)
 }
 
 /// `VisionTop` becomes `VISION_TOP`.

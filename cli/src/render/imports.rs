@@ -11,7 +11,7 @@ use syn::punctuated::Punctuated;
 use syn::visit_mut::{self, VisitMut};
 use syn::{Item, ItemUse, Path, Token};
 
-use crate::model::names::{PRELUDE, last};
+use crate::model::names::{PRELUDE, is_primitive, last};
 
 /// Shortens the absolute paths of these items and returns the `use` lines for them.
 ///
@@ -94,7 +94,7 @@ fn spelled(path: &str, names: &BTreeSet<String>) -> Path {
 }
 
 /// Of all paths that end in the same name one may be imported: of this crate before the
-/// framework's and std's before any other's.
+/// framework's and std's before any other's. What is called `f32` is not: the file may mean the primitive elsewhere.
 fn choose(found: BTreeSet<String>, own_names: &BTreeSet<String>) -> BTreeSet<String> {
     let mut by_name: BTreeMap<String, BTreeMap<u8, Vec<String>>> = BTreeMap::new();
     for path in found {
@@ -115,6 +115,7 @@ fn choose(found: BTreeSet<String>, own_names: &BTreeSet<String>) -> BTreeSet<Str
         if let Some((rank, mut paths)) = ranks.into_iter().next()
             && paths.len() == 1
             && !own_names.contains(&name)
+            && !is_primitive(&name)
             && (rank < 2 || !PRELUDE.contains(&name.as_str()))
         {
             chosen.extend(paths.pop());

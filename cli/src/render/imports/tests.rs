@@ -93,6 +93,20 @@ fn nothing_hides_the_prelude_or_an_item_of_the_file() {
 }
 
 #[test]
+fn nothing_hides_a_primitive() {
+    let text = imported(
+        quote!(
+            struct A(::types::f32, f32, crate::databases::u8::Frame, u8, ::nodes::str::Node);
+        ),
+        &["crate::databases::u8", "nodes::str"],
+    );
+    assert_eq!(
+        text,
+        "struct A(types::f32, f32, crate::databases::u8::Frame, u8, nodes::str::Node);\n"
+    );
+}
+
+#[test]
 fn a_crate_called_like_an_imported_module_is_named_from_the_root() {
     let text = imported(
         quote!(
