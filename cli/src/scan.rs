@@ -30,7 +30,7 @@ pub mod traits;
 pub mod types;
 mod unlisted;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 use camino::{Utf8Component, Utf8Path};
@@ -39,7 +39,7 @@ use syn::{Attribute, Expr, ExprLit, Lit, Meta};
 
 use crate::diagnostics::{Code, Diagnostic, Diagnostics, Reported};
 use crate::manifest::Manifest;
-use crate::workspace::{MANIFEST, Workspace, says_generated};
+use crate::workspace::{BrokenPackage, MANIFEST, Workspace, says_generated};
 
 pub use library::Library;
 use library::NotFound;
@@ -69,6 +69,8 @@ pub fn scan<'workspace>(
     let library = Library::new(workspace, &manifest.robot.generated);
     let file = Utf8Path::new(MANIFEST);
     let (mut nodes, mut unread) = (BTreeMap::new(), Diagnostics::new());
+    let mut private = BTreeSet::new();
+    let is_broken = broken_packages(workspace, manifest).next().is_some();
     for entry in manifest.cyclers.iter().flat_map(|cycler| &cycler.nodes) {
         let path = entry.path.as_str();
         if nodes.contains_key(path) {
@@ -77,9 +79,18 @@ pub fn scan<'workspace>(
         let node = match library.find_module(path) {
             Ok(module) => node::scan(&library, path, module, diagnostics),
             Err(error) => {
-                let found = match error {
-                    NotFound::Told => &mut unread,
-                    _ => &mut *diagnostics,
+                let is_told = match &error {
+                    NotFound::Told => true,
+                    // It may be the crate of a Cargo.toml that says nothing.
+                    NotFound::Library { .. } => is_broken,
+                    NotFound::Private { parent, name, .. } => {
+                        !private.insert((parent.path.clone(), name.clone()))
+                    }
+                    NotFound::Item { .. } | NotFound::Module { .. } => false,
+                };
+                let found = match is_told {
+                    true => &mut unread,
+                    false => &mut *diagnostics,
                 };
                 found.add(error.describe(path, file, &entry.range));
                 None
@@ -91,7 +102,7 @@ pub fn scan<'workspace>(
     }
     report_broken_packages(workspace, manifest, diagnostics);
     library.report_problems(diagnostics);
-    // What is wrong with a file is told once, in the file, and not by each of its nodes.
+    // What is wrong with a file is told once, where it is wrong, and not by each of its nodes.
     if !diagnostics.has_errors() {
         diagnostics.extend(unread);
     }
@@ -124,12 +135,18 @@ fn report_broken_packages(
     manifest: &Manifest,
     diagnostics: &mut Diagnostics,
 ) {
-    for broken in &workspace.members().broken {
-        if !is_generated(workspace, manifest, &broken.file) {
-            let error = Diagnostic::new(Code::Syntax, broken.message.clone());
-            diagnostics.add(error.at(&broken.file, broken.range.clone(), ""));
-        }
+    for broken in broken_packages(workspace, manifest) {
+        let error = Diagnostic::new(Code::Syntax, broken.message.clone());
+        diagnostics.add(error.at(&broken.file, broken.range.clone(), ""));
     }
+}
+
+fn broken_packages<'w>(
+    workspace: &'w Workspace,
+    manifest: &Manifest,
+) -> impl Iterator<Item = &'w BrokenPackage> {
+    let all = workspace.members().broken.iter();
+    all.filter(|broken| !is_generated(workspace, manifest, &broken.file))
 }
 
 /// Whether this is the Cargo.toml of the robot's crate, of a partial robot's or of a neighbour's in the same workspace,

@@ -54,7 +54,13 @@ pub(super) enum NotFound {
         name: String,
         range: Range<usize>,
     },
-    /// The declaration is there, the file is not, or it cannot be parsed: that is told as a problem.
+    /// What stands there is no module.
+    Item {
+        parent: Rc<Module>,
+        name: String,
+    },
+    /// The declaration is there, the file is not, or it cannot be parsed, or a Cargo.toml cannot be read, which may be
+    /// that of the node's crate: that is told as a problem.
     Told,
 }
 
@@ -136,19 +142,21 @@ impl<'workspace> Library<'workspace> {
         };
         if !entry.is_public()
             && let Entry::Item { index, .. } = entry
+            && let Item::Mod(item) = parent.item(*index)
         {
-            let declaration = match parent.item(*index) {
-                Item::Mod(item) => range(item.ident.span()),
-                _ => 0..0,
-            };
-            let name = name.to_owned();
             return Err(NotFound::Private {
                 parent: parent.clone(),
-                name,
-                range: declaration,
+                name: name.to_owned(),
+                range: range(item.ident.span()),
             });
         }
-        self.module_in(parent, name).ok_or(NotFound::Told)
+        match self.item_in(parent, name) {
+            Some(_) => Err(NotFound::Item {
+                parent: parent.clone(),
+                name: name.to_owned(),
+            }),
+            None => self.module_in(parent, name).ok_or(NotFound::Told),
+        }
     }
 
     /// The root module of a member.
@@ -370,6 +378,19 @@ impl NotFound {
             )
             .at(file, place.clone(), "a node in it")
             .help(format!("write `pub mod {name};`")),
+            Self::Item { parent, name } => {
+                let parent_path = &parent.path;
+                let help = match parent_path.contains("::") {
+                    true => format!("write `{parent_path}`: a node is named by its module"),
+                    false => format!(
+                        "a node is named by its module; `{parent_path}` declares {}",
+                        listed(parent.module_names())
+                    ),
+                };
+                unknown(format!("`{parent_path}::{name}` is no module"))
+                    .at(file, place.clone(), "")
+                    .help(help)
+            }
             Self::Told => unknown(format!("the file of node `{path}` cannot be read")).at(
                 file,
                 place.clone(),

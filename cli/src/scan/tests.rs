@@ -151,6 +151,34 @@ fn a_private_module_cannot_be_a_node() {
 }
 
 #[test]
+fn a_private_module_is_told_once_for_all_of_its_nodes() {
+    let fixture = Fixture::control(&["nodes::m::a", "nodes::m::b"])
+        .file("crates/nodes/src/lib.rs", "mod m;")
+        .file("crates/nodes/src/m.rs", "pub mod a;\npub mod b;");
+    fixture.expect("not-public", &["module `nodes::m` is private"]);
+}
+
+#[test]
+fn a_node_that_is_named_by_its_type_is_told_its_module() {
+    for text in ["pub struct Node;", "struct Node;"] {
+        let fixture = Fixture::control(&["nodes::a::Node"])
+            .file("crates/nodes/src/lib.rs", "pub mod a;")
+            .file("crates/nodes/src/a.rs", text);
+        fixture.expect(
+            "unknown-node",
+            &[
+                "`nodes::a::Node` is no module",
+                "help: write `nodes::a`: a node is named by its module",
+            ],
+        );
+    }
+    let at_the_root = Fixture::control(&["Node"])
+        .node("a", acting())
+        .file("crates/nodes/src/lib.rs", "pub mod a;\npub struct Node;");
+    at_the_root.expect("unknown-node", &["by its module; `nodes` declares `a`"]);
+}
+
+#[test]
 fn a_node_file_that_is_no_rust_is_shown() {
     let fixture = Fixture::control(&["a"])
         .node("a", acting())
@@ -182,6 +210,30 @@ fn a_broken_package_elsewhere_is_an_error() {
         .node("a", acting())
         .file("crates/types/Cargo.toml", "x = = 1");
     fixture.expect("syntax", &["crates/types/Cargo.toml:1:"]);
+}
+
+#[test]
+fn a_broken_package_of_nodes_is_told_once() {
+    let nodes = || {
+        Fixture::control(&["a", "b"])
+            .node("a", acting())
+            .node("b", acting())
+    };
+    let broken = nodes().file("crates/nodes/Cargo.toml", "x = = 1");
+    broken.expect("syntax", &["crates/nodes/Cargo.toml:1:"]);
+    let nameless = nodes().file("crates/nodes/Cargo.toml", "[package]\nversion = \"1.0.0\"");
+    nameless.expect(
+        "syntax",
+        &["`[package]` needs a `name`", "crates/nodes/Cargo.toml:1:"],
+    );
+    // What the generated crate says hides nobody.
+    let elsewhere = Fixture::control(&["node::a"])
+        .node("a", acting())
+        .file("generated/Cargo.toml", "x = = 1");
+    elsewhere.expect(
+        "unknown-node",
+        &["no crate of the workspace is called `node`"],
+    );
 }
 
 #[test]

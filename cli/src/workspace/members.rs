@@ -146,6 +146,13 @@ impl Members {
         let Some(package) = self.parse(workspace, &folder.join("Cargo.toml")) else {
             return Vec::new();
         };
+        if let Some(message) = nameless(&package) {
+            self.broken.push(BrokenPackage {
+                file: folder.join("Cargo.toml"),
+                range: 0..0,
+                message: message.to_owned(),
+            });
+        }
         let dependencies = read_dependencies(&package);
         let needed = dependencies.iter().filter_map(|(name, entry)| {
             let folder = match entry.workspace {
@@ -186,6 +193,15 @@ impl Member {
             of_cargo: of_cargo.to_owned(),
             folder,
         })
+    }
+}
+
+/// Why cargo refuses the Cargo.toml of a package that has no name.
+fn nameless(package: &toml::Table) -> Option<&'static str> {
+    match package.get("package").map(|package| package.get("name")) {
+        None => Some("a package needs a table `[package]`"),
+        Some(Some(toml::Value::String(_))) => None,
+        Some(_) => Some("`[package]` needs a `name`"),
     }
 }
 
