@@ -146,8 +146,12 @@ fn report_strangers(
         .iter()
         .filter(|one| one.instance.is_some())
         .collect();
-    for stranger in declarations.iter().filter(|one| one.instance.is_none()) {
-        let beside = expanded.iter().find(|one| {
+    for stranger in declarations {
+        // Two cyclers may name each other's instances.
+        let mut others = expanded
+            .iter()
+            .filter(|one| one.instance != stranger.instance);
+        let beside = others.clone().find(|one| {
             let (place, _) = one.instance.unwrap_or_default();
             stranger.segments.len() > place
                 && one.segments[..=place]
@@ -158,7 +162,7 @@ fn report_strangers(
         let Some(beside) = beside else {
             continue;
         };
-        let known = expanded.iter().any(|one| {
+        let known = others.any(|one| {
             stranger.segments.len() >= one.segments.len()
                 && one
                     .segments

@@ -193,14 +193,22 @@ pub(super) fn additional_outputs(
 
 /// Whether one path leads through the other, for one instance at least.
 fn overlaps<U>(cycler: &SceneCycler<'_>, a: &Declaration<'_, U>, b: &Declaration<'_, U>) -> bool {
-    let stands_for = |instance: &Segment, name: &Segment| {
-        let mut instances = cycler.declared.instances.iter();
-        instance.instance && instances.any(|one| schema::snake_case(one.name.as_str()) == name.name)
-    };
-    a.segments
-        .iter()
-        .zip(&b.segments)
-        .all(|(a, b)| a.name == b.name || stands_for(a, b) || stands_for(b, a))
+    let names = cycler.declared.instances.iter();
+    let mut names = names.map(|one| schema::snake_case(one.name.as_str()));
+    let pairs = a.segments.iter().zip(&b.segments);
+    // What is called like the field that stands for the instance is that field.
+    pairs.clone().all(|(a, b)| a.name == b.name)
+        || names.any(|name| pairs.clone().all(|(a, b)| a.named(&name) == b.named(&name)))
+}
+
+impl Segment {
+    /// Its name in the instance that is called so.
+    fn named<'n>(&'n self, instance: &'n str) -> &'n str {
+        match self.instance {
+            true => instance,
+            false => &self.name,
+        }
+    }
 }
 
 fn duplicate(

@@ -96,7 +96,13 @@ fn nothing_hides_the_prelude_or_an_item_of_the_file() {
 fn nothing_hides_a_primitive() {
     let text = imported(
         quote!(
-            struct A(::types::f32, f32, crate::databases::u8::Frame, u8, ::nodes::str::Node);
+            struct A(
+                ::types::f32,
+                f32,
+                crate::databases::u8::Frame,
+                u8,
+                ::nodes::str::Node,
+            );
         ),
         &["crate::databases::u8", "nodes::str"],
     );

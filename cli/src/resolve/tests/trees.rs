@@ -182,6 +182,38 @@ fn nobody_adds_a_parameter_to_one_instance_alone() {
 }
 
 #[test]
+fn nobody_adds_all_instances_of_another_cycler_to_one_instance_alone() {
+    let arms = cycler(
+        "Arms",
+        "real-time",
+        "instances = [\"Left\", \"Right\"]",
+        &[],
+        &["a"],
+    );
+    let control = cycler("Control", "real-time", "", &[], &["b"]);
+    let read = |path: &str| format!("x: Parameter<u8, {path:?}>");
+    let fixture = |a: &str, b: &str| {
+        let fixture = Fixture::new(&format!("{arms}{control}"));
+        with_field(with_field(fixture, "a", &read(a)), "b", &read(b))
+    };
+    fixture("$cycler_instance.a", "arms_left.$cycler_instance").expect(
+        "parameter-conflict",
+        &[
+            "`arms_left` holds what `$cycler_instance` declares in cycler `Arms`",
+            "b.rs:15",
+            "a.rs:15",
+        ],
+    );
+    fixture("control.$cycler_instance", "$cycler_instance.b").expect(
+        "parameter-conflict",
+        &["`control` holds what `$cycler_instance` declares in cycler `Control`"],
+    );
+    // Nothing is wrong but that no file gives the values.
+    fixture("arms.$cycler_instance", "control.$cycler_instance")
+        .expect("missing-parameter-file", &[]);
+}
+
+#[test]
 fn states_are_shared_by_path() {
     let fixture = two(
         "x: CyclerState<Ball, \"ball\">,\ny: CyclerState<u8, \"count.a\">",
@@ -268,6 +300,28 @@ fn additional_outputs_are_unique() {
             fixture.expect("duplicate-output", &[message]);
         }
     }
+}
+
+#[test]
+fn additional_outputs_of_no_instance_are_one() {
+    let arms = cycler(
+        "Arms",
+        "real-time",
+        "instances = [\"Left\", \"Right\"]",
+        &[],
+        &["a", "b"],
+    );
+    let write = |path: &str| format!("x: AdditionalOutput<u8, {path:?}>");
+    let fixture = |path: &str| {
+        let fixture = with_field(
+            Fixture::new(&arms),
+            "a",
+            &write("arms_left.$cycler_instance"),
+        );
+        with_field(fixture, "b", &write(path))
+    };
+    fixture("$cycler_instance.arms_right").robot();
+    fixture("$cycler_instance.arms_left").expect("duplicate-output", &["in one of its instances"]);
 }
 
 #[test]
