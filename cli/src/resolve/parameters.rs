@@ -114,6 +114,7 @@ fn expand<'a>(
             node: node.source.path.clone(),
         },
         writes: false,
+        drawn: false,
         instance: None,
         source: node.source,
         range: range(declared.span),

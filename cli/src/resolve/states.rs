@@ -11,7 +11,7 @@ use super::tree::{Declaration, Rules, merge};
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::scan::{NodeSource, range};
 
-/// States of a cycler, and how many paths could not be compared: all, and those whose types are known.
+/// States of a cycler, and how many paths could not be compared: all, and those that no edge tells.
 pub(super) fn states(
     scene: &Scene<'_>,
     cycler: &SceneCycler<'_>,
@@ -36,7 +36,10 @@ pub(super) fn states(
                 CycleField::CyclerState(state) => Some((state, range(field.span))),
                 _ => None,
             });
-        for context in [creation.collect::<Vec<_>>(), cycle.collect()] {
+        for (context, drawn) in [
+            (creation.collect::<Vec<_>>(), false),
+            (cycle.collect(), true),
+        ] {
             report_overlaps(source, &context, diagnostics);
             declarations.extend(context.iter().map(|(state, range)| Declaration {
                 segments: Access::of(&state.path).segments,
@@ -46,6 +49,7 @@ pub(super) fn states(
                     shared: state.shared,
                 },
                 writes: !state.shared,
+                drawn,
                 instance: None,
                 source,
                 range: range.clone(),
@@ -171,6 +175,7 @@ pub(super) fn additional_outputs(
                     node: node.source.path.clone(),
                 },
                 writes: false,
+                drawn: false,
                 instance: None,
                 source: node.source,
                 range: range(field.span),

@@ -20,6 +20,8 @@ pub(super) struct Declaration<'a, U> {
     pub(super) user: U,
     /// Whether its node changes the value in place.
     pub(super) writes: bool,
+    /// Whether the graph draws an edge from who writes it to who reads it.
+    pub(super) drawn: bool,
     /// Where `$cycler_instance` stood, and the cycler whose instance stands there now.
     pub(super) instance: Option<(usize, usize)>,
     pub(super) source: &'a NodeSource,
@@ -39,7 +41,7 @@ pub(super) struct Rules {
 pub(super) struct Merged<U> {
     pub(super) tree: Tree<U>,
     pub(super) unchecked: usize,
-    /// Those of them whose own types are known.
+    /// Those of them that no edge of the graph tells.
     pub(super) hidden: usize,
 }
 
@@ -85,8 +87,7 @@ pub(super) fn merge<U: Clone + Ord>(
             Some((leaf, users)) => {
                 if !agree(library, leaf, &declaration, rules, diagnostics) {
                     unchecked += 1;
-                    let is_known = leaf.data.is_known() && declaration.data.is_known();
-                    hidden += usize::from(is_known);
+                    hidden += usize::from(!is_told_by_edge(leaf, &declaration));
                 }
                 users.push(declaration.user);
             }
@@ -108,6 +109,13 @@ pub(super) fn merge<U: Clone + Ord>(
         unchecked,
         hidden,
     }
+}
+
+/// Whether the graph has an edge between the two that says that their types were not compared.
+fn is_told_by_edge<U>(one: &Declaration<'_, U>, other: &Declaration<'_, U>) -> bool {
+    let is_known = one.data.is_known() && other.data.is_known();
+    let is_drawn = one.drawn && other.drawn && one.writes != other.writes;
+    is_drawn && !is_known && one.source.path != other.source.path
 }
 
 /// Compares a declaration with the one at or above its path; `false`: left to rustc.

@@ -259,6 +259,21 @@ fn clashing_states_show_both_places() {
 }
 
 #[test]
+fn states_that_only_rustc_can_compare_are_counted() {
+    let fixture = |a: &str, b: &str| {
+        let fixture = two(a, b);
+        let types = fixture.text("crates/types/src/lib.rs");
+        let fixture = fixture.file("crates/types/src/lib.rs", &format!("{types}\nmake!(Made);"));
+        let robot = fixture.robot();
+        (robot.left_to_rustc, robot.besides_edges)
+    };
+    let write = "x: CyclerState<types::Made, \"a\">";
+    assert_eq!(fixture(write, "x: CyclerState<u8, \"a\">"), (1, 1));
+    // The graph has an edge for it.
+    assert_eq!(fixture(write, "x: CyclerState<&u8, \"a\">"), (1, 0));
+}
+
+#[test]
 fn additional_outputs_are_unique() {
     let robot = two(
         "x: AdditionalOutput<u8, \"a.b\">",
