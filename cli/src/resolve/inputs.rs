@@ -5,7 +5,7 @@ use syn::Type;
 
 use super::paths::{self, Agreement};
 use super::robot::{Access, DataType, InstanceId};
-use super::scene::{Producer, Scene, SceneNode};
+use super::scene::{Producer, Scene, SceneNode, written_within};
 use crate::diagnostics::{Code, Diagnostic, Diagnostics, listed, nearest, suggestion};
 use crate::scan::range;
 
@@ -197,7 +197,8 @@ impl Inputs<'_, '_> {
                 Code::TypeMismatch,
                 format!("`{path}` is `{expected}`, but is read as `{written}`"),
                 Some(format!(
-                    "write `{expected}` here, or change the type of the output"
+                    "write `{}` here, or change the type of the output",
+                    written_within(self.node.source, &expected)
                 )),
             ),
             // Not reached: both are no disagreement.

@@ -254,3 +254,19 @@ pub(super) fn report_unnameable(
         diagnostics.add(error);
     }
 }
+
+/// A type as the crate of a node writes it: its own modules begin with `crate`.
+pub(super) fn written_within(source: &NodeSource, text: &str) -> String {
+    let own = format!("{}::", source.module.library());
+    let mut written = String::new();
+    for (index, part) in text.split(&own).enumerate() {
+        if index > 0 {
+            // `other_nodes::` and `types::nodes::` end alike and are others.
+            let before = written.chars().next_back();
+            let is_whole = before.is_none_or(|one| !(one.is_alphanumeric() || "_:#".contains(one)));
+            written.push_str(if is_whole { "crate::" } else { &own });
+        }
+        written.push_str(part);
+    }
+    written
+}

@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use super::paths::{self, Agreement};
 use super::robot::{Branch, Content, DataType, Segment, Tree};
+use super::scene::written_within;
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::scan::compare::{Comparison, compare};
 use crate::scan::types::Resolved;
@@ -146,13 +147,21 @@ fn agree<U>(
             None => return true,
         },
         Agreement::Unknown => return false,
-        Agreement::Type { expected } => (
-            rules.conflict,
-            format!("{what} `{}` is declared with two types", declaration.path()),
-            Some(format!(
-                "write `{expected}` at both places, or rename one of the two"
-            )),
-        ),
+        Agreement::Type { expected } => {
+            let is_of_one_crate =
+                leaf.source.module.library() == declaration.source.module.library();
+            let expected = match is_of_one_crate {
+                true => written_within(leaf.source, &expected),
+                false => expected,
+            };
+            (
+                rules.conflict,
+                format!("{what} `{}` is declared with two types", declaration.path()),
+                Some(format!(
+                    "write `{expected}` at both places, or rename one of the two"
+                )),
+            )
+        }
         Agreement::Option { message, help } => (Code::OptionMismatch, message, Some(help)),
         Agreement::Field {
             message,

@@ -203,6 +203,25 @@ fn a_mismatch_shows_both_places() {
 }
 
 #[test]
+fn a_type_of_the_own_crate_is_told_as_that_crate_writes_it() {
+    let writer = Node {
+        head: "pub struct Own;\npub struct Of<T> { t: T }",
+        outputs: "x: MainOutput<Of<(Own, types::Ball)>>,",
+        ..writes("")
+    };
+    let fixture = Fixture::control(&["a", "b"]).node("a", writer);
+    let text = with_field(fixture, "b", "y: Input<u8, \"x\">")
+        .answer()
+        .text;
+    for part in [
+        "`x` is `nodes::a::Of<(nodes::a::Own, types::Ball)>`, but is read as `u8`",
+        "write `crate::a::Of<(crate::a::Own, types::Ball)>` here",
+    ] {
+        assert!(text.contains(part), "{text}");
+    }
+}
+
+#[test]
 fn what_cannot_be_seen_is_counted_and_left_to_rustc() {
     let fixture =
         Fixture::control(&["a", "b"]).node("a", writes("x: MainOutput<nalgebra::Vector3<f32>>,"));
