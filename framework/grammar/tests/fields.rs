@@ -336,6 +336,19 @@ fn a_reference_is_no_data_type() {
 }
 
 #[test]
+fn what_owns_the_value_of_a_reference_is_told() {
+    for (field, expected) in [
+        ("MainOutput<&'static str>", "write `String`"),
+        ("Parameter<&[u8], \"x\">", "write `Vec<u8>`"),
+        ("Parameter<&u8, \"x\">", "write `u8` without `&`"),
+    ] {
+        let read = Read::field(ContextKind::Cycle, &format!("field: {field}"));
+        let (_, _, _, help) = read.mistake();
+        assert_eq!(help, expected, "{field}");
+    }
+}
+
+#[test]
 fn question_marks_and_options_agree() {
     for field in [
         "Input<Option<f32>, \"x\">",

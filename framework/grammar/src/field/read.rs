@@ -136,7 +136,11 @@ impl Reader {
             "`{}` takes the type of the value, not of a reference to it",
             self.kind.name()
         );
-        let help = format!("write `{}` without `&`", written(owned));
+        let help = match owned {
+            Type::Path(path) if path.path.is_ident("str") => "write `String`".to_owned(),
+            Type::Slice(slice) => format!("write `Vec<{}>`", written(&slice.elem)),
+            _ => format!("write `{}` without `&`", written(owned)),
+        };
         mistakes.push(Mistake::new(Rule::InvalidField, data.span(), message).help(help));
         owned.clone()
     }
