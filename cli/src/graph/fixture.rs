@@ -141,80 +141,6 @@ fn control() -> Cycler {
         reading: Some(true),
         methods: None,
     }];
-
-    let mut head = node("control::head", "Head", false);
-    head.cycle = vec![
-        field("ball", own("ball", "Option<types::Ball>", 2)),
-        field(
-            "last_command",
-            CycleBinding::Previous {
-                access: access("command"),
-                data: data("types::Command"),
-                producer: 1,
-                checked: true,
-            },
-        ),
-        field("calibration", state("calibration", true)),
-        field(
-            "walk",
-            CycleBinding::Procedure {
-                name: "walk".to_owned(),
-                request: data("types::Step"),
-                response: data("bool"),
-            },
-        ),
-    ];
-    head.outputs = vec![output_field("command", "types::Command")];
-
-    let mut filter = node("control::ball_filter", "BallFilter", false);
-    filter.cycle = vec![
-        field(
-            "sensors",
-            CycleBinding::Historic {
-                access: access("sensors"),
-                data: data("types::Sensors"),
-                producer: 0,
-                checked: true,
-            },
-        ),
-        field(
-            "balls",
-            CycleBinding::Perception {
-                instances: vec![TOP, BOTTOM],
-                interleaved: true,
-                access: access("balls"),
-                data: data("Vec<types::Ball>"),
-                producer: 1,
-                checked: true,
-            },
-        ),
-        field("calibration", state("calibration", false)),
-        field("cycle_time", CycleBinding::CycleTime),
-    ];
-    filter.outputs = vec![
-        output_field("ball", "Option<types::Ball>"),
-        output_field("matrix", "Option<types::CameraMatrix>"),
-    ];
-
-    let mut sender = node("control::command_sender", "CommandSender", false);
-    sender.cycle = vec![
-        field("command", own("command", "types::Command", 1)),
-        field(
-            "image",
-            CycleBinding::Latest {
-                instance: TOP,
-                access: access("image"),
-                data: data("types::Image"),
-                producer: 0,
-                checked: false,
-            },
-        ),
-    ];
-    sender.cycle_bounds = vec![Interface {
-        path: "hardware::ActuatorInterface".to_owned(),
-        reading: Some(false),
-        methods: None,
-    }];
     Cycler {
         states: Tree {
             branches: vec![Branch {
@@ -245,9 +171,92 @@ fn control() -> Cycler {
             "Control",
             CyclerKind::RealTime,
             &["Control"],
-            vec![receiver, head, filter, sender],
+            vec![receiver, head(), filter(), sender()],
         )
     }
+}
+
+fn head() -> Node {
+    let mut head = node("control::head", "Head", false);
+    head.cycle = vec![
+        field("ball", own("ball", "Option<types::Ball>", 2)),
+        field(
+            "last_command",
+            CycleBinding::Previous {
+                access: access("command"),
+                data: data("types::Command"),
+                producer: 1,
+                checked: true,
+            },
+        ),
+        field("calibration", state("calibration", true)),
+        field(
+            "walk",
+            CycleBinding::Procedure {
+                name: "walk".to_owned(),
+                request: data("types::Step"),
+                response: data("bool"),
+            },
+        ),
+    ];
+    head.outputs = vec![output_field("command", "types::Command")];
+    head
+}
+
+fn filter() -> Node {
+    let mut filter = node("control::ball_filter", "BallFilter", false);
+    filter.cycle = vec![
+        field(
+            "sensors",
+            CycleBinding::Historic {
+                access: access("sensors"),
+                data: data("types::Sensors"),
+                producer: 0,
+                checked: true,
+            },
+        ),
+        field(
+            "balls",
+            CycleBinding::Perception {
+                instances: vec![TOP, BOTTOM],
+                interleaved: true,
+                access: access("balls"),
+                data: data("Vec<types::Ball>"),
+                producer: 1,
+                checked: true,
+            },
+        ),
+        field("calibration", state("calibration", false)),
+        field("cycle_time", CycleBinding::CycleTime),
+    ];
+    filter.outputs = vec![
+        output_field("ball", "Option<types::Ball>"),
+        output_field("matrix", "Option<types::CameraMatrix>"),
+    ];
+    filter
+}
+
+fn sender() -> Node {
+    let mut sender = node("control::command_sender", "CommandSender", false);
+    sender.cycle = vec![
+        field("command", own("command", "types::Command", 1)),
+        field(
+            "image",
+            CycleBinding::Latest {
+                instance: TOP,
+                access: access("image"),
+                data: data("types::Image"),
+                producer: 0,
+                checked: false,
+            },
+        ),
+    ];
+    sender.cycle_bounds = vec![Interface {
+        path: "hardware::ActuatorInterface".to_owned(),
+        reading: Some(false),
+        methods: None,
+    }];
+    sender
 }
 
 fn parameter_tree() -> Tree<Reader> {
