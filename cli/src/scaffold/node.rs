@@ -70,6 +70,28 @@ pub fn add_node(
     Ok(changes)
 }
 
+/// With what keeps one of the names from being that of a module.
+fn misspelled(path: &str, error: &schema::SpellingError) -> Refusal {
+    let refusal = Refusal::wrong_usage(error.to_string());
+    let plain = |name: &&str| {
+        name.chars()
+            .all(|one| one.is_ascii_alphanumeric() || one == '_')
+    };
+    let mut names = path.split("::").map(|name| name.trim_start_matches("r#"));
+    let wrong = names.find(|name| !name.is_empty() && !schema::is_identifier(name));
+    match wrong {
+        Some(name) if plain(&name) && name.starts_with(|one: char| one.is_ascii_alphabetic()) => {
+            refusal.help(format!(
+                "`{name}` is a keyword of Rust: choose another name"
+            ))
+        }
+        Some(name) => refusal.help(format!(
+            "write `{name}` with the letters a to z, digits and `_`, beginning with a letter"
+        )),
+        None => refusal,
+    }
+}
+
 /// Everything of a new node but its place in the manifest; `taken` are the outputs that its cycler has.
 pub(super) fn node_files(
     workspace: &Workspace,
@@ -81,7 +103,7 @@ pub(super) fn node_files(
     let path: NodePath = node
         .path
         .parse()
-        .map_err(|error: schema::SpellingError| Refusal::wrong_usage(error.to_string()))?;
+        .map_err(|error: schema::SpellingError| misspelled(node.path, &error))?;
     let mut segments = path.segments();
     let library = segments.next().unwrap_or_default();
     let names: Vec<&str> = segments.collect();
@@ -179,6 +201,23 @@ mod tests {
                 }
                 TokenTree::Punct(_) | TokenTree::Literal(_) => {}
             }
+        }
+    }
+
+    #[test]
+    fn what_is_no_name_of_a_module_is_told_with_what_to_do() {
+        for (path, expected) in [
+            (
+                "nodes::type",
+                "`type` is a keyword of Rust: choose another name",
+            ),
+            ("nodes::r#match", "`match` is a keyword of Rust"),
+            ("nodes::größe", "write `größe` with the letters a to z"),
+            ("nodes::2d", "beginning with a letter"),
+        ] {
+            let error = path.parse::<NodePath>().expect_err("it is none");
+            let help = misspelled(path, &error).help.unwrap_or_default();
+            assert!(help.contains(expected), "{path}: {help}");
         }
     }
 
