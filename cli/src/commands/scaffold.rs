@@ -74,7 +74,16 @@ pub(super) fn remove_node(
     if pipeline::understand(&after, &mut found).is_ok() {
         changes.extend(scaffold::without_unread(&after, &found)?);
     }
+    let after = session.workspace.after(&changes);
     let outcome = apply(session, changes, remove.format)?;
+    if remove.delete {
+        let module = &remove.node;
+        for (file, line) in scaffold::still_named(&after, &robot.generated, module) {
+            session.terminal.note(&format!(
+                "{file}:{line}: this names `{module}`, which is gone; change it\n"
+            ));
+        }
+    }
     let all = robot.cyclers.iter().flat_map(|cycler| &cycler.nodes);
     let entries: Vec<_> = all.filter(|node| node.path == remove.node).collect();
     if let [node] = entries[..]
