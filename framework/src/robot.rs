@@ -114,6 +114,24 @@ pub(crate) fn read_output(instance: &dyn Instance, path: &str) -> Result<serde_j
     }
 }
 
+/// Whether a path that is no value now can be one in another cycle: a main output that there is not never will.
+pub(crate) fn may_have(instance: &dyn Instance, path: &str) -> bool {
+    let mut parts = path.splitn(3, '.').skip(1);
+    let (Some(part), Some(rest)) = (parts.next(), parts.next()) else {
+        return false;
+    };
+    let mut main = instance.main_outputs().iter();
+    match part {
+        "main_outputs" => main.any(|name| {
+            let below = rest.strip_prefix(name);
+            below.is_some_and(|below| below.is_empty() || below.starts_with('.'))
+        }),
+        // Whether there is one is told by nobody while it is not computed.
+        "additional_outputs" => true,
+        _ => false,
+    }
+}
+
 fn unknown(path: &str) -> Error {
     Error::new(format!(
         "no `{path}`: expected `Instance.main_outputs.name` or `Instance.additional_outputs.name`"

@@ -118,7 +118,13 @@ impl<'a> Judge<'a> {
                     let text = format!("there is no `{}`", one.assertion.value);
                     (condition.holds_without(), text.into())
                 }
-                Err(error) => (condition.holds_without(), error.to_string().into()),
+                Err(error) => {
+                    let path = &one.assertion.value;
+                    let may_come =
+                        one.assertion.instance().is_none() || robot::may_have(instance, path);
+                    let holds = condition.holds_without() && may_come;
+                    (holds, error.to_string().into())
+                }
             };
             one.judge(now, value, holds);
         }

@@ -216,6 +216,19 @@ fn assertions_are_judged_over_outputs_and_truth() {
             Some(0.01),
             "\"`Legs` has no main output",
         ),
+        // That is no other value, it is a mistake.
+        (
+            "value = 'Legs.main_outputs.rwa'\nis_not = -1",
+            false,
+            Some(0.01),
+            "\"`Legs` has no main output",
+        ),
+        (
+            "value = 'Legs.main_output.raw'\nis_not = -1",
+            false,
+            Some(0.01),
+            "\"no `Legs.main_output.raw`",
+        ),
     ] {
         let (status, outcome) = play(&assertion(what), &[]);
         let verdict = &outcome["runs"][0]["assertions"][0];
