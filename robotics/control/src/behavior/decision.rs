@@ -7,7 +7,7 @@ use types::behavior::{Activity, Plan, Role};
 use types::fall_state::FallState;
 use types::game::{PrimaryState, SetPlay};
 use types::motion::{BodyMotion, HeadMotion, MotionCommand, Step};
-use types::obstacles::ObstacleKind;
+use types::obstacles::{Obstacle, ObstacleKind};
 use types::world_state::WorldState;
 
 use super::parameters::{BehaviorParameters, WalkParameters};
@@ -278,11 +278,10 @@ impl View<'_> {
     /// Where it goes first on its way to a place, around what stands there and never through a goal.
     fn way_point(&self, place: Point2<f32>, more: Option<Circle>) -> Point2<f32> {
         let (walk, places) = (&self.parameters.walk, &self.parameters.places);
-        let obstacles = self.world.obstacles.iter().map(|obstacle| Circle {
-            middle: obstacle.position,
-            radius: obstacle.radius + walk.clearance,
-        });
-        let circles = obstacles.chain(more);
+        let obstacles = self.world.obstacles.iter();
+        let circles = obstacles
+            .map(|obstacle| self.around(obstacle, place))
+            .chain(more);
         let Some(ground_to_field) = self.world.ground_to_field else {
             return first_way_point(place, circles, walk, |_| false);
         };
@@ -298,6 +297,23 @@ impl View<'_> {
         first_way_point(place, circles.chain(posts), walk, is_closed)
     }
 
+    /// What the middle of the robot stays out of on its way to a place because of somebody.
+    ///
+    /// Nobody is in a hurry in Ready, but whose place is beside somebody goes there.
+    fn around(&self, obstacle: &Obstacle, place: Point2<f32>) -> Circle {
+        let walk = &self.parameters.walk;
+        let circle = |clearance: f32| Circle {
+            middle: obstacle.position,
+            radius: obstacle.radius + clearance,
+        };
+        let wide = circle(walk.clearance_in_ready);
+        let has_room = (place - wide.middle).norm() >= wide.radius;
+        match self.world.primary_state == PrimaryState::Ready && has_room {
+            true => wide,
+            false => circle(walk.clearance),
+        }
+    }
+
     /// The same pose of the ground frame, or before the goal line where it lies in a goal.
     pub(super) fn out_of_goals(&self, target: &Isometry2<f32>) -> Isometry2<f32> {
         let Some(ground_to_field) = self.world.ground_to_field else {
@@ -311,7 +327,7 @@ impl View<'_> {
 
 #[cfg(test)]
 mod tests {
-    use types::obstacles::Obstacle;
+    use nalgebra::Vector2;
 
     use super::*;
     use crate::behavior::tests::Scene;
@@ -350,6 +366,40 @@ mod tests {
         });
         let way_point = scene.way_point_to(&Isometry2::translation(1.0, 3.4));
         assert!(way_point.y < 3.1, "{way_point}");
+    }
+
+    #[test]
+    fn in_ready_there_is_time_to_go_wide_around_somebody() {
+        use PrimaryState::{Playing, Ready};
+        let mut scene = Scene::at(-2.0, 0.0, 0.0);
+        let middle = Point2::new(-1.0, 0.05);
+        scene.world.obstacles = vec![Obstacle {
+            position: middle + Vector2::new(2.0, 0.0),
+            radius: 0.2,
+            ..Obstacle::default()
+        }];
+        // How far the robot stays away from his middle; `None` where it goes straight.
+        for (state, place, distance) in [
+            (Ready, [0.0, 0.0], Some(0.5..0.55)),
+            (Playing, [0.0, 0.0], Some(0.4..0.45)),
+            // The straight way leads past him at 0.44 m.
+            (Ready, [0.0, 1.1], Some(0.5..0.55)),
+            (Playing, [0.0, 1.1], None),
+            // Its place is 0.45 m behind him.
+            (Ready, [-0.55, 0.05], Some(0.4..0.45)),
+        ] {
+            scene.world.primary_state = state;
+            let place = Point2::from(place);
+            let pose = Isometry2::translation(place.x, place.y);
+            let way_point = scene.way_point_to(&pose);
+            match distance {
+                Some(distance) => {
+                    let away = (way_point - middle).norm();
+                    assert!(distance.contains(&away), "{state:?} {place}: {away}");
+                }
+                None => assert!((way_point - place).norm() < 1e-5, "{way_point}"),
+            }
+        }
     }
 
     #[test]

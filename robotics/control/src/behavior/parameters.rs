@@ -54,6 +54,9 @@ pub struct WalkParameters {
     /// How far from the edge of an obstacle the middle of the robot passes.
     #[reflect(unit = "m", range = 0.0..)]
     pub clearance: f32,
+    /// Likewise in Ready, where nobody is in a hurry.
+    #[reflect(unit = "m", range = 0.0..)]
+    pub clearance_in_ready: f32,
     /// Who has come so near to whom it would not pass nearer, and who stands in its place, stops.
     #[reflect(unit = "m", range = 0.0..)]
     pub beside_occupied: f32,
