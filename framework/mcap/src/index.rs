@@ -13,6 +13,9 @@ const END: u64 = RECORD_HEAD as u64 + 8 + 8 + 4 + MAGIC.len() as u64;
 /// No record that is read whole is larger; chunks of ours have 4 MiB.
 const LARGEST: u64 = 1 << 30;
 
+/// Bytes of a chunk before its messages, which are compressed: times, length, check sum, how, and how many bytes that is.
+const CHUNK_HEAD: u64 = 8 + 8 + 8 + 4 + (4 + 3) + 8;
+
 /// The name of the metadata that counts chunks that the ring closed over.
 pub(crate) const RING: &str = "ring";
 
@@ -154,9 +157,13 @@ fn scan_record(
         return Ok(None);
     };
     // No kind is 0: that is a hole.
-    let next = start.checked_add(length);
-    let Some(next) = next.filter(|next| *next <= end && kind != 0) else {
+    let Some(next) = start.checked_add(length).filter(|next| *next <= end) else {
         return Ok(None);
+    };
+    let kind = match is_chunk(&source.read_at(start, length.min(CHUNK_HEAD))?, length) {
+        true => opcode::CHUNK,
+        false if kind == 0 => return Ok(None),
+        false => kind,
     };
     let is_read = matches!(
         kind,
@@ -189,6 +196,15 @@ fn scan_record(
         kind => contents.add(kind, &content),
     };
     Ok(understood.map(|()| (kind, next)))
+}
+
+/// Whether the content of a record is that of a chunk, told by its first bytes: where its kind is wrong nothing else says that
+/// messages are lost, and its check sum tells whether they are.
+fn is_chunk(head: &[u8], length: u64) -> bool {
+    let mut rest = Take(head);
+    rest.bytes(16 + 8 + 4).is_some()
+        && rest.text() == Some("lz4")
+        && rest.u64() == length.checked_sub(CHUNK_HEAD)
 }
 
 /// Of the first and the last message of a chunk.

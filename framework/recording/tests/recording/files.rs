@@ -121,8 +121,11 @@ fn whatever_bit_is_wrong_the_chunks_beside_it_are_there() {
             .wrapping_mul(6_364_136_223_846_793_005)
             .wrapping_add(1);
         let place = places[(random >> 33) as usize % places.len()];
-        // Behind kind and length of the record.
-        let byte = place.offset + 9 + (random >> 20) % (place.length - 9);
+        // The kind of the record, or what is behind its length.
+        let byte = match random >> 40 & 7 {
+            0 => place.offset,
+            _ => place.offset + 9 + (random >> 20) % (place.length - 9),
+        };
         let mut damaged = bytes.clone();
         damaged[byte as usize] ^= 1 << (random >> 60 & 7);
         let others: Vec<_> = (sound(&whole).into_iter())
@@ -158,4 +161,24 @@ fn where_the_length_of_a_damaged_chunk_is_wrong_the_file_breaks_off_there() {
     assert_eq!(read.chunks.len(), 3);
     let behind = place.offset;
     assert_eq!((read.way, read.damaged), (Way::Cut { behind }, Vec::new()));
+}
+
+#[test]
+fn a_chunk_of_another_kind_is_a_chunk_nevertheless() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("run.mcap");
+    record(&path, 1500, 20, settings());
+    let bytes = std::fs::read(&path).expect("it was written");
+    let whole = Recording::read(&bytes).expect("it can be read");
+    let end = whole.chunks[6].offset as usize;
+    for kind in 0..=u8::MAX {
+        let mut cut = bytes[..end].to_vec();
+        cut[whole.chunks[3].offset as usize] = kind;
+        std::fs::write(&path, &cut).expect("there is room");
+        let file = RecordingFile::open(&path).expect("its beginning is there");
+        let read = Recording::read(&cut).expect("its beginning is there");
+        assert_same(&file, &read);
+        assert_eq!(sound(&read), sound(&whole)[..6], "kind {kind}");
+        assert_eq!((read.gone, read.damaged), (0, Vec::new()), "kind {kind}");
+    }
 }
