@@ -9,6 +9,7 @@ use futures_util::SinkExt;
 use tokio::sync::Notify;
 use tokio::time::{Instant, MissedTickBehavior, interval, timeout};
 
+use crate::guest::Guest;
 use crate::hub::ClientId;
 use crate::server::Shared;
 
@@ -19,8 +20,9 @@ const PINGS: u32 = 3;
 const AT_ONCE: usize = 64 << 10;
 
 /// Serves one client until it leaves, says what it may not, or is silent for too long.
-pub(crate) async fn talk(mut socket: WebSocket, shared: Arc<Shared>) {
+pub(crate) async fn talk(mut socket: WebSocket, guest: Guest, shared: Arc<Shared>) {
     let (client, news) = shared.hub().connect();
+    guest.may_change(shared.hub().may_change(client));
     // Whatever ends this, also the end of the server, releases what the client holds.
     let _leaving = Leaving {
         client,
@@ -40,11 +42,13 @@ pub(crate) async fn talk(mut socket: WebSocket, shared: Arc<Shared>) {
                     Some(Ok(Message::Close(_))) | None => break,
                     Some(Ok(message)) => message,
                     Some(Err(_)) => {
-                        why = Some((close_code::PROTOCOL, "no message that this server takes"));
+                        let refusal = guest.refusal().map(|why| (close_code::POLICY, why));
+                        why = refusal
+                            .or(Some((close_code::PROTOCOL, "no message that this server takes")));
                         break;
                     }
                 };
-                if !receive(message, client, &shared) {
+                if !receive(message, client, &guest, &shared) {
                     why = Some((close_code::POLICY, "too many wrong tokens"));
                     break;
                 }
@@ -84,10 +88,15 @@ fn frame((code, reason): (CloseCode, &'static str)) -> CloseFrame {
 }
 
 /// Whether the client may go on.
-fn receive(message: Message, client: ClientId, shared: &Shared) -> bool {
+fn receive(message: Message, client: ClientId, guest: &Guest, shared: &Shared) -> bool {
+    match &message {
+        Message::Ping(bytes) | Message::Pong(bytes) => guest.is_alive(bytes.len()),
+        _ => guest.is_heard(),
+    }
     match message {
         Message::Text(text) => {
             let goes_on = shared.hub().receive(client, text.as_str());
+            guest.may_change(shared.hub().may_change(client));
             shared.work.notify_one();
             goes_on
         }

@@ -4,8 +4,7 @@ use std::io;
 use std::net::SocketAddr;
 use std::pin::Pin;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::task::{Context, Poll};
+use std::task::{Context, Poll, ready};
 use std::time::Duration;
 
 use axum::extract::connect_info::Connected;
@@ -15,6 +14,7 @@ use tokio::net::{TcpListener, TcpStream};
 use tokio::sync::{OwnedSemaphorePermit, Semaphore};
 use tokio::time::{Sleep, sleep};
 
+use crate::guest::{Guest, Room};
 use crate::limits::Limits;
 
 /// How long to wait when the system has no more sockets to give.
@@ -24,6 +24,7 @@ const PAUSE: Duration = Duration::from_millis(50);
 pub(crate) struct Doorman {
     listener: TcpListener,
     places: Arc<Semaphore>,
+    room: Arc<Room>,
     head: Duration,
 }
 
@@ -31,13 +32,9 @@ pub(crate) struct Doorman {
 pub(crate) struct Visitor {
     stream: TcpStream,
     _place: OwnedSemaphorePermit,
-    stays: Stays,
+    guest: Guest,
     deadline: Pin<Box<Sleep>>,
 }
-
-/// Whether a connection has become a WebSocket, which may stay. Clones are of the same connection.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Stays(Arc<AtomicBool>);
 
 impl Doorman {
     pub(crate) fn new(listener: TcpListener, limits: &Limits) -> Self {
@@ -46,6 +43,7 @@ impl Doorman {
             places: Arc::new(Semaphore::new(
                 limits.connections.min(Semaphore::MAX_PERMITS),
             )),
+            room: Room::new(limits),
             head: limits.head,
         }
     }
@@ -69,7 +67,7 @@ impl Listener for Doorman {
             let visitor = Visitor {
                 stream,
                 _place: place,
-                stays: Stays::default(),
+                guest: Guest::new(self.room.clone()),
                 deadline: Box::pin(sleep(self.head)),
             };
             return (visitor, address);
@@ -81,20 +79,9 @@ impl Listener for Doorman {
     }
 }
 
-impl Connected<IncomingStream<'_, Doorman>> for Stays {
+impl Connected<IncomingStream<'_, Doorman>> for Guest {
     fn connect_info(stream: IncomingStream<'_, Doorman>) -> Self {
-        stream.io().stays.clone()
-    }
-}
-
-impl Stays {
-    /// From now on the connection has no deadline.
-    pub(crate) fn stay(&self) {
-        self.0.store(true, Ordering::Relaxed);
-    }
-
-    fn is_staying(&self) -> bool {
-        self.0.load(Ordering::Relaxed)
+        stream.io().guest.clone()
     }
 }
 
@@ -104,10 +91,23 @@ impl AsyncRead for Visitor {
         context: &mut Context<'_>,
         buffer: &mut ReadBuf<'_>,
     ) -> Poll<io::Result<()>> {
-        if !self.stays.is_staying() && self.deadline.as_mut().poll(context).is_ready() {
-            return Poll::Ready(Err(io::ErrorKind::TimedOut.into()));
+        if !self.guest.is_staying() {
+            if self.deadline.as_mut().poll(context).is_ready() {
+                return Poll::Ready(Err(io::ErrorKind::TimedOut.into()));
+            }
+            // How long a head may be is known to who reads it.
+            return Pin::new(&mut self.stream).poll_read(context, buffer);
         }
-        Pin::new(&mut self.stream).poll_read(context, buffer)
+        let most = self.guest.may_come().min(buffer.remaining());
+        if most == 0 {
+            return Poll::Ready(Err(io::Error::other("too long a message")));
+        }
+        let mut part = ReadBuf::new(buffer.initialize_unfilled_to(most));
+        ready!(Pin::new(&mut self.stream).poll_read(context, &mut part))?;
+        let came = part.filled().len();
+        buffer.advance(came);
+        self.guest.came(came);
+        Poll::Ready(Ok(()))
     }
 }
 

@@ -255,6 +255,12 @@ impl Hub {
         client.is_some_and(|client| client.outbox.may_ask(&self.limits))
     }
 
+    /// Whether a client may change anything by now.
+    pub(crate) fn may_change(&self, id: ClientId) -> bool {
+        let is_trusted = |client: &Client| client.is_trusted;
+        !self.rules.is_read_only && self.clients.get(&id).is_some_and(is_trusted)
+    }
+
     pub(crate) fn answer(
         &mut self,
         id: ClientId,

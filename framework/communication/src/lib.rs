@@ -8,6 +8,7 @@
 //! |---|---|
 //! | [`server`] | the one thread, and where it listens |
 //! | `doorman`, `origin` | who may come in |
+//! | `guest` | how much of a message is held before it is whole |
 //! | `connection`, `outbox` | one client: what it says, and what waits for it |
 //! | `hub`, `requests` | all clients and the robot |
 //! | `sources`, `catalogue`, `parameters`, `timings`, `trace`, `logs` | outputs, paths, parameters, durations, log messages |
@@ -26,6 +27,7 @@ mod catalogue;
 mod closely;
 mod connection;
 mod doorman;
+mod guest;
 mod hub;
 mod jpeg;
 mod logs;

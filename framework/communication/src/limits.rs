@@ -15,6 +15,10 @@ pub struct Limits {
     pub taking: Duration,
     /// Bytes of one message of a client: an image as JSON has a few million.
     pub message_bytes: usize,
+    /// As `message_bytes`, of a client that may change nothing: it has to say little.
+    pub stranger_bytes: usize,
+    /// Bytes beyond `stranger_bytes` of messages that have not come as a whole, of all clients.
+    pub arriving_bytes: usize,
     /// Lists and objects within each other in one message.
     pub nesting: usize,
     /// Bytes of a path.
@@ -51,6 +55,8 @@ impl Default for Limits {
             silence: Duration::from_secs(60),
             taking: Duration::from_secs(20),
             message_bytes: 8 << 20,
+            stranger_bytes: 64 << 10,
+            arriving_bytes: 32 << 20,
             nesting: 64,
             path_bytes: 1024,
             subscriptions: 1024,

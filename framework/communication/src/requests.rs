@@ -161,8 +161,7 @@ impl Hub {
             let message = "this robot was started to be read only: start it without `--read-only`, and with `--token` where it listens to other machines";
             return Err(Failure::new(message.to_owned()));
         }
-        let is_trusted = self.clients.get(&client).is_some_and(|it| it.is_trusted);
-        if is_trusted {
+        if self.may_change(client) {
             Ok(())
         } else {
             let message = "this needs the robot's token: `authenticate` first";

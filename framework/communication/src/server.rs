@@ -20,7 +20,8 @@ use tokio::sync::{Notify, oneshot, watch};
 use tokio::time::{sleep, timeout};
 
 use crate::connection;
-use crate::doorman::{Doorman, Stays};
+use crate::doorman::Doorman;
+use crate::guest::Guest;
 use crate::hub::{Hub, Rules};
 use crate::limits::Limits;
 use crate::origin;
@@ -148,7 +149,7 @@ async fn run(listener: TcpListener, shared: Arc<Shared>, is_over: oneshot::Recei
         .route(protocol::SOCKET, get(socket))
         .fallback(get(file))
         .with_state(shared.clone())
-        .into_make_service_with_connect_info::<Stays>();
+        .into_make_service_with_connect_info::<Guest>();
     tokio::select! {
         _ = axum::serve(doorman, routes) => {}
         () = look(&shared) => {}
@@ -181,7 +182,7 @@ async fn look(shared: &Shared) {
 
 async fn socket(
     State(shared): State<Arc<Shared>>,
-    ConnectInfo(stays): ConnectInfo<Stays>,
+    ConnectInfo(guest): ConnectInfo<Guest>,
     headers: HeaderMap,
     upgrade: WebSocketUpgrade,
 ) -> Response {
@@ -193,8 +194,8 @@ async fn socket(
         .max_message_size(bytes)
         .max_frame_size(bytes)
         .on_upgrade(move |socket| {
-            stays.stay();
-            connection::talk(socket, shared)
+            guest.stay();
+            connection::talk(socket, guest, shared)
         })
 }
 
