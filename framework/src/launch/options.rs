@@ -190,7 +190,7 @@ pub(super) fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Com
             Arg::Long("digests") => options.digests = true,
             Arg::Long("tool") => options.tool = Some(parser.value()?.string()?),
             Arg::Long("listen") => options.listen = Some(parser.value()?.string()?),
-            Arg::Long("token") => options.token = Some(parser.value()?.string()?),
+            Arg::Long("token") => options.token = Some(token(parser.value()?.string()?)?),
             Arg::Long("read-only") => options.is_read_only = true,
             Arg::Long("peer") => options.peers.push(peer(&parser.value()?.string()?)?),
             Arg::Long("web-root") => options.web_root = Some(parser.value()?.into()),
@@ -229,6 +229,17 @@ fn format_named(name: &str) -> Result<Format> {
         _ => Err(Error::new(format!(
             "no format `{name}`: expected text or json"
         ))),
+    }
+}
+
+fn token(written: String) -> Result<String> {
+    match written.is_empty() {
+        // Mostly a variable that is not set, of somebody who wants to be safe.
+        true => Err(Error::new(
+            "--token: it is empty, and nobody has to know an empty one: say another, or leave `--token` out, and then nobody \
+             from other machines may change anything",
+        )),
+        false => Ok(written),
     }
 }
 
@@ -456,6 +467,8 @@ mod tests {
             &["--replay=old", "--verify", "--tolerance=-1"],
             &["--recording-budget", "2"],
             &["--scenario=s.toml", "--record=tape"],
+            &["--token", ""],
+            &["--token="],
         ] {
             assert!(parsed(wrong).is_err(), "{wrong:?}");
         }
