@@ -177,6 +177,12 @@ where
         Format::Text => Timing::Sampled,
     });
     let clock = Clock::wall();
+    let listening = options.listening(target);
+    if let Some(listening) = &listening {
+        // Before hardware moves, and before files of a run that would not begin.
+        let opened = listening.open();
+        opened.map_err(|error| error.context("cannot serve clients"))?;
+    }
     // The identities that choose layers come from the hardware, whose own table therefore comes first.
     let mut layers = layers(target, options)?;
     let hardware = connect::<H>(target, options, &layers.load()?, &clock, stop)?;
@@ -207,7 +213,7 @@ where
     let is_real_time = options.is_real_time || !hardware.is_simulated();
     let threads = Threads::new(&clock, hardware.as_ref(), stop).real_time(is_real_time);
     // Dropped with everything that its clients hold when the robot has ended.
-    let served = match options.listening(target) {
+    let served = match listening {
         Some(listening) => {
             let mut link = robot.link(stop, threads.rearming());
             link.procedures = world::procedures(&hardware);

@@ -20,7 +20,7 @@ use tempfile::TempDir;
 
 const TARGET: Target = Target {
     identities: &["body", "head"],
-    manifest: "[robot]\nname = \"test\"\n",
+    manifest: "[robot]\nname = \"test\"\n[[target]]\nname = \"simulated\"\n[[target]]\nname = \"real\"\n",
     dataflow: "# Who reads what\n",
     ..testing::TARGET
 };
@@ -93,6 +93,10 @@ fn workspace(text: &str) -> TempDir {
 const TEXT: &str = "gain = 1.0\n[hardware.simulated]\nport = 9559\n";
 
 fn run(directory: &TempDir, arguments: &[&str]) -> Ran {
+    run_served(directory, arguments, launch::nobody)
+}
+
+fn run_served(directory: &TempDir, arguments: &[&str], serve: launch::Serve) -> Ran {
     let mut all = vec![OsString::from("--parameters"), directory.path().into()];
     all.extend(arguments.iter().map(OsString::from));
     let (mut gain, mut seen) = (None, None);
@@ -112,7 +116,7 @@ fn run(directory: &TempDir, arguments: &[&str]) -> Ran {
             parameters: LiveParameters::new(parameters, start.parameters, start.clock),
         })
     };
-    let status = launch::run(TARGET, all, &mut output, create, launch::nobody);
+    let status = launch::run(TARGET, all, &mut output, create, serve);
     Ran {
         status,
         output: String::from_utf8(output).expect("text"),
@@ -192,24 +196,25 @@ fn identities_of_the_hardware_choose_layers_and_settings_win() {
     );
 }
 
+fn check(directory: &TempDir, location: &str) -> (u8, Vec<serde_json::Value>) {
+    let arguments = [
+        "--check-parameters",
+        "--format",
+        "json",
+        "--location",
+        location,
+    ];
+    let ran = run(directory, &arguments);
+    assert!(ran.hardware.is_none(), "nothing runs");
+    let answer: serde_json::Value = serde_json::from_str(&ran.output).expect("one object");
+    (
+        ran.status,
+        answer["mistakes"].as_array().expect("a list").clone(),
+    )
+}
+
 #[test]
 fn parameters_are_checked_for_every_robot_that_files_name() {
-    let check = |directory: &TempDir, location: &str| {
-        let arguments = [
-            "--check-parameters",
-            "--format",
-            "json",
-            "--location",
-            location,
-        ];
-        let ran = run(directory, &arguments);
-        assert!(ran.hardware.is_none(), "nothing runs");
-        let answer: serde_json::Value = serde_json::from_str(&ran.output).expect("one object");
-        (
-            ran.status,
-            answer["mistakes"].as_array().expect("a list").clone(),
-        )
-    };
     // Without the hardware's table: only the parameters are looked at.
     let directory = workspace("gain = 1.0\n");
     assert_eq!(check(&directory, ""), (0, vec![]));
@@ -306,6 +311,51 @@ fn an_unknown_key_of_the_hardware_is_named() {
     let directory = workspace("gain = 1.0\n[hardware.simulated]\nprot = 1\n");
     let ran = run(&directory, &["--for", "1ms"]);
     assert_eq!((ran.status, ran.gain), (1, None));
+}
+
+#[test]
+fn where_nobody_can_come_no_file_of_a_run_is_left() {
+    let directory = workspace(TEXT);
+    let folder = directory.path().join("run");
+    let taken = std::net::TcpListener::bind("127.0.0.1:0").expect("a free port");
+    let taken = taken.local_addr().expect("it has one").to_string();
+    for address in ["foo", &taken] {
+        let words = [
+            "--for=1ms",
+            "--record=on",
+            "--listen",
+            address,
+            "--run-folder",
+        ];
+        let folder = folder.display().to_string();
+        let words: Vec<_> = words
+            .into_iter()
+            .chain([folder.as_str(), "--", "record"])
+            .collect();
+        assert_eq!(
+            run_served(&directory, &words, listens).status,
+            1,
+            "{address}"
+        );
+    }
+    assert!(!folder.exists());
+}
+
+/// A server that is only there.
+struct Door(std::net::TcpListener);
+
+impl launch::Served for Door {
+    fn address(&self) -> std::net::SocketAddr {
+        self.0.local_addr().expect("it has one")
+    }
+}
+
+fn listens(
+    _: framework::link::Link,
+    listening: launch::Listening,
+) -> Result<Option<Box<dyn launch::Served>>> {
+    let open = listening.open()?.expect("an address was said");
+    Ok(Some(Box::new(Door(open))))
 }
 
 #[test]

@@ -1,7 +1,6 @@
 //! The server's thread: it listens, hands out the page, and lets clients talk to the robot.
 
-use std::io;
-use std::net::{Ipv4Addr, SocketAddr, TcpListener, ToSocketAddrs};
+use std::net::{Ipv4Addr, SocketAddr, TcpListener};
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::{self, JoinHandle};
@@ -60,7 +59,7 @@ pub(crate) struct Shared {
 impl Server {
     /// Listens and serves from now on.
     pub fn start(link: Link, listening: Listening, limits: Limits) -> Result<Self> {
-        let listener = listen(listening.address.as_deref())?;
+        let listener = listen(&listening)?;
         listener.set_nonblocking(true)?;
         let address = listener.local_addr()?;
         let runtime = tokio::runtime::Builder::new_current_thread()
@@ -124,20 +123,14 @@ impl Shared {
 }
 
 /// By default this machine alone can connect, and a port that is taken is replaced by a free one.
-fn listen(address: Option<&str>) -> Result<TcpListener> {
-    let Some(address) = address else {
-        return TcpListener::bind((Ipv4Addr::LOCALHOST, protocol::PORT))
-            .or_else(|_| TcpListener::bind((Ipv4Addr::LOCALHOST, 0)))
-            .map_err(Error::from);
-    };
-    let failed = |error: io::Error| {
-        Error::from(error).context(format!(
-            "--listen {address}: expected an address of this machine with a free port, as 0.0.0.0:{}, or off",
-            protocol::PORT
-        ))
-    };
-    let addresses: Vec<_> = address.to_socket_addrs().map_err(failed)?.collect();
-    TcpListener::bind(&addresses[..]).map_err(failed)
+fn listen(listening: &Listening) -> Result<TcpListener> {
+    let local = |port| TcpListener::bind((Ipv4Addr::LOCALHOST, port));
+    match listening.open()? {
+        Some(listener) => Ok(listener),
+        None => local(protocol::PORT)
+            .or_else(|_| local(0))
+            .map_err(Error::from),
+    }
 }
 
 async fn run(listener: TcpListener, shared: Arc<Shared>, is_over: oneshot::Receiver<()>) {

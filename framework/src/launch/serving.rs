@@ -2,10 +2,11 @@
 //!
 //! The server is a crate of its own, which needs the framework; the generated `main` brings them together.
 
-use std::net::SocketAddr;
+use std::io;
+use std::net::{SocketAddr, TcpListener, ToSocketAddrs as _};
 use std::path::PathBuf;
 
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::link::Link;
 
 /// Starts to serve the clients of a robot, on a thread of its own; `None`: nobody is served.
@@ -28,6 +29,25 @@ pub struct Listening {
     pub peers: Vec<String>,
     /// Files of the page from here instead of those in the program.
     pub web_root: Option<PathBuf>,
+}
+
+impl Listening {
+    /// Opens the socket at [`address`](Self::address); `None`: nobody said which.
+    ///
+    /// # Errors
+    /// If it is no address of this machine, or its port is taken.
+    pub fn open(&self) -> Result<Option<TcpListener>> {
+        let Some(address) = self.address.as_deref() else {
+            return Ok(None);
+        };
+        let failed = |error: io::Error| {
+            Error::from(error).context(format!(
+                "--listen {address}: expected an address of this machine with a free port, as 0.0.0.0:4857, or off"
+            ))
+        };
+        let addresses: Vec<_> = address.to_socket_addrs().map_err(failed)?.collect();
+        TcpListener::bind(&addresses[..]).map(Some).map_err(failed)
+    }
 }
 
 /// A server that runs until it is dropped.
