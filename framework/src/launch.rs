@@ -38,6 +38,7 @@ use crate::stop::Stop;
 use crate::timing::{self, Timing};
 use crate::world;
 use options::{Command, Format, Options};
+use serde::Deserialize;
 pub use serving::{Listening, Serve, Served, nobody};
 use signals::Signals;
 use status::Supervisor;
@@ -295,7 +296,7 @@ fn connect<H: Hardware>(
 ) -> Result<Arc<H>> {
     let hardware = H::new(HardwareContext {
         options: options.hardware.clone(),
-        table: parameters.hardware(target.name)?,
+        table: hardware_table(target, parameters)?,
         run_folder: options.run_folder.clone(),
         clock: clock.clone(),
         stop: stop.clone(),
@@ -304,6 +305,30 @@ fn connect<H: Hardware>(
     Ok(Arc::new(hardware.map_err(|error| {
         error.context(format!("hardware of `{}`", target.name))
     })?))
+}
+
+/// What the parameters have for the hardware of this target.
+fn hardware_table(target: &Target, parameters: &Parameters) -> Result<toml::Table> {
+    check_hardware(target, parameters)?;
+    parameters.hardware(target.name)
+}
+
+/// Whether the targets for whose hardware they have something are the robot's.
+fn check_hardware(target: &Target, parameters: &Parameters) -> Result<()> {
+    #[derive(Deserialize)]
+    struct Manifest {
+        target: Vec<Named>,
+    }
+    #[derive(Deserialize)]
+    struct Named {
+        name: String,
+    }
+    // Programs without a manifest have none to compare with.
+    let Ok(manifest) = toml::from_str::<Manifest>(target.manifest) else {
+        return Ok(());
+    };
+    let names = manifest.target.iter().map(|target| target.name.as_str());
+    parameters.check_targets(&names.collect::<Vec<_>>())
 }
 
 fn layers(target: &Target, options: &Options) -> Result<Layers> {

@@ -314,6 +314,27 @@ fn an_unknown_key_of_the_hardware_is_named() {
 }
 
 #[test]
+fn a_table_of_a_target_that_is_none_is_told_with_its_place() {
+    let directory =
+        workspace("gain = 1.0\n[hardware.simulated]\nport = 1\n[hardware.simulatd]\nport = 2\n");
+    let ran = run(&directory, &["--for", "1ms"]);
+    assert_eq!((ran.status, ran.gain), (1, None));
+    let (_, mistakes) = check(&directory, "lab");
+    let mistake = &mistakes[0];
+    assert_eq!(
+        (&mistake["line"], &mistake["key"], &mistake["message"]),
+        (
+            &4.into(),
+            &"hardware.simulatd".into(),
+            &"the robot has no target `simulatd`; did you mean `simulated`?".into()
+        )
+    );
+    let directory =
+        workspace("gain = 1.0\n[hardware.simulated]\nport = 1\n[hardware.real]\nport = 2\n");
+    assert_eq!(run(&directory, &["--for", "1ms"]).status, 0);
+}
+
+#[test]
 fn where_nobody_can_come_no_file_of_a_run_is_left() {
     let directory = workspace(TEXT);
     let folder = directory.path().join("run");

@@ -8,7 +8,7 @@ use serde::de::DeserializeOwned;
 use serde_json::json;
 
 use super::options::{Format, Options};
-use super::{DONE, FAILED, Target, layers};
+use super::{DONE, FAILED, Target, check_hardware, layers};
 use crate::error::Error;
 use crate::parameters::{Fault, Layers, Origin, ParameterError};
 use crate::reflect::Reflect;
@@ -39,7 +39,7 @@ pub(super) fn parameters<P: DeserializeOwned + Reflect>(
     output: &mut dyn Write,
 ) -> u8 {
     let mistakes = match layers(target, options) {
-        Ok(layers) => mistakes::<P>(&layers.combinations(target.identities)),
+        Ok(layers) => mistakes::<P>(target, &layers.combinations(target.identities)),
         Err(error) => vec![Mistake::new(&error, Vec::new())],
     };
     let written = match options.format {
@@ -57,11 +57,14 @@ pub(super) fn parameters<P: DeserializeOwned + Reflect>(
 }
 
 /// Why robots would not start, each reason once.
-fn mistakes<P: DeserializeOwned + Reflect>(robots: &[Layers]) -> Vec<Mistake> {
+fn mistakes<P: DeserializeOwned + Reflect>(target: &Target, robots: &[Layers]) -> Vec<Mistake> {
     let count = robots.len();
     let mut found: Vec<(Mistake, usize)> = Vec::new();
     for robot in robots {
-        let loaded = robot.load().and_then(|all| all.deserialize::<P>());
+        let loaded = robot.load().and_then(|all| {
+            check_hardware(target, &all)?;
+            all.deserialize::<P>()
+        });
         let Err(error) = loaded.map(drop) else {
             continue;
         };

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use self::blame::blame;
 use super::options::{Format, Options, Record};
-use super::{DONE, FAILED, Serve, Target, known_identities, layers, record};
+use super::{DONE, FAILED, Serve, Target, hardware_table, known_identities, layers, record};
 use crate::clock::Clock;
 use crate::data::ParameterData;
 use crate::error::{Error, Result};
@@ -214,7 +214,7 @@ impl Stage<'_> {
         let settings = self.scenario.settings.iter().chain(own).cloned();
         layers.settings.splice(0..0, settings);
         let loaded = layers.load()?;
-        let table = loaded.hardware(self.target.name)?;
+        let table = hardware_table(self.target, &loaded)?;
         let context = HardwareContext {
             options: self.options.hardware.clone(),
             table: self.scenario.world_of(robot, table, seed)?,

@@ -5,7 +5,7 @@ use std::io::Write;
 use std::sync::Arc;
 
 use super::options::Options;
-use super::{DONE, Target, WRONG_USAGE, known_identities, layers};
+use super::{DONE, Target, WRONG_USAGE, hardware_table, known_identities, layers};
 use crate::clock::Clock;
 use crate::data::ParameterData;
 use crate::error::{Error, Result};
@@ -37,7 +37,7 @@ pub(super) fn run<H: Hardware, P: ParameterData>(
     }
     let context = HardwareContext {
         options: options.hardware.clone(),
-        table: layers(target, options)?.load()?.hardware(target.name)?,
+        table: hardware_table(target, &layers(target, options)?.load()?)?,
         run_folder: options.run_folder.clone(),
         clock: Clock::stepped(),
         stop: stop.clone(),

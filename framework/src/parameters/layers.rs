@@ -258,6 +258,30 @@ impl Parameters {
         }
     }
 
+    /// A table of a target that is none would change nothing and tell nobody.
+    ///
+    /// # Errors
+    /// If there is one.
+    pub(crate) fn check_targets(&self, targets: &[&str]) -> Result<()> {
+        let tables = self.tree.get("hardware").map(|tree| &tree.value);
+        let Some(Value::Table(tables)) = tables else {
+            return Ok(());
+        };
+        let mut names = tables.keys().map(|name| &**name);
+        let Some(name) = names.find(|name| !targets.contains(name)) else {
+            return Ok(());
+        };
+        let near = nearest(name, targets.iter().copied());
+        let hint = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+        let key = format!("hardware.{name}");
+        Err(Error::from(ParameterError {
+            fault: Fault::Unknown,
+            origin: self.nearest_origin(&key),
+            message: format!("the robot has no target `{name}`{hint}"),
+            key,
+        }))
+    }
+
     /// Where the value at this path was written last.
     pub fn origin(&self, path: &str) -> Option<&Origin> {
         self.tree.get(path).map(|tree| &tree.origin)
