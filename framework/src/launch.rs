@@ -6,6 +6,7 @@
 //! Exit status: 0 done; 1 the robot failed; 2 wrong usage; 130 Ctrl-C.
 
 mod check;
+mod ending;
 mod options;
 mod record;
 mod replay;
@@ -37,6 +38,7 @@ use crate::robot::{Robot, Start};
 use crate::stop::Stop;
 use crate::timing::{self, Timing};
 use crate::world;
+use ending::Ending;
 use options::{Command, Format, Options};
 use serde::Deserialize;
 pub use serving::{Listening, Serve, Served, nobody};
@@ -177,6 +179,8 @@ where
         Format::Json => Timing::Complete,
         Format::Text => Timing::Sampled,
     });
+    // Dropped behind the hardware.
+    let ending = Ending::new();
     let clock = Clock::wall();
     let listening = options.listening(target);
     if let Some(listening) = &listening {
@@ -225,14 +229,17 @@ where
     };
     let page = served.as_ref().map(|served| page(served.as_ref()));
     let recording = Mutex::new(recording);
-    let give_up = || give_up(&recording);
+    let give_up = || give_up(&recording, &ending);
     let threads = threads.giving_up(&give_up);
     let result = threads.run_observed(&mut robot.instances, |instance| {
         lock(&recording).as_mut()?.observer(instance)
     });
     let mut report = RobotReport::new(target.name, clock.now() - started, &robot);
+    ending.of_recording();
     report.recording = lock(&recording).take().map(Recording::end);
+    ending.of_nothing();
     let written = write_report(&report, page, options.format, output);
+    ending.of_hardware();
     // Why the robot failed matters more than a reader who left.
     result?;
     written.map_err(|error| Error::from(error).context("cannot write the report"))?;
@@ -259,7 +266,8 @@ fn write_report(
 }
 
 /// Ends the process in place of threads that do not end: what they have is lost, but not what is recorded.
-fn give_up(recording: &Mutex<Option<Recording>>) {
+fn give_up(recording: &Mutex<Option<Recording>>, ending: &Ending) {
+    ending.of_recording();
     if let Some(recording) = lock(recording).take() {
         tell(format_args!("{}", recording.end()));
     }

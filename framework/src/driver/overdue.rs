@@ -1,11 +1,11 @@
-//! Threads that do not end: a node that never returns must not keep the process for good.
+//! Threads that do not end: neither a node that never returns nor hardware may keep the process for good.
 
 use std::thread::{self, ScopedJoinHandle};
 use std::time::{Duration, Instant};
 
 use crate::report::tell;
 
-/// After the stop: hardware is brought down meanwhile, blocked calls return after 0.1 s, and no cycle is meant to take a second.
+/// After the stop: hardware comes down and blocked calls return within 0.1 s, and no cycle is meant to take a second.
 const PATIENCE: Duration = Duration::from_secs(10);
 
 /// Between two looks.
@@ -17,7 +17,7 @@ pub(super) struct Overdue<'robot> {
     give_up: Option<&'robot (dyn Fn() + Sync)>,
 }
 
-/// The threads of the instances, by name.
+/// Threads, by name.
 #[derive(Default)]
 pub(super) struct Running<'scope>(Vec<(&'static str, ScopedJoinHandle<'scope, ()>)>);
 
@@ -39,14 +39,14 @@ impl<'robot> Overdue<'robot> {
         }
     }
 
-    /// Waits for their end, or gives up.
-    pub(super) fn await_end(&self, running: &Running<'_>) {
+    /// Waits for their end, or gives up; `why` they do not end.
+    pub(super) fn await_end(&self, running: &Running<'_>, why: &str) {
         let begun = Instant::now();
         while running.left().next().is_some() {
             if begun.elapsed() > PATIENCE {
                 let names: Vec<_> = running.left().collect();
                 tell(format_args!(
-                    "{} did not end within {PATIENCE:?} of the stop: a node of it, or the hardware that it reads, does not return",
+                    "{} did not end within {PATIENCE:?} of the stop: {why}",
                     names.join(", ")
                 ));
                 if let Some(give_up) = self.give_up {

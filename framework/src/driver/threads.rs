@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 use std::sync::{Arc, Mutex, PoisonError};
-use std::thread;
+use std::thread::{self, Scope};
 use std::time::Duration;
 
 use super::observer::Observed;
@@ -58,8 +58,8 @@ impl<'robot> Threads<'robot> {
         }
     }
 
-    /// What is done about threads that have not ended 10 s after the stop, once it was told whose they are. Nothing ends a
-    /// thread from outside: without this, or where it returns, they are waited for.
+    /// What is done about hardware that has not stopped within 10 s, and about threads that have not ended 10 s later, once it
+    /// was told whose they are. Nothing ends a thread from outside: without this, or where it returns, they are waited for.
     pub fn giving_up(self, give_up: &'robot (dyn Fn() + Sync)) -> Self {
         Self {
             overdue: Overdue::then(give_up),
@@ -145,13 +145,11 @@ impl<'robot> Threads<'robot> {
                 Ok(())
             });
             watching.unwrap_or_else(|error| fail(error.context("the watchdog failed")));
-            safe_state.enter();
-            let stopped = contain("Hardware::stop", || {
-                self.hardware.stop();
-                Ok(())
-            });
-            stopped.unwrap_or_else(fail);
-            self.overdue.await_end(&running);
+            self.bring_down(scope, &safe_state, &fail);
+            self.overdue.await_end(
+                &running,
+                "a node of it, or the hardware that it reads, does not return",
+            );
         });
         let failure = failure.into_inner().unwrap_or_else(PoisonError::into_inner);
         failure.map_or(Ok(()), Err)
@@ -280,6 +278,34 @@ impl Watched {
 }
 
 impl Threads<'_> {
+    /// Safe state and [`Hardware::stop`], on a thread of their own: somebody has to tell where they do not return.
+    fn bring_down<'scope>(
+        &'scope self,
+        scope: &'scope Scope<'scope, '_>,
+        safe_state: &'scope SafeState<'_>,
+        fail: &'scope (dyn Fn(Error) + Sync),
+    ) {
+        let bring_down = move || {
+            safe_state.enter();
+            let stopped = contain("Hardware::stop", || {
+                self.hardware.stop();
+                Ok(())
+            });
+            stopped.unwrap_or_else(fail);
+        };
+        let thread = thread::Builder::new().name("stop".to_owned());
+        let Ok(thread) = thread.spawn_scoped(scope, bring_down) else {
+            // Better waited for than not done.
+            return bring_down();
+        };
+        let mut running = Running::default();
+        running.add("The hardware", thread);
+        self.overdue.await_end(
+            &running,
+            "its `enter_safe_state` or its `stop` does not return",
+        );
+    }
+
     /// Until the robot stops, looks for cycles that have begun and are not finished for too long, and for whoever wants the
     /// actuators back. Perception commands no actuators: it is told, and nothing else.
     fn watch(&self, watched: &mut [Watched], safe_state: &SafeState<'_>) {

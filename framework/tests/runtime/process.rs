@@ -142,6 +142,12 @@ fn a_process_of_this_test_is_the_run_it_was_told_to_be() {
             let recording = recording.to_str().expect("it was told as text");
             launch(&["--for", "5500ms", "--record", recording], &setting)
         }
+        Ok(where_to @ ("hang in stop" | "hang in drop")) => {
+            let recording = std::env::temp_dir().join(RECORDING);
+            let recording = recording.to_str().expect("it was told as text");
+            let words = ["--for", "200ms", "--record", recording, "--", where_to];
+            launch(&words, &Setting::default())
+        }
         // Without a run it is one of many tests, and there is nothing to do.
         _ => {}
     }
@@ -194,6 +200,34 @@ fn a_node_that_never_returns_is_told_and_keeps_neither_process_nor_recording() {
     assert!(!errors.contains("Legs did not"), "{errors}");
     let recording = Recording::open(&folder.path().join(RECORDING)).expect("it can be read");
     assert!(recording.is_complete(), "it has its end");
+}
+
+#[test]
+fn hardware_that_hangs_is_told_and_keeps_neither_process_nor_recording() {
+    let runs = [
+        (
+            "hang in stop",
+            "The hardware did not end within 10s of the stop: its `enter_safe_state` or its `stop`",
+        ),
+        (
+            "hang in drop",
+            "the run did not end within 10s because of the hardware or a node: its `Drop`",
+        ),
+    ];
+    thread::scope(|scope| {
+        for (run, expected) in runs {
+            scope.spawn(move || {
+                let folder = tempfile::tempdir().expect("a folder");
+                let limit = Duration::from_secs(40);
+                let (status, errors) = end_within(limit, run, folder.path(), Stdio::piped());
+                assert_eq!(status.code(), Some(1), "{status}: {errors}");
+                assert!(errors.contains(expected), "{errors}");
+                let recording = Recording::open(&folder.path().join(RECORDING));
+                let recording = recording.expect("it can be read");
+                assert!(recording.is_complete(), "it has its end");
+            });
+        }
+    });
 }
 
 #[cfg(target_os = "linux")]

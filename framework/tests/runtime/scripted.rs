@@ -110,6 +110,27 @@ pub(crate) struct ScriptedHardware {
     beats: Arc<Beats>,
     /// Somebody presses the button that gives the nodes the actuators back.
     pub(crate) button: AtomicBool,
+    /// `stop` never returns.
+    hangs: bool,
+    _end: End,
+}
+
+/// Where it hangs, dropping it never returns.
+#[derive(Default)]
+struct End {
+    hangs: bool,
+}
+
+impl Drop for End {
+    fn drop(&mut self) {
+        hang_if(self.hangs);
+    }
+}
+
+fn hang_if(hangs: bool) {
+    while hangs {
+        thread::park();
+    }
 }
 
 impl ScriptedHardware {
@@ -145,6 +166,8 @@ impl ScriptedHardware {
             entry: serde_json::Value::Null,
             beats: Arc::default(),
             button: AtomicBool::new(false),
+            hangs: false,
+            _end: End::default(),
         }
     }
 
@@ -180,6 +203,8 @@ impl Hardware for ScriptedHardware {
         });
         let mut hardware = Self::with(context.clock.clone(), events.collect());
         hardware.stop = context.stop.clone();
+        hardware.hangs = context.options == ["hang in stop"];
+        hardware._end.hangs = context.options == ["hang in drop"];
         hardware.step = step.unwrap_or_default();
         hardware.entry = serde_json::to_value(context.table.get("robot"))?;
         Ok(hardware)
@@ -200,6 +225,7 @@ impl Hardware for ScriptedHardware {
     fn stop(&self) {
         self.stop.request();
         self.log.add("stop");
+        hang_if(self.hangs);
     }
 
     fn enter_safe_state(&self) {

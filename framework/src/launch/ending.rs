@@ -1,0 +1,107 @@
+//! What comes behind the robot's threads: where it hangs, nothing ends it from outside, but the process ends all the same.
+
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
+use std::thread;
+use std::time::Duration;
+
+use super::FAILED;
+use crate::report::tell;
+
+/// A slow disk takes what waits for it within this time; one that takes nothing hangs.
+const DISK: Duration = Duration::from_secs(60);
+
+/// As the threads of the robot have.
+const HARDWARE: Duration = Duration::from_secs(10);
+
+/// Ends the process if a step of the end takes too long, until it is dropped.
+pub(super) struct Ending(Sender<Step>);
+
+#[derive(Clone, Copy, Debug)]
+struct Step {
+    /// What does not end.
+    what: &'static str,
+    patience: Duration,
+}
+
+impl Ending {
+    /// Nothing ends yet. Without a thread nobody looks: then it is waited for.
+    pub(super) fn new() -> Self {
+        Self::giving_up(|| std::process::exit(FAILED.into()))
+    }
+
+    fn giving_up(give_up: impl FnOnce() + Send + 'static) -> Self {
+        let (sender, steps) = mpsc::channel();
+        let spawned = thread::Builder::new()
+            .name("ending".to_owned())
+            .spawn(move || look(&steps, give_up));
+        if let Err(error) = spawned {
+            tell(format_args!(
+                "nobody looks after the end of the run: {error}"
+            ));
+        }
+        Self(sender)
+    }
+
+    /// From now on the recording is ended.
+    pub(super) fn of_recording(&self) {
+        self.begin("the recording: its disk takes nothing", DISK);
+    }
+
+    /// From now on the hardware and nodes are dropped.
+    pub(super) fn of_hardware(&self) {
+        self.begin(
+            "the hardware or a node: its `Drop` does not return",
+            HARDWARE,
+        );
+    }
+
+    /// From now on something else is done, which takes as long as it takes.
+    pub(super) fn of_nothing(&self) {
+        self.begin("", Duration::MAX);
+    }
+
+    fn begin(&self, what: &'static str, patience: Duration) {
+        // Without a thread nobody hears it.
+        let _ = self.0.send(Step { what, patience });
+    }
+}
+
+fn look(steps: &Receiver<Step>, give_up: impl FnOnce()) {
+    let mut next = steps.recv();
+    while let Ok(Step { what, patience }) = next {
+        next = match steps.recv_timeout(patience) {
+            Ok(step) => Ok(step),
+            Err(RecvTimeoutError::Disconnected) => return,
+            Err(RecvTimeoutError::Timeout) => {
+                tell(format_args!(
+                    "the run did not end within {patience:?} because of {what}"
+                ));
+                return give_up();
+            }
+        };
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_step_that_takes_too_long_is_given_up_and_no_other() {
+        let (sender, given_up) = mpsc::channel();
+        let ending = Ending::giving_up(move || drop(sender.send(())));
+        let soon = Duration::from_millis(20);
+        ending.begin("the first", Duration::from_secs(1000));
+        ending.of_nothing();
+        let wait = given_up.recv_timeout(10 * soon);
+        assert_eq!(wait, Err(RecvTimeoutError::Timeout));
+        ending.begin("the last", soon);
+        assert_eq!(given_up.recv(), Ok(()));
+        // One that ends in time says nothing.
+        let (sender, given_up) = mpsc::channel();
+        let ending = Ending::giving_up(move || drop(sender.send(())));
+        ending.begin("it", Duration::from_secs(1000));
+        drop(ending);
+        assert!(given_up.recv().is_err());
+    }
+}
