@@ -183,11 +183,7 @@ where
     let ending = Ending::new();
     let clock = Clock::wall();
     let listening = options.listening(target);
-    if let Some(listening) = &listening {
-        // Before hardware moves, and before files of a run that would not begin.
-        let opened = listening.open();
-        opened.map_err(|error| error.context("cannot serve clients"))?;
-    }
+    check_listening(listening.as_ref())?;
     // The identities that choose layers come from the hardware, whose own table therefore comes first.
     let mut layers = layers(target, options)?;
     let hardware = connect::<H>(target, options, &layers.load()?, &clock, stop)?;
@@ -276,6 +272,13 @@ fn give_up(recording: &Mutex<Option<Recording>>, ending: &Ending) {
 
 fn lock(recording: &Mutex<Option<Recording>>) -> MutexGuard<'_, Option<Recording>> {
     recording.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Before hardware moves, and before files of a run that would not begin.
+fn check_listening(listening: Option<&Listening>) -> Result<()> {
+    let opened = listening.map_or(Ok(None), Listening::open);
+    opened.map_err(|error| error.context("cannot serve clients"))?;
+    Ok(())
 }
 
 pub(crate) fn start_server(
