@@ -98,10 +98,11 @@ impl AsyncRead for Visitor {
             // How long a head may be is known to who reads it.
             return Pin::new(&mut self.stream).poll_read(context, buffer);
         }
-        let most = self.guest.may_come().min(buffer.remaining());
+        let most = self.guest.may_come();
         if most == 0 {
             return Poll::Ready(Err(io::Error::other("too long a message")));
         }
+        let most = most.min(buffer.remaining());
         let mut part = ReadBuf::new(buffer.initialize_unfilled_to(most));
         ready!(Pin::new(&mut self.stream).poll_read(context, &mut part))?;
         let came = part.filled().len();

@@ -89,7 +89,9 @@ mod tests {
     #[test]
     fn a_step_that_takes_too_long_is_given_up_and_no_other() {
         let (sender, given_up) = mpsc::channel();
-        let ending = Ending::giving_up(move || drop(sender.send(())));
+        let ending = Ending::giving_up(move || {
+            let _ = sender.send(());
+        });
         let soon = Duration::from_millis(20);
         ending.begin("the first", Duration::from_secs(1000));
         ending.of_nothing();
@@ -99,7 +101,9 @@ mod tests {
         assert_eq!(given_up.recv(), Ok(()));
         // One that ends in time says nothing.
         let (sender, given_up) = mpsc::channel();
-        let ending = Ending::giving_up(move || drop(sender.send(())));
+        let ending = Ending::giving_up(move || {
+            let _ = sender.send(());
+        });
         ending.begin("it", Duration::from_secs(1000));
         drop(ending);
         assert!(given_up.recv().is_err());

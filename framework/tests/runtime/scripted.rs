@@ -128,8 +128,10 @@ impl Drop for End {
 }
 
 fn hang_if(hangs: bool) {
-    while hangs {
-        thread::park();
+    if hangs {
+        loop {
+            thread::park();
+        }
     }
 }
 
