@@ -68,6 +68,13 @@ impl<T> Default for Injection<T> {
     }
 }
 
+impl<T> Injection<T> {
+    /// The client's, if there is one.
+    pub(crate) fn value(&self) -> Option<&T> {
+        self.0.as_ref()
+    }
+}
+
 impl<T: Clone> Injection<T> {
     /// Puts the client's value, if there is one, in place of `output`, and tells whether it did; heap capacity of `output` is
     /// kept.

@@ -26,7 +26,7 @@ mod types;
 #[cfg(feature = "yardstick")]
 mod yardstick;
 
-pub use body::{Loaded, Outputs, Recorded, Visit, digest};
+pub use body::{Loaded, Output, Outputs, Recorded, Visit, digest};
 pub use bytes::{Loading, Reason, SaveError, Saving};
 pub(crate) use capture::{BEGUN, FINISHED, Written};
 pub use capture::{Capture, Head, PARAMETERS, Stored, VERSION, Values};

@@ -178,7 +178,7 @@ fn quote_injections(cycler: &CyclerModel) -> TokenStream {
     let about = doc("Values of clients in place of main outputs.");
     quote! {
         #about
-        #[derive(Clone, Debug, Default, ::serde::Deserialize, ::serde::Serialize)]
+        #[derive(Clone, Debug, Default, ::serde::Deserialize, ::framework::recorded::Outputs, ::serde::Serialize)]
         pub struct Injections {
             #(#fields)*
         }

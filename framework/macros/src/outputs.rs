@@ -24,12 +24,16 @@ pub(crate) fn expand(item: &DeriveInput) -> syn::Result<Tokens> {
         let name = &field.ident;
         quote_spanned!(field.ty.span()=> out.output(&self.#name);)
     });
+    let out = match fields.named.is_empty() {
+        true => quote!(_out),
+        false => quote!(out),
+    };
     let name = &item.ident;
     let (parameters, arguments, clause) = item.generics.split_for_impl();
     Ok(quote! {
         #[automatically_derived]
         impl #parameters ::framework::recorded::Outputs for #name #arguments #clause {
-            fn save(&self, out: &mut ::framework::recorded::Saving<'_, '_>) {
+            fn save(&self, #out: &mut ::framework::recorded::Saving<'_, '_>) {
                 #(#saved)*
             }
         }

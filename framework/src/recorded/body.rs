@@ -4,7 +4,11 @@ use super::{Describing, Digests, Loading, SaveError, Saving, Stored, Values};
 use crate::cycler::{Body, Slots};
 use crate::digest::{Digest, DigestError};
 use crate::error::Result;
+use crate::injection::Injection;
+use crate::pool::Handle;
+use crate::reflect::Reflect;
 use crate::time::Timestamp;
+use serde::Serialize;
 
 /// A body that can be recorded and replayed. Both sides are generated from one list: every field of what the nodes may touch.
 pub trait Recorded: Body {
@@ -52,10 +56,30 @@ pub trait Recorded: Body {
     fn digests(&self, shared: &Self::Shared, digests: &mut Digests<'_, '_>);
 }
 
-/// Outputs of one instance that others read. Derived: `#[derive(Outputs)]`.
+/// Outputs of one instance that others read, or what clients put in their place. Derived: `#[derive(Outputs)]`.
 pub trait Outputs {
     /// Writes them as serde does, but of handles other ones are left to the thread that owns the file.
     fn save(&self, out: &mut Saving<'_, '_>);
+}
+
+/// One of [`Outputs`].
+pub trait Output: Serialize {
+    /// What a recording may keep in place of a copy.
+    #[doc(hidden)]
+    fn handle(&self) -> Option<Handle>;
+}
+
+impl<T: Reflect + Serialize> Output for T {
+    #[inline]
+    fn handle(&self) -> Option<Handle> {
+        Reflect::handle(self)
+    }
+}
+
+impl<T: Reflect + Serialize> Output for Injection<T> {
+    fn handle(&self) -> Option<Handle> {
+        self.value()?.handle().map(Handle::in_option)
+    }
 }
 
 /// Is told of the digest of each output: node, output, digest.
@@ -74,7 +98,7 @@ pub struct Loaded<'a, S> {
 ///
 /// # Errors
 /// If its own `Serialize` fails.
-pub fn digest(value: &impl serde::Serialize) -> Result<u64, DigestError> {
+pub fn digest(value: &impl Serialize) -> Result<u64, DigestError> {
     let mut digest = Digest::new();
     digest.add(value)?;
     Ok(digest.value())

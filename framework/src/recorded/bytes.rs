@@ -6,12 +6,12 @@ use hulkgen_recording::{Full, Writing};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
+use super::body::Output;
 use super::encode::{EncodeError, Encoder};
 #[cfg(feature = "yardstick")]
 use super::yardstick::Slice;
 use crate::error::{Error, Result};
 use crate::pool::Handle;
-use crate::reflect::Reflect;
 
 /// Values on their way into a frame. What goes wrong is told once, by [`Self::end`].
 #[derive(Debug)]
@@ -93,9 +93,10 @@ impl<'a, 'block> Saving<'a, 'block> {
         }
     }
 
-    /// Appends an output. Of a handle the recording keeps another one, and the thread that owns the file writes the value.
+    /// Appends an output, or what a client puts in its place. Of a handle the recording keeps another one, and the thread that owns
+    /// the file writes the value.
     #[inline]
-    pub fn output<T: Reflect + Serialize>(&mut self, value: &T) {
+    pub fn output<T: Output>(&mut self, value: &T) {
         if !self.leave(value.handle()) {
             self.put(value);
         }

@@ -235,6 +235,9 @@ mod tests {
     use super::*;
     use crate::Reflect;
     use crate::buffer::buffer;
+    use crate::injection::{
+        Inject as _, Injected, Injection, InjectionCell, InjectionTable, Injector,
+    };
     use crate::pool::Leased;
 
     const OWN: ChannelId = ChannelId(0);
@@ -330,5 +333,66 @@ mod tests {
             read.image.map(|image| image.pixels.clone()),
             Some(vec![7; 3])
         );
+    }
+    #[derive(Clone, Default, Deserialize, Outputs, Serialize)]
+    struct Injections {
+        count: Injection<u16>,
+        image: Injection<Option<Leased<Image>>>,
+        is_dark: Injection<bool>,
+    }
+
+    impl InjectionTable for Injections {
+        fn get_mut(&mut self, output: &str) -> Option<&mut dyn InjectionCell> {
+            match output {
+                "count" => Some(&mut self.count),
+                "image" => Some(&mut self.image),
+                _ => Some(&mut self.is_dark),
+            }
+        }
+    }
+
+    #[test]
+    fn a_handle_that_a_client_put_there_is_left_to_the_recording() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("run.mcap");
+        let description = Description {
+            channels: vec![channel("frames")],
+            ..Description::default()
+        };
+        let started = Recorder::start(&path, description, &["Control"], Settings::default());
+        let (recorder, mut tracks) = started.expect("it is new");
+        let (writer, [mut reader], []) = buffer::<Injected<Injections>, 1, 0>([]);
+        let mut injector = Injector::new(writer);
+        let mut inject = |output: &str, mut json: serde_json::Value| {
+            let mut value = <dyn erased_serde::Deserializer<'_>>::erase(json.take());
+            injector.inject(output, &mut value).expect("it fits");
+        };
+        for cycle in 1..=3_u64 {
+            match cycle {
+                2 => inject("count", 300.into()),
+                3 => inject("image", serde_json::json!({ "pixels": [7, 7, 7] })),
+                _ => {}
+            }
+            reader.take();
+            let recorded = tracks[0].frame(cycle, 0, |frame| {
+                frame.message(OWN, cycle as u32, cycle, |writing| {
+                    let mut saving = Saving::new(writing);
+                    reader.save_injected(&mut saving);
+                    saving.end()
+                })
+            });
+            assert_eq!(recorded, Recorded::Whole);
+        }
+        drop(tracks);
+        assert!(recorder.end().is_complete);
+        let recording = Recording::open(&path).expect("it can be read");
+        let chunks = recording.chunks.iter();
+        let messages = chunks.flat_map(|chunk| chunk.messages());
+        let data: Vec<_> = messages.map(|one| one.data).collect();
+        let last = &[1, 1, 0xac, 2, 1, 1, 3, 7, 7, 7, 0][..];
+        assert_eq!(data, [&[0][..], &[1, 1, 0xac, 2, 0, 0], last]);
+        let read: Option<Injections> = Loading::new(last).take().expect("as serde writes it");
+        let image = read.and_then(|read| read.image.value().cloned().flatten());
+        assert_eq!(image.expect("there is one").pixels, [7; 3]);
     }
 }

@@ -3,7 +3,7 @@
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use super::{Loading, Saving, Stored};
+use super::{Loading, Outputs, Saving, Stored};
 use crate::buffer::{Reader, Writer};
 use crate::error::Result;
 use crate::guarded::{Condition, Guarded, OnFailure, State};
@@ -71,10 +71,14 @@ impl<P: DeserializeOwned> Reader<P> {
     }
 }
 
-impl<I: Serialize> Reader<Injected<I>> {
-    /// Saves what clients replace.
+impl<I: Outputs> Reader<Injected<I>> {
+    /// Saves what clients replace, as serde writes an `Option` of it.
     pub fn save_injected(&self, out: &mut Saving<'_, '_>) {
-        out.put(&self.view().value().get());
+        let values = self.view().value().get();
+        out.add([values.is_some().into()]);
+        if let Some(values) = values {
+            values.save(out);
+        }
     }
 }
 

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use framework::cycler::Reference;
 use framework::recorded::{
-    Describing, Digests, Loaded, Loading, Recorded, SaveError, Saving, Stored, Values,
+    Describing, Digests, Loaded, Loading, Outputs, Recorded, SaveError, Saving, Stored, Values,
 };
 use framework::report::Allocations;
 use framework::{
@@ -18,12 +18,14 @@ use crate::counting::allocations;
 
 const NODES: usize = 20;
 
-#[derive(Clone, Default, serde::Serialize)]
-struct Injections(Injection<f32>);
+#[derive(Clone, Default, Outputs)]
+struct Injections {
+    sums: Injection<f32>,
+}
 
 impl InjectionTable for Injections {
     fn get_mut(&mut self, _: &str) -> Option<&mut dyn InjectionCell> {
-        Some(&mut self.0)
+        Some(&mut self.sums)
     }
 }
 
@@ -65,7 +67,7 @@ impl Body for Adding {
                 Ok::<_, framework::Error>(*state + slots.previous[index])
             })?;
             if let Some(injections) = self.injections.view().get() {
-                injections.0.replace(&mut slots.current[index]);
+                injections.sums.replace(&mut slots.current[index]);
             }
         }
         Ok(())

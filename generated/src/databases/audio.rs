@@ -55,7 +55,7 @@ pub struct Subscribed {
 }
 
 /// Values of clients in place of main outputs.
-#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+#[derive(Clone, Debug, Default, Deserialize, Outputs, Serialize)]
 pub struct Injections {
     pub audio_block: Injection<Option<Leased<AudioBlock>>>,
     pub whistle_evidence: Injection<WhistleEvidence>,

@@ -218,7 +218,7 @@ pub struct Subscribed {
 }
 
 /// Values of clients in place of main outputs.
-#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+#[derive(Clone, Debug, Default, Deserialize, Outputs, Serialize)]
 pub struct Injections {
     pub activity: Injection<Activity>,
     pub ball: Injection<Option<Ball>>,

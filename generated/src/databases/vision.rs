@@ -107,7 +107,7 @@ pub struct Subscribed {
 }
 
 /// Values of clients in place of main outputs.
-#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+#[derive(Clone, Debug, Default, Deserialize, Outputs, Serialize)]
 pub struct Injections {
     pub ball_view: Injection<Option<BallView>>,
     pub balls: Injection<Vec<BallCandidate>>,

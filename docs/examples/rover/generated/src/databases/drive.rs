@@ -13,6 +13,7 @@ use framework::InjectionCell;
 use framework::InjectionTable;
 use framework::Reflect;
 use framework::Timestamp;
+use framework::recorded::Outputs;
 use rover_nodes::types::Pose;
 use rover_nodes::types::Rolled;
 use rover_nodes::types::Speeds;
@@ -34,7 +35,7 @@ pub struct OwnOutputs {
 }
 
 /// Values of clients in place of main outputs.
-#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+#[derive(Clone, Debug, Default, Deserialize, Outputs, Serialize)]
 pub struct Injections {
     pub pose: Injection<Pose>,
     pub rolled: Injection<Rolled>,

@@ -11,6 +11,7 @@ use framework::InjectionTable;
 use framework::Reflect;
 use framework::Timestamp;
 use framework::View;
+use framework::recorded::Outputs;
 use serde::Deserialize;
 use serde::Serialize;
 
@@ -29,7 +30,7 @@ pub struct OwnOutputs {
 }
 
 /// Values of clients in place of main outputs.
-#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+#[derive(Clone, Debug, Default, Deserialize, Outputs, Serialize)]
 pub struct Injections {
     pub moisture: Injection<f32>,
     pub thirst: Injection<f32>,

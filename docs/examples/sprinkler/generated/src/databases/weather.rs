@@ -31,7 +31,7 @@ pub struct SharedOutputs {
 }
 
 /// Values of clients in place of main outputs.
-#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+#[derive(Clone, Debug, Default, Deserialize, Outputs, Serialize)]
 pub struct Injections {
     pub mean_rain: Injection<f32>,
     pub rain: Injection<f32>,

@@ -23,7 +23,7 @@ pub struct SharedOutputs {
 }
 
 /// Values of clients in place of main outputs.
-#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+#[derive(Clone, Debug, Default, Deserialize, Outputs, Serialize)]
 pub struct Injections {
     pub measurement: Injection<Measurement>,
 }

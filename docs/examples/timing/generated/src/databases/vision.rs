@@ -32,7 +32,7 @@ pub struct SharedOutputs {
 }
 
 /// Values of clients in place of main outputs.
-#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+#[derive(Clone, Debug, Default, Deserialize, Outputs, Serialize)]
 pub struct Injections {
     pub image: Injection<f32>,
     pub measurement: Injection<Measurement>,

@@ -10,6 +10,7 @@ use framework::InjectionCell;
 use framework::InjectionTable;
 use framework::Reflect;
 use framework::Timestamp;
+use framework::recorded::Outputs;
 use k1_nodes::joints::COUNT;
 use k1_nodes::types::Body;
 use k1_nodes::types::MotorCommands;
@@ -34,7 +35,7 @@ pub struct OwnOutputs {
 }
 
 /// Values of clients in place of main outputs.
-#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+#[derive(Clone, Debug, Default, Deserialize, Outputs, Serialize)]
 pub struct Injections {
     pub arm_pitch: Injection<Option<f32>>,
     pub body: Injection<Body>,

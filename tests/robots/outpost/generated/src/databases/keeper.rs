@@ -14,6 +14,7 @@ use framework::Interleaving;
 use framework::Reflect;
 use framework::Timestamp;
 use framework::View;
+use framework::recorded::Outputs;
 use outpost_nodes::types::Entry;
 use serde::Deserialize;
 use serde::Serialize;
@@ -33,7 +34,7 @@ pub struct OwnOutputs {
 }
 
 /// Values of clients in place of main outputs.
-#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+#[derive(Clone, Debug, Default, Deserialize, Outputs, Serialize)]
 pub struct Injections {
     pub entries: Injection<Vec<Entry>>,
     pub newest_in_the_north: Injection<Option<Entry>>,

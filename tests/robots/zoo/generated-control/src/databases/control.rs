@@ -16,6 +16,7 @@ use framework::InjectionTable;
 use framework::Interleaving;
 use framework::Reflect;
 use framework::Timestamp;
+use framework::recorded::Outputs;
 use serde::Deserialize;
 use serde::Serialize;
 use zoo_nodes::types::Point;
@@ -76,7 +77,7 @@ pub struct Subscribed {
 }
 
 /// Values of clients in place of main outputs.
-#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+#[derive(Clone, Debug, Default, Deserialize, Outputs, Serialize)]
 pub struct Injections {
     pub cycles: Injection<u64>,
     pub joints: Injection<[f32; 3]>,

@@ -9,13 +9,14 @@ use framework::InjectionCell;
 use framework::InjectionTable;
 use framework::Reflect;
 use framework::View;
+use framework::recorded::Outputs;
 use serde::Deserialize;
 use serde::Serialize;
 
 use crate::databases::control;
 
 /// Values of clients in place of main outputs.
-#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+#[derive(Clone, Debug, Default, Deserialize, Outputs, Serialize)]
 pub struct Injections {}
 
 impl InjectionTable for Injections {

@@ -82,7 +82,7 @@ pub struct Subscribed {
 }
 
 /// Values of clients in place of main outputs.
-#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+#[derive(Clone, Debug, Default, Deserialize, Outputs, Serialize)]
 pub struct Injections {
     pub cycles: Injection<u64>,
     pub joints: Injection<[f32; 3]>,

@@ -25,7 +25,7 @@ pub struct SharedOutputs {
 }
 
 /// Values of clients in place of main outputs.
-#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+#[derive(Clone, Debug, Default, Deserialize, Outputs, Serialize)]
 pub struct Injections {
     pub loudness: Injection<f32>,
     pub whistle: Injection<Option<Whistle>>,

@@ -13,6 +13,7 @@ use framework::InjectionCell;
 use framework::InjectionTable;
 use framework::Reflect;
 use framework::View;
+use framework::recorded::Outputs;
 use serde::Deserialize;
 use serde::Serialize;
 
@@ -32,7 +33,7 @@ pub struct OwnOutputs {
 }
 
 /// Values of clients in place of main outputs.
-#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+#[derive(Clone, Debug, Default, Deserialize, Outputs, Serialize)]
 pub struct Injections {
     pub pressed: Injection<bool>,
     pub sum: Injection<usize>,

@@ -68,7 +68,7 @@ pub struct Subscribed {
 }
 
 /// Values of clients in place of main outputs.
-#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+#[derive(Clone, Debug, Default, Deserialize, Outputs, Serialize)]
 pub struct Injections {
     pub agreement: Injection<f32>,
     pub best: Injection<Option<Spot>>,
