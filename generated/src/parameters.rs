@@ -139,6 +139,9 @@ pub struct ButtonFilter {
 pub struct Cameras {
     /// control::camera_matrices, vision::limb_projector
     pub bottom: CameraCalibration,
+    /// control::camera_matrices
+    #[reflect(unit = "s", range = 0..)]
+    pub steady_after: f32,
     /// control::camera_matrices, vision::limb_projector
     pub top: CameraCalibration,
 }

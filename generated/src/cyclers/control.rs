@@ -538,29 +538,26 @@ impl Nodes {
         Ok(())
     }
 
-    /// support_side (required), robot_kinematics, sensor_data.inertial -> camera_matrices
+    /// support_side, fall_state, robot_kinematics, sensor_data.inertial -> camera_matrices
     #[inline(always)]
     fn camera_matrices<Hardware>(
         &mut self,
         frame: &mut Frame<'_, Hardware>,
     ) -> Result<()> {
-        if let Some(support_side) = frame.own.support_side.as_ref() {
-            let context = camera_matrices::CycleContext {
-                support_side,
-                robot_kinematics: &frame.shared.robot_kinematics,
-                inertial: &frame.own.sensor_data.inertial,
-                top: &frame.parameters.cameras.top,
-                bottom: &frame.parameters.cameras.bottom,
-            };
-            let outputs = self
-                .camera_matrices
-                .call(&frame.cycle, |node| node.cycle(context))?;
-            frame.shared.camera_matrices = outputs.camera_matrices.value;
-        } else {
-            // A required input is absent: the main outputs take their defaults.
-            self.camera_matrices.skip();
-            frame.shared.camera_matrices = Default::default();
-        }
+        let context = camera_matrices::CycleContext {
+            support_side: frame.own.support_side.as_ref(),
+            fall_state: &frame.own.fall_state,
+            cycle_time: frame.cycle.time,
+            robot_kinematics: &frame.shared.robot_kinematics,
+            inertial: &frame.own.sensor_data.inertial,
+            top: &frame.parameters.cameras.top,
+            bottom: &frame.parameters.cameras.bottom,
+            steady_after: &frame.parameters.cameras.steady_after,
+        };
+        let outputs = self
+            .camera_matrices
+            .call(&frame.cycle, |node| node.cycle(context))?;
+        frame.shared.camera_matrices = outputs.camera_matrices.value;
         if let Some(injections) = frame.injections {
             injections.camera_matrices.replace(&mut frame.shared.camera_matrices);
         }

@@ -129,7 +129,9 @@ impl Robot {
         let torso_to_world = kinematics.soles_to_torso.left.rotation.inverse();
         let (roll, pitch, _) = torso_to_world.euler_angles();
         let context = camera_matrices::CycleContext {
-            support_side: &Side::Left,
+            support_side: Some(&Side::Left),
+            fall_state: &FallState::Upright,
+            cycle_time: self.time(),
             robot_kinematics: &kinematics,
             inertial: &InertialMeasurement {
                 roll,
@@ -138,6 +140,7 @@ impl Robot {
             },
             top: &self.top,
             bottom: &self.bottom,
+            steady_after: &0.0,
         };
         let outputs = self.cameras.cycle(context).unwrap();
         outputs.camera_matrices.value.unwrap()
