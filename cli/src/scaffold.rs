@@ -31,7 +31,7 @@ pub use crate::workspace::Changes;
 pub use capture::{Capture, capture, check_capturable};
 pub use cycler::{NewCycler, add_cycler};
 pub use framework::Framework;
-pub use leftovers::still_named;
+pub use leftovers::{Leftovers, still_named};
 pub use new_robot::{NewRobot, Template, new_robot};
 pub use node::{NewNode, add_node};
 pub use parameters::without_unread;

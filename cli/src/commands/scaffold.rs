@@ -14,7 +14,7 @@ use crate::drift::{self, DriftError};
 use crate::outcome::{Outcome, Refusal};
 use crate::pipeline;
 use crate::resolve::robot::Robot;
-use crate::scaffold::{self, Changes};
+use crate::scaffold::{self, Changes, Leftovers};
 use crate::workspace::Workspace;
 
 /// What every answer ends with where there is none.
@@ -77,12 +77,8 @@ pub(super) fn remove_node(
     let after = session.workspace.after(&changes);
     let outcome = apply(session, changes, remove.format)?;
     if remove.delete {
-        let module = &remove.node;
-        for (file, line) in scaffold::still_named(&after, &robot.generated, module) {
-            session.terminal.note(&format!(
-                "{file}:{line}: this names `{module}`, which is gone; change it\n"
-            ));
-        }
+        let leftovers = scaffold::still_named(&after, &robot.generated, &remove.node);
+        session.terminal.note(&words(&leftovers, &remove.node));
     }
     let all = robot.cyclers.iter().flat_map(|cycler| &cycler.nodes);
     let entries: Vec<_> = all.filter(|node| node.path == remove.node).collect();
@@ -96,6 +92,24 @@ pub(super) fn remove_node(
         ));
     }
     Ok(outcome)
+}
+
+/// What to do about all that names a module which is gone, one line each.
+fn words(leftovers: &Leftovers, module: &str) -> String {
+    let lines = leftovers.lines.iter().map(|(file, line)| {
+        format!("{file}:{line}: this names `{module}`, which is gone; change it\n")
+    });
+    let generated = leftovers.generated.iter().map(|(folder, command)| {
+        let way_out = match command {
+            Some(command) if folder.starts_with("..") => {
+                format!("`{command}` in the folder of its robot writes it anew")
+            }
+            Some(command) => format!("`{command}` writes it anew"),
+            None => "write it anew or delete it".to_owned(),
+        };
+        format!("{folder}: this generated crate names `{module}`, which is gone; {way_out}\n")
+    });
+    lines.chain(generated).collect()
 }
 
 pub(super) fn rename_output(

@@ -1,6 +1,6 @@
 //! Lines that still name a module which is deleted.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use camino::{Utf8Path, Utf8PathBuf};
 use syn::UseTree;
@@ -8,22 +8,31 @@ use syn::spanned::Spanned as _;
 use syn::visit::{self, Visit};
 
 use crate::diagnostics::position;
+use crate::manifest::without_dots;
 use crate::scan::range;
-use crate::workspace::{Member, Origin, Workspace};
+use crate::workspace::{Member, Origin, Workspace, says_generated};
 
-/// Files and lines of the workspace in which a `use` or a path leads to the module; generated files are none of them.
-pub fn still_named(
-    workspace: &Workspace,
-    generated: &Utf8Path,
-    module: &str,
-) -> BTreeSet<(Utf8PathBuf, usize)> {
+/// How the header of a generated Cargo.toml names the command that writes the crate, where that is not the usual one.
+const COMMAND: (&str, &str) = ("# The command is `", "`.");
+
+/// What names the module although it is gone; nothing of the robot's own generated crate, which was written anew.
+#[derive(Debug, Default, PartialEq, Eq)]
+pub struct Leftovers {
+    /// Files and lines that people wrote.
+    pub lines: BTreeSet<(Utf8PathBuf, usize)>,
+    /// Folders of other generated crates, with the command that writes each if its header says one.
+    pub generated: BTreeMap<Utf8PathBuf, Option<String>>,
+}
+
+/// Finds in the workspace where a `use` or a path leads to the module.
+pub fn still_named(workspace: &Workspace, generated: &Utf8Path, module: &str) -> Leftovers {
     let target: Vec<&str> = module.split("::").collect();
-    let mut found = BTreeSet::new();
+    let mut leftovers = Leftovers::default();
     for member in workspace.members().libraries() {
         if member.folder == generated {
             continue;
         }
-        for file in workspace.files_below(&member.folder) {
+        for file in workspace.files_below(&without_dots(&member.folder)) {
             if file.extension() != Some("rs") || file.starts_with(generated) {
                 continue;
             }
@@ -40,18 +49,41 @@ pub fn still_named(
                 found: Vec::new(),
             };
             search.visit_file(&syntax);
-            let lines = search.found.into_iter();
-            found.extend(lines.map(|byte| (file.clone(), position(&text, byte).line)));
+            let found = search.found;
+            if found.is_empty() {
+                continue;
+            }
+            if let Some((folder, command)) = generated_crate(workspace, &file) {
+                leftovers.generated.insert(folder, command);
+                continue;
+            }
+            let lines = found.into_iter();
+            let lines = lines.map(|byte| (file.clone(), position(&text, byte).line));
+            leftovers.lines.extend(lines);
         }
     }
-    found
+    leftovers
+}
+
+/// The folder of the generated crate that a file is of, such as a partial robot's, and the command in its header.
+fn generated_crate(
+    workspace: &Workspace,
+    file: &Utf8Path,
+) -> Option<(Utf8PathBuf, Option<String>)> {
+    let mut above = file.ancestors().skip(1);
+    let folder = above.find(|folder| workspace.is_file(&folder.join("Cargo.toml")))?;
+    let text = workspace.read(&folder.join("Cargo.toml")).ok()?;
+    let (before, behind) = COMMAND;
+    let command = |line: &str| Some(line.strip_prefix(before)?.strip_suffix(behind)?.to_owned());
+    says_generated(&text).then(|| (folder.to_owned(), text.lines().find_map(command)))
 }
 
 /// The module that a file of the library usually is; `None` for programs, tests and examples, which name it by the library.
 fn module_of(member: &Member, file: &Utf8Path) -> Option<Vec<String>> {
-    let inside = file.strip_prefix(member.root_file.parent()?).ok()?;
+    let root_file = without_dots(&member.root_file);
+    let inside = file.strip_prefix(root_file.parent()?).ok()?;
     let mut names = vec![member.library.clone()];
-    if file != member.root_file {
+    if file != root_file {
         let parts = inside.with_extension("");
         names.extend(parts.components().map(|part| part.as_str().to_owned()));
         names.pop_if(|last| last == "mod");
@@ -148,78 +180,4 @@ impl<'ast> Visit<'ast> for Search<'_> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_names_the_module_is_found_wherever_it_stands() {
-        let package = |name: &str, needs: &str| {
-            format!("[package]\nname = \"{name}\"\n[dependencies]\n{needs}")
-        };
-        let files = [
-            (
-                "Cargo.toml",
-                "[workspace]\nmembers = [\"nodes\", \"tools\", \"generated\"]".to_owned(),
-            ),
-            ("nodes/Cargo.toml", package("nodes", "")),
-            (
-                "nodes/src/lib.rs",
-                "pub mod control;\npub use control::gone::Gone;\nmod gone {}\n".to_owned(),
-            ),
-            (
-                "nodes/src/control.rs",
-                "pub mod other;\n\npub use gone::Gone;\nfn f() -> gone::Gone { g(gone) }\n"
-                    .to_owned(),
-            ),
-            (
-                "nodes/src/control/other.rs",
-                "use super::{\n    gone::Gone,\n    other,\n};\nuse crate::gone::Gone;\n\
-                 mod tests {\n    use super::super::gone;\n    use super::gone;\n}\n"
-                    .to_owned(),
-            ),
-            (
-                "nodes/tests/all.rs",
-                "use crate::control::gone;\nuse nodes::control::gone as x;\n".to_owned(),
-            ),
-            (
-                "tools/Cargo.toml",
-                package(
-                    "tools",
-                    "brain = { package = \"nodes\", path = \"../nodes\" }",
-                ),
-            ),
-            (
-                "tools/src/lib.rs",
-                "use brain::control::gone::*;\nuse brain::control::*;\n".to_owned(),
-            ),
-            ("generated/Cargo.toml", package("generated", "")),
-            (
-                "generated/src/lib.rs",
-                "use nodes::control::gone;".to_owned(),
-            ),
-        ];
-        let files = files.map(|(file, text)| (Utf8PathBuf::from(file), text));
-        let workspace = Workspace::in_memory(files);
-        let found = still_named(
-            &workspace,
-            Utf8Path::new("generated"),
-            "nodes::control::gone",
-        );
-        let found: Vec<String> = found
-            .iter()
-            .map(|(file, line)| format!("{file}:{line}"))
-            .collect();
-        assert_eq!(
-            found,
-            [
-                "nodes/src/control/other.rs:2",
-                "nodes/src/control/other.rs:7",
-                "nodes/src/control.rs:3",
-                "nodes/src/control.rs:4",
-                "nodes/src/lib.rs:2",
-                "nodes/tests/all.rs:2",
-                "tools/src/lib.rs:1",
-            ]
-        );
-    }
-}
+mod tests;

@@ -1,13 +1,13 @@
-//! What is said where nothing could be written, or not all of it taken back.
+//! What is said where nothing could be written, or not all of it taken back, and of what names a deleted module.
 
 use std::fs;
 use std::io;
 
 use camino::Utf8Path;
 
-use super::{UNTOUCHED, not_written};
+use super::{UNTOUCHED, not_written, words};
 use crate::drift;
-use crate::scaffold::Changes;
+use crate::scaffold::{Changes, Leftovers};
 
 #[test]
 fn nothing_was_changed_is_said_only_where_it_is_so() {
@@ -45,4 +45,28 @@ fn nothing_was_changed_is_said_only_where_it_is_so() {
         assert!(message.contains(part), "{part}: {message}");
     }
     assert!(refusal.help.is_some());
+}
+
+#[test]
+fn only_lines_that_people_wrote_are_to_be_changed() {
+    let only = Some("hulkgen generate --only Control".to_owned());
+    let leftovers = Leftovers {
+        lines: [("nodes/src/lib.rs".into(), 2)].into(),
+        generated: [
+            ("../cat/generated-control".into(), only.clone()),
+            ("generated-control".into(), only),
+            ("old".into(), None),
+        ]
+        .into(),
+    };
+    assert_eq!(
+        words(&leftovers, "nodes::gone"),
+        "nodes/src/lib.rs:2: this names `nodes::gone`, which is gone; change it\n\
+         ../cat/generated-control: this generated crate names `nodes::gone`, which is gone; \
+         `hulkgen generate --only Control` in the folder of its robot writes it anew\n\
+         generated-control: this generated crate names `nodes::gone`, which is gone; \
+         `hulkgen generate --only Control` writes it anew\n\
+         old: this generated crate names `nodes::gone`, which is gone; write it anew or delete it\n"
+    );
+    assert_eq!(words(&Leftovers::default(), "nodes::gone"), "");
 }
