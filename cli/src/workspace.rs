@@ -29,7 +29,7 @@ use parsed::Parsed;
 pub use asked::Answers;
 pub use changes::Changes;
 pub use members::{BrokenPackage, Member, Members, OF_GENERATED, Origin};
-pub(crate) use members::{normalized, relative};
+pub(crate) use members::{normalized, package_table, relative};
 pub use revision::{Missing, RevisionError};
 pub use watch::Glance;
 

@@ -4,7 +4,7 @@ use camino::{Utf8Component, Utf8Path, Utf8PathBuf};
 
 use super::Manifest;
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
-use crate::workspace::{MANIFEST, Workspace, says_generated};
+use crate::workspace::{MANIFEST, Workspace, package_table, says_generated};
 
 pub(super) fn check(workspace: &Workspace, manifest: &Manifest, diagnostics: &mut Diagnostics) {
     let robot = &manifest.robot;
@@ -68,9 +68,7 @@ fn is_generated(workspace: &Workspace, folder: &Utf8Path, library: &str) -> bool
     let Ok(table) = toml::from_str::<toml::Table>(&text) else {
         return true;
     };
-    let name = table
-        .get("package")
-        .and_then(|package| package.get("name")?.as_str());
+    let name = package_table(&table).and_then(|package| package.get("name")?.as_str());
     name == Some(library) || says_generated(&text)
 }
 

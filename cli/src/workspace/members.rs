@@ -25,6 +25,8 @@ pub struct Members {
     pub folders: Vec<Utf8PathBuf>,
     /// Keys of the root's `[workspace.package]`, sorted: packages may inherit them.
     pub inherited: Vec<String>,
+    /// The edition among them.
+    edition: Option<String>,
     /// Cargo.toml files that cannot be read or parsed; the generated crate's may be among them.
     pub broken: Vec<BrokenPackage>,
 }
@@ -62,7 +64,7 @@ impl Members {
         };
         let mut folders: Vec<Utf8PathBuf> = Vec::new();
         let mut excluded = Vec::new();
-        if root.contains_key("package") {
+        if package_table(&root).is_some() {
             folders.push(Utf8PathBuf::new());
         }
         if let Some(table) = root.get("workspace").and_then(toml::Value::as_table) {
@@ -71,6 +73,8 @@ impl Members {
             folders.retain(|folder| !excluded.contains(folder));
             members.shared = read_dependencies(table);
             let inherited = table.get("package").and_then(toml::Value::as_table);
+            let edition = inherited.and_then(|inherited| inherited.get("edition")?.as_str());
+            members.edition = edition.map(str::to_owned);
             members.inherited = inherited
                 .into_iter()
                 .flatten()
@@ -136,6 +140,16 @@ impl Members {
         }
     }
 
+    /// Why cargo refuses the old name of `[package]`.
+    fn outdated(&self, package: &toml::Table) -> Option<&'static str> {
+        let is_old = package.contains_key("project");
+        let edition = package_table(package)?.get("edition")?;
+        // A table says that the workspace's is inherited.
+        let edition = edition.as_str().or(self.edition.as_deref())?;
+        let is_refused = is_old && edition.parse::<u32>().is_ok_and(|year| year >= 2024);
+        is_refused.then_some("since edition 2024 `[project]` has to be called `[package]`")
+    }
+
     /// Answers with the folders that the package depends on, relative to cargo's root as its own is then.
     fn add(
         &mut self,
@@ -146,7 +160,7 @@ impl Members {
         let Some(package) = self.parse(workspace, &folder.join("Cargo.toml")) else {
             return Vec::new();
         };
-        if let Some(message) = nameless(&package) {
+        if let Some(message) = nameless(&package).or_else(|| self.outdated(&package)) {
             self.broken.push(BrokenPackage {
                 file: folder.join("Cargo.toml"),
                 range: 0..0,
@@ -178,7 +192,7 @@ impl Member {
         package: &toml::Table,
         dependencies: Dependencies,
     ) -> Option<Self> {
-        let name = package.get("package")?.get("name")?.as_str()?.to_owned();
+        let name = package_table(package)?.get("name")?.as_str()?.to_owned();
         let library = package.get("lib");
         let library_name = library
             .and_then(|library| library.get("name")?.as_str())
@@ -196,9 +210,14 @@ impl Member {
     }
 }
 
+/// The table `[package]`, which cargo takes by its old name `[project]`, too.
+pub(crate) fn package_table(table: &toml::Table) -> Option<&toml::Value> {
+    table.get("package").or_else(|| table.get("project"))
+}
+
 /// Why cargo refuses the Cargo.toml of a package that has no name.
 fn nameless(package: &toml::Table) -> Option<&'static str> {
-    match package.get("package").map(|package| package.get("name")) {
+    match package_table(package).map(|package| package.get("name")) {
         None => Some("a package needs a table `[package]`"),
         Some(Some(toml::Value::String(_))) => None,
         Some(_) => Some("`[package]` needs a `name`"),

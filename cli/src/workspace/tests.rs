@@ -70,6 +70,53 @@ fn members_are_found_by_the_name_of_their_library() {
 }
 
 #[test]
+fn a_package_may_have_its_old_name_before_edition_2024() {
+    let own = "edition.workspace = true";
+    for (shared, package, refusal) in [
+        ("2024", "[project]\nname = \"eyes\"", None),
+        (
+            "2024",
+            "[project]\nname = \"eyes\"\nedition = \"2021\"",
+            None,
+        ),
+        ("2021", &format!("[project]\nname = \"eyes\"\n{own}"), None),
+        (
+            "2024",
+            &format!("[project]\nname = \"eyes\"\n{own}"),
+            Some("since edition 2024 `[project]` has to be called `[package]`"),
+        ),
+        (
+            "2021",
+            "[package]\nname = \"eyes\"\nedition = \"2024\"\n[project]",
+            Some("since edition 2024 `[project]` has to be called `[package]`"),
+        ),
+        (
+            "2021",
+            "[project]\nversion = \"1.0.0\"",
+            Some("`[package]` needs a `name`"),
+        ),
+    ] {
+        let root = format!(
+            "[workspace]\nmembers = [\"eyes\"]\n[workspace.package]\nedition = \"{shared}\""
+        );
+        let workspace = workspace(&[
+            ("Cargo.toml", &root),
+            ("eyes/Cargo.toml", package),
+            ("eyes/src/lib.rs", ""),
+        ]);
+        let members = workspace.members();
+        let broken = members.broken.iter().map(|broken| broken.message.as_str());
+        assert_eq!(
+            broken.collect::<Vec<_>>(),
+            Vec::from_iter(refusal),
+            "{package}"
+        );
+        let is_named = package.contains("name = ");
+        assert_eq!(members.library("eyes").is_some(), is_named, "{package}");
+    }
+}
+
+#[test]
 fn what_a_member_depends_on_by_a_path_is_a_member() {
     let depends =
         |name: &str, on: &str| format!("[package]\nname = \"{name}\"\n[dependencies]\n{on}");
