@@ -89,10 +89,6 @@ fn frame((code, reason): (CloseCode, &'static str)) -> CloseFrame {
 
 /// Whether the client may go on.
 fn receive(message: Message, client: ClientId, guest: &Guest, shared: &Shared) -> bool {
-    match &message {
-        Message::Ping(bytes) | Message::Pong(bytes) => guest.is_alive(bytes.len()),
-        _ => guest.is_heard(),
-    }
     match message {
         Message::Text(text) => {
             let goes_on = shared.hub().receive(client, text.as_str());

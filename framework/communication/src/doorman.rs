@@ -1,5 +1,6 @@
 //! Who is let in: so many connections at a time, and none for long that does not say what it wants.
 
+use std::cell::Cell;
 use std::io;
 use std::net::SocketAddr;
 use std::pin::Pin;
@@ -14,6 +15,7 @@ use tokio::net::{TcpListener, TcpStream};
 use tokio::sync::{OwnedSemaphorePermit, Semaphore};
 use tokio::time::{Sleep, sleep};
 
+use crate::frames::{Frames, Request};
 use crate::guest::{Guest, Room};
 use crate::limits::Limits;
 
@@ -34,6 +36,8 @@ pub(crate) struct Visitor {
     _place: OwnedSemaphorePermit,
     guest: Guest,
     deadline: Pin<Box<Sleep>>,
+    request: Request,
+    frames: Frames,
 }
 
 impl Doorman {
@@ -69,6 +73,8 @@ impl Listener for Doorman {
                 _place: place,
                 guest: Guest::new(self.room.clone()),
                 deadline: Box::pin(sleep(self.head)),
+                request: Request::default(),
+                frames: Frames::default(),
             };
             return (visitor, address);
         }
@@ -85,6 +91,32 @@ impl Connected<IncomingStream<'_, Doorman>> for Guest {
     }
 }
 
+impl Visitor {
+    /// How many of the bytes that are there next may come.
+    fn may_come(&self, bytes: &[u8]) -> io::Result<usize> {
+        if !self.guest.is_staying() {
+            return Ok({ self.request }.follow(bytes));
+        }
+        let why = Cell::new("");
+        let fits = |held| self.guest.fits(held).map_err(|told| why.set(told)).is_ok();
+        let most = { self.frames }.follow(bytes, fits);
+        if most == 0 && !bytes.is_empty() {
+            self.guest.refuse(why.get());
+            return Err(io::Error::other(why.get()));
+        }
+        Ok(most)
+    }
+
+    fn came(&mut self, bytes: &[u8]) {
+        if self.guest.is_staying() {
+            self.frames.follow(bytes, |_| true);
+            self.guest.hold(self.frames.held());
+        } else {
+            self.request.follow(bytes);
+        }
+    }
+}
+
 impl AsyncRead for Visitor {
     fn poll_read(
         mut self: Pin<&mut Self>,
@@ -95,19 +127,22 @@ impl AsyncRead for Visitor {
             if self.deadline.as_mut().poll(context).is_ready() {
                 return Poll::Ready(Err(io::ErrorKind::TimedOut.into()));
             }
-            // How long a head may be is known to who reads it.
-            return Pin::new(&mut self.stream).poll_read(context, buffer);
+            // What is behind its only request are frames, if it stays: they are counted from the first on.
+            if self.request.is_over() {
+                return Poll::Pending;
+            }
         }
-        let most = self.guest.may_come();
-        if most == 0 {
-            return Poll::Ready(Err(io::Error::other("too long a message")));
+        if buffer.remaining() == 0 {
+            return Poll::Ready(Ok(()));
         }
-        let most = most.min(buffer.remaining());
+        let mut next = ReadBuf::new(buffer.initialize_unfilled());
+        ready!(self.stream.poll_peek(context, &mut next))?;
+        let most = self.may_come(next.filled())?;
         let mut part = ReadBuf::new(buffer.initialize_unfilled_to(most));
         ready!(Pin::new(&mut self.stream).poll_read(context, &mut part))?;
+        self.came(part.filled());
         let came = part.filled().len();
         buffer.advance(came);
-        self.guest.came(came);
         Poll::Ready(Ok(()))
     }
 }

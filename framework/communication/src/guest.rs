@@ -1,12 +1,9 @@
 //! One connection, as its socket and the one who serves it share it: whether it may stay, and how much of it may be held.
 
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::Relaxed};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use crate::limits::Limits;
-
-/// Bytes of a client's frame before what it says: two, and the mask.
-const FRAME_HEAD: usize = 6;
 
 /// A connection. Clones are of the same one; only the server's thread uses them.
 #[derive(Clone, Debug)]
@@ -16,15 +13,17 @@ pub(crate) struct Guest(Arc<State>);
 struct State {
     stays: AtomicBool,
     may_change: AtomicBool,
-    /// Bytes that came since its last whole message.
+    /// Bytes of what it says that is not whole: what it announced, for which there is room already.
     held: AtomicUsize,
-    is_refused: AtomicBool,
+    refusal: Mutex<Option<&'static str>>,
     room: Arc<Room>,
 }
 
 /// Where messages are that are not whole.
 #[derive(Debug)]
 pub(crate) struct Room {
+    /// Bytes of one message.
+    whole: usize,
     /// Bytes that each connection may have.
     alone: usize,
     /// Bytes beyond these, of all connections.
@@ -36,10 +35,15 @@ pub(crate) struct Room {
 impl Room {
     pub(crate) fn new(limits: &Limits) -> Arc<Self> {
         Arc::new(Self {
+            whole: limits.message_bytes,
             alone: limits.stranger_bytes,
             together: limits.arriving_bytes,
             taken: AtomicUsize::new(0),
         })
+    }
+
+    fn beyond(&self, bytes: usize) -> usize {
+        bytes.saturating_sub(self.alone)
     }
 }
 
@@ -49,7 +53,7 @@ impl Guest {
             stays: AtomicBool::new(false),
             may_change: AtomicBool::new(false),
             held: AtomicUsize::new(0),
-            is_refused: AtomicBool::new(false),
+            refusal: Mutex::default(),
             room,
         }))
     }
@@ -68,50 +72,50 @@ impl Guest {
         self.0.may_change.store(may, Relaxed);
     }
 
-    /// How many bytes may come now. With none it is refused: what it says is longer than that.
-    pub(crate) fn may_come(&self) -> usize {
+    /// Whether so much may be held of it. What it said in front of this was heard.
+    pub(crate) fn fits(&self, bytes: usize) -> Result<(), &'static str> {
         let State { held, room, .. } = &*self.0;
-        let alone = room.alone.saturating_sub(held.load(Relaxed));
-        let together = match self.0.may_change.load(Relaxed) {
-            true => room.together.saturating_sub(room.taken.load(Relaxed)),
-            false => 0,
-        };
-        let all = alone.saturating_add(together);
-        self.0.is_refused.fetch_or(all == 0, Relaxed);
-        all
+        let others = room.taken.load(Relaxed) - room.beyond(held.load(Relaxed));
+        let beyond = room.beyond(bytes);
+        if beyond > 0 && !self.0.may_change.load(Relaxed) {
+            return Err(
+                "too long a message of a client that may change nothing: authenticate first",
+            );
+        }
+        if bytes > room.whole {
+            return Err("too long a message");
+        }
+        if beyond > 0 && others.saturating_add(beyond) > room.together {
+            return Err("too many long messages at a time: say it again later");
+        }
+        Ok(())
     }
 
-    pub(crate) fn came(&self, bytes: usize) {
-        self.0.hold(self.0.held.load(Relaxed).saturating_add(bytes));
+    /// So much is held of it from now on.
+    pub(crate) fn hold(&self, bytes: usize) {
+        self.0.hold(bytes);
     }
 
-    /// A message is whole, and no longer here.
-    pub(crate) fn is_heard(&self) {
-        self.0.hold(0);
-    }
-
-    /// As [`is_heard`](Self::is_heard), of a sign of life, which may come amid a message.
-    pub(crate) fn is_alive(&self, bytes: usize) {
-        let held = self.0.held.load(Relaxed);
-        self.0.hold(held.saturating_sub(bytes + FRAME_HEAD));
+    pub(crate) fn refuse(&self, why: &'static str) {
+        *self.0.refusal() = Some(why);
     }
 
     /// Why it was refused.
     pub(crate) fn refusal(&self) -> Option<&'static str> {
-        let is_refused = self.0.is_refused.load(Relaxed);
-        is_refused.then(|| match self.0.may_change.load(Relaxed) {
-            true => "too many long messages at a time: say it again later",
-            false => "too long a message of a client that may change nothing: authenticate first",
-        })
+        *self.0.refusal()
     }
 }
 
 impl State {
+    fn refusal(&self) -> MutexGuard<'_, Option<&'static str>> {
+        self.refusal.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
     fn hold(&self, bytes: usize) {
-        let beyond = |bytes: usize| bytes.saturating_sub(self.room.alone);
+        let room = &self.room;
         let before = self.held.swap(bytes, Relaxed);
-        let taken = self.room.taken.load(Relaxed) - beyond(before) + beyond(bytes);
-        self.room.taken.store(taken, Relaxed);
+        let taken = room.taken.load(Relaxed) - room.beyond(before) + room.beyond(bytes);
+        room.taken.store(taken, Relaxed);
     }
 }
 

@@ -27,6 +27,7 @@ mod catalogue;
 mod closely;
 mod connection;
 mod doorman;
+mod frames;
 mod guest;
 mod hub;
 mod jpeg;

@@ -9,7 +9,8 @@ use std::time::Duration;
 use axum::Router;
 use axum::extract::ws::WebSocketUpgrade;
 use axum::extract::{ConnectInfo, State};
-use axum::http::{HeaderMap, StatusCode, Uri};
+use axum::http::{HeaderMap, HeaderValue, StatusCode, Uri, header};
+use axum::middleware::map_response;
 use axum::response::{IntoResponse, Response};
 use axum::routing::get;
 use framework::launch::{Listening, Served};
@@ -141,6 +142,7 @@ async fn run(listener: TcpListener, shared: Arc<Shared>, is_over: oneshot::Recei
     let routes = Router::new()
         .route(protocol::SOCKET, get(socket))
         .fallback(get(file))
+        .layer(map_response(once))
         .with_state(shared.clone())
         .into_make_service_with_connect_info::<Guest>();
     tokio::select! {
@@ -171,6 +173,15 @@ async fn look(shared: &Shared) {
             let _ = timeout(REST, shared.work.notified()).await;
         }
     }
+}
+
+/// A connection has one request: nothing but what is behind it tells frames from requests.
+async fn once(mut response: Response) -> Response {
+    if response.status() != StatusCode::SWITCHING_PROTOCOLS {
+        let close = HeaderValue::from_static("close");
+        response.headers_mut().insert(header::CONNECTION, close);
+    }
+    response
 }
 
 async fn socket(

@@ -14,7 +14,7 @@ use crate::zoo::{Client, Zoo, stream};
 const CYCLES: &str = "Control.main_outputs.cycles";
 
 /// A WebSocket that speaks by itself.
-fn upgraded(address: SocketAddr) -> TcpStream {
+pub(crate) fn upgraded(address: SocketAddr) -> TcpStream {
     let mut stream = stream(address);
     let request = format!(
         "GET /socket HTTP/1.1\r\nHost: {address}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n\

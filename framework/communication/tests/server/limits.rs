@@ -7,25 +7,22 @@ use std::time::Duration;
 use framework::launch::Listening;
 use hulkgen_communication::Limits;
 use serde_json::{Value, json};
-use tungstenite::Message;
-use tungstenite::protocol::frame::Frame;
-use tungstenite::protocol::frame::coding::{Data, OpCode};
 
 use crate::zoo::{Client, Zoo, eventually, stream};
 
 const CYCLES: &str = "Control.main_outputs.cycles";
 
-fn zoo(limits: Limits) -> Zoo {
+pub(crate) fn zoo(limits: Limits) -> Zoo {
     Zoo::with(Listening::default(), limits)
 }
 
 /// Whether what the limit forbids goes through, with the limit and without it.
-fn with_and_without(limited: Limits, goes_through: impl Fn(&Zoo) -> bool) {
+pub(crate) fn with_and_without(limited: Limits, goes_through: impl Fn(&Zoo) -> bool) {
     assert!(!goes_through(&zoo(limited)), "the limit does not hold");
     assert!(goes_through(&zoo(unlimited())), "something else forbids it");
 }
 
-fn unlimited() -> Limits {
+pub(crate) fn unlimited() -> Limits {
     Limits {
         connections: usize::MAX,
         head: Duration::from_secs(1000),
@@ -69,79 +66,6 @@ fn messages_have_a_greatest_length() {
         );
         client.send(&long);
         client.try_receive().is_ok()
-    });
-}
-
-/// A text that does not end here, and a sign of life.
-fn half(bytes: usize) -> [Message; 2] {
-    let begin = Frame::message("x".repeat(bytes), OpCode::Data(Data::Text), false);
-    [Message::Frame(begin), Message::Ping("here".into())]
-}
-
-/// Whether a client may send so much of a message, and what it is told if not.
-fn sends_half(client: &mut Client, bytes: usize) -> Result<(), String> {
-    for message in half(bytes) {
-        // The server may have hung up amid it.
-        let _ = client.socket().send(message);
-    }
-    loop {
-        match client.socket().read().expect("the server says why") {
-            Message::Pong(_) => return Ok(()),
-            Message::Close(why) => return Err(why.expect("a reason").to_string()),
-            _ => {}
-        }
-    }
-}
-
-#[test]
-fn a_client_that_may_change_nothing_is_held_little_of() {
-    let with = |limits: Limits| {
-        let listening = Listening {
-            token: Some("secret".to_owned()),
-            ..Listening::default()
-        };
-        Zoo::with(listening, limits)
-    };
-    let zoo = with(Limits::default());
-    let told = sends_half(&mut zoo.client(), 100_000).expect_err("the limit holds");
-    assert!(told.contains("authenticate first"), "{told}");
-    assert_eq!(sends_half(&mut zoo.client(), 60_000), Ok(()));
-    let mut trusted = zoo.client();
-    trusted.ok(json!({ "authenticate": { "token": "secret" } }));
-    assert_eq!(sends_half(&mut trusted, 1_000_000), Ok(()));
-    assert_eq!(sends_half(&mut with(unlimited()).client(), 100_000), Ok(()));
-    // What is whole is not held; nor are signs of life, however many.
-    let mut client = zoo.client();
-    for _ in 0..100 {
-        client.ok(json!({ "read": { "path": CYCLES } }));
-        let ping = Message::Ping(vec![0; 100].into());
-        (0..20).for_each(|_| client.socket().write(ping.clone()).expect("it listens"));
-        let long = format!("{{\"id\":1{}}}", " ".repeat(2000));
-        client.send(&long);
-        client.receive();
-    }
-}
-
-#[test]
-fn all_clients_together_are_held_only_so_much_of() {
-    let limited = Limits {
-        arriving_bytes: 3 << 20,
-        ..Limits::default()
-    };
-    with_and_without(limited, |zoo| {
-        let (mut first, mut second) = (zoo.client(), zoo.client());
-        sends_half(&mut first, 2 << 20).expect("there is room");
-        let goes_through = sends_half(&mut second, 2 << 20);
-        if let Err(told) = &goes_through {
-            assert!(told.contains("say it again later"), "{told}");
-            // Short ones have their place.
-            zoo.client().ok(json!({ "read": { "path": CYCLES } }));
-        }
-        drop(first);
-        eventually("there is room again", || {
-            sends_half(&mut zoo.client(), 2 << 20).is_ok()
-        });
-        goes_through.is_ok()
     });
 }
 

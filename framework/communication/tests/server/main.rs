@@ -1,5 +1,6 @@
 //! The server with a robot that runs, over real sockets.
 
+mod arriving;
 mod files;
 mod fuzz;
 mod hostile;
