@@ -1,4 +1,4 @@
-//! One named thread per instance; the calling thread is the watchdog.
+//! One named thread per instance, and one of the watchdog; the calling thread waits for them.
 
 use std::collections::BTreeSet;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -101,7 +101,7 @@ impl<'robot> Threads<'robot> {
             stop.request();
         };
         let safe_state = SafeState::new(self.hardware);
-        let mut watched = Watched::all(instances);
+        let watched = Watched::all(instances);
         let refusals = Refusals::default();
         thread::scope(|scope| {
             let mut running = Running::default();
@@ -140,12 +140,7 @@ impl<'robot> Threads<'robot> {
                     }
                 }
             }
-            let watching = contain("watchdog", || {
-                self.watch(&mut watched, &safe_state);
-                Ok(())
-            });
-            watching.unwrap_or_else(|error| fail(error.context("the watchdog failed")));
-            self.bring_down(scope, &safe_state, &fail);
+            self.await_stop(scope, watched, &safe_state, &fail);
             self.overdue.await_end(
                 &running,
                 "a node of it, or the hardware that it reads, does not return",
@@ -278,32 +273,48 @@ impl Watched {
 }
 
 impl Threads<'_> {
-    /// Safe state and [`Hardware::stop`], on a thread of their own: somebody has to tell where they do not return.
-    fn bring_down<'scope>(
+    /// Until the robot has come down. The watchdog and all that it asks of the hardware have a thread of their own: somebody has
+    /// to tell where that does not return.
+    fn await_stop<'scope>(
         &'scope self,
         scope: &'scope Scope<'scope, '_>,
+        mut watched: Vec<Watched>,
         safe_state: &'scope SafeState<'_>,
         fail: &'scope (dyn Fn(Error) + Sync),
     ) {
-        let bring_down = move || {
-            safe_state.enter();
-            let stopped = contain("Hardware::stop", || {
-                self.hardware.stop();
+        let thread = thread::Builder::new().name("watchdog".to_owned());
+        let thread = thread.spawn_scoped(scope, move || {
+            let watching = contain("watchdog", || {
+                self.watch(&mut watched, safe_state);
                 Ok(())
             });
-            stopped.unwrap_or_else(fail);
+            watching.unwrap_or_else(|error| fail(error.context("the watchdog failed")));
+            self.bring_down(safe_state, fail);
+        });
+        let thread = match thread {
+            Ok(thread) => thread,
+            Err(error) => {
+                fail(Error::from(error).context("no thread for the watchdog"));
+                // Better waited for than not done.
+                return self.bring_down(safe_state, fail);
+            }
         };
-        let thread = thread::Builder::new().name("stop".to_owned());
-        let Ok(thread) = thread.spawn_scoped(scope, bring_down) else {
-            // Better waited for than not done.
-            return bring_down();
-        };
+        while self.stop.wait(Duration::from_secs(3600)).is_ok() {}
         let mut running = Running::default();
         running.add("The hardware", thread);
         self.overdue.await_end(
             &running,
-            "its `enter_safe_state` or its `stop` does not return",
+            "its `enter_safe_state`, `rearm`, `is_rearm_wanted` or `stop` does not return",
         );
+    }
+
+    fn bring_down(&self, safe_state: &SafeState<'_>, fail: &dyn Fn(Error)) {
+        safe_state.enter();
+        let stopped = contain("Hardware::stop", || {
+            self.hardware.stop();
+            Ok(())
+        });
+        stopped.unwrap_or_else(fail);
     }
 
     /// Until the robot stops, looks for cycles that have begun and are not finished for too long, and for whoever wants the

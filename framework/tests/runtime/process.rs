@@ -142,11 +142,16 @@ fn a_process_of_this_test_is_the_run_it_was_told_to_be() {
             let recording = recording.to_str().expect("it was told as text");
             launch(&["--for", "5500ms", "--record", recording], &setting)
         }
-        Ok(where_to @ ("hang in stop" | "hang in drop")) => {
+        Ok(where_to @ ("hang in stop" | "hang in safe state" | "hang in drop")) => {
             let recording = std::env::temp_dir().join(RECORDING);
             let recording = recording.to_str().expect("it was told as text");
-            let words = ["--for", "200ms", "--record", recording, "--", where_to];
-            launch(&words, &Setting::default())
+            let words = ["--for", "500ms", "--record", recording, "--", where_to];
+            // The watchdog is the first who wants the safe state.
+            let late = match where_to {
+                "hang in safe state" => Act::Take(300),
+                _ => Act::Work,
+            };
+            launch(&words, &failing(OnFailure::Skip, &[late]))
         }
         // Without a run it is one of many tests, and there is nothing to do.
         _ => {}
@@ -207,7 +212,11 @@ fn hardware_that_hangs_is_told_and_keeps_neither_process_nor_recording() {
     let runs = [
         (
             "hang in stop",
-            "The hardware did not end within 10s of the stop: its `enter_safe_state` or its `stop`",
+            "The hardware did not end within 10s of the stop: its `enter_safe_state`, ",
+        ),
+        (
+            "hang in safe state",
+            "The hardware did not end within 10s of the stop: its `enter_safe_state`, ",
         ),
         (
             "hang in drop",

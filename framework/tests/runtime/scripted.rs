@@ -110,8 +110,8 @@ pub(crate) struct ScriptedHardware {
     beats: Arc<Beats>,
     /// Somebody presses the button that gives the nodes the actuators back.
     pub(crate) button: AtomicBool,
-    /// `stop` never returns.
-    hangs: bool,
+    /// What never returns, if it says so.
+    options: Vec<String>,
     _end: End,
 }
 
@@ -168,7 +168,7 @@ impl ScriptedHardware {
             entry: serde_json::Value::Null,
             beats: Arc::default(),
             button: AtomicBool::new(false),
-            hangs: false,
+            options: Vec::new(),
             _end: End::default(),
         }
     }
@@ -205,7 +205,7 @@ impl Hardware for ScriptedHardware {
         });
         let mut hardware = Self::with(context.clock.clone(), events.collect());
         hardware.stop = context.stop.clone();
-        hardware.hangs = context.options == ["hang in stop"];
+        hardware.options.clone_from(&context.options);
         hardware._end.hangs = context.options == ["hang in drop"];
         hardware.step = step.unwrap_or_default();
         hardware.entry = serde_json::to_value(context.table.get("robot"))?;
@@ -227,11 +227,12 @@ impl Hardware for ScriptedHardware {
     fn stop(&self) {
         self.stop.request();
         self.log.add("stop");
-        hang_if(self.hangs);
+        hang_if(self.options == ["hang in stop"]);
     }
 
     fn enter_safe_state(&self) {
         self.log.add("safe state");
+        hang_if(self.options == ["hang in safe state"]);
     }
 
     fn rearm(&self) {
