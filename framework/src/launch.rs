@@ -189,6 +189,8 @@ where
     let hardware = connect::<H>(target, options, &layers.load()?, &clock, stop)?;
     layers.identities = known_identities(target, hardware.identities());
     let loaded = layers.load()?;
+    // They may have layers of their own.
+    check_hardware(target, &loaded)?;
     let start = Start {
         clock: clock.clone(),
         stop: stop.clone(),

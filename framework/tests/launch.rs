@@ -332,6 +332,11 @@ fn a_table_of_a_target_that_is_none_is_told_with_its_place() {
     let directory =
         workspace("gain = 1.0\n[hardware.simulated]\nport = 1\n[hardware.real]\nport = 2\n");
     assert_eq!(run(&directory, &["--for", "1ms"]).status, 0);
+    // Layers of the identities are known once the hardware is there.
+    let of_body = directory.path().join("body.17.toml");
+    fs::write(of_body, "gain = 2.0\n[hardware.reel]\nport = 2\n").expect("can be written");
+    let ran = run(&directory, &["--for", "1ms"]);
+    assert_eq!((ran.status, ran.gain), (1, None));
 }
 
 #[test]
