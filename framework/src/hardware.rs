@@ -13,6 +13,9 @@ use crate::time::Timestamp;
 use crate::tool::Bench;
 
 /// The platform, as far as the framework needs it; everything else are traits of the application.
+///
+/// When the robot stops, its safe state and [`Hardware::stop`] have 10 s together, and its `Drop` has 10 s at the very end:
+/// what does not return by then is told, and the process ends with 1. The recording has its end before.
 pub trait Hardware: Send + Sync {
     /// Connects to the platform.
     fn new(context: HardwareContext) -> Result<Self>
@@ -24,12 +27,14 @@ pub trait Hardware: Send + Sync {
         Vec::new()
     }
 
-    /// The run ends: blocked calls return [`crate::Stopped`] within 100 ms.
+    /// The run ends: blocked calls return [`crate::Stopped`] within 100 ms. Called on the thread of the watchdog, which is none
+    /// of an instance, behind [`Hardware::enter_safe_state`].
     fn stop(&self);
 
     /// Takes the actuators away from the nodes; the hardware's own thread brings the robot down (sit, release).
     ///
-    /// Called at most once until [`Hardware::rearm`].
+    /// Called at most once until [`Hardware::rearm`]: on the thread of the watchdog, or on that of the instance that restarts.
+    /// No thread can change the safe state until it returns, so it waits for nothing.
     fn enter_safe_state(&self);
 
     /// Gives the actuators back to the nodes: an instance that had to restart has finished its first
