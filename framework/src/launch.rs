@@ -187,17 +187,12 @@ where
     // The identities that choose layers come from the hardware, whose own table therefore comes first.
     let mut layers = layers(target, options)?;
     let hardware = connect::<H>(target, options, &layers.load()?, &clock, stop)?;
+    // Whatever ends a run from here on, the hardware has its time for its end.
+    let of_hardware = |error: &Error| ending.of_hardware(Some(error));
+    let mut start = |start| create(&hardware, start);
     layers.identities = known_identities(target, hardware.identities());
-    let loaded = layers.load()?;
-    // They may have layers of their own.
-    check_hardware(target, &loaded)?;
-    let start = Start {
-        clock: clock.clone(),
-        stop: stop.clone(),
-        parameters: loaded.deserialize()?,
-    };
-    let mut robot = create(&hardware, start)?;
-    robot.parameters.came_from(layers, loaded)?;
+    let robot = create_robot(target, layers, &clock, stop, &mut start);
+    let mut robot = robot.inspect_err(of_hardware)?;
     let identities = hardware.identities();
     let recording = record::start(
         target,
@@ -205,7 +200,8 @@ where
         &robot,
         hardware.is_simulated(),
         &identities,
-    )?;
+    );
+    let mut recording = recording.inspect_err(of_hardware)?;
 
     tell(format_args!(
         "robot {} on target {}; Ctrl-C stops it",
@@ -221,7 +217,12 @@ where
             let mut link = robot.link(stop, threads.rearming());
             link.procedures = world::procedures(&hardware);
             link.recorded = (recording.as_ref()).map_or_else(Vec::new, Recording::shared_counts);
-            start_server(link, listening, serve)?
+            let started = start_server(link, listening, serve);
+            started.inspect_err(|error| {
+                ending.of_recording();
+                drop(recording.take());
+                of_hardware(error);
+            })?
         }
         None => None,
     };
@@ -237,11 +238,30 @@ where
     report.recording = lock(&recording).take().map(Recording::end);
     ending.of_nothing();
     let written = write_report(&report, page, options.format, output);
-    ending.of_hardware();
+    ending.of_hardware(result.as_ref().err());
     // Why the robot failed matters more than a reader who left.
     result?;
     written.map_err(|error| Error::from(error).context("cannot write the report"))?;
     Ok(DONE)
+}
+
+/// With the layers of the hardware's identities.
+fn create_robot<P: ParameterData>(
+    target: &Target,
+    layers: Layers,
+    clock: &Clock,
+    stop: &Stop,
+    create: &mut dyn FnMut(Start<P>) -> Result<Robot<P>>,
+) -> Result<Robot<P>> {
+    let loaded = layers.load()?;
+    check_hardware(target, &loaded)?;
+    let robot = create(Start {
+        clock: clock.clone(),
+        stop: stop.clone(),
+        parameters: loaded.deserialize()?,
+    })?;
+    robot.parameters.came_from(layers, loaded)?;
+    Ok(robot)
 }
 
 fn write_report(

@@ -5,6 +5,7 @@ use std::thread;
 use std::time::Duration;
 
 use super::FAILED;
+use crate::error::Error;
 use crate::report::tell;
 
 /// A slow disk takes what waits for it within this time; one that takes nothing hangs.
@@ -16,11 +17,13 @@ const HARDWARE: Duration = Duration::from_secs(10);
 /// Ends the process if a step of the end takes too long, until it is dropped.
 pub(super) struct Ending(Sender<Step>);
 
-#[derive(Clone, Copy, Debug)]
+#[derive(Debug)]
 struct Step {
     /// What does not end.
     what: &'static str,
     patience: Duration,
+    /// Why the run failed, which nobody tells otherwise.
+    failure: Option<String>,
 }
 
 impl Ending {
@@ -47,12 +50,14 @@ impl Ending {
         self.begin("the recording: its disk takes nothing", DISK);
     }
 
-    /// From now on the hardware and nodes are dropped.
-    pub(super) fn of_hardware(&self) {
-        self.begin(
-            "the hardware or a node: its `Drop` does not return",
-            HARDWARE,
-        );
+    /// From now on the hardware and nodes are dropped, of a run that failed with this.
+    pub(super) fn of_hardware(&self, failure: Option<&Error>) {
+        // Without a thread nobody hears it.
+        let _ = self.0.send(Step {
+            what: "the hardware or a node: its `Drop` does not return",
+            patience: HARDWARE,
+            failure: failure.map(Error::to_string),
+        });
     }
 
     /// From now on something else is done, which takes as long as it takes.
@@ -62,17 +67,29 @@ impl Ending {
 
     fn begin(&self, what: &'static str, patience: Duration) {
         // Without a thread nobody hears it.
-        let _ = self.0.send(Step { what, patience });
+        let _ = self.0.send(Step {
+            what,
+            patience,
+            failure: None,
+        });
     }
 }
 
 fn look(steps: &Receiver<Step>, give_up: impl FnOnce()) {
     let mut next = steps.recv();
-    while let Ok(Step { what, patience }) = next {
+    while let Ok(step) = next {
+        let Step {
+            what,
+            patience,
+            failure,
+        } = step;
         next = match steps.recv_timeout(patience) {
             Ok(step) => Ok(step),
             Err(RecvTimeoutError::Disconnected) => return,
             Err(RecvTimeoutError::Timeout) => {
+                if let Some(failure) = failure {
+                    tell(format_args!("error: {failure}"));
+                }
                 tell(format_args!(
                     "the run did not end within {patience:?} because of {what}"
                 ));

@@ -153,6 +153,17 @@ fn a_process_of_this_test_is_the_run_it_was_told_to_be() {
             };
             launch(&words, &failing(OnFailure::Skip, &[late]))
         }
+        Ok("hang in drop of a robot that is not created") => {
+            let directory = tempfile::tempdir().expect("a temporary directory");
+            let file = directory.path().join("default.toml");
+            std::fs::write(file, "gain = 1").expect("can be written");
+            let words = ["--for", "1s", "--", "hang in drop"].map(OsString::from);
+            let all = [OsString::from("--parameters"), directory.path().into()];
+            let create = |_: &Arc<ScriptedHardware>, _: Start<Parameters>| Err("no legs".into());
+            let all = all.into_iter().chain(words);
+            let status = launch::run(TARGET, all, &mut Closed, create, launch::nobody);
+            std::process::exit(status.into())
+        }
         // Without a run it is one of many tests, and there is nothing to do.
         _ => {}
     }
@@ -237,6 +248,18 @@ fn hardware_that_hangs_is_told_and_keeps_neither_process_nor_recording() {
             });
         }
     });
+}
+
+#[test]
+fn hardware_of_a_run_that_does_not_begin_has_no_longer_for_its_end() {
+    let run = "hang in drop of a robot that is not created";
+    let limit = Duration::from_secs(30);
+    let (status, errors) = end_within(limit, run, &std::env::temp_dir(), Stdio::piped());
+    assert_eq!(status.code(), Some(1), "{status}: {errors}");
+    assert!(
+        errors.contains("the run did not end within 10s"),
+        "{errors}"
+    );
 }
 
 #[cfg(target_os = "linux")]
