@@ -47,7 +47,10 @@ impl Ending {
 
     /// From now on the recording is ended.
     pub(super) fn of_recording(&self) {
-        self.begin("the recording: its disk takes nothing", DISK);
+        self.begin(
+            "the recording: its disk has not taken all of it, since it is too slow or hangs",
+            DISK,
+        );
     }
 
     /// From now on the hardware and nodes are dropped, of a run that failed with this.
