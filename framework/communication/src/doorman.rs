@@ -41,13 +41,13 @@ pub(crate) struct Visitor {
 }
 
 impl Doorman {
-    pub(crate) fn new(listener: TcpListener, limits: &Limits) -> Self {
+    pub(crate) fn new(listener: TcpListener, limits: &Limits, is_read_only: bool) -> Self {
         Self {
             listener,
             places: Arc::new(Semaphore::new(
                 limits.connections.min(Semaphore::MAX_PERMITS),
             )),
-            room: Room::new(limits),
+            room: Room::new(limits, is_read_only),
             head: limits.head,
         }
     }

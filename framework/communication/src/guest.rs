@@ -30,11 +30,19 @@ pub(crate) struct Room {
     together: usize,
     /// How many of the latter there are.
     taken: AtomicUsize,
+    /// What whoever may change nothing is told of what is longer than `alone`.
+    refusal: &'static str,
 }
 
 impl Room {
-    pub(crate) fn new(limits: &Limits) -> Arc<Self> {
+    pub(crate) fn new(limits: &Limits, is_read_only: bool) -> Arc<Self> {
         Arc::new(Self {
+            refusal: match is_read_only {
+                true => "too long a message to a robot that may only be read",
+                false => {
+                    "too long a message of a client that may change nothing: authenticate first"
+                }
+            },
             whole: limits.message_bytes,
             alone: limits.stranger_bytes,
             together: limits.arriving_bytes,
@@ -78,9 +86,7 @@ impl Guest {
         let others = room.taken.load(Relaxed) - room.beyond(held.load(Relaxed));
         let beyond = room.beyond(bytes);
         if beyond > 0 && !self.0.may_change.load(Relaxed) {
-            return Err(
-                "too long a message of a client that may change nothing: authenticate first",
-            );
+            return Err(room.refusal);
         }
         if bytes > room.whole {
             return Err("too long a message");

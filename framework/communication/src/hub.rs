@@ -255,6 +255,11 @@ impl Hub {
         client.is_some_and(|client| client.outbox.may_ask(&self.limits))
     }
 
+    /// Whether nobody may ever change anything.
+    pub(crate) fn is_read_only(&self) -> bool {
+        self.rules.is_read_only
+    }
+
     /// Whether a client may change anything by now.
     pub(crate) fn may_change(&self, id: ClientId) -> bool {
         let is_trusted = |client: &Client| client.is_trusted;

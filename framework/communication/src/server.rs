@@ -138,7 +138,8 @@ async fn run(listener: TcpListener, shared: Arc<Shared>, is_over: oneshot::Recei
     let Ok(listener) = tokio::net::TcpListener::from_std(listener) else {
         return;
     };
-    let doorman = Doorman::new(listener, &shared.limits);
+    let is_read_only = shared.hub().is_read_only();
+    let doorman = Doorman::new(listener, &shared.limits, is_read_only);
     let routes = Router::new()
         .route(protocol::SOCKET, get(socket))
         .fallback(get(file))

@@ -72,6 +72,14 @@ fn a_client_that_may_change_nothing_is_held_little_of() {
     let mut trusted = zoo.client();
     trusted.ok(json!({ "authenticate": { "token": "secret" } }));
     assert_eq!(sends_half(&mut trusted, 1_000_000), Ok(()));
+    // Where a token changes nothing nobody is asked for one.
+    let listening = Listening {
+        is_read_only: true,
+        ..Listening::default()
+    };
+    let read_only = Zoo::with(listening, Limits::default());
+    let told = sends_half(&mut read_only.client(), STRANGER + 1).expect_err("the limit holds");
+    assert!(told.contains("may only be read"), "{told}");
     let zoo = with_token(unlimited());
     assert_eq!(sends_half(&mut zoo.client(), 2 * STRANGER), Ok(()));
 }
