@@ -72,6 +72,9 @@ pub(crate) async fn talk(mut socket: WebSocket, guest: Guest, shared: Arc<Shared
             }
         }
     }
+    if why.is_some() {
+        guest.dismiss();
+    }
     // So that it knows; whether it still listens is its own matter.
     let _ = timeout(
         Duration::from_millis(100),

@@ -2,7 +2,8 @@
 
 use std::cell::Cell;
 use std::io;
-use std::net::SocketAddr;
+use std::net::{self, SocketAddr};
+use std::os::fd::AsFd;
 use std::pin::Pin;
 use std::sync::Arc;
 use std::task::{Context, Poll, ready};
@@ -12,8 +13,9 @@ use axum::extract::connect_info::Connected;
 use axum::serve::{IncomingStream, Listener};
 use tokio::io::{AsyncRead, AsyncWrite, ReadBuf};
 use tokio::net::{TcpListener, TcpStream};
+use tokio::runtime::Handle;
 use tokio::sync::{OwnedSemaphorePermit, Semaphore};
-use tokio::time::{Sleep, sleep};
+use tokio::time::{Sleep, sleep, timeout};
 
 use crate::frames::{Frames, Request};
 use crate::guest::{Guest, Room};
@@ -21,6 +23,9 @@ use crate::limits::Limits;
 
 /// How long to wait when the system has no more sockets to give.
 const PAUSE: Duration = Duration::from_millis(50);
+
+/// How long a client that was told why it has to go may take to go.
+const SEEING_OUT: Duration = Duration::from_secs(1);
 
 /// Takes connections as long as there is room; what is too much is closed at once.
 pub(crate) struct Doorman {
@@ -33,7 +38,7 @@ pub(crate) struct Doorman {
 /// A connection that was let in.
 pub(crate) struct Visitor {
     stream: TcpStream,
-    _place: OwnedSemaphorePermit,
+    place: Option<OwnedSemaphorePermit>,
     guest: Guest,
     deadline: Pin<Box<Sleep>>,
     request: Request,
@@ -70,7 +75,7 @@ impl Listener for Doorman {
             let _ = stream.set_nodelay(true);
             let visitor = Visitor {
                 stream,
-                _place: place,
+                place: Some(place),
                 guest: Guest::new(self.room.clone()),
                 deadline: Box::pin(sleep(self.head)),
                 request: Request::default(),
@@ -115,6 +120,38 @@ impl Visitor {
             self.request.follow(bytes);
         }
     }
+}
+
+impl Drop for Visitor {
+    /// A socket that is closed before all was read is reset, and its client may lose what it was told last.
+    fn drop(&mut self) {
+        if !self.guest.is_dismissed() {
+            return;
+        }
+        let again = self.stream.as_fd().try_clone_to_owned();
+        if let (Ok(again), Ok(runtime)) = (again, Handle::try_current()) {
+            runtime.spawn(see_out(again.into(), self.place.take()));
+        }
+    }
+}
+
+/// Passes over what a client says still, which keeps its place for so long.
+async fn see_out(stream: net::TcpStream, _place: Option<OwnedSemaphorePermit>) {
+    let is_told = stream.shutdown(net::Shutdown::Write);
+    let (Ok(()), Ok(stream)) = (is_told, TcpStream::from_std(stream)) else {
+        return;
+    };
+    let mut bytes = vec![0; 4096];
+    let _ = timeout(SEEING_OUT, async {
+        while stream.readable().await.is_ok() {
+            match stream.try_read(&mut bytes) {
+                Ok(1..) => {}
+                Err(error) if error.kind() == io::ErrorKind::WouldBlock => {}
+                Ok(0) | Err(_) => break,
+            }
+        }
+    })
+    .await;
 }
 
 impl AsyncRead for Visitor {

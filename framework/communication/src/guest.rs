@@ -12,6 +12,7 @@ pub(crate) struct Guest(Arc<State>);
 #[derive(Debug)]
 struct State {
     stays: AtomicBool,
+    is_dismissed: AtomicBool,
     may_change: AtomicBool,
     /// Bytes of what it says that is not whole: what it announced, for which there is room already.
     held: AtomicUsize,
@@ -59,6 +60,7 @@ impl Guest {
     pub(crate) fn new(room: Arc<Room>) -> Self {
         Self(Arc::new(State {
             stays: AtomicBool::new(false),
+            is_dismissed: AtomicBool::new(false),
             may_change: AtomicBool::new(false),
             held: AtomicUsize::new(0),
             refusal: Mutex::default(),
@@ -73,6 +75,15 @@ impl Guest {
 
     pub(crate) fn is_staying(&self) -> bool {
         self.0.stays.load(Relaxed)
+    }
+
+    /// It was told why it has to go.
+    pub(crate) fn dismiss(&self) {
+        self.0.is_dismissed.store(true, Relaxed);
+    }
+
+    pub(crate) fn is_dismissed(&self) -> bool {
+        self.0.is_dismissed.load(Relaxed)
     }
 
     /// Whether it may change anything, and so has a reason for long messages.

@@ -139,6 +139,22 @@ fn what_a_frame_announces_counts_before_it_comes() {
 }
 
 #[test]
+fn who_is_refused_hears_why_whatever_else_it_said() {
+    let zoo = with_token(Limits::default());
+    for _ in 0..10 {
+        let mut stream = upgraded(zoo.address());
+        stream.write_all(&ANNOUNCED).expect("it listens");
+        // More than the server reads before it has hung up.
+        let _ = stream.write_all(&[0; 200_000]);
+        let mut bytes = Vec::new();
+        let end = stream.read_to_end(&mut bytes);
+        assert!(end.is_ok(), "{end:?}");
+        let told = String::from_utf8_lossy(&bytes);
+        assert!(told.contains("authenticate first"), "{told}");
+    }
+}
+
+#[test]
 fn a_connection_has_one_request() {
     let zoo = with_token(Limits::default());
     let mut stream = crate::zoo::stream(zoo.address());
