@@ -5,7 +5,7 @@ use toml::de::{DeTable, DeValue};
 
 use crate::oracle::{Breach, Oracle, Path, path};
 use crate::reading::{Definition, Field, argument};
-use crate::robot::{Node, Robot, snake_case};
+use crate::robot::{Node, PARAMETERS, Robot, snake_case};
 
 /// A parameter that a field declares, for one instance.
 struct Parameter<'r> {
@@ -62,15 +62,25 @@ pub(crate) fn check(oracle: &mut Oracle<'_>) {
     for (file, table) in &layers {
         check_keys(oracle, file, table, &mut Vec::new(), &declared);
     }
+    let locations = robot.locations();
     for one in &declared {
-        let values: Vec<&Value<'_>> = layers
-            .iter()
-            .filter_map(|(_, table)| at(table, &one.path))
-            .collect();
-        if !is_complete(robot, &one.node.file, one.data, &values) {
+        let has_value = |location: &String| {
+            let values: Vec<&Value<'_>> = layers
+                .iter()
+                .filter(|(file, _)| is_for_all(file) || file.starts_with(location))
+                .filter_map(|(_, table)| at(table, &one.path))
+                .collect();
+            is_complete(robot, &one.node.file, one.data, &values)
+        };
+        if !locations.iter().all(has_value) {
             oracle.add("parameter has a value", &one.node.file, &one.field.bytes);
         }
     }
+}
+
+/// Whether every target has this layer.
+fn is_for_all(file: &str) -> bool {
+    !file[PARAMETERS.len()..].contains('/')
 }
 
 fn at<'t>(table: &'t DeTable<'t>, path: &Path) -> Option<&'t Value<'t>> {

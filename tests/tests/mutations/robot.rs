@@ -7,6 +7,9 @@ use toml::{Table, Value};
 
 use crate::reading::{Definition, File};
 
+/// Where parameter files lie.
+pub(crate) const PARAMETERS: &str = "robotics/parameters/";
+
 /// Everything that the rules are about. Clones share their files.
 #[derive(Clone, Debug)]
 pub(crate) struct Robot {
@@ -73,7 +76,7 @@ impl Robot {
     fn take(&mut self, path: &str, text: &str) {
         if path == "hulk.toml" {
             self.manifest = text.to_owned();
-        } else if path.starts_with("robotics/parameters/") {
+        } else if path.starts_with(PARAMETERS) {
             match self.layers.iter_mut().find(|(layer, _)| layer == path) {
                 Some((_, old)) => *old = text.to_owned(),
                 None => self.layers.push((path.to_owned(), text.to_owned())),
@@ -98,6 +101,21 @@ impl Robot {
             .filter_map(Value::as_table)
             .map(cycler)
             .collect()
+    }
+
+    /// Of each target: the folder of its location, whose files lie above those beside it.
+    pub(crate) fn locations(&self) -> Vec<String> {
+        let manifest: Table = self
+            .manifest
+            .parse()
+            .expect("mutants of the manifest are TOML");
+        let targets = manifest["target"].as_array().expect("the NAO has targets");
+        let locations = targets.iter().filter_map(|target| target.get("location"));
+        let folder = |location: &Value| {
+            let location = location.as_str().unwrap_or_default();
+            format!("{PARAMETERS}{location}/")
+        };
+        locations.map(folder).collect()
     }
 
     /// The type of this name as a file sees it: its own, else the only one, else that of the crate `types`.
