@@ -89,12 +89,14 @@ impl Robot {
         }
     }
 
+    fn table(&self) -> Table {
+        let table = self.manifest.parse();
+        table.expect("mutants of the manifest are TOML")
+    }
+
     /// The cyclers in the manifest's order.
     pub(crate) fn cyclers(&self) -> Vec<Cycler> {
-        let manifest: Table = self
-            .manifest
-            .parse()
-            .expect("mutants of the manifest are TOML");
+        let manifest = self.table();
         let cyclers = manifest["cycler"].as_array().expect("the NAO has cyclers");
         cyclers
             .iter()
@@ -105,10 +107,7 @@ impl Robot {
 
     /// Of each target: the folder of its location, whose files lie above those beside it.
     pub(crate) fn locations(&self) -> Vec<String> {
-        let manifest: Table = self
-            .manifest
-            .parse()
-            .expect("mutants of the manifest are TOML");
+        let manifest = self.table();
         let targets = manifest["target"].as_array().expect("the NAO has targets");
         let locations = targets.iter().filter_map(|target| target.get("location"));
         let folder = |location: &Value| {
