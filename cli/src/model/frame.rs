@@ -181,7 +181,7 @@ fn selected(
 }
 
 /// Every parameter that a node reads, and its type as written.
-fn read_parameters(node: &Node) -> impl Iterator<Item = (&Access, &DataType)> {
+pub(super) fn read_parameters(node: &Node) -> impl Iterator<Item = (&Access, &DataType)> {
     let created = node
         .creation
         .iter()

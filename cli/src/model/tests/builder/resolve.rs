@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use super::CyclerBuilder;
+use crate::model::frame::read_parameters;
 use crate::model::names::snake_case;
 use crate::resolve::robot::{
     Access, Branch, Content, CreationBinding, CycleBinding, Cycler, CyclerKind, DataType,
@@ -310,18 +311,7 @@ fn parameter_tree(cyclers: &[Cycler]) -> Tree<Reader> {
     };
     for (position, cycler) in cyclers.iter().enumerate() {
         for node in &cycler.nodes {
-            let created = node
-                .creation
-                .iter()
-                .filter_map(|field| match &field.binding {
-                    CreationBinding::Parameter { access, data } => Some((access, data)),
-                    _ => None,
-                });
-            let cycled = node.cycle.iter().filter_map(|field| match &field.binding {
-                CycleBinding::Parameter { access, data } => Some((access, data)),
-                _ => None,
-            });
-            for (access, data) in created.chain(cycled) {
+            for (access, data) in read_parameters(node) {
                 for instance in &cycler.instances {
                     let names: Vec<(String, Option<usize>)> = access
                         .segments
