@@ -5,7 +5,8 @@
 //! word counts; while none is, the chest penalizes and lets play.
 //!
 //! The referee whistles for the kick-off, but its computer says so 15 s later: a whistle in Set starts
-//! the game at once. Where the computer has not followed by then, the whistle was somebody else's.
+//! the game at once, also where the computer has fallen silent. Where one is heard and has not followed by then, the whistle was
+//! somebody else's.
 
 use framework::{CycleTime, Input, MainOutput, Parameter, Result, Timestamp, context};
 use serde::{Deserialize, Serialize};
@@ -17,6 +18,8 @@ use types::game::{GameControllerState, GameState, Penalty, PrimaryState};
 #[derive(Debug, Deserialize, Serialize)]
 pub struct GameStateFilter {
     primary_state: PrimaryState,
+    /// When the Set began that the referee's computer said last.
+    set_since: Timestamp,
 }
 
 #[context]
@@ -48,6 +51,7 @@ impl GameStateFilter {
     pub fn new(_context: CreationContext) -> Result<Self> {
         Ok(Self {
             primary_state: PrimaryState::Unstiff,
+            set_since: Timestamp::ZERO,
         })
     }
 
@@ -62,9 +66,15 @@ impl GameStateFilter {
         self.primary_state = if is_head_held || is_limp {
             PrimaryState::Unstiff
         } else if let Some(referee) = context.game_controller_state {
+            if referee.game_state == GameState::Set {
+                self.set_since = referee.game_state_since;
+            }
             said_by(referee, context.is_whistled_on(referee.game_state_since))
         } else if is_chest_pressed {
             after_press(self.primary_state)
+        } else if self.primary_state == PrimaryState::Set && context.is_whistled_on(self.set_since)
+        {
+            PrimaryState::Playing
         } else {
             self.primary_state
         };
@@ -249,6 +259,17 @@ mod tests {
         assert_eq!(at(16_988, set, Some(2000)), PrimaryState::Playing);
         assert_eq!(at(17_000, playing, Some(2000)), PrimaryState::Playing);
         assert_eq!(at(60_000, playing, Some(2000)), PrimaryState::Playing);
+    }
+
+    #[test]
+    fn a_whistle_in_set_starts_the_game_of_a_silent_referee() {
+        let set = referee(GameState::Set, 1000);
+        let mut node = stiff();
+        let mut at = |now, referee, whistle| cycle(&mut node, now, referee, NOTHING, whistle);
+        assert_eq!(at(1012, set, None), PrimaryState::Set);
+        assert_eq!(at(6012, None, Some(900)), PrimaryState::Set, "before Set");
+        assert_eq!(at(7012, None, Some(7000)), PrimaryState::Playing);
+        assert_eq!(at(60_000, None, Some(7000)), PrimaryState::Playing);
     }
 
     #[test]
