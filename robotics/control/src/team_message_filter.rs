@@ -19,6 +19,8 @@ type Team = [Option<Teammate>; PLAYER_COUNT];
 #[derive(Debug, Deserialize, Serialize)]
 pub struct TeamMessageFilter {
     heard: RollBack<Team>,
+    /// How many times as long the team was silent between two messages when a referee was heard last, who alone knows.
+    slowness: f32,
 }
 
 #[context]
@@ -47,6 +49,7 @@ impl TeamMessageFilter {
     pub fn new(_context: CreationContext) -> Result<Self> {
         Ok(Self {
             heard: RollBack::default(),
+            slowness: 1.0,
         })
     }
 
@@ -62,8 +65,10 @@ impl TeamMessageFilter {
 
         let now = context.cycle_time.start;
         let referee = context.game_controller_state.as_ref();
-        let slower = referee.map_or(1.0, |referee| context.rhythm.slowness(referee));
-        let silence = *context.forget_after * slower;
+        if let Some(referee) = referee {
+            self.slowness = context.rhythm.slowness(referee);
+        }
+        let silence = *context.forget_after * self.slowness;
         let is_recent = |teammate: &Teammate| (now - teammate.heard_at).as_secs_f32() <= silence;
         let may_play = |teammate: &Teammate| {
             let number = teammate.message.player_number;
@@ -188,7 +193,10 @@ mod tests {
         let mut node = node();
         let heard = vec![(at_millis(0), &two)];
         cycle_with(&mut node, Some(referee), 10, heard, vec![]);
-        let there = cycle_with(&mut node, Some(referee), 19_900, vec![], vec![]);
+        let there = cycle_with(&mut node, Some(referee), 19_800, vec![], vec![]);
+        assert_eq!(numbers(&there), [2]);
+        // Nor do they talk more because the referee is not heard.
+        let there = cycle_with(&mut node, None, 19_900, vec![], vec![]);
         assert_eq!(numbers(&there), [2]);
         let there = cycle_with(&mut node, Some(referee), 20_100, vec![], vec![]);
         assert_eq!(there, []);
