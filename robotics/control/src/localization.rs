@@ -159,8 +159,10 @@ impl Localization {
         })
     }
 
-    /// What people do with a robot that does not play: before the game it is put to its start, before a shot of a
+    /// What people do with a robot that does not play: before each half it is put to its start, before a shot of a
     /// shoot-out to ball or goal, after a penalty beside the field, unless it was left where it stood.
+    ///
+    /// What it believed before does not help then: the teams have changed sides, and the field looks the same from the other.
     fn put(
         &mut self,
         context: &CycleContext<'_>,
@@ -171,9 +173,17 @@ impl Localization {
         let before = std::mem::replace(&mut self.primary_state, primary_state);
         let is_first = self.begun_at == Timestamp::ZERO;
         let put_to = self.put_for_shot(context, before, is_first);
+        let is_put_to_start = match primary_state {
+            PrimaryState::Unstiff => true,
+            PrimaryState::Initial => {
+                !matches!(before, PrimaryState::Unstiff | PrimaryState::Initial)
+                    || context.is_carried()
+            }
+            _ => false,
+        };
         let belief = self.belief.settled_mut();
         let begins_at = match put_to.and_then(|team| shot_pose(team, view)) {
-            None if is_first || primary_state == PrimaryState::Unstiff => {
+            None if is_first || is_put_to_start => {
                 Some(start_pose(*context.player, view.parameters))
             }
             pose => pose,
@@ -208,8 +218,7 @@ impl Localization {
             }
         };
         // Who is still carried will stand there.
-        let is_carried = *context.fall_state == FallState::Upright && !context.has_ground_contact;
-        if is_in_set && is_carried {
+        if is_in_set && context.is_carried() {
             self.put_for = None;
         }
         let said = context.game_controller_state.as_ref();
@@ -222,6 +231,13 @@ impl Localization {
         let team = shot_of.filter(|team| is_put && self.put_for != Some(*team))?;
         self.put_for = Some(team);
         Some(team)
+    }
+}
+
+impl CycleContext<'_> {
+    /// Whether somebody holds it, upright in the air.
+    fn is_carried(&self) -> bool {
+        *self.fall_state == FallState::Upright && !self.has_ground_contact
     }
 }
 

@@ -2,7 +2,8 @@
 //!
 //! It sees the world as it is and rules as the RoboCup SPL rules 2025 say, as far as this goes: kick-off, goals, kick-in,
 //! goal kick, corner kick, free kick after pushing, removal of robots that lie too long, walk in Set, stand where they must
-//! not in Set, push, or leave the field, and two halves, in which the teams keep their sides. It sees no holding of the ball.
+//! not in Set, push, or leave the field, and two halves, in which the teams keep their sides: before the second one all robots are
+//! put to where they began. It sees no holding of the ball.
 
 mod announcement;
 mod ball;
@@ -71,6 +72,8 @@ pub struct Referee {
     /// What the referee's computer does not say before that time, s.
     secret: Option<(f64, Said)>,
     records: Vec<Record>,
+    /// Where each player was first seen: its place before a half.
+    starts: Vec<[f64; 3]>,
     /// How many robots of each team were removed.
     removals: [u32; 2],
     /// Who was removed and why, in that order.
@@ -104,6 +107,7 @@ impl Referee {
             touched_last: None,
             secret: None,
             records: Vec::new(),
+            starts: Vec::new(),
             removals: [0; 2],
             removed: Vec::new(),
             movements: Vec::new(),
@@ -115,6 +119,8 @@ impl Referee {
         let passed = now - self.looked;
         self.looked = now;
         let mut rulings = Vec::new();
+        let unknown = players.iter().skip(self.starts.len());
+        self.starts.extend(unknown.map(|player| player.pose));
         if self.secret.is_some_and(|(until, _)| now >= until) {
             self.secret = None;
         }
@@ -184,6 +190,9 @@ impl Referee {
                 // Who did not kick off the game kicks off now.
                 self.kicking = Team::Opponent;
                 self.enter(now, GameState::Initial);
+                self.records.fill(Record::default());
+                let starts = self.starts.iter().enumerate();
+                rulings.extend(starts.map(|(player, start)| Ruling::Carry(player, *start)));
             }
             GameState::Playing
                 if self.set_play != SetPlay::None

@@ -240,7 +240,10 @@ fn set_has_rules_of_its_own() {
     game.move_player(1, [-0.5, 2.0, 0.0]);
     game.run_until(3.2);
     let penalty = |game: &Game, team: usize| game.said().teams[team].players[0].penalty;
-    assert_eq!(penalty(&game, 1), Penalty::IllegalPositionInSet);
+    assert_eq!(
+        game.said().teams[1].players[0].penalty,
+        Penalty::IllegalPositionInSet
+    );
     assert_eq!(penalty(&game, 0), Penalty::None);
     let removals = |player| game.referee.removals(player).collect::<Vec<_>>();
     assert_eq!(removals(1), [Penalty::IllegalPositionInSet]);
@@ -262,7 +265,17 @@ fn set_has_rules_of_its_own() {
 #[test]
 fn after_the_break_the_others_kick_off_the_second_half() {
     let mut game = Game::playing();
+    game.move_player(0, [2.0, 1.0, 1.0]);
+    game.run_until(80.0);
+    let rulings = game
+        .referee
+        .penalise(1, Penalty::RequestForPickup, &game.players);
+    assert_eq!(rulings.len(), 1);
     game.run_until(104.2);
+    assert_eq!(
+        game.said().teams[1].players[0].penalty,
+        Penalty::RequestForPickup
+    );
     let said = game.said();
     assert_eq!(said.game_state, GameState::Finished);
     assert!(said.is_first_half);
@@ -275,6 +288,10 @@ fn after_the_break_the_others_kick_off_the_second_half() {
         game.run_until(time);
         assert_eq!(game.referee.state, state, "at {time} s");
     }
+    // Somebody put both to where they began, and whatever they had done is forgotten.
+    assert_eq!(game.players[0].pose, [-1.0, 0.0, 0.0]);
+    assert_eq!(game.players[1].pose, [1.0, 0.0, std::f64::consts::PI]);
+    assert_eq!(game.said().teams[1].players[0].penalty, Penalty::None);
     let said = game.said();
     assert!(!said.is_first_half);
     assert_eq!(said.kicking_team, Some(6));

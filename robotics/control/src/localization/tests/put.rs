@@ -35,6 +35,44 @@ fn before_it_has_seen_anything_it_stands_where_its_number_starts() {
 }
 
 #[test]
+fn before_the_second_half_it_is_put_to_its_start_whatever_it_believed() {
+    use PrimaryState::{Finished, Initial, Playing, Standby};
+    let nothing = Vec::new();
+    let start = pose(-3.0, 3.0, -FRAC_PI_2);
+    let mut node = node();
+    let mut at = |index: u64, primary_state, odometry, has_ground_contact| {
+        let moment = Moment {
+            primary_state,
+            has_ground_contact,
+            ..playing(33 * index, odometry, &nothing)
+        };
+        cycle(&mut node, &moment).ground_to_field
+    };
+    // It ends near the place, in its old frame, from which the second half begins.
+    let walked = start.inverse() * pose(2.6, -2.5, FRAC_PI_2);
+    at(1, Playing, Isometry2::identity(), true);
+    assert_near(
+        at(2, Playing, walked, true),
+        &pose(2.6, -2.5, FRAC_PI_2),
+        1e-4,
+        1e-4,
+    );
+    at(3, Finished, walked, true);
+    assert_near(at(4, Initial, walked, true), &start, 1e-4, 1e-4);
+    // Somebody turns it on the way there.
+    let turned = walked * pose(0.0, 0.0, 1.0);
+    assert_near(at(5, Initial, turned, false), &start, 1e-4, 1e-4);
+    assert_near(at(6, Initial, turned, true), &start, 1e-4, 1e-4);
+    assert_near(at(7, Standby, turned, true), &start, 1e-4, 1e-4);
+    // Who stands in Initial learns as ever, and goes on from where it is.
+    let stepped = turned * pose(0.1, 0.0, 0.0);
+    let expected = start * pose(0.1, 0.0, 0.0);
+    assert_near(at(8, Initial, stepped, true), &start, 1e-4, 1e-4);
+    let stepped_again = stepped * pose(0.1, 0.0, 0.0);
+    assert_near(at(9, Initial, stepped_again, true), &expected, 1e-4, 1e-4);
+}
+
+#[test]
 fn lines_decide_beside_which_touch_line_a_robot_comes_back() {
     for side in [1.0, -1.0] {
         let mut node = node();
