@@ -121,6 +121,7 @@ pub struct Parameters {
     /// audio::whistle_detection, control::tone_selector
     pub whistle_detection: WhistleDetectionParameters,
     pub whistle_filter: WhistleFilter,
+    pub world_state_composer: WorldStateComposer,
 }
 
 #[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
@@ -191,8 +192,8 @@ pub struct FieldDimensions {
     /// vision::penalty_mark_detection
     #[reflect(unit = "m", range = 0..)]
     pub line_width: f32,
-    /// control::localization, control::role_assignment, vision::center_circle_detection,
-    /// vision::corner_detection
+    /// control::localization, control::role_assignment, control::team_ball_filter,
+    /// vision::center_circle_detection, vision::corner_detection
     pub markings: FieldMarkings,
     /// vision::penalty_mark_detection
     #[reflect(unit = "m", range = 0..)]
@@ -490,4 +491,12 @@ pub struct WhistleFilter {
     /// control::whistle_filter
     #[reflect(unit = "s", range = 0..)]
     pub window: f32,
+}
+
+#[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct WorldStateComposer {
+    /// control::world_state_composer
+    #[reflect(unit = "s", range = 0..)]
+    pub set_play_lasts: f32,
 }

@@ -1047,8 +1047,8 @@ impl Nodes {
         Ok(())
     }
 
-    /// perception Vision.obstacles, historic odometry, sonar_distances, buttons.bumpers ->
-    /// obstacles
+    /// perception Vision.obstacles, historic odometry, sonar_distances, buttons.bumpers,
+    /// fall_state -> obstacles
     #[inline(always)]
     fn obstacle_filter<Hardware>(
         &mut self,
@@ -1072,6 +1072,7 @@ impl Nodes {
             ),
             sonar_distances: &frame.own.sonar_distances,
             bumpers: &frame.own.buttons.bumpers,
+            fall_state: &frame.own.fall_state,
             cycle_time: frame.cycle.time,
             parameters: &frame.parameters.obstacle_filter,
             obstacles: &mut frame.own.obstacles,
@@ -1364,6 +1365,7 @@ impl Nodes {
             teammates: &frame.own.teammates,
             cycle_time: frame.cycle.time,
             player: &frame.parameters.player,
+            markings: &frame.parameters.field_dimensions.markings,
             parameters: &frame.parameters.team_ball_filter,
         };
         let outputs = self
@@ -1554,6 +1556,8 @@ impl Nodes {
             role: &frame.own.role,
             goalkeeper: &frame.own.goalkeeper,
             team_ball: &frame.own.team_ball,
+            cycle_time: frame.cycle.time,
+            set_play_lasts: &frame.parameters.world_state_composer.set_play_lasts,
             world_state: &mut frame.own.world_state,
         };
         self.world_state_composer.call(&frame.cycle, |node| node.cycle(context))?;

@@ -13,6 +13,7 @@ use framework::{
 };
 use nalgebra::Isometry2;
 use serde::{Deserialize, Serialize};
+use types::fall_state::FallState;
 use types::feet::Feet;
 use types::obstacles::{Obstacle, ObstacleCandidate, ObstacleKind};
 use types::odometry::Odometry;
@@ -74,12 +75,17 @@ pub struct ObstacleFilterParameters {
     /// How far to the side the bumpers are.
     #[reflect(unit = "rad")]
     pub bumper_angle: f32,
+    /// What a foot touches for longer does not count any more: bumpers stick, and what stays there other senses see.
+    #[reflect(unit = "s", range = 0.0..)]
+    pub bumper_duration: f32,
 }
 
 /// What was perceived so far.
 #[derive(Debug, Deserialize, Serialize)]
 pub struct ObstacleFilter {
     hypotheses: RollBack<Hypotheses>,
+    /// For how long each bumper has been pressed, s.
+    pressed_for: Feet<f32>,
 }
 
 #[context]
@@ -91,6 +97,7 @@ pub struct CycleContext {
     odometry: HistoricInput<Odometry, "odometry">,
     sonar_distances: Input<SonarDistances, "sonar_distances">,
     bumpers: Input<Feet<bool>, "buttons.bumpers">,
+    fall_state: Input<FallState, "fall_state">,
     cycle_time: CycleTime,
     parameters: Parameter<ObstacleFilterParameters, "obstacle_filter">,
 
@@ -106,6 +113,7 @@ impl ObstacleFilter {
     pub fn new(_context: CreationContext) -> Result<Self> {
         Ok(Self {
             hypotheses: RollBack::default(),
+            pressed_for: Feet::default(),
         })
     }
 
@@ -146,17 +154,34 @@ impl ObstacleFilter {
         Ok(MainOutputs {})
     }
 
-    /// Learns at once what the body feels: nothing that is still to come can change it.
+    /// Learns at once what the body feels: nothing that is still to come can change it. A robot that does not stand hears and
+    /// touches the ground.
     fn feel(&mut self, context: &CycleContext, ground_to_start: Isometry2<f32>) {
         let parameters = context.parameters;
         let step = context.cycle_time.since_last.as_secs_f32();
-        let felt = echoes(context.sonar_distances, step, parameters)
-            .chain(bumps(context.bumpers, parameters));
+        let touched = self.touched(context.bumpers, step, parameters.bumper_duration);
+        if *context.fall_state != FallState::Upright {
+            return;
+        }
+        let felt =
+            echoes(context.sonar_distances, step, parameters).chain(bumps(&touched, parameters));
         let hypotheses = self.hypotheses.settled_mut();
         hypotheses.predict(context.cycle_time.start, parameters);
         for measurement in felt {
             let measurement = moved(measurement, ground_to_start);
             hypotheses.learn(&measurement, context.cycle_time.start, parameters);
+        }
+    }
+
+    /// Which feet touch something, for no longer than `duration` s.
+    fn touched(&mut self, bumpers: &Feet<bool>, step: f32, duration: f32) -> Feet<bool> {
+        let touches = |is_pressed: bool, pressed_for: &mut f32| {
+            *pressed_for = if is_pressed { *pressed_for + step } else { 0.0 };
+            is_pressed && *pressed_for <= duration
+        };
+        Feet {
+            left: touches(bumpers.left, &mut self.pressed_for.left),
+            right: touches(bumpers.right, &mut self.pressed_for.right),
         }
     }
 }

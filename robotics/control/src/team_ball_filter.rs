@@ -3,12 +3,14 @@
 //! A sighting weighs as much as it is known: its variance grows with the distance to who saw it and with its age, and no place
 //! is known better than the robot that tells of it. Sightings that lie within the gate of one of them agree, and are merged
 //! by their weights; of those that disagree the heaviest company is the ball, the one that was it before with a head start.
+//! Who says that it stands, or that the ball lies, where there is no carpet is lost, or no team mate at all, and is not believed.
 //! Whom the referee has taken out, or nobody has heard for long, is not among `teammates`.
 
 use framework::{CycleTime, Input, MainOutput, Parameter, Reflect, Result, Timestamp, context};
 use nalgebra::{Isometry2, Point2, Vector2};
 use serde::{Deserialize, Serialize};
 use types::ball::Ball;
+use types::field_markings::FieldMarkings;
 use types::game::Player;
 use types::team::Teammate;
 
@@ -41,6 +43,9 @@ pub struct TeamBallParameters {
     /// In m after 1 s: how far the ball gets without anybody seeing it, one standard deviation.
     #[reflect(range = 0.0..)]
     pub age_noise: f32,
+    /// How far the carpet reaches beside the lines.
+    #[reflect(unit = "m", range = 0.0..)]
+    pub carpet: f32,
 }
 
 #[context]
@@ -55,6 +60,7 @@ pub struct CycleContext {
 
     /// Who this robot is in the game.
     player: Parameter<Player, "player">,
+    markings: Parameter<FieldMarkings, "field_dimensions.markings">,
     parameters: Parameter<TeamBallParameters, "team_ball_filter">,
 }
 
@@ -75,6 +81,7 @@ impl TeamBallFilter {
     pub fn cycle(&mut self, context: CycleContext) -> Result<MainOutputs> {
         let (now, parameters) = (context.cycle_time.start, context.parameters);
         let number = context.player.number;
+        let is_on_carpet = |place| context.markings.is_inside(place, parameters.carpet);
         let team_ball = context.ground_to_field.map(|ground_to_field| {
             let own = context
                 .ball
@@ -83,7 +90,7 @@ impl TeamBallFilter {
                 .teammates
                 .iter()
                 .filter(|teammate| teammate.message.player_number != number)
-                .filter_map(|teammate| sighting(teammate, now));
+                .filter_map(|teammate| sighting(teammate, now, is_on_carpet));
             let all = own.into_iter().chain(others);
             let recent = all.filter(|sighting| sighting.age <= parameters.oldest);
             self.last = heaviest(recent, self.last, parameters);
@@ -129,10 +136,17 @@ fn own_sighting(ball: &Ball, ground_to_field: &Isometry2<f32>, now: Timestamp) -
 }
 
 /// Of a team mate that knows where it is, and the ball.
-fn sighting(teammate: &Teammate, now: Timestamp) -> Option<Sighting> {
+fn sighting(
+    teammate: &Teammate,
+    now: Timestamp,
+    is_on_carpet: impl Fn(Point2<f32>) -> bool,
+) -> Option<Sighting> {
     let ball = teammate.message.ball?;
-    Some(Sighting {
-        place: teammate.message.ground_to_field? * ball.position,
+    let pose = teammate.message.ground_to_field?;
+    let place = pose * ball.position;
+    let is_likely = is_on_carpet(pose.translation.vector.into()) && is_on_carpet(place);
+    is_likely.then(|| Sighting {
+        place,
         distance: ball.position.coords.norm(),
         age: ball.age + (now - teammate.heard_at).as_secs_f32(),
     })
@@ -174,8 +188,12 @@ mod tests {
 
     const NOW: u64 = 10_000;
 
+    fn file() -> ParameterFile {
+        ParameterFile::new(include_str!("../../parameters/default.toml"))
+    }
+
     fn parameters() -> TeamBallParameters {
-        ParameterFile::new(include_str!("../../parameters/default.toml")).get("team_ball_filter")
+        file().get("team_ball_filter")
     }
 
     /// Stands so far from a ball of the field frame, on its left and with its back to it, and saw it so long ago.
@@ -230,6 +248,7 @@ mod tests {
                 number: 1,
                 team: 77,
             },
+            markings: &file().get("field_dimensions.markings"),
             parameters: &parameters(),
         };
         node.cycle(context).unwrap().team_ball.value
@@ -268,6 +287,34 @@ mod tests {
     }
 
     #[test]
+    fn who_tells_of_what_lies_beside_the_carpet_is_not_believed() {
+        let mut nowhere = mate(3, [0.0, 0.0], 0.0, 0.0);
+        let mut far = |x, y| {
+            nowhere.message.ball = Some(TeamBall {
+                position: Point2::new(x, y),
+                age: 0.0,
+            });
+            nowhere
+        };
+        let from_outside = mate(4, [0.0, 0.0], 5.0, 0.0);
+        let liars = [
+            far(1e20, 0.0),
+            far(0.0, 40.0),
+            far(f32::NAN, 0.0),
+            from_outside,
+        ];
+        assert_eq!(cycle(&mut node(), None, &liars), None);
+        let honest = mate(2, [1.0, 0.0], 2.0, 1.0);
+        let all = [liars.as_slice(), &[honest]].concat();
+        assert_near(cycle(&mut node(), None, &all), [1.0, 0.0], 1e-5);
+        // Where it rolled over the line it is the ball.
+        let mut out = mate(2, [4.9, 3.3], 0.9, 0.0);
+        out.message.ground_to_field = Some(Isometry2::translation(4.0, 3.3));
+        out.message.ball.as_mut().unwrap().position = Point2::new(0.9, 0.0);
+        assert_near(cycle(&mut node(), None, &[out]), [4.9, 3.3], 1e-5);
+    }
+
+    #[test]
     fn the_ball_does_not_jump_between_two_that_weigh_about_as_much() {
         let mut node = node();
         let mut ball = |one: f32, other: f32| {
@@ -299,12 +346,12 @@ mod tests {
 
     #[test]
     fn the_own_ball_counts_once_whatever_a_message_under_the_own_number_says() {
-        let own = Some([0.0, 2.0]);
-        assert_near(cycle(&mut node(), own, &[]), [0.0, 2.0], 1e-5);
-        let other = mate(2, [0.0, 2.6], 2.0, 0.0);
-        assert_near(cycle(&mut node(), own, &[other]), [0.0, 2.3], 1e-5);
-        let echo = mate(1, [0.0, 2.0], 2.0, 0.0);
-        assert_near(cycle(&mut node(), own, &[echo, other]), [0.0, 2.3], 1e-5);
+        let own = Some([0.0, -2.0]);
+        assert_near(cycle(&mut node(), own, &[]), [0.0, -2.0], 1e-5);
+        let other = mate(2, [0.0, -2.6], 2.0, 0.0);
+        assert_near(cycle(&mut node(), own, &[other]), [0.0, -2.3], 1e-5);
+        let echo = mate(1, [0.0, -2.0], 2.0, 0.0);
+        assert_near(cycle(&mut node(), own, &[echo, other]), [0.0, -2.3], 1e-5);
     }
 
     #[test]

@@ -17,6 +17,7 @@ type Seen<'a> = Vec<(Timestamp, &'a Vec<ObstacleCandidate>)>;
 struct Felt {
     sonar: SonarDistances,
     bumpers: Feet<bool>,
+    fall_state: FallState,
 }
 
 const LEFT_ECHO: Felt = Felt {
@@ -28,6 +29,19 @@ const LEFT_ECHO: Felt = Felt {
         left: false,
         right: false,
     },
+    fall_state: FallState::Upright,
+};
+
+const RIGHT_TOUCH: Felt = Felt {
+    sonar: SonarDistances {
+        left: None,
+        right: None,
+    },
+    bumpers: Feet {
+        left: false,
+        right: true,
+    },
+    fall_state: FallState::Upright,
 };
 
 /// Those of the robot.
@@ -67,6 +81,7 @@ fn cycle_at(
         odometry: history(&past, at_millis(now), &turned),
         sonar_distances: &felt.sonar,
         bumpers: &felt.bumpers,
+        fall_state: &felt.fall_state,
         cycle_time: cycle_time(now, 12),
         parameters: &parameters(),
         obstacles: &mut obstacles,
@@ -174,19 +189,43 @@ fn echoes_on_both_sides_are_one_thing_ahead_and_far_ones_nothing() {
 
 #[test]
 fn what_a_foot_touches_is_there_at_once() {
-    let touch = Felt {
-        bumpers: Feet {
-            left: false,
-            right: true,
-        },
-        ..Felt::default()
-    };
-    let obstacles = cycle_at(&mut node(), (12, 0.0), touch, (vec![], vec![]));
+    let obstacles = cycle_at(&mut node(), (12, 0.0), RIGHT_TOUCH, (vec![], vec![]));
     assert_eq!(obstacles.len(), 1);
     // The foot touches its near side.
     let distance = parameters().bumper_distance + parameters().unknown_radius;
     let (sine, cosine) = math::sin_cos(parameters().bumper_angle);
     assert_near(obstacles[0].position, distance * cosine, -distance * sine);
+}
+
+#[test]
+fn a_bumper_that_sticks_is_no_obstacle_for_longer_than_a_touch() {
+    let mut node = node();
+    let mut at = |now: u64, felt| cycle_at(&mut node, (now, 0.0), felt, (vec![], vec![])).len();
+    let last = (0..700).map(|index| at(12 * index, RIGHT_TOUCH)).last();
+    assert_eq!(last, Some(0));
+    assert_eq!(at(8412, Felt::default()), 0);
+    assert_eq!(at(8424, RIGHT_TOUCH), 1, "it was let go");
+}
+
+#[test]
+fn a_robot_that_lies_hears_and_touches_the_ground_alone() {
+    use types::fall_state::{Facing, FallDirection};
+    for fall_state in [
+        FallState::Falling(FallDirection::Forward),
+        FallState::Lying(Facing::Down),
+        FallState::Sitting,
+    ] {
+        let mut node = node();
+        let felt = Felt {
+            sonar: LEFT_ECHO.sonar,
+            bumpers: RIGHT_TOUCH.bumpers,
+            fall_state,
+        };
+        for index in 0..60 {
+            let found = cycle_at(&mut node, (12 * index, 0.0), felt, (vec![], vec![]));
+            assert_eq!(found, [], "{fall_state:?}");
+        }
+    }
 }
 
 #[test]
