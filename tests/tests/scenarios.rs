@@ -126,6 +126,7 @@ fn some_are_played() {
         ("roles_as_the_referee_says", 1),
         ("keeper_is_out", 1),
         ("message_budget", 1),
+        ("second_half", 1),
         ("removed_while_it_gets_up", 1),
     ] {
         let outcome = play(name, seeds);
