@@ -1,7 +1,7 @@
 //! Parameter files against the parameters that nodes declare.
 //!
 //! Every target starts from `default.toml`, its location's `default.toml`, and files of identities that only the robot
-//! chooses: a value that some identity's file gives may be there, so it is not missed.
+//! chooses: a value that some identity's file gives there or for all may be there, so it is not missed.
 
 mod choice;
 mod expected;
@@ -9,6 +9,7 @@ mod form;
 mod given;
 mod keys;
 mod layer;
+mod missing;
 mod opaque;
 mod other_names;
 pub(super) mod shown;
@@ -19,11 +20,11 @@ mod winners;
 
 use std::collections::BTreeSet;
 
-use camino::{Utf8Path, Utf8PathBuf};
+use camino::Utf8Path;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::robot::{CreationBinding, CycleBinding, Robot};
+use super::robot::{Robot, Target};
 use crate::diagnostics::{Code, Diagnostic, Diagnostics, nearest};
 use crate::manifest::Manifest;
 use crate::scan::Sources;
@@ -31,7 +32,6 @@ use crate::workspace::Workspace;
 
 use expected::{Child, Expected};
 use layer::Layer;
-use unset::{Left, Part};
 
 pub use given::{Answer, Asked, Given, Identity, Robots, Value, given};
 pub use winners::Winner;
@@ -89,7 +89,7 @@ pub fn check(
             diagnostics,
         );
     }
-    checker.check_missing(&layers, diagnostics);
+    missing::check(&checker, &layers, diagnostics);
     other_names::check(&layers, robot, sources, diagnostics);
     sources.library.report_problems(diagnostics);
     let locations = checker.locations();
@@ -213,124 +213,20 @@ impl Checker<'_> {
         }
     }
 
-    /// Declared paths that no file of a target gives.
-    fn check_missing(&self, layers: &[Layer<'_>], diagnostics: &mut Diagnostics) {
-        let folder = &self.robot.parameters;
-        let default = folder.join("default.toml");
-        if self.robot.parameter_tree.branches.is_empty() {
-            return;
-        }
-        let Some(first) = layers.iter().find(|layer| layer.file == default) else {
-            // It does not exist or cannot be parsed; both are told.
-            return;
-        };
-        for location in self.locations() {
-            let location = location.map(|location| folder.join(location).join("default.toml"));
-            let of_target = |layer: &&Layer<'_>| {
-                layer.file == default
-                    || location.as_deref() == Some(layer.file)
-                    || layer.file.file_name() != Some("default.toml")
-            };
-            let mut tables: Vec<Part<'_>> = layers
-                .iter()
-                .filter(of_target)
-                .map(|layer| Part {
-                    table: &layer.table,
-                    is_certain: layer.robots.identity.is_none(),
-                })
-                .collect();
-            // As they are merged: the default of all, that of the location, those of identities.
-            tables.sort_by_key(|part| !part.is_certain);
-            let root = Expected::Tree(&self.robot.parameter_tree);
-            self.report_missing(first, &tables, &root, &mut Vec::new(), diagnostics);
-        }
-    }
-
     /// Where the targets run.
     fn locations(&self) -> BTreeSet<Option<String>> {
         let targets = self.robot.targets.iter();
-        let mut locations: BTreeSet<Option<String>> = targets
-            .map(|target| target.location.clone().or(self.default_location.clone()))
-            .collect();
+        let mut locations: BTreeSet<Option<String>> =
+            targets.map(|target| self.location(target)).collect();
         if locations.is_empty() {
             locations.insert(self.default_location.clone());
         }
         locations
     }
 
-    fn report_missing(
-        &self,
-        first: &Layer<'_>,
-        tables: &[Part<'_>],
-        expected: &Expected<'_>,
-        path: &mut Vec<String>,
-        diagnostics: &mut Diagnostics,
-    ) {
-        let Some(children) = expected.children(self.sources) else {
-            return;
-        };
-        for (name, child) in children.of_tables(tables.iter().map(|part| part.table)) {
-            let names: Vec<&str> = child.names(&name).collect();
-            let left = unset::left(tables, &names);
-            let below: Vec<Part<'_>> = left.iter().filter_map(Left::part).collect();
-            path.push(name.clone());
-            let is_tree = matches!(child.expected, Expected::Tree(_));
-            if is_tree || !below.is_empty() && below.len() == left.len() {
-                self.report_missing(first, &below, &child.expected, path, diagnostics);
-            } else if left.is_empty() && child.required {
-                diagnostics.add(self.missing(first, path));
-            }
-            path.pop();
-        }
-    }
-
-    fn missing(&self, first: &Layer<'_>, path: &[String]) -> Diagnostic {
-        let written = path.join(".");
-        let error = Diagnostic::new(
-            Code::MissingParameter,
-            format!("no file gives the parameter `{written}`"),
-        )
-        .at(first.file, first.nearest(path), "")
-        .help(format!("add `{written} = …`"));
-        match self.declaration(path) {
-            Some((file, range)) => error.at(&file, range, "read here"),
-            None => error,
-        }
-    }
-
-    /// The first field that declares the path or what it lies below.
-    fn declaration(&self, path: &[String]) -> Option<(Utf8PathBuf, std::ops::Range<usize>)> {
-        self.robot.cyclers.iter().find_map(|cycler| {
-            let instances: Vec<String> = cycler
-                .instances
-                .iter()
-                .map(|one| schema::snake_case(&one.name))
-                .collect();
-            cycler.nodes.iter().find_map(|node| {
-                let creation = node
-                    .creation
-                    .iter()
-                    .filter_map(|field| match &field.binding {
-                        CreationBinding::Parameter { access, .. } => Some((access, &field.range)),
-                        _ => None,
-                    });
-                let cycle = node.cycle.iter().filter_map(|field| match &field.binding {
-                    CycleBinding::Parameter { access, .. } => Some((access, &field.range)),
-                    _ => None,
-                });
-                let mut fields = creation.chain(cycle);
-                let (_, range) = fields.find(|(access, _)| {
-                    access.segments.len() <= path.len()
-                        && access.segments.iter().zip(path).all(|(segment, name)| {
-                            match segment.instance {
-                                true => instances.contains(name),
-                                false => segment.name == *name,
-                            }
-                        })
-                })?;
-                Some((node.file.clone(), range.clone()))
-            })
-        })
+    /// Where a target runs.
+    fn location(&self, target: &Target) -> Option<String> {
+        target.location.clone().or(self.default_location.clone())
     }
 }
 

@@ -8,6 +8,7 @@ use toml::de::DeTable;
 
 use super::choice::Choice;
 use super::given::Robots;
+use super::unset::is_unset;
 use crate::diagnostics::{Code, Diagnostic, Diagnostics, nearest};
 use crate::manifest::Manifest;
 use crate::workspace::{MANIFEST, Workspace};
@@ -35,6 +36,17 @@ impl Layer<'_> {
             table = below;
         }
         place
+    }
+
+    /// The key of a path, if the file gives it a value.
+    pub(super) fn given(&self, path: &[String]) -> Option<Range<usize>> {
+        let (last, above) = path.split_last()?;
+        let mut table = &self.table;
+        for name in above {
+            table = table.get(name.as_str())?.get_ref().as_table()?;
+        }
+        let (key, value) = table.get_key_value(last.as_str())?;
+        (!is_unset(value.get_ref())).then(|| key.span())
     }
 }
 

@@ -102,7 +102,40 @@ fn a_value_of_another_location_does_not_count() {
     robot("a: Parameter<f32, \"a\">,", &format!("{NAO}{second}"))
         .file("parameters/default.toml", "")
         .file("parameters/field/default.toml", "a = 1\n")
-        .expect("missing-parameter", &["`a`"]);
+        .expect(
+            "missing-parameter",
+            &[
+                "no file gives the parameter `a` for target `sim`",
+                "parameters/field/default.toml:1:1",
+                "given at location `field` alone",
+                "add `a = …`",
+            ],
+        );
+}
+
+#[test]
+fn a_value_of_an_identity_at_another_location_does_not_count() {
+    robot("a: Parameter<f32, \"a\">,", NAO)
+        .file("parameters/default.toml", "")
+        .file("parameters/field/default.toml", "")
+        .file("parameters/lab/head.P1.toml", "a = 1\n")
+        .expect(
+            "missing-parameter",
+            &[
+                "no file gives the parameter `a`\n",
+                "looked at `parameters/default.toml` and `parameters/field/default.toml`",
+                "parameters/lab/head.P1.toml:1:1",
+                "given at location `lab` alone",
+            ],
+        );
+}
+
+#[test]
+fn what_a_file_would_give_that_cannot_be_read_is_not_missed() {
+    robot("a: Parameter<f32, \"a\">,", NAO)
+        .file("parameters/default.toml", "")
+        .file("parameters/field/default.toml", "a = \n")
+        .expect("syntax", &["parameters/field/default.toml:1:"]);
 }
 
 #[test]
@@ -208,6 +241,11 @@ fn a_field_may_be_called_like_a_keyword() {
 fn a_value_of_an_identity_counts() {
     robot("a: Parameter<f32, \"a\">,", "")
         .file("parameters/default.toml", "")
+        .file("parameters/head.P1.toml", "a = 1\n")
+        .robot();
+    robot("a: Parameter<f32, \"a\">,", NAO)
+        .file("parameters/default.toml", "")
+        .file("parameters/field/default.toml", "")
         .file("parameters/field/head.P1.toml", "a = 1\n")
         .robot();
 }
