@@ -37,7 +37,7 @@ pub use hulkgen_recording::{Counts, Settings};
 pub use inputs::{Foreign, Found};
 pub(crate) use logs::{from_log, recorded_logs};
 pub use output::Forms;
-pub(crate) use output::JSON;
+pub(crate) use output::{JSON, shape_of};
 pub use report::{InstanceRecorded, Missing, RecordingReport};
 pub use start::{About, Recording};
 pub(crate) use start::{FRAMES, TYPES, VALUES};

@@ -48,6 +48,7 @@ mod judge;
 mod pace;
 mod play;
 mod report;
+mod words;
 
 pub use assertion::{Assertion, Condition, Window};
 pub(crate) use audience::Audience;
@@ -56,3 +57,4 @@ pub use file::{Call, Event, Participant, Scenario};
 pub use judge::{Judge, Verdict};
 pub(crate) use play::{Cast, Manner, play};
 pub use report::{Outcome, Played};
+pub(crate) use words::misspelt;

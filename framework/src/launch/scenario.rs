@@ -7,7 +7,7 @@ use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use self::blame::blame;
+use self::blame::{blame, place};
 use super::options::{Format, Options, Record};
 use super::{DONE, FAILED, Serve, Target, hardware_table, known_identities, layers, record};
 use crate::clock::Clock;
@@ -15,10 +15,11 @@ use crate::data::ParameterData;
 use crate::error::{Error, Result};
 use crate::hardware::{Hardware, HardwareContext};
 use crate::logs;
+use crate::parameters::Origin;
 use crate::recorded::Recording;
 use crate::report::tell;
 use crate::robot::{Robot, Start};
-use crate::scenario::{Audience, Cast, Manner, Outcome, Played, Scenario, play};
+use crate::scenario::{Audience, Cast, Manner, Outcome, Played, Scenario, misspelt, play};
 use crate::stop::Stop;
 
 /// Plays it with every seed, and what clients choose in place of it likewise; gives the exit status, that of the last one.
@@ -240,10 +241,14 @@ impl Stage<'_> {
             stop,
             parameters: (layers.load()?.deserialize()).map_err(|error| self.blame(robot, error))?,
         };
-        let robot = create(&hardware, start)?;
+        let created = create(&hardware, start)?;
+        if let Some(wrong) = misspelt(&self.scenario.assertions, &created, robot + 1) {
+            let place = place(self.file, &wrong.path());
+            return Err(wrong.at(place.unwrap_or(Origin::Unknown)).into());
+        }
         Ok(Cast {
             hardware,
-            robot,
+            robot: created,
             recording: None,
         })
     }

@@ -14,7 +14,7 @@ use super::{Loading, SaveError, Saving};
 use crate::cycler::Instance;
 use crate::data::Data;
 use crate::error::{Error, Result};
-use crate::reflect::{Pixels, Reflect};
+use crate::reflect::{Reflect, Shape};
 use crate::subscriptions::Subscriptions;
 use crate::tap::{OutputKind, OutputVisitor};
 use crate::time::Timestamp;
@@ -32,7 +32,7 @@ pub struct Forms {
 struct Form {
     schema: fn() -> Schema,
     rewrite: fn(u64, &[u8], &mut Vec<u8>) -> bool,
-    image: fn() -> Option<Pixels>,
+    shape: fn() -> Shape,
 }
 
 impl<'a> OutputVisitor<'a> for Forms {
@@ -40,7 +40,7 @@ impl<'a> OutputVisitor<'a> for Forms {
         self.forms.push(Form {
             schema: schema::<T>,
             rewrite: rewrite::<T>,
-            image: || T::shape().image(),
+            shape: T::shape,
         });
     }
 }
@@ -198,8 +198,29 @@ pub(super) fn images<'a>(
 ) -> BTreeMap<String, String> {
     let outputs = instances.flat_map(|(instance, subscriptions)| all(instance, subscriptions));
     let main = outputs.filter(|output| output.kind == OutputKind::Main);
-    main.filter_map(|output| Some((output.topic(), (output.form.image)()?.name().to_owned())))
-        .collect()
+    main.filter_map(|output| {
+        Some((
+            output.topic(),
+            (output.form.shape)().image()?.name().to_owned(),
+        ))
+    })
+    .collect()
+}
+
+/// What values of the output look like with which a path begins, and the rest of the path.
+pub(crate) fn shape_of<'p>(
+    instance: &dyn Instance,
+    subscriptions: &Subscriptions,
+    path: &'p str,
+) -> Option<(Shape, &'p str)> {
+    let outputs = all(instance, subscriptions).into_iter();
+    let found = outputs.filter_map(|output| {
+        let below = path.strip_prefix(&output.topic())?;
+        (below.is_empty() || below.starts_with('.')).then_some((output, below))
+    });
+    // Names of outputs may have dots themselves, so the longest is the output.
+    let (output, below) = found.min_by_key(|(_, below)| below.len())?;
+    Some(((output.form.shape)(), below.trim_start_matches('.')))
 }
 
 fn all(instance: &dyn Instance, subscriptions: &Subscriptions) -> Vec<Wanted> {

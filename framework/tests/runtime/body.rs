@@ -34,6 +34,24 @@ pub(crate) struct SharedOutputs {
     pub(crate) clock: u64,
     pub(crate) since_last: Duration,
     pub(crate) gain: u64,
+    pub(crate) phase: Option<Phase>,
+}
+
+/// Of what `Legs` do.
+#[derive(Clone, Debug, Default, Deserialize, Reflect, Serialize)]
+pub(crate) enum Phase {
+    #[default]
+    Stand,
+    Walk {
+        side: Side,
+    },
+}
+
+#[derive(Clone, Debug, Default, Deserialize, Reflect, Serialize)]
+pub(crate) enum Side {
+    #[default]
+    Left,
+    Right,
 }
 
 #[derive(Clone, Debug, Default)]
@@ -287,6 +305,7 @@ impl Body for TestBody {
         let Slots { current, previous } = slots;
         self.perceive(current);
         current.gain = self.parameters.view().gain;
+        current.phase = Some(Phase::Stand);
         current.since_last = cycle.time.since_last;
         current.clock = match self.plan.mistake {
             Some(mistake) => mistake.make(),
@@ -326,6 +345,7 @@ impl Body for TestBody {
             "clock",
             "since_last",
             "gain",
+            "phase",
         ]
     }
 
@@ -338,6 +358,7 @@ impl Body for TestBody {
             "clock" => &shared.clock,
             "since_last" => &shared.since_last,
             "gain" => &shared.gain,
+            "phase" => &shared.phase,
             _ => return None,
         })
     }
@@ -362,6 +383,7 @@ impl Body for TestBody {
         visitor.output(Some(&shared.clock));
         visitor.output(Some(&shared.since_last));
         visitor.output(Some(&shared.gain));
+        visitor.output(Some(&shared.phase));
         visitor.output(self.debug.get(cycle));
     }
 

@@ -470,3 +470,30 @@ fn where_nothing_would_be_played_nothing_passes() {
         assert_eq!(outcome, Value::Null, "{options:?}");
     }
 }
+
+#[test]
+fn a_word_that_the_type_does_not_have_is_refused_before_anything_is_played() {
+    let value = |name: &str, rest: &str| {
+        assertion(&format!(
+            "value = 'Legs.main_outputs.{name}'\n{rest}\nfrom = 0.1"
+        ))
+    };
+    for wrong in [
+        value("phase", "is_not = 'Stnad'"),
+        value("phase", "equals = { Walk = { side = 'Lfet' } }"),
+        value("phase.Walk.side", "is_not = 'Up'"),
+    ] {
+        assert_eq!(play(&wrong, &[]), (1, Value::Null), "{wrong}");
+    }
+    for (right, passed) in [
+        (
+            value("phase", "is_not = { Walk = { side = 'Left' } }"),
+            true,
+        ),
+        (value("phase", "equals = 'Stand'"), true),
+        (value("phase", "is_not = 'Stand'"), false),
+    ] {
+        let (_, outcome) = play(&right, &[]);
+        assert_eq!(outcome["passed"], passed, "{right}: {outcome:#}");
+    }
+}

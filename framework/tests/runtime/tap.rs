@@ -110,7 +110,7 @@ fn an_additional_output_is_computed_while_its_tap_is_open() {
 fn a_tap_tells_what_its_values_look_like() {
     run(1, |_, link| {
         let names: Vec<_> = legs(link).taps.iter().map(Tap::name).collect();
-        let all = "raw value persistent transient clock since_last gain debug.raw";
+        let all = "raw value persistent transient clock since_last gain phase debug.raw";
         assert_eq!(names.join(" "), all);
         assert!(matches!(tap(link, "raw").shape().content, Content::Leaf(_)));
         let transient = tap(link, "transient").shape().content;

@@ -42,14 +42,17 @@ pub(super) fn blame(
         },
         Origin::File { .. } | Origin::Environment(_) => return error,
     };
-    // Who edits it meanwhile gets the error without its line.
-    let text = std::fs::read_to_string(file).unwrap_or_default();
-    let name = file.display().to_string();
     let mut places = places.iter();
-    match places.find_map(|path| parameters::place(&name, &text, path)) {
+    match places.find_map(|path| place(file, path)) {
         Some(origin) => ParameterError { origin, ..located }.into(),
         None => error,
     }
+}
+
+/// Where the file says this; who edits it meanwhile gets no line.
+pub(super) fn place(file: &Path, path: &str) -> Option<Origin> {
+    let text = std::fs::read_to_string(file).unwrap_or_default();
+    parameters::place(&file.display().to_string(), &text, path)
 }
 
 #[cfg(test)]
@@ -145,5 +148,19 @@ pose = 'here'
         );
         let robot = told(&[], of_table("robot = { pose = 'here' }"));
         assert!(robot.starts_with("a.toml:7: `robot.pose`: "), "{robot}");
+    }
+
+    #[test]
+    fn a_key_of_one_of_several_tables_has_its_line() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let file = folder.path().join("a.toml");
+        let text = "[[assertion]]\nis_not = 1\n\n[[assertion]]\nwhat = 'it'\nis_not = 'a'\n";
+        std::fs::write(&file, text).expect("it is written");
+        let line = |path| match place(&file, path) {
+            Some(Origin::File { line, .. }) => Some(line),
+            _ => None,
+        };
+        assert_eq!(line("assertion.1.is_not"), Some(6));
+        assert_eq!(line("assertion.2.is_not"), None);
     }
 }

@@ -1,0 +1,145 @@
+//! Words of `equals` and `is_not` that no value of their type has: `is_not` would hold of everything, `equals` of nothing.
+
+use serde_json::Value;
+
+use super::assertion::{Assertion, Condition};
+use crate::cycler::Instance;
+use crate::parameters::{Fault, Origin, ParameterError, nearest};
+use crate::recorded::shape_of;
+use crate::reflect::{Content, Form, Path, Shape, VariantContent};
+use crate::robot::Robot;
+
+/// An assertion, counted from 0, with a word that its value never is.
+#[derive(Debug)]
+pub(crate) struct Misspelt {
+    assertion: usize,
+    key: &'static str,
+    message: String,
+}
+
+/// The first such word in what is asserted of the robot with this number, counted from 1.
+///
+/// Of truths nobody knows the type, and of types that serde writes in ways of its own nobody knows the words.
+pub(crate) fn misspelt<P>(
+    assertions: &[Assertion],
+    robot: &Robot<P>,
+    number: usize,
+) -> Option<Misspelt> {
+    let numbered = assertions.iter().enumerate();
+    let mut own = numbered.filter(|(_, one)| one.robot == number);
+    own.find_map(|(index, assertion)| {
+        let (key, wanted) = match assertion.condition() {
+            Condition::Equals(wanted) => ("equals", wanted),
+            Condition::IsNot(unwanted) => ("is_not", unwanted),
+            Condition::IsThere(_) | Condition::Between { .. } => return None,
+        };
+        let shape = shape_of_value(robot, assertion)?;
+        let wrong = wrong_word(&shape, wanted)?;
+        Some(Misspelt {
+            assertion: index,
+            key,
+            message: format!(
+                "`{}` of assertion `{}` {wrong}",
+                assertion.value, assertion.what
+            ),
+        })
+    })
+}
+
+impl Misspelt {
+    /// Where the file says it.
+    pub(crate) fn path(&self) -> String {
+        format!("assertion.{}.{}", self.assertion, self.key)
+    }
+
+    /// What is told of it at that place.
+    pub(crate) fn at(self, origin: Origin) -> ParameterError {
+        ParameterError {
+            origin,
+            key: self.key.to_owned(),
+            fault: Fault::Invalid,
+            message: self.message,
+        }
+    }
+}
+
+/// What is known of the output's type; what there is not is told when it is looked at.
+fn shape_of_value<P>(robot: &Robot<P>, assertion: &Assertion) -> Option<Shape> {
+    let name = assertion.instance()?;
+    let mut instances = robot.instances.iter().map(Box::as_ref);
+    let instance: &dyn Instance = instances.find(|one| one.description().name == name)?;
+    let access = robot.access.iter().find(|one| one.instance == name)?;
+    let (shape, below) = shape_of(instance, &access.subscriptions, &assertion.value)?;
+    match below {
+        "" => Some(shape),
+        below => shape.at(&below.parse::<Path>().ok()?).ok(),
+    }
+}
+
+/// What is wrong with the first word in a value that its type does not have.
+fn wrong_word(shape: &Shape, wanted: &Value) -> Option<String> {
+    match (&shape.content, wanted) {
+        (Content::Recursive(expand), _) => wrong_word(&expand(), wanted),
+        (Content::Option(_), Value::Null) => None,
+        (Content::Option(inner), _) => wrong_word(inner, wanted),
+        (Content::List { item, .. } | Content::Set(item), Value::Array(values)) => {
+            values.iter().find_map(|value| wrong_word(item, value))
+        }
+        (Content::Map(item), Value::Object(entries)) => {
+            entries.values().find_map(|value| wrong_word(item, value))
+        }
+        (Content::Tuple(items), Value::Array(values)) => {
+            let mut pairs = items.iter().zip(values);
+            pairs.find_map(|(item, value)| wrong_word(item, value))
+        }
+        (Content::Struct(fields), Value::Object(entries)) => fields.iter().find_map(|field| {
+            let value = entries.get(field.name)?;
+            wrong_word(&field.shape, value)
+        }),
+        (Content::Enum(_), _) if shape.form == Form::Plain => wrong_variant(shape, wanted),
+        _ => None,
+    }
+}
+
+/// As serde writes enums by itself: the name alone, or the content below the name.
+fn wrong_variant(shape: &Shape, wanted: &Value) -> Option<String> {
+    let Content::Enum(variants) = &shape.content else {
+        return None;
+    };
+    let (word, content) = match wanted {
+        Value::String(word) => (word, None),
+        Value::Object(entries) if entries.len() == 1 => {
+            let (word, content) = entries.iter().next()?;
+            (word, Some(content))
+        }
+        _ => return None,
+    };
+    let names = || variants.iter().map(|variant| variant.name);
+    let Some(variant) = variants.iter().find(|variant| variant.name == *word) else {
+        let hint = match nearest(word, names()) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => format!("there are {}", names().collect::<Vec<_>>().join(", ")),
+        };
+        return Some(format!("is never `{word}`; {hint}"));
+    };
+    match (&variant.content, content) {
+        (VariantContent::Unit, None) => None,
+        (VariantContent::Unit, Some(_)) => Some(format!(
+            "is never `{word}` with something in it: write \"{word}\""
+        )),
+        (_, None) => Some(format!(
+            "is never `{word}` alone: say what is in it, {{ {word} = … }}"
+        )),
+        (VariantContent::Value(inner), Some(content)) => wrong_word(inner, content),
+        (VariantContent::Fields(fields), Some(content)) => {
+            let inside = Shape {
+                content: fields.clone(),
+                ..shape.clone()
+            };
+            wrong_word(&inside, content)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;
