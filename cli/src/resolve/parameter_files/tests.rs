@@ -5,6 +5,7 @@ use crate::pipeline;
 use crate::scan::fixture::{Fixture, Node, cycler};
 use crate::workspace::Workspace;
 
+mod instances;
 mod ranges;
 
 /// A robot whose node `a` has these parameters.
