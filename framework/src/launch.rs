@@ -182,8 +182,7 @@ where
     // Dropped behind the hardware.
     let ending = Ending::new();
     let clock = Clock::wall();
-    let listening = options.listening(target);
-    check_listening(listening.as_ref())?;
+    let listening = open(options.listening(target))?;
     // The identities that choose layers come from the hardware, whose own table therefore comes first.
     let mut layers = layers(target, options)?;
     let hardware = connect::<H>(target, options, &layers.load()?, &clock, stop)?;
@@ -297,10 +296,9 @@ fn lock(recording: &Mutex<Option<Recording>>) -> MutexGuard<'_, Option<Recording
 }
 
 /// Before hardware moves, and before files of a run that would not begin.
-fn check_listening(listening: Option<&Listening>) -> Result<()> {
-    let opened = listening.map_or(Ok(None), Listening::open);
-    opened.map_err(|error| error.context("cannot serve clients"))?;
-    Ok(())
+fn open(listening: Option<Listening>) -> Result<Option<Listening>> {
+    let opened = listening.map(Listening::opened).transpose();
+    opened.map_err(|error| error.context("cannot serve clients"))
 }
 
 pub(crate) fn start_server(

@@ -384,6 +384,28 @@ fn listens(
     Ok(Some(Box::new(Door(open))))
 }
 
+/// As [`listens`], where nobody else could listen since the run began.
+fn listens_alone(
+    link: framework::link::Link,
+    listening: launch::Listening,
+) -> Result<Option<Box<dyn launch::Served>>> {
+    let address = listening.address.as_deref().expect("an address was said");
+    let other = std::net::TcpListener::bind(address);
+    assert!(other.is_err(), "somebody else took the port");
+    listens(link, listening)
+}
+
+#[test]
+fn nobody_takes_the_port_while_a_run_begins() {
+    let directory = workspace(TEXT);
+    let free = std::net::TcpListener::bind("127.0.0.1:0").and_then(|free| free.local_addr());
+    let free = free.expect("a free port").to_string();
+    let words = ["--for=1ms", "--record=off", "--listen", &free];
+    assert_eq!(run_served(&directory, &words, listens_alone).status, 0);
+    // It is free again when the robot has ended.
+    std::net::TcpListener::bind(&free).expect("nobody has it");
+}
+
 #[test]
 fn a_clock_waits_and_a_stop_ends_the_wait() {
     let (clock, stop) = (Clock::wall(), Stop::new());

@@ -72,6 +72,7 @@ impl Options {
             target: target.name,
             graph: target.graph,
             address: self.listen.clone(),
+            socket: None,
             token: self.token.clone(),
             is_read_only: self.is_read_only,
             peers: self.peers.clone(),

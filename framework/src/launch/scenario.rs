@@ -177,6 +177,11 @@ impl Stage<'_> {
         create: &mut impl FnMut(&Arc<H>, Start<P>) -> Result<Robot<P>>,
     ) -> Result<(Played, Option<PathBuf>)> {
         let mut casts = Vec::new();
+        // Before files of a run that would not begin.
+        let seats = (self.audience.as_ref()).map(|audience| {
+            Ok::<_, Error>((audience, audience.open(self.scenario.robot_count())?))
+        });
+        let audience = seats.transpose()?;
         for robot in 0..self.scenario.robot_count() {
             let mut cast = self.cast(robot, seed, &casts, create)?;
             if is_recorded {
@@ -189,9 +194,9 @@ impl Stage<'_> {
             threads: self.options.threads.unwrap_or_else(threads),
             digests: self.options.digests,
             stop: self.stop,
-            audience: self.audience.as_ref(),
+            audience,
         };
-        let (mut played, chosen) = play(&self.scenario, seed, &mut casts, &manner)?;
+        let (mut played, chosen) = play(&self.scenario, seed, &mut casts, manner)?;
         let recordings = casts.into_iter().filter_map(|cast| cast.recording);
         played.recordings = recordings.map(end).collect();
         Ok((played, chosen))

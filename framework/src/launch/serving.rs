@@ -5,6 +5,7 @@
 use std::io;
 use std::net::{SocketAddr, TcpListener, ToSocketAddrs as _};
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use crate::error::{Error, Result};
 use crate::link::Link;
@@ -13,7 +14,7 @@ use crate::link::Link;
 pub type Serve = fn(Link, Listening) -> Result<Option<Box<dyn Served>>>;
 
 /// What the command line says about clients.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default)]
 pub struct Listening {
     /// The target that runs.
     pub target: &'static str,
@@ -21,6 +22,8 @@ pub struct Listening {
     pub graph: &'static str,
     /// `ADDRESS:PORT`; by default this machine alone may connect.
     pub address: Option<String>,
+    /// The socket at `address`, where it is open already.
+    pub socket: Option<Arc<TcpListener>>,
     /// What clients have to know before they may change anything.
     pub token: Option<String>,
     /// Nobody may change anything.
@@ -32,7 +35,7 @@ pub struct Listening {
 }
 
 impl Listening {
-    /// Opens the socket at [`address`](Self::address); `None`: nobody said which.
+    /// Opens the socket at [`address`](Self::address), or gives the one that is open; `None`: nobody said which.
     ///
     /// # Errors
     /// If it is no address of this machine, or its port is taken.
@@ -45,8 +48,20 @@ impl Listening {
                 "--listen {address}: expected an address of this machine with a free port, as 0.0.0.0:4857, or off"
             ))
         };
+        if let Some(socket) = &self.socket {
+            return socket.try_clone().map(Some).map_err(failed);
+        }
         let addresses: Vec<_> = address.to_socket_addrs().map_err(failed)?.collect();
         TcpListener::bind(&addresses[..]).map(Some).map_err(failed)
+    }
+
+    /// With its socket open: from here on nobody else has the port.
+    ///
+    /// # Errors
+    /// As [`Self::open`].
+    pub(crate) fn opened(self) -> Result<Self> {
+        let socket = self.open()?.map(Arc::new);
+        Ok(Self { socket, ..self })
     }
 }
 

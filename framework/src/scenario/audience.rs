@@ -17,11 +17,21 @@ pub(crate) struct Audience {
 }
 
 impl Audience {
+    /// As [`Self::seats`], with their sockets open.
+    ///
+    /// # Errors
+    /// Where somebody else has one of the ports, too.
+    pub(crate) fn open(&self, robots: usize) -> Result<Vec<Listening>> {
+        let seats = self.seats(robots)?.into_iter();
+        let opened: Result<_> = seats.map(Listening::opened).collect();
+        opened.map_err(|error| error.context("cannot serve clients"))
+    }
+
     /// What the servers of so many robots are told: where they listen, and that the others belong to them.
     ///
     /// # Errors
     /// Where the others could not be found by this address.
-    pub(crate) fn seats(&self, robots: usize) -> Result<Vec<Listening>> {
+    fn seats(&self, robots: usize) -> Result<Vec<Listening>> {
         let written = self.listening.address.as_deref().unwrap_or_default();
         let wrong = |why: &str| {
             Error::new(format!(

@@ -44,8 +44,8 @@ pub(crate) struct Manner<'run> {
     pub(crate) digests: bool,
     /// Ends all of it; robots that end by themselves have their own.
     pub(crate) stop: &'run Stop,
-    /// Who serves the robots to clients, if any may come. What clients do is no part of the scenario.
-    pub(crate) audience: Option<&'run Audience>,
+    /// Who serves the robots to clients, if any may come, and where each is served. What clients do is no part of the scenario.
+    pub(crate) audience: Option<(&'run Audience, Vec<Listening>)>,
 }
 
 /// How far one robot goes before anybody looks whether the run is to end. Several go as far as their world.
@@ -63,14 +63,14 @@ pub(crate) fn play<H: Hardware + 'static, P: Send>(
     scenario: &Scenario,
     seed: u64,
     casts: &mut [Cast<H, P>],
-    manner: &Manner<'_>,
+    manner: Manner<'_>,
 ) -> Result<(Played, Option<PathBuf>)> {
     let begun = Instant::now();
     let mut hardwares: Vec<&dyn Hardware> = Vec::new();
     let mut actors = Vec::new();
-    let seats = manner.audience.map(|audience| audience.seats(casts.len()));
-    let mut seats = seats.transpose()?.unwrap_or_default().into_iter();
-    let watched = manner.audience.map(|audience| watched(&audience.file));
+    let (audience, seats) = manner.audience.unzip();
+    let mut seats = seats.unwrap_or_default().into_iter();
+    let watched = audience.map(|audience| watched(&audience.file));
     let (callers, watched) = watched.unzip();
     // Servers end when the robots have lived.
     let mut served = Vec::new();
@@ -81,7 +81,7 @@ pub(crate) fn play<H: Hardware + 'static, P: Send>(
         let procedures = share_procedures(&mut cast.robot);
         let mut lockstep = beginning(&mut cast.robot, hardware, scenario, number)?
             .observed(|instance| recording.as_mut()?.observer(instance));
-        if let Some(seat) = manner.audience.zip(seats.next()) {
+        if let Some(seat) = audience.zip(seats.next()) {
             let mut procedures = world::procedures(&cast.hardware);
             procedures.extend(callers.iter().flat_map(Callers::procedures));
             let tells = (procedures, recorded);

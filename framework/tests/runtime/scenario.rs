@@ -472,6 +472,30 @@ fn where_nothing_would_be_played_nothing_passes() {
 }
 
 #[test]
+fn where_nobody_can_watch_no_recording_is_left() {
+    let taken = std::net::TcpListener::bind("127.0.0.1:0").expect("a free port");
+    let address = taken.local_addr().expect("it has one").to_string();
+    let (folder, mut all) = written(&format!(
+        "ends = 1.0\n{}",
+        assertion("value = 'truth.events'\nabove = 0")
+    ));
+    all.extend(["--listen", &address, "--record", "on"].map(OsString::from));
+    let create = |hardware: &Arc<ScriptedHardware>,
+                  _: Start<Parameters>|
+     -> Result<Robot<Parameters>> { Ok(robot(hardware, &Setting::default())) };
+    let status = launch::run(TARGET, all, &mut Vec::new(), create, listens);
+    assert_eq!(status, 1);
+    assert!(!folder.path().join("run").exists());
+}
+
+fn listens(
+    _: framework::link::Link,
+    listening: launch::Listening,
+) -> Result<Option<Box<dyn launch::Served>>> {
+    listening.open().map(|_| None)
+}
+
+#[test]
 fn a_word_that_the_type_does_not_have_is_refused_before_anything_is_played() {
     let value = |name: &str, rest: &str| {
         assertion(&format!(
