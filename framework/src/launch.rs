@@ -218,8 +218,7 @@ where
             link.recorded = (recording.as_ref()).map_or_else(Vec::new, Recording::shared_counts);
             let started = start_server(link, listening, serve);
             started.inspect_err(|error| {
-                ending.of_recording();
-                drop(recording.take());
+                drop(recording.take().map(ending::end));
                 of_hardware(error);
             })?
         }
@@ -227,21 +226,21 @@ where
     };
     let page = served.as_ref().map(|served| page(served.as_ref()));
     let recording = Mutex::new(recording);
-    let give_up = || give_up(&recording, &ending);
+    let give_up = || give_up(&recording);
     let threads = threads.giving_up(&give_up);
     let result = threads.run_observed(&mut robot.instances, |instance| {
         lock(&recording).as_mut()?.observer(instance)
     });
     let mut report = RobotReport::new(target.name, clock.now() - started, &robot);
-    ending.of_recording();
-    report.recording = lock(&recording).take().map(Recording::end);
-    ending.of_nothing();
-    let written = write_report(&report, page, options.format, output);
+    let recording = lock(&recording).take();
+    let written = write_report(&mut report, recording, page, options.format, output);
     ending.of_hardware(result.as_ref().err());
     // Why the robot failed matters more than a reader who left.
     result?;
     written.map_err(|error| Error::from(error).context("cannot write the report"))?;
-    Ok(DONE)
+    let recorded = report.recording.as_ref();
+    let is_outstanding = recorded.is_some_and(|recorded| recorded.ended.is_outstanding);
+    Ok(if is_outstanding { FAILED } else { DONE })
 }
 
 /// With the layers of the hardware's identities.
@@ -263,12 +262,18 @@ fn create_robot<P: ParameterData>(
     Ok(robot)
 }
 
+/// With how the recording ended, whose disk may take long: people read the rest before.
 fn write_report(
-    report: &RobotReport,
+    report: &mut RobotReport,
+    recording: Option<Recording>,
     page: Option<String>,
     format: Format,
     output: &mut dyn Write,
 ) -> std::io::Result<()> {
+    if format == Format::Text {
+        tell(format_args!("{}", report.to_string().trim_end()));
+    }
+    report.recording = recording.map(ending::end);
     match format {
         Format::Json => {
             let mut json = report.to_json();
@@ -276,17 +281,18 @@ fn write_report(
             writeln!(output, "{json}")
         }
         Format::Text => {
-            tell(format_args!("{}", report.to_string().trim_end()));
+            if let Some(recorded) = &report.recording {
+                tell(format_args!("{}", recorded.to_string().trim_end()));
+            }
             Ok(())
         }
     }
 }
 
 /// Ends the process in place of threads that do not end: what they have is lost, but not what is recorded.
-fn give_up(recording: &Mutex<Option<Recording>>, ending: &Ending) {
-    ending.of_recording();
+fn give_up(recording: &Mutex<Option<Recording>>) {
     if let Some(recording) = lock(recording).take() {
-        tell(format_args!("{}", recording.end()));
+        tell(format_args!("{}", ending::end(recording)));
     }
     std::process::exit(FAILED.into());
 }

@@ -54,6 +54,8 @@ pub struct Ended {
     pub is_complete: bool,
     /// What the disk said first.
     pub error: Option<io::Error>,
+    /// The disk had not taken all of it when it was no longer waited for: how much it has, nobody knows.
+    pub is_outstanding: bool,
 }
 
 impl Default for Settings {
@@ -169,18 +171,47 @@ impl Recorder {
 
     /// As [`end`](Self::end), with more to say there.
     pub fn end_with(mut self, metadata: Vec<Metadata>) -> Ended {
-        *self.last.lock().unwrap_or_else(PoisonError::into_inner) = metadata;
+        self.say_last(metadata);
         let error = self.join();
+        self.ended(error, false)
+    }
+
+    /// As [`end_with`](Self::end_with), but waits for the disk only as long as it is told to go on, which it asks again and again.
+    pub fn end_while(
+        mut self,
+        metadata: Vec<Metadata>,
+        mut goes_on: impl FnMut() -> bool,
+    ) -> Ended {
+        self.say_last(metadata);
+        while self.thread.as_ref().is_some_and(|it| !it.is_finished()) {
+            if !goes_on() {
+                // Nobody can end a thread that waits for its disk: it goes on alone.
+                drop(self.thread.take());
+                return self.ended(None, true);
+            }
+            std::thread::sleep(LOOK);
+        }
+        let error = self.join();
+        self.ended(error, false)
+    }
+
+    fn say_last(&self, metadata: Vec<Metadata>) {
+        *self.last.lock().unwrap_or_else(PoisonError::into_inner) = metadata;
+        // Release: the writer sees all blocks that this thread saw handed over.
+        self.is_ending.store(true, Ordering::Release);
+    }
+
+    fn ended(&self, error: Option<io::Error>, is_outstanding: bool) -> Ended {
         let is_whole = self.counts.iter().all(|(_, counts)| counts.is_complete());
         Ended {
             path: self.path.clone(),
-            is_complete: error.is_none() && is_whole,
+            is_complete: error.is_none() && is_whole && !is_outstanding,
             error,
+            is_outstanding,
         }
     }
 
     fn join(&mut self) -> Option<io::Error> {
-        // Release: the writer sees all blocks that this thread saw handed over.
         self.is_ending.store(true, Ordering::Release);
         let thread = self.thread.take()?;
         thread

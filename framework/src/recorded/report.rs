@@ -46,6 +46,9 @@ pub struct InstanceRecorded {
     pub overwritten: u64,
 }
 
+/// Its counts are those of what was handed over until then.
+const OUTSTANDING: &str = "the disk is too slow or hangs and has not taken all of it: how much is missing at its end is not known";
+
 impl RecordingReport {
     /// `COMPLETE` where everything that was wanted was recorded.
     pub fn state(&self) -> &'static str {
@@ -56,9 +59,11 @@ impl RecordingReport {
         }
     }
 
-    /// What the disk said first.
+    /// What the disk said first, or that it has not taken all of it.
     pub fn error(&self) -> Option<String> {
-        self.ended.error.as_ref().map(ToString::to_string)
+        let outstanding = || self.ended.is_outstanding.then(|| OUTSTANDING.to_owned());
+        let said = self.ended.error.as_ref().map(ToString::to_string);
+        said.or_else(outstanding)
     }
 
     /// Counts by instance.
@@ -90,7 +95,7 @@ impl fmt::Display for RecordingReport {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let path = self.ended.path.display();
         write!(formatter, "recording {path}: {}", self.state())?;
-        if let Some(error) = &self.ended.error {
+        if let Some(error) = self.error() {
             write!(formatter, " ({error})")?;
         }
         writeln!(formatter)?;
@@ -125,5 +130,38 @@ impl fmt::Display for RecordingReport {
             )?;
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_the_disk_has_not_taken_is_told_with_what_is_known() {
+        let report = RecordingReport {
+            ended: Ended {
+                path: "run.mcap".into(),
+                is_complete: false,
+                error: None,
+                is_outstanding: true,
+            },
+            instances: vec![InstanceRecorded {
+                instance: "Legs",
+                wanted: 5,
+                recorded: 4,
+                dropped: 1,
+                failed: 0,
+                lost: 0,
+                overwritten: 0,
+            }],
+            missing: Vec::new(),
+        };
+        let text = report.to_string();
+        let first = format!("recording run.mcap: INCOMPLETE ({OUTSTANDING})\n");
+        assert!(text.starts_with(&first), "{text}");
+        assert!(text.contains("Legs: 1 of 5 frames dropped"), "{text}");
+        assert_eq!(report.error().as_deref(), Some(OUTSTANDING));
+        assert_eq!(report.to_json()[0]["recorded"], 4);
     }
 }

@@ -7,7 +7,7 @@ use std::sync::atomic::AtomicBool;
 
 use hulkgen_mcap::layout::{self, Layouts};
 use hulkgen_recording::{
-    Attachment, Channel, ChannelId, Counts, Description, Metadata, Recorder, Settings,
+    Attachment, Channel, ChannelId, Counts, Description, Ended, Metadata, Recorder, Settings,
 };
 
 use super::disk;
@@ -171,7 +171,16 @@ impl Recording {
     }
 
     /// Ends the file; observers that are gone by now have handed over everything.
-    pub fn end(mut self) -> RecordingReport {
+    pub fn end(self) -> RecordingReport {
+        self.end_by(Recorder::end_with)
+    }
+
+    /// As [`Self::end`], but waits for the disk only as long as it is told to go on, which it asks again and again.
+    pub(crate) fn end_while(self, goes_on: impl FnMut() -> bool) -> RecordingReport {
+        self.end_by(|recorder, metadata| recorder.end_while(metadata, goes_on))
+    }
+
+    fn end_by(mut self, end: impl FnOnce(Recorder, Vec<Metadata>) -> Ended) -> RecordingReport {
         self.observers.clear();
         // It hands over what was said last.
         self.logs = None;
@@ -185,7 +194,7 @@ impl Recording {
         };
         let mut counts = self.shared_counts();
         let others = counts.split_off(instances.len());
-        let ended = self.recorder.end_with(vec![wanted]);
+        let ended = end(self.recorder, vec![wanted]);
         // What the disk did not take, and what had to go for it, is known when all was written.
         for (one, (_, counts)) in instances.iter_mut().zip(counts) {
             one.lost = counts.lost();

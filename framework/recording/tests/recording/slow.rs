@@ -213,3 +213,41 @@ fn a_slow_disk_costs_frames_that_are_counted_by_instance() {
         .partition(|cycle| *cycle >= 30_000);
     assert_eq!([one, other].concat(), recorded);
 }
+
+#[test]
+fn a_disk_that_hangs_is_no_longer_waited_for_when_nobody_wants_to() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("run.mcap");
+    let gate = Arc::new(Gate::default());
+    let file = Slow {
+        file: File::create_new(&path).expect("it is new"),
+        gate: gate.clone(),
+    };
+    let start = |file| {
+        let writer = Writer::onto(Box::new(file), description(), settings().budget);
+        let writer = writer.expect("the gate is open");
+        let started = Recorder::start_writing(&path, writer, &["One"], settings(), Rewrites::new());
+        let (recorder, mut tracks) = started.expect("a thread can be started");
+        let mut one = Noted::new(tracks.pop().expect("one was asked for"), 0);
+        assert!(one.record());
+        recorder
+    };
+    let recorder = start(file);
+    let closed = gate.close();
+    let mut patience = 3..;
+    let ended = recorder.end_while(Vec::new(), || patience.next() != Some(5));
+    assert_eq!(patience.start, 6, "it is asked again and again");
+    assert!(ended.is_outstanding && !ended.is_complete, "{ended:?}");
+    drop(closed);
+    // The thread that was left alone ends its file.
+    while Recording::open(&path).map_or(true, |file| file.metadata("end").is_none()) {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    std::fs::remove_file(&path).expect("it is there");
+    let file = Slow {
+        file: File::create_new(&path).expect("it is new"),
+        gate,
+    };
+    let ended = start(file).end_while(Vec::new(), || true);
+    assert!(ended.is_complete && !ended.is_outstanding, "{ended:?}");
+}
