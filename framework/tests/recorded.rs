@@ -265,6 +265,43 @@ fn replay(chunk: &hulkgen_recording::Chunk) -> Vec<(Timestamp, String)> {
     seen.collect()
 }
 
+/// What `save` writes.
+fn bytes_of(save: impl FnOnce(&mut Saving<'_, '_>)) -> Vec<u8> {
+    let mut bytes = vec![0; 100];
+    let mut writing = Writing::new(&mut bytes);
+    saved(&mut writing, save).expect("there is room");
+    let length = writing.length();
+    bytes.truncate(length);
+    bytes
+}
+
+#[test]
+fn before_the_first_cycle_of_an_instance_its_value_is_the_default_also_when_time_goes_back() {
+    let (mut outside, mut inputs) = connected();
+    let mut frames = Vec::new();
+    for (step, now) in [Step::Abandon(0), Step::Write(7), Step::Write(9)]
+        .into_iter()
+        .zip(1..)
+    {
+        let now = Timestamp::from_nanos(now);
+        outside.apply(step, now);
+        inputs.take(now);
+        frames.push(bytes_of(|out| inputs.newest.save(out)));
+    }
+    let (mut outside, mut inputs) = connected();
+    // Often enough that each slot has had a value.
+    for position in [0, 1, 2, 1, 2, 0, 1, 0, 0] {
+        let mut find = |cycle| Ok([7, 9][cycle as usize - 1]);
+        let mut from = Loading::new(&frames[position]);
+        let loaded = inputs
+            .newest
+            .load(&mut from, &mut outside.numbers, &mut find);
+        loaded.expect("it was saved");
+        assert_eq!(*inputs.newest.view().value(), [0, 7, 9][position]);
+        assert_eq!(inputs.newest.view().cycle(), position as u64);
+    }
+}
+
 proptest! {
     #[test]
     fn every_chunk_gives_back_what_its_cycles_saw(steps in prop::collection::vec(step(), 0..200)) {

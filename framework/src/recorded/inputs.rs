@@ -50,7 +50,7 @@ struct Named {
     order: Timestamp,
 }
 
-impl<T> Foreign<T> for Reader<T> {
+impl<T: Default> Foreign<T> for Reader<T> {
     fn values(
         &self,
         visit: &mut dyn FnMut(u64, Timestamp, &T) -> Result<(), SaveError>,
@@ -84,9 +84,11 @@ impl<T> Foreign<T> for Reader<T> {
     ) -> Result<()> {
         let named: Named = from.take()?;
         let is_new: bool = from.take()?;
-        if named.cycle != 0 {
-            *buffer.slots().0 = value(named.cycle)?;
-        }
+        *buffer.slots().0 = match named.cycle {
+            // Nothing was written yet, while the slot may hold what a later cycle of the recording saw.
+            0 => T::default(),
+            cycle => value(cycle)?,
+        };
         buffer.complete(named.cycle, named.timestamp);
         self.take();
         if !is_new {
