@@ -26,5 +26,7 @@ mod tap;
 mod threads;
 #[path = "runtime/together.rs"]
 mod together;
+#[path = "runtime/verified.rs"]
+mod verified;
 #[path = "runtime/wake_up.rs"]
 mod wake_up;

@@ -263,6 +263,10 @@ impl fmt::Display for Remarks<'_> {
             remarks.push(format!("not recorded: never asked for ({})", one.record));
         } else if one.is_off() {
             remarks.push("off".to_owned());
+        } else if one.had_no_cycle() {
+            remarks.push("not recorded: it had no cycle".to_owned());
+        } else if one.is_overwritten() {
+            remarks.push("nothing left in the file".to_owned());
         } else if one.verified == 0 {
             remarks.push("nothing verified".to_owned());
         }

@@ -89,9 +89,26 @@ impl InstanceVerified {
         self.record.starts_with("while ") && has_none
     }
 
-    /// Whether all that could be compared is the same, and there was something.
+    /// Whether it had no cycle in this run that was to be recorded.
+    pub fn had_no_cycle(&self) -> bool {
+        self.wanted == Some(0) && self.frames == 0
+    }
+
+    /// Whether all of its frames left the file to younger ones of others.
+    pub fn is_overwritten(&self) -> bool {
+        let is_none_left = self.wanted == Some(self.overwritten + self.dropped);
+        self.frames == 0 && self.overwritten > 0 && is_none_left
+    }
+
+    /// Whether the file has nothing of it, as it should be.
+    fn has_nothing_to_verify(&self) -> bool {
+        self.is_off() || self.had_no_cycle() || self.is_overwritten()
+    }
+
+    /// Whether all that could be compared is the same, and there was something, if the file should have something.
     pub fn is_good(&self) -> bool {
-        self.diverged == 0 && self.unreadable.is_none() && (self.verified > 0 || self.is_off())
+        let is_verified = self.verified > 0 || self.has_nothing_to_verify();
+        self.diverged == 0 && self.unreadable.is_none() && is_verified
     }
 }
 
@@ -107,7 +124,7 @@ impl Verification {
         applies.filter(|tolerance| *tolerance > 0.0)
     }
 
-    /// Whether every instance that is recorded was verified, and no cycle diverged.
+    /// Whether every instance of which the file has frames, or should have, was verified, and no cycle diverged.
     pub fn is_good(&self) -> bool {
         self.unknown.is_empty()
             && self.instances.iter().all(InstanceVerified::is_good)

@@ -185,14 +185,14 @@ fn what_was_never_asked_for_is_no_failure_where_the_file_breaks_off_either() {
         let file = File::read(&bytes[..kept]).expect("it begins as a recording");
         assert_never_asked_for(&file, wanted);
     }
-    // Nobody says that something was verified, or of one that is always recorded that it was not wanted.
+    // Nobody says that something was verified, or of one that is always recorded that it had no cycle.
     let bytes = record_before_it_is_pressed(&tape, |_| WHEN_PRESSED);
     let file = File::read(&bytes[..bytes.len() - 1]).expect("it begins as a recording");
     let verification = verify(&file, recording::INSTANCES).expect("it is of this robot");
     assert!(!verification.is_good(), "{verification}");
     let mut one = verification.instances[5].clone();
     assert!(one.was_never_asked_for() && one.is_good());
-    one.record = "on".to_owned();
+    (one.record, one.wanted) = ("on".to_owned(), None);
     assert!(!one.is_good());
 }
 
