@@ -17,6 +17,8 @@ pub struct History<T> {
     oldest: usize,
     /// How many are in reach.
     len: usize,
+    /// In a replay: how many the frame gave that was loaded last.
+    loaded: Option<usize>,
 }
 
 impl<T: Clone> History<T> {
@@ -27,13 +29,18 @@ impl<T: Clone> History<T> {
             entries: Vec::new(),
             oldest: 0,
             len: 0,
+            loaded: None,
         }
     }
 
     /// Adds a value; timestamps increase.
     #[inline]
     pub fn push(&mut self, timestamp: Timestamp, value: &T) {
-        while self.len > 0 && self.next_oldest().unwrap_or(timestamp) + self.reach <= timestamp {
+        // What a replay adds to a loaded history is taken back, and nothing else may be missing then.
+        while self.loaded.is_none()
+            && self.len > 0
+            && self.next_oldest().unwrap_or(timestamp) + self.reach <= timestamp
+        {
             self.oldest = self.position(1);
             self.len -= 1;
         }
@@ -72,11 +79,14 @@ impl<T> History<T> {
         self.len = 0;
     }
 
-    /// Forgets the values of this time and later ones.
-    pub(crate) fn forget_from(&mut self, timestamp: Timestamp) {
-        while self.len > 0 && self.entry(self.len - 1).0 >= timestamp {
-            self.len -= 1;
-        }
+    /// Makes it what the last frame gave, without what the replay added to it.
+    pub(crate) fn begin_load(&mut self) {
+        self.len = self.loaded.take().unwrap_or(self.len);
+    }
+
+    /// From here on the replay adds to it.
+    pub(crate) fn end_load(&mut self) {
+        self.loaded = Some(self.len);
     }
 
     /// What lies at a path in every value: `history.project(|pose| &pose.position)`.

@@ -22,7 +22,11 @@ enum Step {
     Complete(usize),
     Abandon(usize),
     Write(u8),
-    Cycle { recorded: bool },
+    /// Where it does not finish it leaves nothing behind.
+    Cycle {
+        recorded: bool,
+        finishes: bool,
+    },
 }
 
 fn step() -> impl Strategy<Value = Step> {
@@ -31,7 +35,8 @@ fn step() -> impl Strategy<Value = Step> {
         3 => (0..2_usize).prop_map(Step::Complete),
         1 => (0..2_usize).prop_map(Step::Abandon),
         2 => any::<u8>().prop_map(Step::Write),
-        3 => any::<bool>().prop_map(|recorded| Step::Cycle { recorded }),
+        3 => (any::<bool>(), prop::bool::weighted(0.7))
+            .prop_map(|(recorded, finishes)| Step::Cycle { recorded, finishes }),
     ]
 }
 
@@ -191,7 +196,7 @@ fn record(steps: &[Step], path: &std::path::Path) -> Vec<(Timestamp, String)> {
     for (step, now) in steps.iter().zip(1..) {
         let time = Timestamp::from_nanos(now);
         outside.apply(*step, time);
-        let Step::Cycle { recorded } = *step else {
+        let Step::Cycle { recorded, finishes } = *step else {
             continue;
         };
         inputs.take(time);
@@ -220,7 +225,9 @@ fn record(steps: &[Step], path: &std::path::Path) -> Vec<(Timestamp, String)> {
             // The next frame adds what this cycle and later ones push.
             since = Some(time);
         }
-        inputs.history.push(time, &Some(now as u8));
+        if finishes {
+            inputs.history.push(time, &Some(now as u8));
+        }
     }
     drop(track);
     recorder.end();
@@ -260,7 +267,10 @@ fn replay(chunk: &hulkgen_recording::Chunk) -> Vec<(Timestamp, String)> {
         inputs.history.load(&mut from).expect("it was saved");
         assert!(from.is_empty());
         inputs.merge();
-        (time, inputs.seen(time))
+        let seen = inputs.seen(time);
+        // In a replay every cycle finishes, and leaves something else.
+        inputs.history.push(time, &None);
+        (time, seen)
     });
     seen.collect()
 }

@@ -12,6 +12,8 @@ mod lockstep;
 mod observer;
 #[path = "runtime/process.rs"]
 mod process;
+#[path = "runtime/replayed.rs"]
+mod replayed;
 #[path = "runtime/reports.rs"]
 mod reports;
 #[path = "runtime/scenario.rs"]

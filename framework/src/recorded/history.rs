@@ -32,15 +32,16 @@ impl<T: Clone + DeserializeOwned> History<T> {
     /// # Errors
     /// If the bytes are none of a history of this type.
     pub fn load(&mut self, from: &mut Loading<'_>) -> Result<()> {
+        // What the cycle before left here in its replay is not what it left when it was recorded.
+        self.begin_load();
         if from.take()? {
             self.clear();
         }
         for _ in 0..from.take::<u32>()? {
             let (timestamp, value) = from.take::<(Timestamp, T)>()?;
-            // A replay that ran the cycle before has kept what came of it.
-            self.forget_from(timestamp);
             self.push(timestamp, &value);
         }
+        self.end_load();
         Ok(())
     }
 }

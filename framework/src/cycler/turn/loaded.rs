@@ -1,6 +1,7 @@
 //! A cycle that was recorded, about to run again.
 
 use super::{Cycler, Phase};
+use crate::cycler::restarts::Restarts;
 use crate::cycler::{Cycle, Instance};
 use crate::error::{Error, Result};
 use crate::guarded::only;
@@ -44,6 +45,8 @@ impl<B: Recorded> Cycler<B> {
             restarted: head.restarted,
         };
         self.failure = None;
+        // Failures of other replayed cycles are none of this one's past.
+        self.restarts = Restarts::default();
         Ok(())
     }
 
