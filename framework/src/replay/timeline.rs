@@ -39,6 +39,9 @@ pub const PROCEDURE: &str = "timeline";
 /// How long the replay sleeps between two looks at the time and at its clients.
 const PAUSE: Duration = Duration::from_millis(2);
 
+/// So long clients wait for cycles that take more time than they have; then time waits.
+const LONGEST: Duration = Duration::from_millis(20);
+
 /// While time stands still, the cycles that it stands at run again so often: for clients that come then.
 const SHOWN_EVERY: Duration = Duration::from_millis(100);
 
@@ -193,7 +196,8 @@ impl<'r> Timeline<'r> {
             let elapsed = looked.elapsed();
             looked += elapsed;
             if self.is_playing {
-                self.advance(elapsed);
+                let begun = Instant::now();
+                self.advance_while(elapsed, &mut || begun.elapsed() < LONGEST);
             } else if shown.elapsed() >= SHOWN_EVERY {
                 shown = Instant::now();
                 self.show();
@@ -306,32 +310,57 @@ impl<'r> Timeline<'r> {
 
     /// Lets so much time of the wall clock pass. A cycle whose frame does not fit this robot is told and passed over.
     pub fn advance(&mut self, elapsed: Duration) {
+        self.advance_while(elapsed, &mut || true);
+    }
+
+    /// As [`Self::advance`], one cycle and then as long as it may go on. What is left of the time then is dropped, as the
+    /// cycles that are due would else become more and more.
+    pub fn advance_while(&mut self, elapsed: Duration, may_go_on: &mut dyn FnMut() -> bool) {
         let (begins, ends) = self.ends();
         let wanted = self.now + elapsed.as_nanos() as f64 * self.speed;
-        self.now = wanted.clamp(begins, ends);
+        let until = wanted.clamp(begins, ends);
         let before = self.passed;
-        while let Some(moment) = self.moments.get(self.passed).copied() {
-            if self.speed < 0.0 || moment.at.as_nanos() as f64 > self.now {
-                break;
-            }
-            self.passed += 1;
-            self.play(moment.instance, moment.position);
+        let mut is_late = false;
+        while !is_late && self.step_to(until) {
+            is_late = !may_go_on() && self.is_due(until);
         }
-        while self.speed < 0.0
-            && self.passed > 1
-            && self.moments[self.passed - 1].at.as_nanos() as f64 > self.now
-        {
+        self.now = match is_late {
+            true => self.moments[self.passed - 1].at.as_nanos() as f64,
+            false => until,
+        };
+        self.come_from(before);
+        if wanted != until && !is_late {
+            // It has come to one of its ends.
+            self.is_playing = false;
+        }
+    }
+
+    /// Whether a cycle lies between where it is and this time.
+    fn is_due(&self, until: f64) -> bool {
+        let at = |index: usize| Some(self.moments.get(index)?.at.as_nanos() as f64);
+        match self.speed < 0.0 {
+            true => self.passed > 1 && at(self.passed - 1).is_some_and(|at| at > until),
+            false => at(self.passed).is_some_and(|at| at <= until),
+        }
+    }
+
+    /// Runs the next cycle that is due until this time, in the direction in which it plays; gives whether there was one.
+    fn step_to(&mut self, until: f64) -> bool {
+        if !self.is_due(until) {
+            return false;
+        }
+        if self.speed < 0.0 {
             self.passed -= 1;
             let left = self.moments[self.passed].instance;
             if let Some(position) = self.current(left) {
                 self.play(left, position);
             }
+        } else {
+            let moment = self.moments[self.passed];
+            self.passed += 1;
+            self.play(moment.instance, moment.position);
         }
-        self.come_from(before);
-        if wanted != self.now {
-            // It has come to one of its ends.
-            self.is_playing = false;
-        }
+        true
     }
 
     /// After time went on or back: what goes with it beside the cycles.

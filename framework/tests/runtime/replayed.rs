@@ -1,12 +1,15 @@
-//! Recorded cycles of a hand-written body run again.
+//! Recorded cycles of a hand-written body run again, each for itself and on a timeline.
 
 use std::path::Path;
+use std::time::Duration;
 
 use framework::recorded::{About, Recording, Settings, describe};
-use framework::replay::{Alone, Players, Ran, Replay, Replayable, value_channels};
+use framework::replay::{
+    Alone, Move, Players, Ran, Replay, Replayable, Timeline, ValueChannels, value_channels,
+};
 use framework::{
-    AdditionalSlot, Clock, Cycler, Guarded, Lockstep, OnFailure, Subscriptions, Swap, Timestamp,
-    buffer, buffer_of, procedure,
+    AdditionalSlot, Clock, Cycler, Guarded, Lockstep, OnFailure, Stop, Subscriptions, Swap,
+    Timestamp, buffer, buffer_of, procedure,
 };
 use hulkgen_recording::Recording as File;
 
@@ -72,6 +75,28 @@ const FAILING: Replayable = Replayable {
     types: describe::<TestBody>,
 };
 
+const SLOW: Replayable = Replayable {
+    create: |_, _| Ok(legs(Act::Take(5))),
+    ..FAILING
+};
+
+const QUICK: Replayable = Replayable {
+    create: |_, _| Ok(legs(Act::Work)),
+    ..FAILING
+};
+
+fn timeline<'r>(file: &'r File, values: &'r ValueChannels, one: Replayable) -> Timeline<'r> {
+    let players = Players::new(file, values, &[one]).expect("it is of this version");
+    let made = Timeline::new("test", players, Parameters { gain: 1 }, &Stop::new());
+    let (mut timeline, _) = made.expect("it has cycles");
+    let fast = Move {
+        speed: Some(1000.0),
+        ..Move::default()
+    };
+    timeline.go(&fast).expect("it is a speed");
+    timeline
+}
+
 #[test]
 fn the_fifth_cycle_that_fails_does_so_for_its_own_reason() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -86,4 +111,61 @@ fn the_fifth_cycle_that_fails_does_so_for_its_own_reason() {
     let own = (1..=8)
         .map(|cycle| Ran::Failed(format!("node `test::worker` in cycle {cycle}: as scripted")));
     assert_eq!(reasons, own.collect::<Vec<_>>());
+}
+
+#[test]
+fn time_waits_for_cycles_that_are_slower_than_it_and_drops_what_it_has_too_much() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = recorded(folder.path());
+    let values = value_channels(&file).expect("it is of this version");
+    let mut timeline = timeline(&file, &values, QUICK);
+    let mut left = 3;
+    let mut three = || {
+        left -= 1;
+        left > 0
+    };
+    let second = Duration::from_secs(1);
+    timeline.advance_while(second, &mut three);
+    let place = timeline.place();
+    assert_eq!(
+        (place.instances[0].cycle, place.is_playing),
+        (Some(3), true)
+    );
+    // They were captured 5 ms before they came.
+    assert!((place.time - 0.015).abs() < 1e-9, "{place:?}");
+    // Nothing of the second is left: not even the next cycle is due.
+    timeline.advance(Duration::from_micros(9));
+    assert_eq!(timeline.place().instances[0].cycle, Some(3));
+    timeline.advance_while(second, &mut || false);
+    assert_eq!(timeline.place().instances[0].cycle, Some(4));
+
+    let back = Move {
+        speed: Some(-1000.0),
+        ..Move::default()
+    };
+    timeline.go(&back).expect("it is a speed");
+    timeline.advance_while(second, &mut || false);
+    let place = timeline.place();
+    assert_eq!(
+        (place.instances[0].cycle, place.is_playing),
+        (Some(3), true)
+    );
+    timeline.advance(second);
+    let place = timeline.place();
+    assert_eq!(
+        (place.instances[0].cycle, place.is_playing),
+        (Some(1), false)
+    );
+}
+
+#[test]
+fn a_replay_that_is_slower_than_its_speed_looks_up_meanwhile() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = recorded(folder.path());
+    let values = value_channels(&file).expect("it is of this version");
+    let mut timeline = timeline(&file, &values, SLOW);
+    // All cycles would take half a second at least, and are due after one of its thousandths.
+    timeline.run(&Stop::new(), Some(Duration::from_millis(100)));
+    let place = timeline.place();
+    assert!(place.is_playing && place.time < place.ends, "{place:?}");
 }
