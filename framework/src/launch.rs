@@ -8,6 +8,7 @@
 mod check;
 mod ending;
 mod options;
+mod output;
 mod record;
 mod replay;
 mod scenario;
@@ -86,19 +87,53 @@ where
     P: ParameterData,
 {
     let arguments = std::env::args_os().skip(1);
-    ExitCode::from(run(
-        target,
-        arguments,
-        &mut std::io::stdout(),
-        create,
-        serve,
-    ))
+    let opened = parsed(&target, arguments, &mut std::io::stdout())
+        .and_then(|options| output::of_process(&options).map(|output| (options, output)));
+    let status = match opened {
+        Ok((options, mut output)) => launched(&target, &options, &mut *output, create, serve),
+        Err(status) => status,
+    };
+    ExitCode::from(status)
 }
 
 /// As [`main`], with arguments and standard output of the caller's; gives the exit status.
 pub fn run<H, P>(
     target: Target,
     arguments: impl IntoIterator<Item = OsString>,
+    output: &mut dyn Write,
+    create: impl FnMut(&Arc<H>, Start<P>) -> Result<Robot<P>>,
+    serve: Serve,
+) -> u8
+where
+    H: Hardware + 'static,
+    P: ParameterData,
+{
+    match parsed(&target, arguments, output) {
+        Ok(options) => launched(&target, &options, output, create, serve),
+        Err(status) => status,
+    }
+}
+
+/// The options; else the exit status.
+fn parsed(
+    target: &Target,
+    arguments: impl IntoIterator<Item = OsString>,
+    output: &mut dyn Write,
+) -> Result<Options, u8> {
+    match options::parse(arguments) {
+        Ok(Command::Run(options)) => Ok(*options),
+        Ok(Command::Help) => Err(status_of(write!(output, "{}", options::help(target)))),
+        Err(error) => {
+            tell(format_args!("error: {error}\n\n{}", options::help(target)));
+            Err(WRONG_USAGE)
+        }
+    }
+}
+
+/// Does what the options say; gives the exit status.
+fn launched<H, P>(
+    target: &Target,
+    options: &Options,
     output: &mut dyn Write,
     mut create: impl FnMut(&Arc<H>, Start<P>) -> Result<Robot<P>>,
     serve: Serve,
@@ -107,32 +142,24 @@ where
     H: Hardware + 'static,
     P: ParameterData,
 {
-    let options = match options::parse(arguments) {
-        Ok(Command::Run(options)) => *options,
-        Ok(Command::Help) => return status_of(write!(output, "{}", options::help(&target))),
-        Err(error) => {
-            tell(format_args!("error: {error}\n\n{}", options::help(&target)));
-            return WRONG_USAGE;
-        }
-    };
     if options.check_parameters {
-        return check::parameters::<P>(&target, &options, output);
+        return check::parameters::<P>(target, options, output);
     }
     if options.is_replay {
-        return replay::run::<P>(&target, &options, output, serve);
+        return replay::run::<P>(target, options, output, serve);
     }
     let signals = Signals::new();
     let stop = Stop::new();
     let result = signals.and_then(|signals| {
         let supervisor = Supervisor::start(signals.clone(), stop.clone())?;
         let result = match &options.scenario {
-            Some(file) => scenario::run(&target, &options, file, &stop, output, &mut create, serve),
+            Some(file) => scenario::run(target, options, file, &stop, output, &mut create, serve),
             None if options.tool.is_some() => {
-                tool::run(&target, &options, &stop, output, &mut create)
+                tool::run(target, options, &stop, output, &mut create)
             }
             None => start_and_run(
-                &target,
-                &options,
+                target,
+                options,
                 &stop,
                 &supervisor,
                 output,

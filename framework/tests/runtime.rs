@@ -4,6 +4,8 @@
 mod body;
 #[path = "runtime/clients.rs"]
 mod clients;
+#[path = "runtime/elsewhere.rs"]
+mod elsewhere;
 #[path = "runtime/failures.rs"]
 mod failures;
 #[path = "runtime/lockstep.rs"]

@@ -66,6 +66,11 @@ pub(super) struct Options {
 }
 
 impl Options {
+    /// Whether a recording is to answer something; else it is played, or there is none.
+    pub(super) fn answers(&self) -> bool {
+        self.is_replay && (self.replay.is_question() || !self.settings.is_empty())
+    }
+
     /// What a server has to know; `None`: there is none.
     pub(super) fn listening(&self, target: &Target) -> Option<Listening> {
         let listening = Listening {

@@ -64,7 +64,7 @@ impl Replaying {
     }
 
     /// Whether something is to be computed; else it is played.
-    fn is_question(&self) -> bool {
+    pub(super) fn is_question(&self) -> bool {
         let deeds = [self.verify, self.answer, self.against.is_some()];
         deeds.contains(&true) || self.node.is_some() || self.capture.is_some()
     }
@@ -169,7 +169,7 @@ pub(super) fn run<P: ParameterData>(
     let result = Recording::open(file)
         .map_err(|error| Error::new(error.to_string()))
         .and_then(|recording| {
-            if options.replay.is_question() || !options.settings.is_empty() {
+            if options.answers() {
                 replayed::<P>(target, &recording, options, output)
             } else {
                 served::<P>(target, &recording, options, serve)
