@@ -1,14 +1,15 @@
 //! An MCAP file that is being written.
 
+mod end;
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
 use std::io::{self, SeekFrom, Write as _};
 use std::path::Path;
 
 use crate::format::{MAGIC, Put, RECORD_HEAD, Take, opcode};
-use crate::index::RING;
 use crate::ring::Ring;
-use crate::storage::Storage;
+use crate::storage::{Storage, is_full};
 
 /// What there is to say before anything was recorded.
 #[derive(Clone, Debug, Default)]
@@ -164,8 +165,9 @@ impl Writer {
             put_map(content, &metadata.entries);
         });
         let place = (self.position, record.len() as u64, metadata.name.clone());
+        self.append(&record)?;
         self.metadata.push(place);
-        self.append(&record)
+        Ok(())
     }
 
     fn append(&mut self, bytes: &[u8]) -> io::Result<()> {
@@ -216,7 +218,8 @@ impl Writer {
         self.chunk.len()
     }
 
-    /// Writes the open chunk; on an error nothing of it counts. It is empty afterwards in either case.
+    /// Writes the open chunk; on an error nothing of it counts. It is empty afterwards in either case. Older chunks may have
+    /// gone for it: [`kept_chunks`](Self::kept_chunks).
     pub fn close_chunk(&mut self) -> io::Result<()> {
         let messages = std::mem::take(&mut self.messages);
         self.known.clear();
@@ -244,128 +247,26 @@ impl Writer {
             });
         }
         index.index_length = buffer.len() as u64 - index.length;
-        let written = self.append(&buffer);
+        let written = self.append_chunk(&buffer);
         self.buffer = buffer;
         written?;
-        self.ring.add(&mut *self.file, index)
+        self.ring.add(&mut *self.file, index);
+        Ok(())
+    }
+
+    /// Appends where the disk is full, too: the oldest chunks make room, as far as the ring gives them up.
+    fn append_chunk(&mut self, bytes: &[u8]) -> io::Result<()> {
+        loop {
+            match self.append(bytes) {
+                Err(error) if is_full(&error) && self.ring.make_room(&mut *self.file) => {}
+                appended => return appended,
+            }
+        }
     }
 
     /// How many chunks the file has; what the ring closed over does not count.
     pub fn kept_chunks(&self) -> usize {
         self.ring.len()
-    }
-
-    /// Writes what finds everything again; the file is whole afterwards.
-    pub fn finish(mut self) -> io::Result<()> {
-        self.close_chunk()?;
-        if self.ring.gone() > 0 {
-            self.write_metadata(&Metadata {
-                name: RING.to_owned(),
-                entries: vec![("gone".to_owned(), self.ring.gone().to_string())],
-            })?;
-        }
-        let mut end = Vec::new();
-        end.put_record(opcode::DATA_END, |content| content.put_u32(0));
-        let summary_start = self.position + end.len() as u64;
-        let mut summary = Vec::new();
-        let mut groups = Vec::new();
-        let mut group = |summary: &mut Vec<u8>, opcode: u8, write: &mut dyn FnMut(&mut Vec<u8>)| {
-            let start = summary.len();
-            write(summary);
-            if summary.len() > start {
-                groups.push((opcode, start as u64, (summary.len() - start) as u64));
-            }
-        };
-        let description = &self.description;
-        group(&mut summary, opcode::SCHEMA, &mut |out| {
-            put_schemas(out, description);
-        });
-        group(&mut summary, opcode::CHANNEL, &mut |out| {
-            put_channels(out, description);
-        });
-        group(&mut summary, opcode::STATISTICS, &mut |out| {
-            self.put_statistics(out);
-        });
-        group(&mut summary, opcode::CHUNK_INDEX, &mut |out| {
-            self.ring
-                .chunks()
-                .for_each(|chunk| put_chunk_index(out, chunk));
-        });
-        group(&mut summary, opcode::ATTACHMENT_INDEX, &mut |out| {
-            self.put_attachment_indexes(out);
-        });
-        group(&mut summary, opcode::METADATA_INDEX, &mut |out| {
-            for (offset, length, name) in &self.metadata {
-                out.put_record(opcode::METADATA_INDEX, |content| {
-                    content.put_u64(*offset);
-                    content.put_u64(*length);
-                    content.put_text(name);
-                });
-            }
-        });
-        let offsets_start = summary_start + summary.len() as u64;
-        for (opcode, start, length) in groups {
-            summary.put_record(opcode::SUMMARY_OFFSET, |content| {
-                content.put_u8(opcode);
-                content.put_u64(summary_start + start);
-                content.put_u64(length);
-            });
-        }
-        // The check sum covers the footer up to itself.
-        summary.put_u8(opcode::FOOTER);
-        summary.put_u64(8 + 8 + 4);
-        summary.put_u64(summary_start);
-        summary.put_u64(offsets_start);
-        let sum = crc32fast::hash(&summary);
-        summary.put_u32(sum);
-        summary.extend(MAGIC);
-        end.extend(summary);
-        self.append(&end)?;
-        self.file.sync_all()
-    }
-
-    fn put_statistics(&self, out: &mut Vec<u8>) {
-        let mut counts: BTreeMap<u16, u64> = BTreeMap::new();
-        let mut times: Option<(u64, u64)> = None;
-        for chunk in self.ring.chunks() {
-            for (channel, (_, messages)) in &chunk.lists {
-                *counts.entry(*channel).or_default() += messages;
-            }
-            let (first, last) = times.unwrap_or(chunk.times);
-            times = Some((first.min(chunk.times.0), last.max(chunk.times.1)));
-        }
-        let (first, last) = times.unwrap_or_default();
-        out.put_record(opcode::STATISTICS, |content| {
-            content.put_u64(counts.values().sum());
-            content.put_u16(self.description.schemas.len() as u16);
-            content.put_u32(self.description.channels.len() as u32);
-            content.put_u32(self.attachments.len() as u32);
-            content.put_u32(self.metadata.len() as u32);
-            content.put_u32(self.ring.chunks().count() as u32);
-            content.put_u64(first);
-            content.put_u64(last);
-            content.put_list(|map| {
-                for (channel, count) in counts {
-                    map.put_u16(channel);
-                    map.put_u64(count);
-                }
-            });
-        });
-    }
-
-    fn put_attachment_indexes(&self, out: &mut Vec<u8>) {
-        for (offset, length, index) in &self.attachments {
-            let attachment = &self.description.attachments[*index];
-            out.put_record(opcode::ATTACHMENT_INDEX, |content| {
-                content.put_u64(*offset);
-                content.put_u64(*length);
-                content.put_u64(0);
-                content.put_u64(0);
-                content.put_u64(attachment.data.len() as u64);
-                content.put_text(&attachment.name);
-                content.put_text(&attachment.media_type);
-            });
-        }
     }
 }
 

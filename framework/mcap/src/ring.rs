@@ -1,4 +1,4 @@
-//! A budget of bytes: the oldest chunks go, their place on the disk is given back.
+//! A budget of bytes, and a disk that has less: the oldest chunks go, their place on the disk is given back.
 
 use std::collections::VecDeque;
 use std::io::{self, SeekFrom};
@@ -12,8 +12,12 @@ use crate::storage::Storage;
 pub(crate) struct Ring {
     chunks: VecDeque<ChunkIndex>,
     bytes: u64,
+    /// The most bytes that they had.
+    most: u64,
     budget: u64,
     gone: u64,
+    /// Whether the place of the chunk that went last was given back.
+    gives_back: bool,
 }
 
 impl Ring {
@@ -21,8 +25,10 @@ impl Ring {
         Self {
             chunks: VecDeque::new(),
             bytes: 0,
+            most: 0,
             budget,
             gone: 0,
+            gives_back: true,
         }
     }
 
@@ -41,28 +47,46 @@ impl Ring {
     }
 
     /// Keeps a chunk that was just written, and removes as many old ones as the budget asks for; the newest stays.
-    pub(crate) fn add(&mut self, file: &mut dyn Storage, chunk: ChunkIndex) -> io::Result<()> {
+    pub(crate) fn add(&mut self, file: &mut dyn Storage, chunk: ChunkIndex) {
         self.bytes += chunk.bytes();
         self.chunks.push_back(chunk);
         while self.bytes > self.budget && self.chunks.len() > 1 {
-            let Some(oldest) = self.chunks.pop_front() else {
+            // It stays, whole, and goes with the next one that is added: nothing is lost by it.
+            if self.remove_oldest(file).is_err() {
                 break;
-            };
-            self.bytes -= oldest.bytes();
-            remove(file, &oldest)?;
-            self.gone += 1;
+            }
         }
-        Ok(())
+        self.most = self.most.max(self.bytes);
+    }
+
+    /// Removes the oldest chunk of a disk that is full; whether there is more room now. Half of the most that there was stays:
+    /// others may have filled the disk, and would fill it again.
+    pub(crate) fn make_room(&mut self, file: &mut dyn Storage) -> bool {
+        let oldest = self.chunks.front().map_or(0, ChunkIndex::bytes);
+        let is_enough_left = self.chunks.len() > 1 && self.bytes - oldest >= self.most / 2;
+        let gives_back = self.gives_back && is_enough_left;
+        gives_back && self.remove_oldest(file).is_ok_and(|gives_back| gives_back)
+    }
+
+    /// Whether its place was given back; on an error it is still there.
+    fn remove_oldest(&mut self, file: &mut dyn Storage) -> io::Result<bool> {
+        let Some(oldest) = self.chunks.front() else {
+            return Ok(false);
+        };
+        self.gives_back = remove(file, oldest)?;
+        self.bytes -= oldest.bytes();
+        self.chunks.pop_front();
+        self.gone += 1;
+        Ok(self.gives_back)
     }
 }
 
-/// Makes one record of a private kind out of a chunk and the lists of its messages.
-fn remove(file: &mut dyn Storage, chunk: &ChunkIndex) -> io::Result<()> {
+/// Makes one record of a private kind out of a chunk and the lists of its messages; whether their place was given back.
+fn remove(file: &mut dyn Storage, chunk: &ChunkIndex) -> io::Result<bool> {
     let content = chunk.bytes() - RECORD_HEAD as u64;
     let mut head = [opcode::GONE; RECORD_HEAD];
     head[1..].copy_from_slice(&content.to_le_bytes());
     file.seek(SeekFrom::Start(chunk.start))?;
     file.write_all(&head)?;
-    file.give_back(chunk.start + RECORD_HEAD as u64, content);
-    Ok(())
+    Ok(file.give_back(chunk.start + RECORD_HEAD as u64, content))
 }

@@ -20,8 +20,16 @@ pub trait Storage: Write + Seek + Debug + Send {
     /// Those of the file.
     fn sync_all(&mut self) -> io::Result<()>;
 
-    /// Gives so many bytes from there on back to the disk, where it can: they are zeros, or what they were.
-    fn give_back(&mut self, offset: u64, bytes: u64);
+    /// Gives so many bytes from there on back to the disk, where it can: they are zeros, or what they were. Whether it could.
+    fn give_back(&mut self, offset: u64, bytes: u64) -> bool;
+}
+
+/// Whether the disk, or what of it one may have, is full: it takes more where some is given back.
+pub(crate) fn is_full(error: &io::Error) -> bool {
+    matches!(
+        error.kind(),
+        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded
+    )
 }
 
 impl Storage for File {
@@ -33,9 +41,9 @@ impl Storage for File {
         Self::sync_all(self)
     }
 
-    fn give_back(&mut self, offset: u64, bytes: u64) {
+    fn give_back(&mut self, offset: u64, bytes: u64) -> bool {
         let hole = FallocateFlags::PUNCH_HOLE | FallocateFlags::KEEP_SIZE;
         // Where a file system cannot punch holes, the file grows on: what is in it stays right.
-        let _ = fallocate(&*self, hole, offset, bytes);
+        fallocate(&*self, hole, offset, bytes).is_ok()
     }
 }

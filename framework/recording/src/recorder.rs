@@ -366,48 +366,74 @@ impl Thread {
                 self.error.get_or_insert(error);
             }
         }
-        while self.kept.len() > self.writer.kept_chunks() {
-            let gone = self.kept.pop_front().unwrap_or_default();
-            self.count(&gone, |counts| &counts.overwritten);
-        }
+        let kept = self.writer.kept_chunks();
+        overwritten(&mut self.kept, kept, &self.counts);
     }
 
     fn count(&self, frames: &[(usize, u64)], as_what: impl Fn(&Counts) -> &AtomicU64) {
-        for (track, frames) in frames {
-            if let Some((_, counts)) = self.counts.get(*track) {
-                as_what(counts).fetch_add(*frames, Ordering::Relaxed);
-            }
-        }
+        count(&self.counts, frames, as_what);
     }
 
-    fn finish(mut self) -> Option<io::Error> {
-        let is_whole = self.counts.iter().all(|(_, counts)| counts.is_complete());
-        let state = match is_whole && self.error.is_none() {
-            true => "COMPLETE",
-            false => "INCOMPLETE",
+    fn finish(self) -> Option<io::Error> {
+        let Self {
+            writer,
+            counts,
+            last,
+            mut kept,
+            error,
+            ..
+        } = self;
+        let said = std::mem::take(&mut *last.lock().unwrap_or_else(PoisonError::into_inner));
+        let ended = writer.finish_saying(|chunks| {
+            overwritten(&mut kept, chunks, &counts);
+            let mut said = said.clone();
+            said.push(end(&counts, error.is_some()));
+            said
+        });
+        error.or(ended.err())
+    }
+}
+
+/// How the run ended.
+fn end(counts: &[(String, Arc<Counts>)], is_error: bool) -> Metadata {
+    let is_whole = counts.iter().all(|(_, counts)| counts.is_complete());
+    let state = match is_whole && !is_error {
+        true => "COMPLETE",
+        false => "INCOMPLETE",
+    };
+    let mut entries = vec![("state".to_owned(), state.to_owned())];
+    for (instance, counts) in counts {
+        let mut entry = |what: &str, count: u64| {
+            entries.push((format!("{instance}.{what}"), count.to_string()));
         };
-        let mut entries = vec![("state".to_owned(), state.to_owned())];
-        for (instance, counts) in &self.counts {
-            let mut entry = |what: &str, count: u64| {
-                entries.push((format!("{instance}.{what}"), count.to_string()));
-            };
-            entry("recorded", counts.recorded());
-            entry("dropped", counts.dropped());
-            entry("failed", counts.failed());
-            entry("lost", counts.lost());
-            entry("overwritten", counts.overwritten());
+        entry("recorded", counts.recorded());
+        entry("dropped", counts.dropped());
+        entry("failed", counts.failed());
+        entry("lost", counts.lost());
+        entry("overwritten", counts.overwritten());
+    }
+    Metadata {
+        name: "end".to_owned(),
+        entries,
+    }
+}
+
+/// Counts the frames of chunks that the file has no longer.
+fn overwritten(kept: &mut VecDeque<Frames>, chunks: usize, counts: &[(String, Arc<Counts>)]) {
+    while kept.len() > chunks {
+        let gone = kept.pop_front().unwrap_or_default();
+        count(counts, &gone, |counts| &counts.overwritten);
+    }
+}
+
+fn count(
+    of: &[(String, Arc<Counts>)],
+    frames: &[(usize, u64)],
+    as_what: impl Fn(&Counts) -> &AtomicU64,
+) {
+    for (track, frames) in frames {
+        if let Some((_, counts)) = of.get(*track) {
+            as_what(counts).fetch_add(*frames, Ordering::Relaxed);
         }
-        let end = Metadata {
-            name: "end".to_owned(),
-            entries,
-        };
-        let mut said =
-            std::mem::take(&mut *self.last.lock().unwrap_or_else(PoisonError::into_inner));
-        said.push(end);
-        let ended = said
-            .iter()
-            .try_for_each(|metadata| self.writer.write_metadata(metadata))
-            .and_then(|()| self.writer.finish());
-        self.error.or(ended.err())
     }
 }

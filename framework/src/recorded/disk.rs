@@ -21,8 +21,14 @@ pub(super) fn start(
         storage: file,
         path: path.to_owned(),
         tell: |path, error| {
+            let room = match error.kind() {
+                ErrorKind::StorageFull | ErrorKind::QuotaExceeded => {
+                    "the oldest cycles of the recording make room for new ones, down to half of them; "
+                }
+                _ => "",
+            };
             tell(format_args!(
-                "recording {}: {error}; what the disk does not take is lost, the robot goes on",
+                "recording {}: {error}; {room}what the disk does not take is lost, the robot goes on",
                 path.display()
             ));
         },
@@ -84,8 +90,8 @@ impl<S: Storage> Storage for Disk<S> {
         self.told(synced)
     }
 
-    fn give_back(&mut self, offset: u64, bytes: u64) {
-        self.storage.give_back(offset, bytes);
+    fn give_back(&mut self, offset: u64, bytes: u64) -> bool {
+        self.storage.give_back(offset, bytes)
     }
 }
 
@@ -126,7 +132,9 @@ mod tests {
             Ok(())
         }
 
-        fn give_back(&mut self, _offset: u64, _bytes: u64) {}
+        fn give_back(&mut self, _offset: u64, _bytes: u64) -> bool {
+            false
+        }
     }
 
     #[test]

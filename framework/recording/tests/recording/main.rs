@@ -6,12 +6,12 @@ mod late;
 mod layouts;
 mod readers;
 mod slow;
+mod small;
 mod support;
 
 use std::os::unix::fs::MetadataExt as _;
 use std::panic::AssertUnwindSafe;
 use std::path::Path;
-use std::process::Command;
 use std::time::{Duration, Instant};
 
 use hulkgen_recording::{Frame, Full, Recorded, Recorder, Recording, Settings, Track, Way};
@@ -468,54 +468,4 @@ proptest! {
         file.splice(40.min(file.len()).., bytes);
         read(&file);
     }
-}
-
-/// Where the child of the test below writes.
-const LIMITED: &str = "HULKGEN_TEST_LIMITED";
-
-#[test]
-fn a_full_disk_stops_nobody_and_is_told() {
-    const NAME: &str = "a_full_disk_stops_nobody_and_is_told";
-    if let Some(path) = std::env::var_os(LIMITED) {
-        let (recorder, mut tracks) =
-            Recorder::start(path.as_ref(), description(), &["Control"], settings()).expect("new");
-        let mut track = tracks.pop().expect("one was asked for");
-        for cycle in 0..50_000 {
-            while frame(&mut track, cycle, 1) != Recorded::Whole {
-                std::thread::sleep(Duration::from_millis(1));
-            }
-        }
-        drop(track);
-        let lost = recorder
-            .counts()
-            .map(|(_, counts)| counts.lost())
-            .sum::<u64>();
-        let ended = recorder.end();
-        assert!(!ended.is_complete && ended.error.is_some());
-        assert!(lost > 0 && lost < 50_000, "{lost} frames are lost");
-        return;
-    }
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join("run.mcap");
-    let test = std::env::current_exe().expect("it runs");
-    // In blocks of 512 bytes; a write beyond is an error and no signal.
-    let child = Command::new("sh")
-        .args([
-            "-c",
-            "ulimit -f 256; trap '' XFSZ; exec \"$0\" --exact \"$1\"",
-        ])
-        .arg(test)
-        .arg(NAME)
-        .env(LIMITED, &path)
-        .output();
-    let child = child.expect("every Unix has a shell");
-    let said = String::from_utf8_lossy(&child.stdout);
-    assert!(child.status.success(), "{said}");
-    let recording = Recording::open(&path).expect("it can be read");
-    assert!(!recording.is_complete());
-    let found = cycles(&recording);
-    // What came last may be small enough for what is left.
-    assert!(found.len() > 1000 && found.starts_with(&[0, 1, 2]) && found.is_sorted());
-    let length = std::fs::metadata(&path).expect("it is there").len();
-    assert!(length < 256 * 512, "half a chunk stands behind the end");
 }

@@ -99,8 +99,8 @@ impl Storage for Slow {
         Storage::sync_all(&mut self.file)
     }
 
-    fn give_back(&mut self, offset: u64, bytes: u64) {
-        self.file.give_back(offset, bytes);
+    fn give_back(&mut self, offset: u64, bytes: u64) -> bool {
+        self.file.give_back(offset, bytes)
     }
 }
 
