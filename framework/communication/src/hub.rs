@@ -36,6 +36,13 @@ const REPORTING: Duration = Duration::from_millis(500);
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct ClientId(u64);
 
+#[cfg(test)]
+impl ClientId {
+    pub(crate) fn of_test(number: u64) -> Self {
+        Self(number)
+    }
+}
+
 /// What a server was told about itself.
 #[derive(Clone, Debug)]
 pub(crate) struct Rules {
@@ -372,13 +379,17 @@ impl Hub {
                 if !source.is_reading(waiting.client, waiting.request) {
                     return Some(None);
                 }
+                let client = self.clients.get(&waiting.client);
+                let may_ask = client.is_none_or(|client| client.outbox.may_ask(&self.limits));
                 is_over.then(|| {
                     source.stop_reading(waiting.client, Some(waiting.request));
-                    Some(Err(Failure::new(format!(
-                        "no cycle wrote `{}` within {} s",
-                        source.path,
-                        PATIENCE.as_secs()
-                    ))))
+                    let (path, seconds) = (&source.path, PATIENCE.as_secs());
+                    Some(Err(Failure::new(match may_ask {
+                        true => format!("no cycle wrote `{path}` within {seconds} s"),
+                        false => format!(
+                            "`{path}` was not read: for {seconds} s too many answers waited for this client to take them; ask for less at a time"
+                        ),
+                    })))
                 })
             }
             WaitingFor::Call(pending) => match pending.wait_any(Duration::ZERO) {

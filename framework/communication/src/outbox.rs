@@ -18,6 +18,14 @@ pub(crate) enum Content {
     Bytes(Arc<Vec<u8>>),
 }
 
+/// What must not be lost.
+#[derive(Debug)]
+enum Said {
+    Text(String),
+    /// A value that a request asked for, made once however many ask for it: the rest behind the number of the request.
+    Value(u32, Arc<String>),
+}
+
 /// What is put into one message at most, before its last piece.
 const BUNDLE: usize = 64 << 10;
 
@@ -28,7 +36,7 @@ pub(crate) struct Outbox {
     is_bundling: bool,
     /// They come behind the texts that were sent last.
     frames: Option<Message>,
-    answers: VecDeque<String>,
+    answers: VecDeque<Said>,
     answer_bytes: usize,
     /// Oldest first, by a number of their own.
     updates: BTreeMap<u64, (u32, Content)>,
@@ -49,13 +57,41 @@ impl Content {
     }
 }
 
+impl Said {
+    /// Bytes that are as good as all of it.
+    fn len(&self) -> usize {
+        match self {
+            Self::Text(text) => text.len(),
+            Self::Value(_, rest) => rest.len(),
+        }
+    }
+
+    fn text(self) -> String {
+        match self {
+            Self::Text(text) => text,
+            Self::Value(request, rest) => {
+                format!(r#"{{"answer":{{"id":{request},"ok":{{"value":{{{rest}}}}}"#)
+            }
+        }
+    }
+}
+
 impl Outbox {
     /// An answer, or anything else that must not be lost.
     pub(crate) fn say(&mut self, message: &protocol::Message) {
         // Messages consist of texts and numbers, which JSON can say.
         let text = serde_json::to_string(message).unwrap_or_default();
-        self.answer_bytes += text.len();
-        self.answers.push_back(text);
+        self.keep(Said::Text(text));
+    }
+
+    /// The answer to a `read`: the rest of an update is that of a value, too.
+    pub(crate) fn say_value(&mut self, request: u32, rest: Arc<String>) {
+        self.keep(Said::Value(request, rest));
+    }
+
+    fn keep(&mut self, said: Said) {
+        self.answer_bytes += said.len();
+        self.answers.push_back(said);
     }
 
     /// A message that may be lost, and is told then.
@@ -144,7 +180,7 @@ impl Outbox {
     fn next_piece(&mut self) -> Option<Piece> {
         if let Some(answer) = self.answers.pop_front() {
             self.answer_bytes -= answer.len();
-            return Some(Piece::Text(answer));
+            return Some(Piece::Text(answer.text()));
         }
         if let Some((subscription, updates)) = self.lost.pop_first() {
             let lost = protocol::Message::Lost(Lost {

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use framework::reflect::{Path, Reflect, ResolvedPath, Shape, binary};
 use framework::{OutputKind, Tap, Tapped};
-use protocol::{Encoding, Good, Value};
+use protocol::Encoding;
 
 use crate::hub::{Client, ClientId};
 use crate::limits::Limits;
@@ -279,6 +279,7 @@ impl Stream {
             return 0;
         }
         let part = self.part.find(tapped.value);
+        let readers = self.take_readers(clients, limits);
         let mut content = None;
         for subscriber in &mut self.subscribers {
             if !subscriber.rate.is_due(time) {
@@ -287,7 +288,7 @@ impl Stream {
             if let Some(client) = clients.get_mut(&subscriber.client) {
                 let content = content.get_or_insert_with(|| match self.encoding {
                     Encoding::Binary => encode(&self.part, part, cycle, time),
-                    Encoding::Json => write(part, cycle, time, is_injected),
+                    Encoding::Json => Content::Text(write(part, cycle, time, is_injected)),
                     Encoding::Jpeg { quality } => {
                         let mut bytes = stamp(cycle, time);
                         bytes.extend(press.compress(self.part.shape(), part, quality));
@@ -300,20 +301,33 @@ impl Stream {
                 client.news.notify_one();
             }
         }
-        let readers = std::mem::take(&mut self.readers);
+        if readers.is_empty() {
+            return 0;
+        }
+        let text = match content {
+            Some(Content::Text(text)) => text,
+            _ => write(part, cycle, time, is_injected),
+        };
         for reader in &readers {
             if let Some(client) = clients.get_mut(&reader.client) {
-                let value = part.and_then(|part| serde_json::to_value(part.as_serialize()).ok());
-                let value = Value {
-                    cycle,
-                    time,
-                    value: value.unwrap_or_default(),
-                    injected: is_injected,
-                };
-                client.answer(Some(reader.request), Ok(Good::Value(value)));
+                client.outbox.say_value(reader.request, text.clone());
+                client.news.notify_one();
             }
         }
         readers.len()
+    }
+
+    /// Those that get a value now; who has too many answers to take waits for another cycle.
+    fn take_readers(
+        &mut self,
+        clients: &BTreeMap<ClientId, Client>,
+        limits: &Limits,
+    ) -> Vec<Reader> {
+        let may_ask = |reader: &mut Reader| {
+            let client = clients.get(&reader.client);
+            client.is_none_or(|client| client.outbox.may_ask(limits))
+        };
+        self.readers.extract_if(.., may_ask).collect()
     }
 
     /// There is no time for this cycle. Who does not want every one gets the next instead.
@@ -328,8 +342,8 @@ impl Stream {
     }
 }
 
-/// The rest of an update: what is the same for all clients.
-fn write(part: Option<&dyn Reflect>, cycle: u64, time: u64, is_injected: bool) -> Content {
+/// The rest of an update, or of the answer to a `read`: what is the same for all clients.
+fn write(part: Option<&dyn Reflect>, cycle: u64, time: u64, is_injected: bool) -> Arc<String> {
     let mark = if is_injected {
         r#""injected":true,"#
     } else {
@@ -345,7 +359,7 @@ fn write(part: Option<&dyn Reflect>, cycle: u64, time: u64, is_injected: bool) -
     }
     text.extend_from_slice(b"}}");
     // What serde_json writes is UTF-8.
-    Content::Text(Arc::new(String::from_utf8(text).unwrap_or_default()))
+    Arc::new(String::from_utf8(text).unwrap_or_default())
 }
 
 /// The rest of a binary frame; without a value where the part is not there.
@@ -370,52 +384,4 @@ pub(crate) fn resolve(shape: &Shape, below: &str) -> Result<ResolvedPath, String
 }
 
 #[cfg(test)]
-mod tests {
-    use std::time::Duration;
-
-    use super::Rate;
-
-    fn sent(rate: Option<f64>, period: u64) -> usize {
-        let mut rate = Rate::new(rate);
-        let times = (0..1_000_000_000).step_by(usize::try_from(period).expect("small"));
-        times.filter(|time| rate.is_due(*time)).count()
-    }
-
-    #[test]
-    fn a_late_value_is_not_followed_at_once() {
-        let mut rate = Rate::new(Some(20.0));
-        let times = [48, 60, 98, 100, 148, 240, 252, 268];
-        let sent: Vec<_> = times
-            .into_iter()
-            .filter(|time| rate.is_due(time * 1_000_000))
-            .collect();
-        assert_eq!(sent, [48, 98, 148, 240, 268]);
-    }
-
-    #[test]
-    fn a_replay_that_goes_back_or_in_small_steps_is_seen() {
-        let mut rate = Rate::new(Some(50.0));
-        let millis = |rate: &mut Rate, time: u64| rate.is_due(time * 1_000_000);
-        assert!(millis(&mut rate, 100_000));
-        assert!(millis(&mut rate, 5_000), "somebody went back");
-        assert!(!millis(&mut rate, 5_001));
-        assert!(millis(&mut rate, 5_020));
-        std::thread::sleep(Duration::from_millis(41));
-        assert!(millis(&mut rate, 5_021), "somebody takes steps");
-    }
-
-    #[test]
-    fn rates_are_met_and_never_exceeded() {
-        // 83.3 Hz for a second.
-        for (rate, expected) in [
-            (None, 84),
-            (Some(1e9), 84),
-            (Some(40.0), 40),
-            (Some(10.0), 10),
-            (Some(1.0), 1),
-            (Some(1e-30), 1),
-        ] {
-            assert_eq!(sent(rate, 12_000_000), expected, "{rate:?}");
-        }
-    }
-}
+mod tests;
