@@ -30,5 +30,5 @@ pub use hulkgen_mcap::{
 };
 pub use late::Late;
 pub use recorder::{Ended, Recorder, Settings};
-pub use rewrite::{Rewrite, Rewrites};
+pub use rewrite::{Rewrite, Rewrites, Rewritten};
 pub use track::{Counts, Frame, Recorded, Track};

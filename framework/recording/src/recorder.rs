@@ -330,11 +330,12 @@ impl Thread {
         if self.open.is_empty() {
             self.since = Instant::now();
         }
-        let (messages, frames) = block.whole(&mut self.whole);
+        let (messages, mut frames) = block.whole(&mut self.whole);
         let messages = match self.rewrites.is_empty() {
             true => messages,
             false => {
-                rewritten(messages, &self.rewrites, &mut self.rewritten);
+                let lost = rewritten(messages, &self.rewrites, &mut self.rewritten);
+                frames = frames.saturating_sub(lost);
                 &self.rewritten
             }
         };
@@ -343,7 +344,7 @@ impl Thread {
         if !messages.is_empty() {
             self.open.push((block.track, frames));
         }
-        // What stands behind may refer to what is not there.
+        // Of a value without bytes also what stands behind, which may refer to what is not there.
         if frames < block.frames {
             self.count(&[(block.track, block.frames - frames)], |counts| {
                 &counts.lost

@@ -1,18 +1,32 @@
 //! Messages that become others on the writer's thread.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use hulkgen_mcap::{ChannelId, MESSAGE_HEAD, RECORD_HEAD, opcode};
 
-/// Makes the data of a message out of that which a cycler wrote, at a time in nanoseconds of the run; false: there is none.
-pub type Rewrite = fn(u64, &[u8], &mut Vec<u8>) -> bool;
+/// Makes the data of a message out of that which a cycler wrote, at a time in nanoseconds of the run. A frame with such a message
+/// has no other one.
+pub type Rewrite = Arc<dyn Fn(u64, &[u8], &mut Vec<u8>) -> Rewritten + Send + Sync>;
+
+/// What became of a message.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rewritten {
+    /// It is another one.
+    Whole,
+    /// It has nothing to become, and is left out.
+    Absent,
+    /// It should have become another one, and is lost.
+    Lost,
+}
 
 /// By channel.
 pub type Rewrites = BTreeMap<ChannelId, Rewrite>;
 
-/// The messages of a block, rewritten; those that have nothing to become are left out.
-pub(crate) fn rewritten(block: &[u8], rewrites: &Rewrites, into: &mut Vec<u8>) {
+/// The messages of a block, rewritten; how many of them are lost.
+pub(crate) fn rewritten(block: &[u8], rewrites: &Rewrites, into: &mut Vec<u8>) -> u64 {
     into.clear();
+    let mut lost = 0;
     let mut rest = block;
     while let Some((head, behind)) = rest.split_at_checked(RECORD_HEAD + MESSAGE_HEAD) {
         let number = |place: usize| -> u64 {
@@ -31,15 +45,16 @@ pub(crate) fn rewritten(block: &[u8], rewrites: &Rewrites, into: &mut Vec<u8>) {
         let rewrite = rewrite.and_then(|channel| rewrites.get(&channel));
         let start = into.len();
         into.extend_from_slice(head);
-        let is_written = match rewrite {
+        let rewritten = match rewrite {
             // The time stands behind channel and sequence.
             Some(rewrite) => rewrite(number(RECORD_HEAD + 6), data, into),
             None => {
                 into.extend_from_slice(data);
-                true
+                Rewritten::Whole
             }
         };
-        if !is_written {
+        if rewritten != Rewritten::Whole {
+            lost += u64::from(rewritten == Rewritten::Lost);
             into.truncate(start);
             continue;
         }
@@ -47,4 +62,5 @@ pub(crate) fn rewritten(block: &[u8], rewrites: &Rewrites, into: &mut Vec<u8>) {
         into[start] = opcode::MESSAGE;
         into[start + 1..start + RECORD_HEAD].copy_from_slice(&content.to_le_bytes());
     }
+    lost
 }

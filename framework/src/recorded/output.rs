@@ -3,14 +3,16 @@
 //! The cycler writes the value as frames are written; the thread that owns the file makes JSON of it.
 
 use std::collections::BTreeMap;
+use std::fmt::Arguments;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use hulkgen_recording::{
-    Channel, ChannelId, Description, Recorded, Rewrite, Rewrites, Schema, Track,
+    Channel, ChannelId, Description, Recorded, Rewrite, Rewrites, Rewritten, Schema, Track,
 };
 use serde_json::Value;
 
-use super::{Loading, SaveError, Saving};
+use super::{SaveError, Saving};
 use crate::cycler::Instance;
 use crate::data::Data;
 use crate::error::{Error, Result};
@@ -31,7 +33,7 @@ pub struct Forms {
 #[derive(Clone, Copy)]
 struct Form {
     schema: fn() -> Schema,
-    rewrite: fn(u64, &[u8], &mut Vec<u8>) -> bool,
+    rewrite: fn(u64, &[u8], &mut Vec<u8>) -> Result<bool>,
     shape: fn() -> Shape,
 }
 
@@ -60,16 +62,18 @@ fn schema<T: Data>() -> Schema {
     }
 }
 
-/// Makes JSON of a recorded value; false: it has no JSON form, or none now.
-fn rewrite<T: Data>(time: u64, recorded: &[u8], json: &mut Vec<u8>) -> bool {
-    let Ok(value) = Loading::new(recorded).take::<T>() else {
-        return false;
-    };
+/// Makes JSON of a recorded value; false: it has no such form now.
+fn rewrite<T: Data>(time: u64, recorded: &[u8], json: &mut Vec<u8>) -> Result<bool> {
+    let value: T = postcard::from_bytes(recorded)
+        .map_err(|error| Error::new(format!("it cannot be read back ({error})")))?;
     match T::foxglove() {
-        None => serde_json::to_writer(json, &value).is_ok(),
-        Some(form) => (form.write)(&value, Timestamp::from_nanos(time))
-            .is_some_and(|form| serde_json::to_writer(json, &form).is_ok()),
+        None => serde_json::to_writer(json, &value)?,
+        Some(form) => match (form.write)(&value, Timestamp::from_nanos(time)) {
+            Some(form) => serde_json::to_writer(json, &form)?,
+            None => return Ok(false),
+        },
     }
+    Ok(true)
 }
 
 /// The channels of all outputs that are to be recorded.
@@ -111,11 +115,11 @@ impl OutputChannels {
         instances.map(|name| format!("{name}.outputs")).collect()
     }
 
-    /// What makes JSON of each.
-    pub(super) fn rewrites(&self) -> Rewrites {
+    /// What makes JSON of each; where it cannot, that is told once.
+    pub(super) fn rewrites(&self, told: fn(Arguments<'_>)) -> Rewrites {
         let channels = self.channels.iter();
         channels
-            .map(|(channel, output)| (*channel, output.form.rewrite as Rewrite))
+            .map(|(channel, output)| (*channel, output.rewrite(told)))
             .collect()
     }
 
@@ -251,6 +255,26 @@ impl Wanted {
         format!("{}.{kind}.{}", self.instance, self.name)
     }
 
+    /// As [`OutputChannels::rewrites`].
+    fn rewrite(&self, told: fn(Arguments<'_>)) -> Rewrite {
+        let (topic, rewrite) = (self.topic(), self.form.rewrite);
+        let is_told = AtomicBool::new(false);
+        Arc::new(
+            move |time, recorded, json| match rewrite(time, recorded, json) {
+                Ok(true) => Rewritten::Whole,
+                Ok(false) => Rewritten::Absent,
+                Err(error) => {
+                    if !is_told.swap(true, Ordering::Relaxed) {
+                        told(format_args!(
+                            "recording: `{topic}` cannot be written, its values are lost: {error}; what its type's `Serialize` gives must be readable by its `Deserialize` (no `untagged`, no `flatten`), and be JSON"
+                        ));
+                    }
+                    Rewritten::Lost
+                }
+            },
+        )
+    }
+
     fn value<'i>(&self, instance: &'i dyn Instance) -> Option<&'i dyn Reflect> {
         match self.kind {
             OutputKind::Main => instance.main_output(self.name),
@@ -280,5 +304,70 @@ impl OutputRecorder {
                 })
             });
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::AtomicUsize;
+
+    use serde::{Deserialize, Serialize};
+
+    use super::*;
+    use framework_macros::Reflect;
+
+    /// Written without a word of which it is, and so not to be read back.
+    #[derive(Clone, Debug, Deserialize, PartialEq, Reflect, Serialize)]
+    #[serde(untagged)]
+    enum Untagged {
+        Number(u32),
+        Text(String),
+    }
+
+    impl Default for Untagged {
+        fn default() -> Self {
+            Self::Text("none".to_owned())
+        }
+    }
+
+    static TOLD: AtomicUsize = AtomicUsize::new(0);
+
+    fn rewrite<T: Data>(told: fn(Arguments<'_>)) -> Rewrite {
+        let mut forms = Forms::default();
+        forms.output::<T>(None);
+        let wanted = Wanted {
+            instance: "Control",
+            name: "steps",
+            kind: OutputKind::Main,
+            form: forms.forms[0],
+        };
+        wanted.rewrite(told)
+    }
+
+    #[test]
+    fn what_cannot_be_read_back_is_lost_and_told_once() {
+        let rewrite = rewrite::<Untagged>(|message| {
+            let message = message.to_string();
+            assert!(
+                message.contains("`Control.main_outputs.steps`"),
+                "{message}"
+            );
+            assert!(message.contains("untagged"), "{message}");
+            TOLD.fetch_add(1, Ordering::Relaxed);
+        });
+        let recorded = postcard::to_allocvec(&Untagged::Number(3)).expect("it has a form");
+        for _ in 0..3 {
+            assert_eq!(rewrite(0, &recorded, &mut Vec::new()), Rewritten::Lost);
+            assert_eq!(TOLD.load(Ordering::Relaxed), 1);
+        }
+    }
+
+    #[test]
+    fn what_can_be_is_json() {
+        let rewrite = rewrite::<Option<u32>>(|message| panic!("{message}"));
+        let recorded = postcard::to_allocvec(&Some(3_u32)).expect("it has a form");
+        let mut json = Vec::new();
+        assert_eq!(rewrite(0, &recorded, &mut json), Rewritten::Whole);
+        assert_eq!(json, b"3");
     }
 }

@@ -19,6 +19,7 @@ use crate::cycler::{Instance, InstanceDescription, Record};
 use crate::driver::Observer;
 use crate::error::{Error, Result};
 use crate::numerics;
+use crate::report::tell;
 use crate::robot::Robot;
 use crate::subscriptions::Subscriptions;
 
@@ -96,7 +97,7 @@ impl Recording {
         let of_outputs = of_outputs.iter().map(String::as_str);
         let all = names.iter().copied().chain(of_outputs).chain([LOGS]);
         let all: Vec<_> = all.collect();
-        let rewrites = outputs.rewrites();
+        let rewrites = outputs.rewrites(tell);
         let (recorder, mut tracks) = disk::start(path, description, &all, settings, rewrites)
             .map_err(|error| {
                 Error::from(error).context(format!("cannot record into {}", path.display()))

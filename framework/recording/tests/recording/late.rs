@@ -7,8 +7,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
 use hulkgen_recording::{
-    ChannelId, Full, Late, Recorded, Recorder, Recording, Rewrite, Rewrites, Settings, Track,
-    Writing,
+    ChannelId, Full, Late, Recorded, Recorder, Recording, Rewrite, Rewrites, Rewritten, Settings,
+    Track, Writing,
 };
 use proptest::prelude::*;
 
@@ -118,9 +118,9 @@ fn parts() -> impl Strategy<Value = Parts> {
 }
 
 /// Turns what it has around.
-fn backwards(_: u64, recorded: &[u8], into: &mut Vec<u8>) -> bool {
+fn backwards(_: u64, recorded: &[u8], into: &mut Vec<u8>) -> Rewritten {
     into.extend(recorded.iter().rev());
-    true
+    Rewritten::Whole
 }
 
 proptest! {
@@ -133,7 +133,7 @@ proptest! {
         rewrites in any::<bool>(),
     ) {
         let rewrites: Rewrites = rewrites
-            .then_some((VALUES, backwards as Rewrite))
+            .then_some((VALUES, Arc::new(backwards) as Rewrite))
             .into_iter()
             .collect();
         let folder = tempfile::tempdir().expect("a folder");
@@ -274,7 +274,10 @@ fn frames_from_one_without_bytes_on_are_lost_and_those_before_stay() {
     let three: [[&[&Arc<Large>]; 2]; 3] =
         [[&[], &[&bad]], [&[], &[&good, &bad]], [&[&good], &[&bad]]];
     for (number, messages_of_bad) in three.into_iter().enumerate() {
-        for rewrites in [Rewrites::new(), [(VALUES, backwards as Rewrite)].into()] {
+        for rewrites in [
+            Rewrites::new(),
+            [(VALUES, Arc::new(backwards) as Rewrite)].into(),
+        ] {
             let path = folder
                 .path()
                 .join(format!("{number}-{}.mcap", rewrites.len()));
@@ -394,4 +397,33 @@ fn a_block_with_many_goes_to_the_writer_before_it_is_full() {
     drop(track);
     assert!(recorder.end().is_complete);
     assert_eq!(messages(&path).len(), 40);
+}
+
+#[test]
+fn messages_that_become_nothing_are_left_out_or_lost() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("run.mcap");
+    let rewrite = |_: u64, recorded: &[u8], into: &mut Vec<u8>| {
+        into.extend(recorded);
+        match recorded[0] % 3 {
+            0 => Rewritten::Whole,
+            1 => Rewritten::Absent,
+            _ => Rewritten::Lost,
+        }
+    };
+    let rewrites = Rewrites::from([(FRAMES, Arc::new(rewrite) as Rewrite)]);
+    let (recorder, mut track) = start_rewriting(&path, settings(), rewrites);
+    for cycle in 0..10_u8 {
+        let recorded = track.frame::<Full>(0, 0, |frame| {
+            frame.message(FRAMES, cycle.into(), 0, |writing| writing.put(&[cycle]))
+        });
+        assert_eq!(recorded, Recorded::Whole);
+    }
+    let counts = track.counts().clone();
+    drop(track);
+    let ended = recorder.end();
+    assert!(ended.error.is_none() && !ended.is_complete);
+    assert_eq!((counts.recorded(), counts.lost()), (10, 3));
+    let found = messages(&path).into_iter().map(|(_, cycle, ..)| cycle);
+    assert_eq!(Vec::from_iter(found), [0, 3, 6, 9]);
 }
