@@ -408,6 +408,7 @@ fn layers(target: &Target, options: &Options) -> Result<Layers> {
             .filter(|location| !location.is_empty()),
         identities: Vec::new(),
         environment: Layers::environment_of(std::env::vars_os())?,
+        above: Vec::new(),
         settings: options.settings.clone(),
     })
 }

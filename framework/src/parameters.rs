@@ -15,7 +15,7 @@ mod nearest;
 mod tree;
 
 pub use error::{Fault, Origin, ParameterError};
-pub use layers::{Layers, Parameters};
+pub use layers::{Above, Layers, Parameters};
 pub use live::{
     Leaf, Live, LiveParameters, Provenance, Reading, Refusal, Refusals, Stored, Unstored, Version,
 };

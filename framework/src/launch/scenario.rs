@@ -15,7 +15,7 @@ use crate::data::ParameterData;
 use crate::error::{Error, Result};
 use crate::hardware::{Hardware, HardwareContext};
 use crate::logs;
-use crate::parameters::Origin;
+use crate::parameters::{Above, Origin};
 use crate::recorded::Recording;
 use crate::report::tell;
 use crate::robot::{Robot, Start};
@@ -215,10 +215,7 @@ impl Stage<'_> {
         let _within = logs::within(&clock);
         let mut layers = layers(self.target, self.options)?;
         // Later ones win: what somebody says on the command line stands behind.
-        let own = self.scenario.robots.get(robot);
-        let own = own.into_iter().flat_map(|robot| &robot.settings);
-        let settings = self.scenario.settings.iter().chain(own).cloned();
-        layers.settings.splice(0..0, settings);
+        layers.above = self.scenario.parameters_of(robot, self.file);
         let loaded = layers.load()?;
         let table = hardware_table(self.target, &loaded)?;
         let context = HardwareContext {
@@ -239,7 +236,8 @@ impl Stage<'_> {
                 _ => format!("hardware of `{}`, robot {}", self.target.name, robot + 1),
             })
         })?);
-        layers.settings.splice(0..0, hardware.settings());
+        let of_hardware = Above::Settings(hardware.settings());
+        layers.above.insert(0, of_hardware);
         layers.identities = known_identities(self.target, hardware.identities());
         let start = Start {
             clock,
@@ -260,7 +258,7 @@ impl Stage<'_> {
 
     /// With the place in the file of what the scenario says.
     fn blame(&self, robot: usize, error: Error) -> Error {
-        blame(self.file, &self.options.settings, robot, error)
+        blame(self.file, robot, error)
     }
 
     fn record<H: Hardware, P: ParameterData>(

@@ -4,6 +4,7 @@ use std::ffi::OsString;
 use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
@@ -31,8 +32,23 @@ pub struct Layers {
     pub identities: Vec<(String, String)>,
     /// Environment variables; those with another prefix do not matter.
     pub environment: Vec<(String, String)>,
+    /// What stands above all these, in order.
+    pub above: Vec<Above>,
     /// (path, value) of every `--set`.
     pub settings: Vec<(String, String)>,
+}
+
+/// One layer more, above the files and the environment.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Above {
+    /// (path, value), each as of a `--set`.
+    Settings(Vec<(String, String)>),
+    /// What a text of TOML, that of a file, has at this path; nothing where it has none.
+    Part {
+        file: String,
+        text: Arc<str>,
+        path: String,
+    },
 }
 
 /// The merged values of one robot.
@@ -68,10 +84,17 @@ impl Layers {
                 parameters.overlay(setting.below(path, ENVIRONMENT_SEPARATOR));
             }
         }
-        for (path, value) in &self.settings {
-            let origin = Origin::Setting(format!("{path}={value}").into());
-            parameters.overlay(tree::parse_setting(value, &origin).below(path, "."));
+        for above in &self.above {
+            match above {
+                Above::Settings(settings) => parameters.set(settings),
+                Above::Part { file, text, path } => {
+                    if let Some(part) = tree::parse(file, text)?.get(path) {
+                        parameters.overlay(part.clone());
+                    }
+                }
+            }
         }
+        parameters.set(&self.settings);
         Ok(parameters)
     }
 
@@ -313,6 +336,13 @@ impl Parameters {
                 Some(end) => path = &path[..end],
                 None => return located.into(),
             }
+        }
+    }
+
+    fn set(&mut self, settings: &[(String, String)]) {
+        for (path, value) in settings {
+            let origin = Origin::Setting(format!("{path}={value}").into());
+            self.overlay(tree::parse_setting(value, &origin).below(path, "."));
         }
     }
 

@@ -1,6 +1,7 @@
 //! What a scenario's file may say.
 
 use std::path::Path;
+use std::sync::Arc;
 use std::time::Duration;
 
 use serde::Deserialize;
@@ -9,6 +10,7 @@ use super::assertion::Assertion;
 use super::draw::Draw;
 use super::durations::Durations;
 use crate::error::{Error, Result};
+use crate::parameters::Above;
 use crate::time::Timestamp;
 
 /// Between two calls of one client.
@@ -23,8 +25,8 @@ pub struct Scenario {
     pub ends: Duration,
     /// Share of the seeds that have to pass, 0 to 1.
     pub passes: f64,
-    /// Parameters above all layers: path and value, as on a command line.
-    pub settings: Vec<(String, String)>,
+    /// As it was written, for the parameters above all layers.
+    text: Arc<str>,
     /// How long cycles take in virtual time, of every robot.
     pub durations: Durations,
     /// What stands over the parameters' `[hardware.<target>]`.
@@ -44,8 +46,6 @@ pub struct Scenario {
 /// One of the robots of a scenario.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Participant {
-    /// Parameters above those of the scenario: path and value.
-    pub settings: Vec<(String, String)>,
     /// How long its cycles take, above those of the scenario.
     pub durations: Durations,
     /// The key `robot` of its hardware's table, in the words of the hardware.
@@ -96,8 +96,8 @@ struct Written {
     ends: f64,
     #[serde(default = "all")]
     passes: f64,
-    #[serde(default)]
-    parameters: toml::Table,
+    #[serde(default, rename = "parameters")]
+    _parameters: toml::Table,
     #[serde(default)]
     durations: toml::Table,
     #[serde(default)]
@@ -203,13 +203,11 @@ impl Scenario {
             }
         }
         events.sort_by_key(|event| event.at);
-        let mut settings = Vec::new();
-        flatten(&written.parameters, "", &mut settings);
         Ok(Self {
             about: written.about,
             ends,
             passes: written.passes,
-            settings,
+            text: text.into(),
             durations: Durations::read(&written.durations)?,
             world: written.world,
             random: written.random,
@@ -275,6 +273,18 @@ impl Scenario {
         )
     }
 
+    /// Parameters of one of the robots, counted from 0, above all layers: those that the scenario, which stands in this file,
+    /// has for all, and its own.
+    pub fn parameters_of(&self, robot: usize, file: &Path) -> Vec<Above> {
+        let paths = ["parameters".to_owned(), format!("robot.{robot}.parameters")];
+        let parts = paths.into_iter().map(|path| Above::Part {
+            file: file.display().to_string(),
+            text: self.text.clone(),
+            path,
+        });
+        parts.collect()
+    }
+
     /// How many robots there are.
     pub fn robot_count(&self) -> usize {
         self.robots.len().max(1)
@@ -296,12 +306,11 @@ impl Participant {
                 "`{key}` of a `[[robot]]` is a table, not {other}"
             ))),
         };
-        let mut settings = Vec::new();
-        flatten(&take("parameters")?, "", &mut settings);
+        // They are a layer, and read where the layers are.
+        take("parameters")?;
         let durations = Durations::read(&take("durations")?)?;
         let random = take("random")?;
         Ok(Self {
-            settings,
             durations,
             entry: table,
             random,
@@ -418,17 +427,6 @@ fn overlay(table: &mut toml::Table, later: &toml::Table) {
             _ => {
                 table.insert(key.clone(), value.clone());
             }
-        }
-    }
-}
-
-/// Values by their paths, as `--set` takes them.
-fn flatten(table: &toml::Table, prefix: &str, settings: &mut Vec<(String, String)>) {
-    for (key, value) in table {
-        let path = format!("{prefix}{key}");
-        match value {
-            toml::Value::Table(table) => flatten(table, &format!("{path}."), settings),
-            value => settings.push((path, value.to_string())),
         }
     }
 }

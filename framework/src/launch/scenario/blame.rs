@@ -1,46 +1,28 @@
-//! Which line of a scenario's file a wrong value comes from: whoever merged it into others does not know.
+//! Which line of a scenario's file a wrong value of a hardware's table comes from: whoever merged it does not know.
 
 use std::path::Path;
 
 use crate::error::Error;
 use crate::parameters::{self, Origin, ParameterError};
 
-/// Gives an error of what the scenario says about a robot, counted from 0, its place in the file. `settings` are those of the
-/// command line.
-pub(super) fn blame(
-    file: &Path,
-    settings: &[(String, String)],
-    robot: usize,
-    error: Error,
-) -> Error {
+/// Gives an error of what the scenario says about a robot's hardware, counted from 0, its place in the file. Parameters have
+/// theirs.
+pub(super) fn blame(file: &Path, robot: usize, error: Error) -> Error {
     let Some(found) = error.find::<ParameterError>() else {
         return error;
     };
+    if found.origin != Origin::Unknown {
+        return error;
+    }
     let mut located = found.clone();
     let own = format!("robot.{robot}");
     // Later ones win.
-    let places = match &found.origin {
-        Origin::Setting(setting) => {
-            let is_setting =
-                |(path, value): &(String, String)| **setting == *format!("{path}={value}");
-            if settings.iter().any(is_setting) {
-                return error;
-            }
-            let path = setting.split('=').next().unwrap_or_default();
-            vec![
-                format!("{own}.parameters.{path}"),
-                format!("parameters.{path}"),
-            ]
+    let places = match found.key.strip_prefix("robot.") {
+        Some(key) => vec![format!("{own}.{key}"), own],
+        None => {
+            located.key = format!("world.{}", found.key);
+            vec![located.key.clone()]
         }
-        // Of the hardware's table.
-        Origin::Unknown => match found.key.strip_prefix("robot.") {
-            Some(key) => vec![format!("{own}.{key}"), own],
-            None => {
-                located.key = format!("world.{}", found.key);
-                vec![located.key.clone()]
-            }
-        },
-        Origin::File { .. } | Origin::Environment(_) => return error,
     };
     let mut places = places.iter();
     match places.find_map(|path| place(file, path)) {
@@ -60,7 +42,6 @@ mod tests {
     use serde::Deserialize;
 
     use super::*;
-    use crate::parameters::Layers;
 
     const SCENARIO: &str = "\
 ends = 1.0
@@ -99,54 +80,20 @@ pose = 'here'
         read.expect_err("it is wrong").into()
     }
 
-    /// What is told of a setting that is a table of parameters and should be something else.
-    fn of_setting(path: &str, value: &str) -> Error {
-        let folder = tempfile::tempdir().expect("a folder");
-        std::fs::write(folder.path().join("default.toml"), "").expect("it is written");
-        let layers = Layers {
-            directory: folder.path().to_owned(),
-            settings: vec![(format!("hardware.{path}"), value.to_owned())],
-            ..Layers::default()
-        };
-        let loaded = layers.load().expect("it is read");
-        let mut error = loaded.hardware(path).expect_err("it is no table");
-        if let Some(found) = error.find::<ParameterError>() {
-            error = ParameterError {
-                origin: Origin::Setting(format!("{path}={value}").into()),
-                key: path.to_owned(),
-                ..found.clone()
-            }
-            .into();
-        }
-        error
-    }
-
     #[test]
-    fn the_line_of_the_scenario_is_told_and_nothing_that_others_gave() {
+    fn the_line_of_the_scenario_is_told() {
         let folder = tempfile::tempdir().expect("a folder");
         let file = folder.path().join("a.toml");
         std::fs::write(&file, SCENARIO).expect("it is written");
-        let told = |settings: &[(String, String)], error| {
-            let text = blame(&file, settings, 0, error).to_string();
+        let told = |error| {
+            let text = blame(&file, 0, error).to_string();
             text.replace(&file.display().to_string(), "a.toml")
         };
-        let parameter = told(&[], of_setting("filter.gian", "2.5"));
-        assert!(
-            parameter.starts_with("a.toml:2: `filter.gian`: "),
-            "{parameter}"
-        );
-        let own = told(&[], of_setting("filter.step", "3"));
-        assert!(own.starts_with("a.toml:6: `filter.step`: "), "{own}");
-        let given = [("filter.gian".to_owned(), "2.5".to_owned())];
-        let given = told(&given, of_setting("filter.gian", "2.5"));
-        assert!(given.starts_with("--set filter.gian=2.5: "), "{given}");
-        let hardware = told(&[], of_setting("number", "2"));
-        assert!(hardware.starts_with("--set number=2: "), "{hardware}");
         assert_eq!(
-            told(&[], of_table("lamp = [inf, 0.0]")),
+            told(of_table("lamp = [inf, 0.0]")),
             "a.toml:4: `world.lamp`: expected a table of is_on, place; found an array"
         );
-        let robot = told(&[], of_table("robot = { pose = 'here' }"));
+        let robot = told(of_table("robot = { pose = 'here' }"));
         assert!(robot.starts_with("a.toml:7: `robot.pose`: "), "{robot}");
     }
 

@@ -2,7 +2,11 @@
 
 use std::collections::BTreeSet;
 
+use framework::Reflect;
+use serde::Serialize;
+
 use super::*;
+use crate::parameters::{Layers, Parameters};
 
 const ASSERTION: &str = "[[assertion]]\nwhat = 'a'\nvalue = 'truth.a'\nbelow = 1\n";
 
@@ -23,12 +27,6 @@ fn everything_that_can_be_said_is_read() {
     );
     let scenario = Scenario::parse(&text).expect("it is right");
     assert_eq!(scenario.ends, Duration::from_secs(2));
-    let settings: Vec<_> = scenario
-        .settings
-        .iter()
-        .map(|(path, value)| format!("{path}={value}"))
-        .collect();
-    assert_eq!(settings, ["a.b=[1, 2]", "c.d=\"e\""]);
     let durations = |text: &str| Durations::read(&toml::from_str(text).expect("it is TOML"));
     let own = durations("Eye = '0.1s'\nEar = '2s'").expect("they are durations");
     assert_eq!(scenario.durations_of(0), own);
@@ -189,4 +187,80 @@ fn what_is_drawn_must_be_there() {
         .world(toml::Table::new(), 1)
         .expect_err("there is no `pos`");
     assert!(error.to_string().contains("`pos`"), "{error}");
+}
+
+#[test]
+fn parameters_are_a_layer_for_all_robots_and_one_for_each() {
+    const DEFAULT: &str = "gait = { period = 0.5, height = 1 }\n'a.b' = 0\n";
+    let text = format!(
+        "ends = 2\n\
+         parameters = {{ gait.period = 1, kick = {{ Turned = {{ angle = 1.0, strength = 2 }} }}, 'a.b' = 3 }}\n\
+         [[robot]]\n\
+         [[robot]]\n\
+         parameters.kick.Straight = {{ by = 1, to = 2 }}\n\
+         parameters.gait.height = 2\n{ASSERTION}"
+    );
+    let scenario = Scenario::parse(&text).expect("it is right");
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("default.toml"), DEFAULT).expect("it is written");
+    let loaded = |robot: usize, settings: &[(&str, &str)]| {
+        let own = |(path, value): &(&str, &str)| ((*path).to_owned(), (*value).to_owned());
+        let layers = Layers {
+            directory: folder.path().to_owned(),
+            above: scenario.parameters_of(robot, Path::new("a.toml")),
+            settings: settings.iter().map(own).collect(),
+            ..Layers::default()
+        };
+        layers.load().expect("it is read")
+    };
+    let read = |loaded: &Parameters| loaded.deserialize::<Robot>().expect("all are there");
+    let first = loaded(0, &[]);
+    let expected = Robot {
+        gait: Gait {
+            period: 1.0,
+            height: 1,
+        },
+        kick: Kick::Turned {
+            angle: 1.0,
+            strength: 2,
+        },
+        dotted: 3,
+    };
+    assert_eq!(read(&first), expected);
+    let place = |loaded: &Parameters, path: &str| loaded.origin(path).map(ToString::to_string);
+    assert_eq!(
+        place(&first, "kick.Turned.angle").as_deref(),
+        Some("a.toml:2")
+    );
+    let second = loaded(1, &[("gait.period", "7")]);
+    let expected = Robot {
+        gait: Gait {
+            period: 7.0,
+            height: 2,
+        },
+        kick: Kick::Straight { by: 1, to: 2 },
+        ..expected
+    };
+    assert_eq!(read(&second), expected);
+    assert_eq!(place(&second, "gait.height").as_deref(), Some("a.toml:6"));
+}
+
+#[derive(Clone, Debug, Deserialize, PartialEq, Reflect, Serialize)]
+struct Robot {
+    gait: Gait,
+    kick: Kick,
+    #[serde(rename = "a.b")]
+    dotted: u32,
+}
+
+#[derive(Clone, Debug, Deserialize, PartialEq, Reflect, Serialize)]
+struct Gait {
+    period: f32,
+    height: u32,
+}
+
+#[derive(Clone, Debug, Deserialize, PartialEq, Reflect, Serialize)]
+enum Kick {
+    Straight { by: u32, to: u32 },
+    Turned { angle: f32, strength: u32 },
 }
