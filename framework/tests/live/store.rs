@@ -189,3 +189,32 @@ fn what_somebody_edits_meanwhile_is_found() {
         assert_eq!(robot.seen().lamp.brightness, 3, "{file}");
     }
 }
+
+#[test]
+fn what_was_not_there_before_is_stored_like_all_else() {
+    let without = DEFAULT.replace("\n[rooms.hall]\nwidth = 4.0\n", "");
+    let robot = Robot::new(&[("default.toml", &without)]);
+    let unstored = || {
+        let changes = robot.live.changed_not_stored().into_iter();
+        changes.map(|change| change.path).collect::<Vec<_>>()
+    };
+    let rooms = json!({ "hall": { "width": 5.0 }, "cellar": { "width": 3.0 } });
+    let changes = [("rooms", rooms), ("lamp.radius", json!(0.5))];
+    robot.live.change(&changes).expect("valid");
+    assert_eq!(unstored(), ["lamp.radius", "rooms"]);
+    let stored = robot
+        .live
+        .store("default", &["rooms.cellar", "lamp.radius"])
+        .expect("it can be stored");
+    assert_eq!(stored.paths, ["rooms.cellar", "lamp.radius"]);
+    // The other room is not.
+    assert_eq!(unstored(), ["rooms"]);
+    robot
+        .live
+        .store("default", &["rooms.hall.width"])
+        .expect("it can be stored");
+    assert_eq!(unstored(), [""; 0]);
+    let after = robot.after_restart();
+    let rooms: Vec<_> = after.rooms.values().map(|room| room.width).collect();
+    assert_eq!((after.lamp.radius, rooms), (0.5, vec![3.0, 5.0]));
+}

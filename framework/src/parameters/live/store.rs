@@ -132,10 +132,9 @@ impl State {
         let Some(files) = &self.files else {
             return;
         };
-        // Other edits of the files wait for a reload or a poll.
-        if self.values.adopt(&files.loaded, paths).is_ok() {
-            self.forget_what_is_stored();
-        }
+        // Other edits of the files wait for a reload or a poll. What could not be adopted stays a change.
+        let _ = self.values.adopt(&files.loaded, paths);
+        self.forget_what_is_stored();
     }
 }
 

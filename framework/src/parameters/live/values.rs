@@ -38,7 +38,7 @@ pub(super) trait Values: Send {
     /// What the layers have, as it was loaded.
     fn set_stored(&mut self, loaded: Box<dyn std::any::Any>);
 
-    /// At these paths the layers have what was loaded.
+    /// At these paths the layers have what was loaded; where they had nothing, the nearest part above that they had is adopted.
     fn adopt(&mut self, loaded: &Parameters, paths: &[Path]) -> Result<()>;
 
     /// The draft becomes current, also for the cyclers.
@@ -141,13 +141,16 @@ impl<P: ParameterData> Values for Typed<P> {
 
     fn adopt(&mut self, loaded: &Parameters, paths: &[Path]) -> Result<()> {
         let loaded: P = loaded.deserialize()?;
-        for path in paths {
+        let adopted = paths.iter().map(|path| {
+            let path = &nearest(&mut self.stored, &loaded, path);
             let value = exact::of(reflect::at(&loaded, path)?)?;
             let part = reflect::at_mut(&mut self.stored, path)?;
             let deserializer = &mut <dyn erased_serde::Deserializer<'_>>::erase(Node(&value));
             part.deserialize_from(deserializer)?;
-        }
-        Ok(())
+            Ok(())
+        });
+        // One that fails is no reason against the others.
+        adopted.fold(Ok(()), Result::and)
     }
 
     fn publish(&mut self, version: Version) {
@@ -158,6 +161,17 @@ impl<P: ParameterData> Values for Typed<P> {
         writing.clone_from(&self.current);
         self.writer.complete(version.0, self.clock.now());
     }
+}
+
+/// The longest beginning of a path at which both have something that can be replaced: in the end all.
+fn nearest(stored: &mut dyn Reflect, loaded: &dyn Reflect, path: &Path) -> Path {
+    let segments = path.segments();
+    let lengths = (0..=segments.len()).rev();
+    let mut beginnings = lengths.map(|length| segments[..length].iter().cloned().collect());
+    let is_in_both =
+        |path: &Path| reflect::at(loaded, path).is_ok() && reflect::at_mut(stored, path).is_ok();
+    let nearest = beginnings.find(is_in_both);
+    nearest.unwrap_or(Path::WHOLE)
 }
 
 /// A part as JSON, with as many digits as it was written with; `None` where it is not there.
