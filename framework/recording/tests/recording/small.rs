@@ -229,6 +229,25 @@ fn a_chunk_that_does_not_go_costs_no_other_one() {
     assert!(kept < 8 * budget, "it is within its budget again");
 }
 
+#[test]
+fn nothing_goes_where_there_is_no_budget() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("run.mcap");
+    let settings = Settings {
+        budget: u64::MAX,
+        ..settings()
+    };
+    let (recorder, mut track, _) = start(&path, 64 << 10, settings);
+    let counts = track.counts().clone();
+    record(&mut track, 0..20_000);
+    drop(track);
+    let error = recorder.end().error.map(|error| error.kind());
+    assert_eq!(error, Some(ErrorKind::StorageFull));
+    assert!(counts.lost() > 0 && counts.overwritten() == 0);
+    let recording = Recording::open(&path).expect("it can be read");
+    assert_eq!(recording.gone, 0);
+}
+
 /// Where the child of the test below writes.
 const LIMITED: &str = "HULKGEN_TEST_LIMITED";
 
