@@ -96,8 +96,7 @@ fn indexed(source: &impl Source, records: &[u8], end: u64) -> Option<Contents> {
         }
     }
     contents.chunks.sort_by_key(|chunk| chunk.offset);
-    let gone = contents.metadata(RING).and_then(|ring| ring.get("gone"));
-    contents.gone = gone.and_then(|gone| gone.parse().ok()).unwrap_or_default();
+    contents.gone = contents.said_gone();
     Some(contents)
 }
 
@@ -123,19 +122,22 @@ pub(crate) fn scan(
                 position = offset;
             }
             contents.way = Way::Cut { behind: position };
-            return Ok(contents);
+            break;
         };
         doubtful = (contents.damaged.last() == Some(&position)).then_some(position);
         position = next;
         if kind == opcode::DATA_END {
+            let magic = MAGIC.len() as u64;
+            let has_end =
+                length - position >= magic && source.read_at(length - magic, magic)? == MAGIC;
+            if !has_end {
+                contents.way = Way::Cut { behind: position };
+            }
             break;
         }
     }
-    let magic = MAGIC.len() as u64;
-    let has_end = length - position >= magic && source.read_at(length - magic, magic)? == MAGIC;
-    if !has_end {
-        contents.way = Way::Cut { behind: position };
-    }
+    // Those of a file that was recovered have no record in it.
+    contents.gone = contents.gone.max(contents.said_gone());
     Ok(contents)
 }
 
@@ -214,6 +216,12 @@ fn times(content: &[u8]) -> Option<(u64, u64)> {
 }
 
 impl Contents {
+    /// How many chunks the metadata say that the ring closed over.
+    fn said_gone(&self) -> u64 {
+        let gone = self.metadata(RING).and_then(|ring| ring.get("gone"));
+        gone.and_then(|gone| gone.parse().ok()).unwrap_or_default()
+    }
+
     /// Adds what a record tells; `None`: it cannot be understood.
     fn add(&mut self, kind: u8, content: &[u8]) -> Option<()> {
         let mut rest = Take(content);

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use crate::file::{Channel, Description, Metadata, Writer};
+use crate::index::RING;
 use crate::open::RecordingFile;
 use crate::read::{ReadError, Way};
 
@@ -41,6 +42,11 @@ pub fn recover(file: &RecordingFile, into: &Path) -> Result<Recovered, ReadError
         ..channel.clone()
     });
     let metadata = contents.metadata.iter().filter(|one| one.name != END);
+    // Where it breaks off only records say it, which the new file does not have.
+    let gone = match contents.metadata(RING) {
+        None if contents.gone > 0 => Some(Metadata::ring(contents.gone)),
+        _ => None,
+    };
     let description = Description {
         library: format!("hulkgen {}", env!("CARGO_PKG_VERSION")),
         schemas: contents
@@ -49,7 +55,7 @@ pub fn recover(file: &RecordingFile, into: &Path) -> Result<Recovered, ReadError
             .map(|(_, one)| one.clone())
             .collect(),
         channels: channels.collect(),
-        metadata: metadata.cloned().collect(),
+        metadata: metadata.cloned().chain(gone).collect(),
         attachments: contents.attachments.clone(),
     };
     let writer = Writer::create(into, description, u64::MAX)?;

@@ -8,6 +8,16 @@ use crate::format::{MAGIC, Put, opcode};
 use crate::index::RING;
 use crate::storage::is_full;
 
+impl Metadata {
+    /// How many chunks the ring closed over.
+    pub(crate) fn ring(gone: u64) -> Self {
+        Self {
+            name: RING.to_owned(),
+            entries: vec![("gone".to_owned(), gone.to_string())],
+        }
+    }
+}
+
 impl Writer {
     /// Writes what finds everything again; the file is whole afterwards.
     pub fn finish(self) -> io::Result<()> {
@@ -37,10 +47,7 @@ impl Writer {
             self.write_metadata(metadata)?;
         }
         if self.ring.gone() > 0 {
-            self.write_metadata(&Metadata {
-                name: RING.to_owned(),
-                entries: vec![("gone".to_owned(), self.ring.gone().to_string())],
-            })?;
+            self.write_metadata(&Metadata::ring(self.ring.gone()))?;
         }
         let mut end = Vec::new();
         end.put_record(opcode::DATA_END, |content| content.put_u32(0));

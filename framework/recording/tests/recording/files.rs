@@ -182,3 +182,47 @@ fn a_chunk_of_another_kind_is_a_chunk_nevertheless() {
         assert_eq!((read.gone, read.damaged), (0, Vec::new()), "kind {kind}");
     }
 }
+
+#[test]
+fn a_recovered_file_says_what_the_ring_closed_over() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name);
+    let budget = 64 << 10;
+    let settings = Settings {
+        budget,
+        ..settings()
+    };
+    record(&path("run.mcap"), 60_000, 1, settings);
+    let bytes = std::fs::read(path("run.mcap")).expect("it was written");
+    let whole = Recording::read(&bytes).expect("it can be read");
+    let last = whole.chunks.last().expect("there are some").offset;
+    let cut = |from: &str, into: &str, end: usize| {
+        let bytes = std::fs::read(path(from)).expect("it was written");
+        std::fs::write(path(into), &bytes[..end]).expect("there is room");
+        RecordingFile::open(&path(into)).expect("it can be read")
+    };
+    let gone = |file: &RecordingFile| file.contents().gone;
+    // Before what the end says, and in its index.
+    for end in [last as usize, bytes.len() - 20] {
+        let broken = cut("run.mcap", &format!("{end}.cut"), end);
+        assert_eq!(gone(&broken), whole.gone);
+        let recovered = path(&format!("{end}.recovered"));
+        hulkgen_mcap::recover(&broken, &recovered).expect("there is room");
+        let recovered = RecordingFile::open(&recovered).expect("it can be read");
+        assert!(recovered.contents().is_indexed);
+        assert_eq!(gone(&recovered), whole.gone);
+        let named = |name: &str| {
+            let all = recovered.contents().metadata.iter();
+            all.filter(|one| one.name == name).count()
+        };
+        assert_eq!(named("ring"), 1);
+        let length = recovered.length().expect("it is there") as usize;
+        let again = cut(
+            &format!("{end}.recovered"),
+            &format!("{end}.again"),
+            length - 20,
+        );
+        assert!(!again.contents().is_indexed);
+        assert_eq!(gone(&again), whole.gone);
+    }
+}
