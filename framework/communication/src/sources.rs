@@ -227,13 +227,7 @@ impl Source {
         let lost = tap.dropped() - self.dropped;
         self.dropped += lost;
         if lost > 0 {
-            for subscriber in streams.iter().flat_map(|stream| &stream.subscribers) {
-                if let Some(client) = clients.get_mut(&subscriber.client) {
-                    client
-                        .outbox
-                        .count_lost(Some(subscriber.subscription), lost);
-                }
-            }
+            streams.iter().for_each(|stream| stream.lose(lost, clients));
         }
         if read > 0 {
             self.forget_unused();
@@ -275,7 +269,7 @@ impl Stream {
     ) -> usize {
         let (cycle, time) = (tapped.cycle, tapped.timestamp.as_nanos());
         if matches!(self.encoding, Encoding::Jpeg { .. }) && !press.is_free(Instant::now()) {
-            self.lose(clients);
+            self.lose(1, clients);
             return 0;
         }
         let part = self.part.find(tapped.value);
@@ -330,12 +324,13 @@ impl Stream {
         self.readers.extract_if(.., may_ask).collect()
     }
 
-    /// There is no time for this cycle. Who does not want every one gets the next instead.
-    fn lose(&self, clients: &mut BTreeMap<ClientId, Client>) {
+    /// There was no time for so many cycles. Who does not want every one gets the next instead.
+    fn lose(&self, cycles: u64, clients: &mut BTreeMap<ClientId, Client>) {
         let subscribers = self.subscribers.iter();
         for subscriber in subscribers.filter(|subscriber| subscriber.rate.period == 0) {
             if let Some(client) = clients.get_mut(&subscriber.client) {
-                client.outbox.count_lost(Some(subscriber.subscription), 1);
+                let subscription = Some(subscriber.subscription);
+                client.outbox.count_lost(subscription, cycles);
                 client.news.notify_one();
             }
         }

@@ -1,18 +1,22 @@
 //! What is sent is what was wanted, made once.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
+use framework::parameters::Layers;
 use framework::reflect::{Reflect, Shape, binary};
-use framework::{Tapped, Timestamp};
+use framework::{
+    Clock, Hardware as _, HardwareContext, Robot, Start, Stop, Tapped, Threads, Timestamp,
+};
 use protocol::Encoding;
 use serde::{Serialize, Serializer};
 use serde_json::json;
 
 use super::{Rate, Reader, Stream, Subscriber, resolve};
 use crate::connection::News;
-use crate::hub::{Client, ClientId};
+use crate::hub::{Client, ClientId, Hub, Rules};
 use crate::limits::Limits;
 use crate::outbox::Outbox;
 use crate::press::Press;
@@ -210,4 +214,72 @@ fn who_does_not_take_its_answers_reads_nothing_meanwhile() {
     assert_eq!(hand_out(&mut second, 4, &value, &mut clients, &limits), 1);
     let own = clients.get_mut(&one).expect("it is there");
     assert_eq!(texts(own)[0]["answer"]["ok"]["value"]["cycle"], 4);
+}
+
+/// The zoo, that nobody looks at yet.
+fn zoo(stop: Stop) -> (Hub, impl FnOnce() -> framework::Result<()> + Send) {
+    let directory = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../../tests/robots/zoo/parameters"
+    );
+    let layers = Layers {
+        directory: directory.into(),
+        ..Layers::default()
+    };
+    let loaded = layers.load().expect("the file is there");
+    let clock = Clock::wall();
+    let hardware = zoo_hardware::Hardware::new(HardwareContext {
+        options: Vec::new(),
+        table: loaded.hardware("loud").expect("there is a table"),
+        run_folder: std::env::temp_dir(),
+        clock: clock.clone(),
+        stop: stop.clone(),
+    });
+    let hardware = Arc::new(hardware.expect("the zoo needs nothing"));
+    let start = Start {
+        clock: clock.clone(),
+        stop: stop.clone(),
+        parameters: loaded.deserialize().expect("the parameters fit"),
+    };
+    let mut robot: Robot<zoo_runtime::parameters::Parameters> =
+        zoo_runtime::runtime::create(&hardware, start).expect("every node can be created");
+    let rules = Rules {
+        target: "loud",
+        token: None,
+        is_read_only: true,
+        graph: "",
+        peers: Vec::new(),
+    };
+    let link = robot.link(&stop, framework::Rearm::default());
+    let hub = Hub::new(link, rules, Limits::default());
+    let run = move || Threads::new(&clock, hardware.as_ref(), &stop).run(&mut robot.instances);
+    (hub, run)
+}
+
+#[test]
+fn what_a_late_server_did_not_see_is_lost_for_those_who_want_every_cycle_alone() {
+    let stop = Stop::new();
+    let (mut hub, run) = zoo(stop.clone());
+    let (client, _) = hub.connect();
+    for rate in ["", r#","rate":1.0"#] {
+        let path = "Control.main_outputs.cycles";
+        hub.receive(
+            client,
+            &format!(r#"{{"id":1,"ask":{{"subscribe":{{"path":"{path}"{rate}}}}}}}"#),
+        );
+    }
+    let runs = std::thread::spawn(run);
+    // The server comes much later than there is room for copies.
+    std::thread::sleep(Duration::from_secs(1));
+    stop.request();
+    runs.join().expect("it ran").expect("no node fails");
+    hub.look();
+    let own = hub.clients.get_mut(&client).expect("it is there");
+    let lost: Vec<_> = texts(own)
+        .into_iter()
+        .filter_map(|text| text.get("lost").cloned())
+        .collect();
+    assert_eq!(lost.len(), 1, "{lost:?}");
+    assert_eq!(lost[0]["subscription"], 1);
+    assert!(lost[0]["updates"].as_u64() > Some(0));
 }
