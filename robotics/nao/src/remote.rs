@@ -1,7 +1,7 @@
 //! Cameras and microphones of another process: the reading end of [`links::senses`].
 //!
 //! Their clock is not ours. A message counts as taken when it was taken, by their clock, plus the least time that any
-//! message of this connection seems to have been on its way; so jitter of the way is no jitter of the times.
+//! message of the last second seems to have been on its way; so jitter of the way is no jitter of the times.
 
 use std::io::{ErrorKind, Read};
 use std::os::unix::net::UnixStream;
@@ -17,6 +17,8 @@ const PATIENCE: Duration = Duration::from_millis(50);
 const SILENCE: Duration = Duration::from_secs(1);
 /// Between attempts to connect.
 const BACK_OFF: Duration = Duration::from_millis(500);
+/// How long a message counts at least for how the clocks differ, and twice as long at most: 15 images, or 10 blocks of sound.
+const SPAN: Duration = Duration::from_millis(500);
 /// No message is longer: an image of 1280 by 960.
 const LONGEST: u32 = 1280 * 960 * 2;
 
@@ -35,8 +37,17 @@ struct Connection {
     received: usize,
     /// Bytes of what follows it that have come.
     followed: usize,
-    /// Our clock less theirs, in ns, as the quickest message saw it.
-    offset: i128,
+    offset: Offset,
+}
+
+/// Our clock less theirs, in ns, as the quickest message of late saw it.
+///
+/// Older ones do not count: a world that waits for the answers of its program has a slower clock than ours.
+struct Offset {
+    since: Timestamp,
+    least: i128,
+    /// The least of the span that ended at `since`.
+    before: i128,
 }
 
 impl Remote {
@@ -97,7 +108,7 @@ impl Remote {
                     header: [0; HEADER_LENGTH],
                     received: 0,
                     followed: 0,
-                    offset: i128::MAX,
+                    offset: Offset::new(),
                 });
                 Ok(())
             }
@@ -133,10 +144,31 @@ impl Connection {
     }
 
     fn time(&mut self, header: &Header, clock: &Clock) -> Timestamp {
-        let now = i128::from(clock.now().as_nanos());
-        let at = i128::from(header.at);
-        self.offset = self.offset.min(now - at);
-        Timestamp::from_nanos(u64::try_from(at + self.offset).unwrap_or(0))
+        self.offset
+            .time(Timestamp::from_nanos(header.at), clock.now())
+    }
+}
+
+impl Offset {
+    /// Until the first message nothing is known.
+    fn new() -> Self {
+        Self {
+            since: Timestamp::ZERO,
+            least: i128::MAX,
+            before: i128::MAX,
+        }
+    }
+
+    /// By our clock: when something was taken that came just now and was taken `at` by theirs.
+    fn time(&mut self, at: Timestamp, now: Timestamp) -> Timestamp {
+        if now - self.since >= SPAN {
+            self.before = std::mem::replace(&mut self.least, i128::MAX);
+            self.since = now;
+        }
+        let at = i128::from(at.as_nanos());
+        self.least = self.least.min(i128::from(now.as_nanos()) - at);
+        let offset = self.least.min(self.before);
+        Timestamp::from_nanos(u64::try_from(at + offset).unwrap_or(0))
     }
 }
 
@@ -215,6 +247,34 @@ mod tests {
             world.read(&mut bytes).unwrap().0 > at,
             "their clock began anew"
         );
+    }
+
+    fn at(milliseconds: u64) -> Timestamp {
+        Timestamp::from_nanos(milliseconds * 1_000_000)
+    }
+
+    #[test]
+    fn a_clock_that_is_slower_than_ours_does_not_fall_behind() {
+        let mut offset = Offset::new();
+        // Images of a world that takes 30 ms for 12 of its own: two and a half times as long.
+        for image in 0..720 {
+            let (theirs, ours) = (at(image * 34), at(image * 85));
+            let late = ours - offset.time(theirs, ours);
+            assert!(late <= SPAN * 2, "{image}: {late:?}");
+        }
+    }
+
+    #[test]
+    fn jitter_of_the_way_is_no_jitter_of_the_times() {
+        let mut offset = Offset::new();
+        offset.time(at(1000), at(5002));
+        for image in 1..300 {
+            let taken = 1000 + 33 * image;
+            // One of ten is as quick as that.
+            let way = 2 + image % 10 * 7;
+            let time = offset.time(at(taken), at(taken + 4000 + way));
+            assert_eq!(time, at(taken + 4002), "{image}");
+        }
     }
 
     #[test]
