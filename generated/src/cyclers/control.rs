@@ -608,7 +608,8 @@ impl Nodes {
         Ok(())
     }
 
-    /// motor_commands (required), leds, sensor_data.positions -> hardware
+    /// motor_commands (required), leds, sensor_data.positions, sensor_data.is_in_safe_state ->
+    /// hardware
     #[inline(always)]
     fn command_sender(
         &mut self,
@@ -620,6 +621,7 @@ impl Nodes {
                 motor_commands,
                 leds: frame.own.leds.as_ref(),
                 positions: &frame.own.sensor_data.positions,
+                is_in_safe_state: &frame.own.sensor_data.is_in_safe_state,
                 cycle_time: frame.cycle.time,
             };
             self.command_sender.call(&frame.cycle, |node| node.cycle(context))?;
@@ -995,7 +997,7 @@ impl Nodes {
         Ok(())
     }
 
-    /// motion_command, state safe_exits -> motion_selection
+    /// motion_command, sensor_data.is_in_safe_state, state safe_exits -> motion_selection
     #[inline(always)]
     fn motion_selector<Hardware>(
         &mut self,
@@ -1003,6 +1005,7 @@ impl Nodes {
     ) -> Result<()> {
         let context = motion_selector::CycleContext {
             motion_command: &frame.own.motion_command,
+            is_in_safe_state: &frame.own.sensor_data.is_in_safe_state,
             safe_exits: &mut frame.cycler_state.safe_exits,
         };
         let outputs = self

@@ -28,6 +28,7 @@ pub struct CycleContext {
     motor_commands: RequiredInput<Option<MotorCommands>, "motor_commands?">,
     leds: Input<Option<Leds>, "leds?">,
     positions: Input<Joints<f32>, "sensor_data.positions">,
+    is_in_safe_state: Input<bool, "sensor_data.is_in_safe_state">,
     cycle_time: CycleTime,
 }
 
@@ -47,6 +48,10 @@ impl CommandSender {
     pub fn cycle(&mut self, context: CycleContext<impl ActuatorInterface>) -> Result<MainOutputs> {
         if let Some(leds) = context.leds {
             self.leds = *leds;
+        }
+        if *context.is_in_safe_state {
+            // The hardware has dropped it.
+            self.sent = None;
         }
         let commands = harmless(
             context.motor_commands,
@@ -96,6 +101,7 @@ mod tests {
                 motor_commands: motors,
                 leds: leds.as_ref(),
                 positions: &start(),
+                is_in_safe_state: &false,
                 cycle_time: testing::cycle_time(0, 12),
             };
             node.cycle(context).unwrap();
@@ -138,5 +144,31 @@ mod tests {
             }
             assert_eq!(last == start(), absurd.is_nan());
         }
+    }
+
+    #[test]
+    fn what_the_hardware_has_dropped_was_not_sent() {
+        let mut node = CommandSender::new(CreationContext {}).unwrap();
+        let body = Arc::new(Body::default());
+        let motors = MotorCommands::holding(start(), 0.8);
+        let mut collapsed = start();
+        collapsed.left_knee_pitch = 2.1;
+        for (positions, is_in_safe_state) in
+            [(start(), false), (collapsed, true), (collapsed, false)]
+        {
+            let context = CycleContext {
+                hardware_interface: &body,
+                motor_commands: &motors,
+                leds: None,
+                positions: &positions,
+                is_in_safe_state: &is_in_safe_state,
+                cycle_time: testing::cycle_time(0, 12),
+            };
+            node.cycle(context).unwrap();
+        }
+        let (last, _) = body.commands.lock().unwrap()[2];
+        let most = limits::of(JointName::LeftKneePitch).velocity as f32 * 0.012;
+        let way = collapsed.left_knee_pitch - last.positions.left_knee_pitch;
+        assert!((0.0..=most * 2.001).contains(&way), "{way}");
     }
 }

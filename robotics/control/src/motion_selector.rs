@@ -1,7 +1,7 @@
 //! Lets one motion have the body, and changes it only where the robot does not fall over that.
 //!
 //! A motion that is not begun where the body is comes after a way there: the dispatching. Only limp
-//! is never waited for, and limp is where the body starts.
+//! is never waited for, and limp is where the body starts, and what it is once the hardware has let it down.
 
 use framework::{CyclerState, Input, MainOutput, Result, context};
 use serde::{Deserialize, Serialize};
@@ -19,6 +19,7 @@ pub struct CreationContext {}
 #[context]
 pub struct CycleContext {
     motion_command: Input<MotionCommand, "motion_command">,
+    is_in_safe_state: Input<bool, "sensor_data.is_in_safe_state">,
     // Written by motions later in the cycle: here stands what they said in the cycle before.
     safe_exits: CyclerState<SafeExits, "safe_exits">,
 }
@@ -40,7 +41,11 @@ impl MotionSelector {
     /// Stays with the motion or goes on to the one that is commanded.
     pub fn cycle(&mut self, context: CycleContext) -> Result<MainOutputs> {
         let wanted = context.motion_command.body;
-        self.selection = next(self.selection, wanted, *context.safe_exits);
+        self.selection = if *context.is_in_safe_state {
+            MotionSelection::default()
+        } else {
+            next(self.selection, wanted, *context.safe_exits)
+        };
         Ok(MainOutputs {
             motion_selection: self.selection.into(),
         })
@@ -133,12 +138,22 @@ mod tests {
         wanted: BodyMotion,
         exits: SafeExits,
     ) -> (BodyMotion, bool) {
+        select_in(node, false, wanted, exits)
+    }
+
+    fn select_in(
+        node: &mut MotionSelector,
+        is_in_safe_state: bool,
+        wanted: BodyMotion,
+        exits: SafeExits,
+    ) -> (BodyMotion, bool) {
         let motion_command = MotionCommand {
             body: wanted,
             ..MotionCommand::default()
         };
         let context = CycleContext {
             motion_command: &motion_command,
+            is_in_safe_state: &is_in_safe_state,
             safe_exits: &mut exits.clone(),
         };
         let selection = node.cycle(context).unwrap().motion_selection.value;
@@ -169,6 +184,18 @@ mod tests {
         assert_eq!(select(&mut node, stand, EVERYWHERE), (stand, true));
         assert_eq!(select(&mut node, stand, NOWHERE), (stand, true));
         assert_eq!(select(&mut node, stand, EVERYWHERE), (stand, false));
+    }
+
+    #[test]
+    fn a_body_that_the_hardware_lets_down_is_limp_whatever_it_did() {
+        for motion in [BodyMotion::Stand, BodyMotion::Walk, KICK, RISE, FALL] {
+            for wanted in [motion, BodyMotion::Stand, FALL] {
+                let mut node = node_in(motion);
+                let limp = (BodyMotion::Unstiff, false);
+                assert_eq!(select_in(&mut node, true, wanted, NOWHERE), limp);
+                assert_eq!(select(&mut node, RISE, NOWHERE), (RISE, true));
+            }
+        }
     }
 
     #[test]

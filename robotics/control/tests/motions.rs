@@ -53,6 +53,8 @@ struct Robot {
     head_command: Option<HeadCommand>,
     motor_commands: Option<MotorCommands>,
     body: Joints<f32>,
+    /// The hardware drops all commands, and the body stays where gravity takes it.
+    is_in_safe_state: bool,
 }
 
 /// What the motions want in one cycle.
@@ -106,6 +108,7 @@ impl Robot {
             head_command: None,
             motor_commands: None,
             body,
+            is_in_safe_state: false,
         }
     }
 
@@ -160,6 +163,7 @@ impl Robot {
         let command = self.behavior.cycle(context).unwrap().motion_command.value;
         let context = motion_selector::CycleContext {
             motion_command: &command,
+            is_in_safe_state: &self.is_in_safe_state,
             safe_exits: &mut self.safe_exits,
         };
         let outputs = self.motion_selector.cycle(context).unwrap();
@@ -168,7 +172,7 @@ impl Robot {
         self.head_command = self.move_head(&command);
         let commands = self.collect(&wanted);
         self.body = Joints::from_fn(|joint| {
-            if commands.stiffnesses[joint] > 0.0 {
+            if commands.stiffnesses[joint] > 0.0 && !self.is_in_safe_state {
                 commands.positions[joint]
             } else {
                 self.body[joint]
@@ -299,7 +303,7 @@ impl Robot {
     }
 
     fn assert_change(&self, before: MotionSelection, exits: SafeExits, body: &Joints<f32>) {
-        if self.selection == before {
+        if self.selection == before || self.is_in_safe_state {
             return;
         }
         if before.is_dispatching {
@@ -392,6 +396,22 @@ fn a_change_of_mind_on_the_way_harms_nobody() {
         robot.live(Unstiff, 10.0);
         assert!(robot.has(BodyMotion::Unstiff), "{seconds}");
         assert_eq!(robot.body, robot.sitting);
+    }
+}
+
+#[test]
+fn a_robot_that_was_let_down_rises_from_where_it_sank_to() {
+    for standing in [0.5, 4.0] {
+        let mut robot = Robot::sitting();
+        robot.live(PrimaryState::Initial, standing);
+        robot.is_in_safe_state = true;
+        robot.body = robot.sitting;
+        robot.live(PrimaryState::Initial, 1.0);
+        robot.is_in_safe_state = false;
+        assert_eq!(robot.stiffness(), 0.0);
+        // No joint is faster than it may be, from the first command on.
+        robot.live(PrimaryState::Initial, 4.0);
+        assert!(robot.has(BodyMotion::Stand));
     }
 }
 

@@ -34,7 +34,7 @@ pub trait ActuatorInterface {
     /// Sends one command to all motors and lights; the body takes about 36 ms to follow.
     ///
     /// A body that went away meanwhile is no error: the next read notices it. In safe state the
-    /// hardware drops the command.
+    /// hardware drops the command, and says so with the next sample ([`SensorData::is_in_safe_state`]).
     ///
     /// # Errors
     /// Where the command cannot be sent at all.

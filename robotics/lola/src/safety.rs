@@ -14,6 +14,8 @@ const RAMP: Duration = Duration::from_millis(500);
 pub struct Safety {
     last: MotorCommands,
     phase: Phase,
+    /// The nodes have lost the motors and have not read of it: what they command belongs to a body that is not so any more.
+    is_news: bool,
     /// The chest button, when somebody looked last.
     was_down: bool,
 }
@@ -25,8 +27,8 @@ enum Phase {
     Armed,
     /// Since the first step after this the hardware commands.
     Entered,
-    /// Fading since then.
-    Fading(Timestamp),
+    /// Fading since then, from these stiffnesses.
+    Fading(Timestamp, Joints<f32>),
 }
 
 impl Safety {
@@ -34,10 +36,18 @@ impl Safety {
     pub fn enter(&mut self) {
         if matches!(self.phase, Phase::Armed) {
             self.phase = Phase::Entered;
+            self.is_news = true;
         }
     }
 
-    /// Gives the motors back.
+    /// For the nodes, with the next sample of the sensors: whether their commands are dropped, now or at any time since the
+    /// last sample.
+    pub fn tell(&mut self) -> bool {
+        let is_news = std::mem::take(&mut self.is_news);
+        is_news || !matches!(self.phase, Phase::Armed)
+    }
+
+    /// Gives the motors back, as soon as the nodes know that they had lost them.
     pub fn rearm(&mut self) {
         self.phase = Phase::Armed;
     }
@@ -52,7 +62,7 @@ impl Safety {
 
     /// Remembers a command of the nodes; whether it may be sent.
     pub fn permits(&mut self, commands: &MotorCommands) -> bool {
-        let permitted = matches!(self.phase, Phase::Armed);
+        let permitted = matches!(self.phase, Phase::Armed) && !self.is_news;
         if permitted {
             self.last = *commands;
         }
@@ -61,18 +71,16 @@ impl Safety {
 
     /// What the hardware commands now: the last positions with fading stiffness.
     pub fn command(&mut self, now: Timestamp) -> Option<MotorCommands> {
-        let since = match self.phase {
+        let (since, from) = match self.phase {
             Phase::Armed => return None,
-            Phase::Entered => now,
-            Phase::Fading(since) => since,
+            Phase::Entered => (now, self.last.stiffnesses),
+            Phase::Fading(since, from) => (since, from),
         };
-        self.phase = Phase::Fading(since);
+        self.phase = Phase::Fading(since, from);
         let left = 1.0 - ((now - since).as_secs_f32() / RAMP.as_secs_f32()).min(1.0);
-        let stiffnesses = Joints::from_fn(|joint| self.last.stiffnesses[joint] * left);
-        Some(MotorCommands {
-            positions: self.last.positions,
-            stiffnesses,
-        })
+        // Kept: who is let down again before the nodes have commanded does not become stiff for that.
+        self.last.stiffnesses = from.map(|stiffness| stiffness * left);
+        Some(self.last)
     }
 
     /// Whether the robot is about to be let down.
@@ -80,7 +88,7 @@ impl Safety {
         match self.phase {
             Phase::Armed => false,
             Phase::Entered => true,
-            Phase::Fading(since) => now - since < RAMP,
+            Phase::Fading(since, _) => now - since < RAMP,
         }
     }
 }
@@ -137,7 +145,40 @@ mod tests {
         assert!(safety.is_fading(at(350)));
         assert_eq!(stiffness(&mut safety, 600), 0.0);
         assert!(!safety.is_fading(at(600)));
+        assert!(safety.tell());
         safety.rearm();
         assert!(safety.permits(&stiff));
+    }
+
+    #[test]
+    fn nodes_that_have_not_read_of_it_do_not_get_the_motors_back() {
+        let mut safety = Safety::default();
+        let stiff = MotorCommands::holding(Joints::filled(0.3), 0.8);
+        assert!(!safety.tell());
+        safety.enter();
+        safety.command(at(0));
+        safety.rearm();
+        assert!(!safety.permits(&stiff), "of a cycle that began before");
+        assert_eq!(safety.command(at(12)), None);
+        assert!(safety.tell());
+        assert!(safety.permits(&stiff));
+        assert!(!safety.tell());
+        safety.enter();
+        assert!(safety.tell() && safety.tell(), "for as long as it lasts");
+        safety.rearm();
+        assert!(safety.permits(&stiff) && !safety.tell());
+    }
+
+    #[test]
+    fn a_limp_body_that_is_let_down_again_does_not_become_stiff_for_that() {
+        let mut safety = Safety::default();
+        safety.permits(&MotorCommands::holding(Joints::filled(0.3), 0.8));
+        safety.enter();
+        safety.command(at(0));
+        safety.command(at(600));
+        safety.rearm();
+        safety.enter();
+        let limp = safety.command(at(700)).unwrap().stiffnesses;
+        assert_eq!(limp, Joints::filled(0.0));
     }
 }

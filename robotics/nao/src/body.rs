@@ -73,6 +73,11 @@ impl Body {
         self.shared.changed.notify_all();
     }
 
+    /// For the nodes, with the next sample: see [`Safety::tell`].
+    pub(crate) fn tell(&self) -> bool {
+        self.shared.lock().safety.tell()
+    }
+
     /// Gives the motors back.
     pub(crate) fn rearm(&self) {
         let mut state = self.shared.lock();

@@ -104,7 +104,8 @@ impl framework::Hardware for Hardware {
 impl SensorInterface for Hardware {
     fn read_sensors(&self) -> Result<(Timestamp, SensorData)> {
         self.supervisor.lives();
-        let (at, sensors) = self.client.read_state()?;
+        let (at, mut sensors) = self.client.read_state()?;
+        sensors.is_in_safe_state = self.body.tell();
         let is_down = sensors.touch.chest_button;
         self.is_chest_down.store(is_down, Ordering::Relaxed);
         Ok((at, sensors))

@@ -213,9 +213,22 @@ fn in_safe_state_the_hardware_lets_the_robot_down_and_reads_what_nobody_reads() 
     );
     assert!(stiffnesses.iter().any(|value| *value > 0.1 && *value < 0.7));
     hardware.rearm();
+    // Nodes that have not read of it command a body that is not so any more.
     hardware.write_command(&other, &Leds::default()).unwrap();
-    let rearmed = std::iter::from_fn(|| received.recv_timeout(PATIENCE).ok());
-    assert!(rearmed.take(1000).any(|told| told == other));
+    let known = MotorCommands::holding(Joints::filled(0.4), 0.5);
+    let mut is_in_safe_state = || {
+        let (_, sensors) = until(|| {
+            stream.write_all(&lola.state).unwrap();
+            hardware.read_sensors()
+        });
+        sensors.is_in_safe_state
+    };
+    assert!(is_in_safe_state());
+    hardware.write_command(&known, &Leds::default()).unwrap();
+    let told = std::iter::from_fn(|| received.recv_timeout(PATIENCE).ok());
+    let told = told.take(1000).find(|told| told.stiffnesses.head_yaw > 0.0);
+    assert_eq!(told, Some(known));
+    assert!(!is_in_safe_state());
     // The end is let down to the end, too.
     hardware.enter_safe_state();
     drop(hardware);

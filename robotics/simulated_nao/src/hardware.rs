@@ -257,6 +257,23 @@ impl Hardware {
 
 impl SensorInterface for Hardware {
     fn read_sensors(&self) -> Result<(Timestamp, SensorData)> {
+        let (at, mut sensors) = self.newest_state()?;
+        sensors.is_in_safe_state = lock(&self.safety).tell();
+        Ok((at, sensors))
+    }
+}
+
+impl ActuatorInterface for Hardware {
+    fn write_command(&self, motors: &MotorCommands, leds: &Leds) -> Result<()> {
+        if lock(&self.safety).permits(motors) {
+            self.client.write_command(motors, leds)?;
+        }
+        Ok(())
+    }
+}
+
+impl Hardware {
+    fn newest_state(&self) -> Result<(Timestamp, SensorData)> {
         if let Some(simulator) = &self.thread {
             if !simulator.is_running() {
                 return Err(Error::new(
@@ -273,15 +290,6 @@ impl SensorInterface for Hardware {
             newest = self.client.read_state();
         }
         newest
-    }
-}
-
-impl ActuatorInterface for Hardware {
-    fn write_command(&self, motors: &MotorCommands, leds: &Leds) -> Result<()> {
-        if lock(&self.safety).permits(motors) {
-            self.client.write_command(motors, leds)?;
-        }
-        Ok(())
     }
 }
 

@@ -292,3 +292,37 @@ fn the_robot_is_let_down_when_the_run_ends() {
         stiffnesses() == Joints::default()
     }));
 }
+
+#[test]
+fn nodes_get_the_motors_back_once_they_have_read_that_they_had_lost_them() {
+    let hardware = create(&Stop::new());
+    let read = || {
+        let read = (0..60).find_map(|_| hardware.read_sensors().ok());
+        read.expect("the body reports").1
+    };
+    let command = MotorCommands::holding(Joints::filled(0.1), 0.5);
+    let obeys = || {
+        until(|| {
+            hardware.write_command(&command, &Leds::default()).unwrap();
+            read().stiffnesses == command.stiffnesses
+        })
+    };
+    assert!(!read().is_in_safe_state);
+    assert!(obeys());
+    hardware.enter_safe_state();
+    assert!(until(|| {
+        hardware.write_command(&command, &Leds::default()).unwrap();
+        let sensors = read();
+        assert!(sensors.is_in_safe_state);
+        sensors.stiffnesses == Joints::default()
+    }));
+    hardware.rearm();
+    assert!(!read().is_in_safe_state);
+    assert!(obeys());
+    // Somebody re-arms while a node still hangs in the cycle that lost the motors.
+    hardware.enter_safe_state();
+    hardware.rearm();
+    assert!(read().is_in_safe_state);
+    assert!(!read().is_in_safe_state);
+    assert!(obeys());
+}

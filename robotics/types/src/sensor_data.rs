@@ -38,6 +38,9 @@ pub struct SensorData {
     pub battery: Battery,
     /// Who this body and this head are.
     pub configuration: RobotConfiguration,
+    /// Whether the hardware lets the robot down and drops what nodes command, now or at any time since the last sample: the body
+    /// is where gravity took it.
+    pub is_in_safe_state: bool,
 }
 
 impl SensorData {

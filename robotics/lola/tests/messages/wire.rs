@@ -200,6 +200,8 @@ pub(crate) fn sample_state() -> SensorData {
             head_id: "P0000074A04S86H00022".parse().unwrap(),
             head_version: "6.0.1".parse().unwrap(),
         },
+        // No state says so: the hardware does.
+        is_in_safe_state: false,
     }
 }
 
