@@ -118,7 +118,6 @@ hardware = \"simulation::Hardware\"
         .expect("it is a text");
         for (key, value, is_required) in keys(table) {
             let meaning = value["description"].as_str().unwrap_or_default();
-            let is_required = if is_required { "required" } else { "" };
             let choices = choices(&schema, &value);
             writeln!(text, "| `{key}` | {is_required} | {meaning}{choices} |")
                 .expect("it is a text");
@@ -127,12 +126,14 @@ hardware = \"simulation::Hardware\"
     text
 }
 
-/// Keys of a table, or of all the tables of which it may be one.
-fn keys(table: &Value) -> Vec<(String, Value, bool)> {
+/// Keys of a table, or of all the tables of which it may be one, each with whether it has to be there.
+fn keys(table: &Value) -> Vec<(String, Value, &'static str)> {
     let variants = table["oneOf"].as_array().cloned().unwrap_or_default();
     let of_variants = variants.iter().flat_map(|variant| {
         let mut keys = keys(variant);
-        for (_, value, _) in &mut keys {
+        for (_, value, is_required) in &mut keys {
+            // Each variant requires its own key.
+            *is_required = "one of these";
             if value["description"].is_null() {
                 value["description"] = variant["description"].clone();
             }
@@ -141,7 +142,10 @@ fn keys(table: &Value) -> Vec<(String, Value, bool)> {
     });
     let is_required = |key: &String| {
         let required = table["required"].as_array().into_iter().flatten();
-        required.into_iter().any(|one| one == key)
+        match required.into_iter().any(|one| one == key) {
+            true => "required",
+            false => "",
+        }
     };
     let own = table["properties"].as_object().into_iter().flatten();
     let own = own.map(|(key, value)| (key.clone(), value.clone(), is_required(key)));
