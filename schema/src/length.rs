@@ -17,7 +17,7 @@ pub struct Duration(std::time::Duration);
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Size(u64);
 
-/// Units of time in nanoseconds, longest first.
+/// Units of time in nanoseconds, longest first; the last two are read alone, as other programs write them.
 const TIMES: &[(&str, u64)] = &[
     ("min", 60_000_000_000),
     ("s", 1_000_000_000),
@@ -25,6 +25,8 @@ const TIMES: &[(&str, u64)] = &[
     ("us", 1_000),
     ("µs", 1_000),
     ("ns", 1),
+    ("m", 60_000_000_000),
+    ("h", 3_600_000_000_000),
 ];
 
 /// Units of size in bytes, largest first.
@@ -72,7 +74,7 @@ impl FromStr for Duration {
         let nanoseconds = parse(text, TIMES).ok_or_else(|| SpellingError {
             text: text.to_owned(),
             kind: "length of time",
-            rule: "write a number greater than zero and `ns`, `us`, `ms`, `s` or `min`, as in \"33ms\"",
+            rule: "write a number greater than zero and `ns`, `us`, `ms`, `s`, `min` (or `m`) or `h`, as in \"33ms\"",
         })?;
         Ok(Self(std::time::Duration::from_nanos(nanoseconds)))
     }
@@ -161,7 +163,7 @@ macro_rules! as_string {
 
 as_string!(
     Duration,
-    r"^[0-9]+(\.[0-9]+)? *(ns|us|µs|ms|s|min)$",
+    r"^[0-9]+(\.[0-9]+)? *(ns|us|µs|ms|s|min|m|h)$",
     "A length of time greater than zero, for example \"33ms\" or \"1.5s\"."
 );
 as_string!(

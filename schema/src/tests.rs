@@ -125,6 +125,8 @@ fn lengths_are_read_exactly_and_printed_shortest() {
         ("33ms", 33_000_000, "33ms"),
         ("1.5s", 1_500_000_000, "1500ms"),
         ("2 min", 120_000_000_000, "2min"),
+        ("2m", 120_000_000_000, "2min"),
+        ("1h", 3_600_000_000_000, "60min"),
         ("250µs", 250_000, "250us"),
     ] {
         let duration: Duration = text.parse().unwrap();
@@ -138,7 +140,7 @@ fn lengths_are_read_exactly_and_printed_shortest() {
         "1.ms",
         "-1ms",
         "0s",
-        "1h",
+        "1d",
         "0.5ns",
         "99999999999999999999s",
         "1 .5s",

@@ -4,13 +4,15 @@ use std::time::Duration;
 
 use crate::error::{Error, Result};
 
-/// A number with its unit: `10s`, `1.5s`, `500ms`, `2m`, `1h`.
+/// A number with its unit, in those of the manifest: `10s`, `1.5s`, `500ms`, `2m`, `1h`.
 pub(crate) fn duration(text: &str) -> Result<Duration> {
     let end = text
-        .find(|character: char| character.is_ascii_alphabetic())
+        .find(|character: char| character.is_alphabetic())
         .unwrap_or(text.len());
     let (number, unit) = text.split_at(end);
     let seconds = match unit {
+        "ns" => Some(1e-9),
+        "us" | "µs" => Some(1e-6),
         "ms" => Some(1e-3),
         "s" => Some(1.0),
         "m" | "min" => Some(60.0),
@@ -38,6 +40,18 @@ mod tests {
             duration("500ms").expect("valid"),
             Duration::from_millis(500)
         );
+        for (text, seconds) in [
+            ("1 min", 60),
+            ("1h", 3600),
+            ("2000000µs", 2),
+            ("3000000000ns", 3),
+        ] {
+            assert_eq!(
+                duration(text).expect("valid"),
+                Duration::from_secs(seconds),
+                "{text}"
+            );
+        }
         for wrong in ["", "10", "s", "-1s", "10 parsecs", "1e400s"] {
             assert!(duration(wrong).is_err(), "{wrong}");
         }
