@@ -102,6 +102,15 @@ pub trait Hardware: Send + Sync {
         Ok(None)
     }
 
+    /// What its options behind `--` do, a line for each: what `-- --help` prints. Empty: it tells nothing, and `--help` is an
+    /// option like any other.
+    fn options() -> &'static str
+    where
+        Self: Sized,
+    {
+        ""
+    }
+
     /// Names of the tools that this hardware offers beside running the robot.
     fn tools() -> &'static [&'static str]
     where

@@ -142,6 +142,11 @@ where
     H: Hardware + 'static,
     P: ParameterData,
 {
+    // A tool's own command line is the tool's.
+    let is_asked = options.tool.is_none() && options.hardware.iter().any(|it| it == "--help");
+    if is_asked && !H::options().is_empty() {
+        return status_of(write!(output, "{}", H::options()));
+    }
     if options.check_parameters {
         return check::parameters::<P>(target, options, output);
     }

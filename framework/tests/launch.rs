@@ -65,6 +65,10 @@ impl Hardware for TestHardware {
             .into()
     }
 
+    fn options() -> &'static str {
+        "--port NUMBER  connects there\n"
+    }
+
     fn stop(&self) {
         self.log.lock().expect("not poisoned").push("stop");
     }
@@ -425,4 +429,14 @@ fn a_clock_waits_and_a_stop_ends_the_wait() {
             .is_err(),
         "it would have to wait"
     );
+}
+
+#[test]
+fn a_hardware_tells_what_its_options_do() {
+    let ran = run(&workspace(TEXT), &["--", "--help"]);
+    assert_eq!(
+        (ran.status, ran.output.as_str()),
+        (0, "--port NUMBER  connects there\n")
+    );
+    assert!(ran.hardware.is_none(), "nothing is started");
 }

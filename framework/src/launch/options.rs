@@ -155,7 +155,7 @@ Usage: {name} [OPTIONS] [-- HARDWARE OPTIONS]
   --replay FILE --capture NODE --instance NAME --at CYCLE
                       what the node took and wrote in this cycle, as JSON
   --real-time         apply the manifest's `scheduling` on a simulated target, too
-  --help              this text
+  --help              this text; behind `--`: what the hardware's own options do
 ",
         robot = target.robot,
         name = target.name,

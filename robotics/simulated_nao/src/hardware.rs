@@ -30,7 +30,7 @@ use crate::camera::{self, Exposure};
 use crate::field::Field;
 use crate::per_camera::PerCamera;
 use crate::photograph::{self, Photograph};
-use crate::settings::Settings;
+use crate::settings::{OPTIONS, Settings};
 use crate::simulator::{Shared, Simulator};
 use crate::stage::Stage;
 
@@ -155,6 +155,10 @@ impl framework::Hardware for Hardware {
             }
         }
         Ok(None)
+    }
+
+    fn options() -> &'static str {
+        OPTIONS
     }
 
     fn tools() -> &'static [&'static str] {

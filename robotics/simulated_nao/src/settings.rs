@@ -1,23 +1,6 @@
 //! What can be chosen about the simulation, and where the choices come from.
 //!
-//! First the parameters' `[hardware.simulated]`, then the options after `--`:
-//!
-//! | option | does |
-//! |---|---|
-//! | `--socket PATH` | serves LoLA there instead of in a fresh folder |
-//! | `--physics NAME` | `dynamic` (masses, torques and contacts) or `kinematic` (cheap; robots never fall) |
-//! | `--imperfect SEED` | gives the body the play, the late commands and the noise of a real one |
-//! | `--pose X,Y,HEADING` | puts the robot there (m, m, rad) |
-//! | `--ball X,Y` | puts the ball there (m) |
-//! | `--no-ball` | takes the ball away |
-//! | `--game STATE` | lets the referee's computer say one state for the whole run: `Initial`, `Ready`, `Set`, `Playing`, `Finished`, `Standby` |
-//! | `--no-referee` | takes the referee's computer off the network |
-//! | `--no-mate` | takes the team mate off the network |
-//! | `--free-ports` | takes free UDP ports instead of those of `[hardware.simulated.network]` |
-//! | `--no-buttons` | lets nobody press a button |
-//! | `--no-cameras` | takes the cameras away: no cycle of `Vision` |
-//! | `--camera-rate NUMBER` | takes so many images a second: 30, or a divisor |
-//! | `--no-sound` | takes the microphones away: no cycle of `Audio` |
+//! First the parameters' `[hardware.simulated]`, then the options after `--`: [`OPTIONS`] says what each does.
 
 mod buttons;
 mod game;
@@ -40,6 +23,7 @@ pub(crate) use self::game::PLAYERS_PER_TEAM;
 pub use self::game::{Announcement, GameSettings};
 pub use self::imperfections::{Imperfections, SensorErrors};
 pub use self::network::NetworkSettings;
+pub use self::options::OPTIONS;
 pub use self::play::PlaySettings;
 pub use self::player::PlayerSettings;
 use crate::scene::{self, ImageSettings, RobotSettings};

@@ -4,6 +4,24 @@ use framework::{Error, Result};
 
 use super::{BallSettings, Imperfections, Settings};
 
+/// What each of them does, for `-- --help`.
+pub const OPTIONS: &str = "\
+--socket PATH          serves LoLA there instead of in a fresh folder
+--physics NAME         dynamic (masses, torques and contacts) or kinematic (cheap; robots never fall)
+--imperfect SEED       gives the body the play, the late commands and the noise of a real one
+--pose X,Y,HEADING     puts the robot there (m, m, rad in the field frame)
+--ball X,Y             puts the ball there (m)
+--no-ball              takes the ball away
+--game STATE           lets the referee's computer say one state for the whole run: Initial, Ready, Set, Playing, Finished, Standby
+--no-referee           takes the referee's computer off the network
+--no-mate              takes the team mate off the network
+--free-ports           takes free UDP ports instead of those of [hardware.simulated.network]
+--no-buttons           lets nobody press a button
+--no-cameras           takes the cameras away: no cycle of Vision
+--camera-rate NUMBER   takes so many images a second: 30, or a divisor
+--no-sound             takes the microphones away: no cycle of Audio
+";
+
 impl Settings {
     /// Obeys the command line.
     ///
@@ -83,4 +101,31 @@ fn numbers<const N: usize>(option: &str, text: &str) -> Result<[f64; N]> {
                 "option `{option}` needs {N} numbers joined by commas, not `{text}`"
             ))
         })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{OPTIONS, Settings};
+
+    #[test]
+    fn every_option_that_is_told_is_known() {
+        for line in OPTIONS.lines() {
+            let option = line.split(' ').next().unwrap();
+            let mut settings = Settings::default();
+            // Whatever becomes of it without its value.
+            if let Err(error) = settings.apply(&[option.to_owned()]) {
+                let error = error.to_string();
+                assert!(error.contains("needs a value"), "{error}");
+            }
+        }
+        let unknown = Settings::default().apply(&["--fast".to_owned()]);
+        let unknown = unknown.unwrap_err().to_string();
+        let told = OPTIONS.lines().map(|line| line.split("  ").next().unwrap());
+        for option in told {
+            assert!(
+                unknown.contains(option),
+                "`{option}` is missing in: {unknown}"
+            );
+        }
+    }
 }
