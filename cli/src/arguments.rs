@@ -249,7 +249,7 @@ Examples:
 pub struct Run {
     /// The target [default: the first of hulk.toml]
     pub target: Option<String>,
-    /// End after this time, for example `10s` or `500ms`
+    /// End after this time, for example `10s`, `500ms` or `2m`
     #[arg(long = "for", value_name = "DURATION")]
     pub duration: Option<schema::Duration>,
     /// Open no window
@@ -264,7 +264,7 @@ pub struct Run {
     /// Location whose parameters apply [default: that of the target]
     #[arg(long, value_name = "NAME")]
     pub location: Option<String>,
-    /// Set a parameter, for example `walk.speed=0.2`; may be repeated
+    /// Set a parameter, for example `ball_filter.gate=2.5`; may be repeated
     #[arg(long, value_name = "PATH=VALUE")]
     pub set: Vec<String>,
     /// Folder for what the run writes

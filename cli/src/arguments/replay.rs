@@ -28,7 +28,7 @@ pub struct Replay {
     /// Compare every output, bit for bit, and name the first that differs
     #[arg(long, conflicts_with_all = ["set", "against"])]
     pub verify: bool,
-    /// Compare with what other parameters give, for example `walk.speed=0.2`; may be repeated
+    /// Compare with what other parameters give, for example `ball_filter.gate=2.5`; may be repeated
     #[arg(long, value_name = "PATH=VALUE", conflicts_with = "against")]
     pub set: Vec<String>,
     /// Let cycles under the other parameters go on with the states that the cycle before left, in place of recorded ones

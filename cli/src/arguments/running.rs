@@ -91,8 +91,8 @@ pub enum TopicCommand {
 Exit status: 0 done, 1 no robot answers, or it refuses: then nothing is changed; 2 wrong usage.
 
 Examples:
-  hulkgen param list walk
-  hulkgen param set walk.speed=0.2 walk.step_height=0.015      # both or none
+  hulkgen param list ball_filter
+  hulkgen param set ball_filter.gate=2.5 ball_filter.forget_after=3      # both or none
   hulkgen param store                                          # what is in no file, and where it can go
   hulkgen param store default")]
 pub struct Param {
@@ -111,7 +111,7 @@ pub enum ParamCommand {
     },
     /// Change parameters, all of them at once or none
     Set {
-        /// Values in JSON; what is none is a text: `walk.speed=0.2 name=Max list=[1,2]`
+        /// Values in JSON; what is none is a text: `ball_filter.gate=2.5 name=Max list=[1,2]`
         #[arg(value_name = "PATH=VALUE", required = true)]
         changes: Vec<String>,
         #[command(flatten)]
@@ -143,7 +143,7 @@ Exit status: 0 answered, 1 no robot answers, or it refuses; 2 wrong usage.
 
 Examples:
   hulkgen call
-  hulkgen call Control.procedures.walk '{\"speed\": 0.2}'")]
+  hulkgen call Control.procedures.walk '{\"forward\": 0.05, \"left\": 0.0, \"turn\": 0.0}'")]
 pub struct Call {
     /// INSTANCE.procedures.NAME
     pub path: Option<String>,

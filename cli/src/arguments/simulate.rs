@@ -45,7 +45,7 @@ pub struct Simulate {
     /// Form of the answer
     #[arg(long, value_enum, default_value = "text")]
     pub format: TextOrJson,
-    /// Set a parameter, for example `walk.speed=0.2`; may be repeated
+    /// Set a parameter, for example `ball_filter.gate=2.5`; may be repeated
     #[arg(long, value_name = "PATH=VALUE")]
     pub set: Vec<String>,
     /// Serve each robot while it plays, in real time: the first at this address, the next at the ports behind it
