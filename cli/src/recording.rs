@@ -12,6 +12,9 @@ mod values;
 #[cfg(test)]
 pub(crate) mod tests;
 
+use std::fs::File;
+use std::io::Read as _;
+
 use camino::{Utf8Path, Utf8PathBuf};
 use hulkgen_mcap::RecordingFile;
 
@@ -44,6 +47,27 @@ pub fn open(path: &Utf8Path) -> Result<RecordingFile, Refusal> {
             ..missing(path)
         },
     })
+}
+
+/// What every MCAP file begins with (MCAP specification, "Magic").
+const MAGIC: [u8; 8] = *b"\x89MCAP0\r\n";
+
+/// Looks whether it can be a recording, before a robot is built that reads it.
+pub fn look_at(path: &Utf8Path) -> Result<(), Refusal> {
+    if !path.is_file() {
+        return Err(missing(path));
+    }
+    let mut begin = [0; MAGIC.len()];
+    let read = File::open(path).and_then(|mut file| file.read_exact(&mut begin));
+    match read {
+        Ok(()) if begin == MAGIC => Ok(()),
+        Err(error) if error.kind() != std::io::ErrorKind::UnexpectedEof => {
+            Err(Refusal::bad(format!("cannot read `{path}`: {error}")))
+        }
+        _ => Err(Refusal::bad(format!(
+            "cannot read `{path}`: it is no MCAP file"
+        ))),
+    }
 }
 
 /// There is no such recording: where to look for one.

@@ -15,9 +15,7 @@ use crate::recording;
 
 pub(super) fn run(session: &mut Session<'_>, replay: &Replay) -> Result<Outcome, Failure> {
     // Before anything is built.
-    if !replay.file.is_file() {
-        return Err(recording::missing(&replay.file).into());
-    }
+    recording::look_at(&replay.file)?;
     let mut arguments = arguments(replay)?;
     let wanted = Wanted {
         target: replay.target.as_deref(),

@@ -9,7 +9,7 @@ use hulkgen_mcap::{
 };
 use serde_json::{Value, json};
 
-use super::{Export, Found, Selection, Span, cat, export, info, list, recover};
+use super::{Export, Found, Selection, Span, cat, export, info, list, look_at, recover};
 use crate::outcome::Outcome;
 
 /// Cycles of the recording below.
@@ -73,6 +73,13 @@ fn layouts() -> Layouts {
         values: [(
             "Control".to_owned(),
             structure("SharedOutputs", &[("ball", Layout::Option(Box::new(ball)))]),
+        )]
+        .into(),
+        digests: [(
+            "Control".to_owned(),
+            ["ball", "fall_state"]
+                .map(|output| ("control::walk".to_owned(), output.to_owned()))
+                .into(),
         )]
         .into(),
         images: [("Eye.main_outputs.image".to_owned(), "gray".to_owned())].into(),
@@ -252,6 +259,25 @@ fn who_names_no_recording_hears_where_they_are() {
 }
 
 #[test]
+fn what_is_no_recording_is_seen_before_a_robot_is_built() {
+    let (_keep, folder) = folder();
+    let path = folder.join("a.mcap");
+    record(&path, false);
+    look_at(&path).expect("it breaks off, and is a recording");
+    for text in ["[robot]\nname = \"nao\"\n", ""] {
+        let path = folder.join("hulk.toml");
+        std::fs::write(&path, text).expect("the folder is ours");
+        let refusal = look_at(&path).expect_err("it is something else");
+        assert!(
+            refusal.message.ends_with(": it is no MCAP file"),
+            "{refusal:?}"
+        );
+    }
+    let refusal = look_at(&folder).expect_err("it is a folder");
+    assert!(refusal.message.starts_with("there is no recording"));
+}
+
+#[test]
 fn values_are_shown_by_path_and_once() {
     let (_keep, folder) = folder();
     let path = folder.join("a.mcap");
@@ -298,6 +324,15 @@ fn what_is_not_recorded_is_refused_with_what_is() {
         refusal
             .help
             .is_some_and(|help| help.contains("`Control.main_outputs.ball`"))
+    );
+    let computed = of(&["Control.main_outputs.fall_state.Lying"]);
+    let refused = cat(&file, &computed, &mut |_| Ok(true));
+    let help = refused.expect_err("it has a digest alone").help;
+    let help = help.unwrap_or_default();
+    assert!(help.contains("`hulkgen replay FILE`"), "{help}");
+    assert!(
+        help.contains("`hulkgen run --record-output PATH`"),
+        "{help}"
     );
     let misspelt = of(&["Control.main_outputs.ball.positoin.x"]);
     let refused = cat(&file, &misspelt, &mut |_| Ok(true));

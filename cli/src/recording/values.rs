@@ -108,7 +108,7 @@ pub fn cat(
         }
     }
     let known: Vec<&Source> = channels.values().flat_map(|read| &read.sources).collect();
-    check(&selection.paths, &known)?;
+    check(&selection.paths, &known, &layouts)?;
     let mut silent = selection.paths.clone();
     let show = &mut |found: Found| {
         silent.retain(|path| !below(&found.path, path));
@@ -148,7 +148,7 @@ fn overlaps(wanted: &Option<Range<u64>>, (first, last): (u64, u64)) -> bool {
 }
 
 /// Every path must lead to something.
-fn check(paths: &[String], known: &[&Source]) -> Result<(), Refusal> {
+fn check(paths: &[String], known: &[&Source], layouts: &Layouts) -> Result<(), Refusal> {
     for path in paths {
         let mut around = known.iter().filter(|source| below(path, &source.path));
         let is_above = known.iter().any(|source| below(&source.path, path));
@@ -156,6 +156,13 @@ fn check(paths: &[String], known: &[&Source]) -> Result<(), Refusal> {
             continue;
         }
         let refusal = Refusal::wrong_usage(format!("the recording has no values of `{path}`"));
+        let is_recorded = known.iter().any(|source| below(path, &source.path));
+        if !is_recorded && is_computed(path, layouts) {
+            return Err(refusal.help(
+                "the robot has this output, but no other instance reads it: `hulkgen replay FILE` computes it and shows it to \
+                 clients, `hulkgen run --record-output PATH` records it",
+            ));
+        }
         let parts = known.iter().filter(|source| below(path, &source.path));
         let parts: Vec<String> = parts
             .filter_map(|source| names_beside(source, path))
@@ -172,6 +179,15 @@ fn check(paths: &[String], known: &[&Source]) -> Result<(), Refusal> {
         return Err(refusal.help(near));
     }
     Ok(())
+}
+
+/// Whether it is, or is in, an output of which the recording has digests alone.
+fn is_computed(path: &str, layouts: &Layouts) -> bool {
+    let mut digests = layouts.digests.iter();
+    digests.any(|(instance, outputs)| {
+        let mut outputs = outputs.iter();
+        outputs.any(|(_, output)| below(path, &format!("{instance}.main_outputs.{output}")))
+    })
 }
 
 /// The paths that lead on where this one does not; `None`: it leads to something, or that cannot be known.
