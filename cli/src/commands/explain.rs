@@ -110,8 +110,11 @@ fn unknown(graph: &Graph, name: &str) -> Refusal {
     // The last part alone is a good question about a path.
     let mut paths = graph.parameters.iter().map(|one| one.path.as_str());
     let ending = paths.find(|path| path.rsplit('.').next() == Some(name));
-    match ending.or_else(|| nearest(name, candidates)) {
-        Some(nearest) => refusal.help(format!("did you mean `{nearest}`?")),
+    let near = ending.map(str::to_owned);
+    let near = near.or_else(|| subject::near_behind_owner(graph, name));
+    let near = near.or_else(|| nearest(name, candidates).map(str::to_owned));
+    match near {
+        Some(near) => refusal.help(format!("did you mean `{near}`?")),
         None => refusal.help("`hulkgen graph` shows all nodes and outputs"),
     }
 }

@@ -41,9 +41,14 @@ fn of_node(subject: &NodeSubject<'_>) -> String {
         } else {
             ", type left to rustc"
         };
+        let required = if is_required(subject, edge) {
+            "required "
+        } else {
+            ""
+        };
         text.push_str(&format!(
             "  reads {} of {}{checked}\n",
-            source(edge),
+            source(edge, required),
             edge.from.node
         ));
     }
@@ -163,12 +168,18 @@ fn read_by(edges: &[&Edge]) -> String {
     }
 }
 
-fn source(edge: &Edge) -> String {
+/// Whether the node is skipped where the value is not there.
+fn is_required(subject: &NodeSubject<'_>, edge: &Edge) -> bool {
+    let mut fields = subject.node.fields.iter();
+    fields.any(|field| field.kind == "RequiredInput" && field.name == edge.to.field)
+}
+
+fn source(edge: &Edge, required: &str) -> String {
     let output = &edge.from.output;
     let kind = edge.kind.word();
     match &edge.from.instance {
-        Some(instance) => format!("{instance}.{output} ({kind})"),
-        None => format!("{output} ({kind})"),
+        Some(instance) => format!("{instance}.{output} ({required}{kind})"),
+        None => format!("{output} ({required}{kind})"),
     }
 }
 
@@ -177,6 +188,23 @@ mod tests {
     use super::of_subject;
     use crate::commands::explain::Subject;
     use crate::graph::{describe, fixture};
+
+    #[test]
+    fn an_input_without_which_a_node_is_skipped_says_so() {
+        let mut graph = describe(&fixture::robot(), &fixture::schedule());
+        for node in graph
+            .cyclers
+            .iter_mut()
+            .flat_map(|cycler| &mut cycler.nodes)
+        {
+            let fields = node.fields.iter_mut();
+            for field in fields.filter(|field| field.kind == "Input") {
+                field.kind = "RequiredInput";
+            }
+        }
+        let page = of_subject(&Subject::find(&graph, "head"));
+        assert!(page.contains("reads ball (required input) of"), "{page}");
+    }
 
     fn page(name: &str) -> String {
         let graph = describe(&fixture::robot(), &fixture::schedule());

@@ -4,6 +4,7 @@ use serde_json::{Value, json};
 
 use super::nodes;
 use super::parameter::ParameterSubject;
+use crate::diagnostics::nearest;
 use crate::graph::{Bridge, BridgeKind, Cycler, Edge, EdgeKind, Field, Graph, Node};
 
 /// Everything of one name.
@@ -193,6 +194,29 @@ pub(super) fn names(graph: &Graph) -> Vec<String> {
     names
 }
 
+/// The nearest to `Cycler.name`, `Cycler.group.name`, and the same with an instance, where nothing is called so.
+pub(super) fn near_behind_owner(graph: &Graph, name: &str) -> Option<String> {
+    let (owner, rest) = name.split_once('.')?;
+    let owners = graph.cyclers.iter().flat_map(|cycler| {
+        let names = std::iter::once(&cycler.name).chain(&cycler.instances);
+        names.map(move |name| (name.as_str(), cycler))
+    });
+    let owners: Vec<_> = owners.collect();
+    let is_meant = |name: &str| owners.iter().find(|(known, _)| *known == name);
+    let &(owner, cycler) = is_meant(owner)
+        .or_else(|| is_meant(nearest(owner, owners.iter().map(|(known, _)| *known))?))?;
+    let fields = cycler.nodes.iter().flat_map(|node| &node.fields);
+    let names = fields.filter_map(|field| {
+        let (group, own) = (group(field)?, own_name(field));
+        Some([own.to_owned(), format!("{group}.{own}")])
+    });
+    let names: Vec<String> = names.flatten().collect();
+    let exact = names.iter().find(|known| *known == rest);
+    let near = exact.map(String::as_str);
+    let near = near.or_else(|| nearest(rest, names.iter().map(String::as_str)))?;
+    Some(format!("{owner}.{near}"))
+}
+
 /// The word between cycler and name with which clients of a running robot name it.
 fn group(field: &Field) -> Option<&'static str> {
     match field.kind {
@@ -246,5 +270,27 @@ fn output_subject<'g>(
         node,
         field,
         reads,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::near_behind_owner;
+    use crate::graph::{describe, fixture};
+
+    #[test]
+    fn a_slip_behind_or_in_the_owner_is_seen() {
+        let graph = describe(&fixture::robot(), &fixture::schedule());
+        let near = |name: &str| near_behind_owner(&graph, name);
+        for (name, meant) in [
+            ("Control.bal", "Control.ball"),
+            ("Contrl.ball", "Control.ball"),
+            ("VisionTop.imgae", "VisionTop.image"),
+            ("Control.main_outputs.bal", "Control.main_outputs.ball"),
+        ] {
+            assert_eq!(near(name).as_deref(), Some(meant), "{name}");
+        }
+        assert_eq!(near("Control.nothing_like_it"), None);
+        assert_eq!(near("ball"), None);
     }
 }
