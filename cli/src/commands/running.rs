@@ -67,8 +67,7 @@ pub(super) fn call(terminal: &Terminal, call: &Call) -> Result<Outcome, Refusal>
     let argument = match &call.argument {
         None => Value::Null,
         Some(text) => serde_json::from_str(text).map_err(|error| {
-            Refusal::wrong_usage(format!("the argument is not JSON: {error}"))
-                .help("texts stand in quotes: '\"forward\"'")
+            Refusal::wrong_usage(format!("the argument is not JSON: {error}")).help(quotes(text))
         })?,
     };
     let mut connection = Connection::open(&call.running)?;
@@ -89,8 +88,10 @@ pub(super) fn call(terminal: &Terminal, call: &Call) -> Result<Outcome, Refusal>
         // The robot says itself when the call has failed.
         Duration::from_secs_f64(call.timeout.unwrap_or(5.0)),
     );
+    // A message that begins with the path is about what stood, or should have stood, behind it.
+    let is_about_argument = |refusal: &Refusal| refusal.message.starts_with(&format!("`{path}`: "));
     let good = good.map_err(|refusal| match (&call.argument, &refusal.help) {
-        (None, None) => refusal.help(format!(
+        (None, None) if is_about_argument(&refusal) => refusal.help(format!(
             "if it wants an argument: JSON behind the path; `hulkgen topic info {path}` names its type"
         )),
         _ => refusal,
@@ -104,6 +105,16 @@ pub(super) fn call(terminal: &Terminal, call: &Call) -> Result<Outcome, Refusal>
     };
     terminal.data(&said)?;
     Ok(Outcome::Good)
+}
+
+/// What makes JSON of an argument that is none.
+fn quotes(argument: &str) -> &'static str {
+    match argument.trim_start().starts_with(['{', '[']) {
+        true => {
+            "keys and texts stand in double quotes, all of it in single ones: '{\"forward\": 0.05}'"
+        }
+        false => "texts stand in quotes: '\"forward\"'",
+    }
 }
 
 /// Does something again and again, `count` times if that is given, until it says false: nobody wants more.
@@ -125,4 +136,15 @@ fn again(
         done += 1;
     }
     Ok(Outcome::Good)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::quotes;
+
+    #[test]
+    fn an_object_is_told_of_its_keys_and_a_word_of_quotes() {
+        assert!(quotes("{forward:1}").contains("'{\"forward\": 0.05}'"));
+        assert!(quotes("forward").contains("'\"forward\"'"));
+    }
 }

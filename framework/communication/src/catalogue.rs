@@ -1,13 +1,16 @@
 //! Everything that has a path: outputs, procedures and parameters, as a tree.
 
+mod meant;
+
 use framework::OutputKind;
-use framework::parameters::nearest;
 use framework::procedure::CallAny;
 use framework::reflect::{Content, Limits, Path, Shape, VariantContent};
 use protocol::{Entry, EntryKind, Range};
 
 use crate::hub::Hub;
 use crate::sources::Source;
+
+pub(crate) use meant::{near, shortened};
 
 /// Root of the parameters.
 pub(crate) const PARAMETERS: &str = "parameters";
@@ -120,32 +123,6 @@ pub(crate) fn find<'path>(sources: &[Source], path: &'path str) -> Option<(usize
     found.min_by_key(|(_, rest)| rest.len())
 }
 
-/// What was probably meant by a path that leads nowhere: the nearest name of the first part that is wrong.
-pub(crate) fn near(hub: &Hub, path: &str) -> Option<String> {
-    let root = tree(hub);
-    let mut place = &root;
-    let mut rest = path;
-    loop {
-        let (name, further) = rest.split_once('.').unwrap_or((rest, ""));
-        let mut below = place.below.iter();
-        if let Some(inner) = below.find(|inner| inner.name == name) {
-            (place, rest) = (inner, further);
-            continue;
-        }
-        // All parts are right: what is there only is no output.
-        if name.is_empty() {
-            return None;
-        }
-        let names = place.below.iter().map(|inner| inner.name);
-        let near = nearest(name, names)?;
-        let above = &path[..path.len() - rest.len()];
-        return Some(match further {
-            "" => format!("{above}{near}"),
-            _ => format!("{above}{near}.{further}"),
-        });
-    }
-}
-
 /// What answers at a path.
 pub(crate) fn procedure<'hub>(hub: &'hub Hub, path: &str) -> Result<&'hub dyn CallAny, String> {
     let instances = hub.link.instances.iter();
@@ -158,7 +135,11 @@ pub(crate) fn procedure<'hub>(hub: &'hub Hub, path: &str) -> Result<&'hub dyn Ca
     });
     let found = all.find(|(known, _)| known == path);
     found.map(|(_, caller)| caller.as_ref()).ok_or_else(|| {
-        format!("no procedure `{path}`: expected `INSTANCE.procedures.NAME` or `{REARM}`")
+        let near = meant::procedure(hub, path);
+        let near = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+        format!(
+            "no procedure `{path}`: expected `INSTANCE.procedures.NAME` or `framework.procedures.NAME`; `hulkgen call` lists them{near}"
+        )
     })
 }
 

@@ -416,10 +416,10 @@ impl Hub {
     /// The output that a path names, and what follows behind its name.
     fn find<'path>(&self, path: &'path str) -> Result<(usize, &'path str), Failure> {
         catalogue::find(&self.sources, path).ok_or_else(|| {
-            let near = catalogue::near(self, path);
+            let near = catalogue::shortened(self, path).or_else(|| catalogue::near(self, path));
             let near = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
             Failure::new(format!(
-                "no `{path}`: expected `parameters…`, `INSTANCE.main_outputs.NAME…` or `INSTANCE.additional_outputs.NAME…`; `paths` lists them{near}"
+                "no `{path}`: expected `parameters…`, `INSTANCE.main_outputs.NAME…` or `INSTANCE.additional_outputs.NAME…`; `hulkgen topic list` lists them{near}"
             ))
         })
     }

@@ -269,11 +269,16 @@ fn info(
     format: TextOrJson,
 ) -> Result<Outcome, Refusal> {
     let (above, _) = path.rsplit_once('.').unwrap_or_default();
-    let siblings = paths(connection, above.to_owned(), None)?;
-    let Some(entry) = siblings.into_iter().find(|entry| entry.path == path) else {
+    let siblings = paths(connection, above.to_owned(), None);
+    let found = siblings.as_ref().ok().and_then(|siblings| {
+        let mut siblings = siblings.iter();
+        siblings.find(|entry| entry.path == path).cloned()
+    });
+    let Some(entry) = found else {
         // The robot knows what would have been right.
         let path = path.to_owned();
         connection.ask(Ask::Schema { path: path.clone() })?;
+        siblings?;
         return Err(Refusal::bad(format!("there is nothing at `{path}`")));
     };
     let children = if entry.has_children {

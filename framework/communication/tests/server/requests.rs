@@ -292,6 +292,11 @@ fn procedures_answer_refuse_and_take_their_time() {
     assert!(wrong.contains("speed"), "{wrong}");
     let unknown = client.error(call("fly", Value::Null));
     assert!(unknown.contains("no procedure"), "{unknown}");
+    for named in ["walk", "Control.walk", "wlak", "Control.procedures.wlk"] {
+        let unknown = client.error(json!({ "call": { "path": named, "argument": null } }));
+        let meant = "did you mean `Control.procedures.walk`?";
+        assert!(unknown.ends_with(meant), "{unknown}");
+    }
     let late = json!({ "call": {
         "path": "Control.procedures.walk", "argument": { "speed": 0.5 }, "timeout": 0.0,
     } });

@@ -92,12 +92,15 @@ fn wrong_rates_and_paths_are_refused_with_what_would_be_right() {
             "Contrl.main_outputs.cycles",
             "`Control.main_outputs.cycles`",
         ),
+        ("cycles", "`Control.main_outputs.cycles`"),
+        ("Control.pose.x", "`Control.main_outputs.pose.x`"),
+        ("gait.period", "`parameters.gait.period`"),
     ] {
         let error = wrong(&mut client, path);
         assert!(error.contains(&format!("did you mean {meant}?")), "{error}");
     }
     let error = wrong(&mut client, "Control.main_outputs.none");
-    assert!(error.contains("paths"), "{error}");
+    assert!(error.contains("`hulkgen topic list`"), "{error}");
     assert!(wrong(&mut client, "Control.main_outputs.pose..x").contains("path"));
     assert!(wrong(&mut client, "").contains("no ``"));
 }
