@@ -90,7 +90,7 @@ fn parse(change: &str) -> Result<Change, Refusal> {
     let Some((path, value)) = change.split_once('=') else {
         return Err(
             Refusal::wrong_usage(format!("`{change}` is not PATH=VALUE"))
-                .help("for example `walk.speed=0.2`"),
+                .help("for example `ball_filter.gate=2.5`"),
         );
     };
     Ok(Change {
@@ -275,7 +275,8 @@ fn store(
     let good = connection.ask(Ask::Store {
         layer: layer.to_owned(),
         paths: paths.collect(),
-    })?;
+    });
+    let good = good.map_err(|refusal| of_location(refusal, layer))?;
     let Good::Stored(stored) = good else {
         return Err(connection.confused());
     };
@@ -292,12 +293,33 @@ fn store(
     Ok(format!("{}: {paths}\n", stored.file))
 }
 
+/// Says when the layers of a location are there.
+fn of_location(refusal: Refusal, layer: &str) -> Refusal {
+    match layer.split_once('/') {
+        Some((location, _)) if refusal.message.starts_with("no layer ") => refusal.help(format!(
+            "layers of `{location}` are there while the robot runs at it: start it with `--location {location}`"
+        )),
+        _ => refusal,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use serde_json::json;
 
-    use super::{parse, show_unstored, waiting, without_root, written};
+    use super::{of_location, parse, show_unstored, waiting, without_root, written};
     use crate::arguments::TextOrJson;
+    use crate::outcome::Refusal;
+
+    #[test]
+    fn whose_location_is_another_is_told_how_to_get_there() {
+        let refused = |message: &str, layer: &str| of_location(Refusal::bad(message), layer).help;
+        let message = "no layer `hall_3/default`: this robot has `default`";
+        let help = refused(message, "hall_3/default").unwrap_or_default();
+        assert!(help.contains("`--location hall_3`"), "{help}");
+        assert_eq!(refused(message, "hall_3"), None);
+        assert_eq!(refused("it is full", "hall_3/default"), None);
+    }
 
     #[test]
     fn a_change_says_what_is_so_now() {
