@@ -6,7 +6,7 @@ use serde_json::json;
 use super::terminal::Terminal;
 use super::{Failure, generate, plural};
 use crate::arguments::{New, Template, TextOrJson};
-use crate::deploy::script::quoted;
+use crate::deploy::script::as_a_word;
 use crate::diagnostics::{self, Diagnostics};
 use crate::drift;
 use crate::outcome::{Outcome, Refusal};
@@ -52,16 +52,6 @@ pub(super) fn run(terminal: &Terminal, new: &New) -> Result<Outcome, Failure> {
         )),
     }
     Ok(Outcome::Good)
-}
-
-/// A path as a person types it into a shell: quoted only where it has to be.
-fn as_a_word(path: &str) -> String {
-    let is_plain = |one: char| one.is_alphanumeric() || "/._-".contains(one);
-    if path.chars().all(is_plain) {
-        path.to_owned()
-    } else {
-        quoted(path)
-    }
 }
 
 /// The files with those of the generated crate, whose robot is seen through all stages in memory.

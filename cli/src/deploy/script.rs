@@ -22,7 +22,7 @@ pub(crate) struct Service<'a> {
 
 /// Lines of a word and what it says: which machine, how much space, which version, which files of it were changed there.
 pub(crate) fn probe(folder: &str) -> String {
-    let folder = quoted(folder);
+    let (folder, changed) = (quoted(folder), changed());
     format!(
         r#"folder={folder}
 mkdir -p "$folder/versions" "$folder/runs" || exit 1
@@ -31,7 +31,14 @@ echo "free $(df -Pk "$folder" | sed -n '2s/  */ /gp' | cut -d' ' -f4)"
 command -v rsync >/dev/null && echo "rsync yes"
 cd "$folder/current" 2>/dev/null || exit 0
 echo "current $(pwd -P)"
-sha256sum -c {SUMS} 2>/dev/null | sed -n 's/^\(.*\): FAILED.*$/changed \1/p'
+{changed}"#
+    )
+}
+
+/// Tells which files of a version, in its folder, are not as they were sent.
+fn changed() -> String {
+    format!(
+        r#"sha256sum -c {SUMS} 2>/dev/null | sed -n 's/^\(.*\): FAILED.*$/changed \1/p'
 known=$(sed 's/^[^ ]*  //' {SUMS})
 find . -type f ! -name {SUMS} | grep -vxF -e "$known" | sed 's/^/changed /'
 "#
@@ -67,17 +74,21 @@ exit 0
     )
 }
 
-/// Makes the version before the running one; says its name.
+/// Makes the version before the running one; lines as those of [`probe`]: the new one, and which files of the other were
+/// changed there.
 pub(crate) fn roll_back(folder: &str, service: Service<'_>) -> String {
-    let folder = quoted(folder);
+    let (folder, changed) = (quoted(folder), changed());
     let functions = functions(service);
     format!(
         r#"folder={folder}
 {functions}
 cd "$folder" 2>/dev/null && new=$(readlink previous) && [ -d "$new" ] || {{ echo "there is no version before" >&2; exit 1; }}
 old=$(readlink current)
+(cd "$old" 2>/dev/null || exit 0
+{changed})
 point current "$new" && point previous "$old" || exit 1
-basename "$new"
+echo "current $new"
+echo "previous $old"
 start || exit 3
 "#
     )
@@ -118,6 +129,16 @@ fn functions(service: Service<'_>) -> String {
         }
     };
     format!("point() {{ ln -sfn \"$2\" \".$1\" && mv -T \".$1\" \"$1\"; }}\nstart() {{ {start}; }}")
+}
+
+/// One word as a person types it: quoted only where it has to be.
+pub(crate) fn as_a_word(word: &str) -> String {
+    let is_plain = |one: char| one.is_alphanumeric() || "/._-@:".contains(one);
+    if word.chars().all(is_plain) {
+        word.to_owned()
+    } else {
+        quoted(word)
+    }
 }
 
 #[cfg(test)]

@@ -66,8 +66,14 @@ fn a_version_arrives_is_started_and_can_be_taken_back() {
     let second = field.current().expect("there is a version");
     assert!(second > first, "{second} {first}");
     assert_eq!(field.read("disk/current/motions/wave.toml"), "wave twice\n");
+    field.write("disk/current/parameters/default.toml", "speed = 3\n");
     let (status, answer, said) = field.hulkgen("deploy a --rollback");
     assert_eq!(status, 0, "{answer}{said}");
+    let warning = format!(
+        "warning: `parameters/default.toml` was changed in {}, which does not count now",
+        second.trim_start_matches("versions/")
+    );
+    assert!(said.contains(&warning), "{said}");
     assert_eq!(field.current().as_ref(), Some(&first));
     assert_eq!(field.read("disk/current/motions/wave.toml"), "wave\n");
     assert!(
@@ -209,6 +215,17 @@ fn what_cannot_run_there_is_refused_before_the_switch() {
         &field,
         "`parameters/default.toml` was changed on the robot",
         field.deploy("a"),
+    );
+    // The robot's destination stands in the way home.
+    let (_, answer, said) = field.deploy("a");
+    let fetch = format!(
+        "{}/./parameters/default.toml .`",
+        field.path("disk/current").display()
+    );
+    let told = format!("{answer}{said}");
+    assert!(
+        told.contains("`rsync -aR ") && told.contains(&fetch),
+        "{told}"
     );
     // So would a layer that came with them.
     field.write("disk/current/parameters/default.toml", "speed = 1\n");

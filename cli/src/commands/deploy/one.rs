@@ -1,7 +1,7 @@
 //! One robot's part of `deploy`.
 
 use super::reached::service;
-use crate::deploy::script::{self, quoted};
+use crate::deploy::script::{self, as_a_word, quoted};
 use crate::deploy::{Failed, ForRobot, Package, Remote};
 use crate::outcome::Refusal;
 
@@ -29,8 +29,10 @@ struct Probed {
     machine: String,
     kibibytes: Option<u64>,
     has_rsync: bool,
-    /// Whole path of the current version's folder there.
+    /// The folder of the current version there.
     current: Option<String>,
+    /// After a rollback: that of the version that was current.
+    previous: Option<String>,
     /// Files of the current version that were changed there.
     changed: Vec<String>,
 }
@@ -40,7 +42,7 @@ impl Deed<'_> {
     pub(super) fn execute(&self, say: &mut dyn FnMut(String)) -> Result<Done, Refusal> {
         let mut done = match &self.package {
             Some((package, for_robot)) => self.put(package, for_robot, say)?,
-            None => self.roll_back()?,
+            None => self.roll_back(say)?,
         };
         if let (Some(name), Some(command)) = (self.wlan, &self.deploy.wlan) {
             say(format!("joining `{name}`"));
@@ -67,7 +69,7 @@ impl Deed<'_> {
         let folder = &self.deploy.folder;
         let probed = self.remote.shell(&script::probe(folder));
         let probed = Probed::read(&probed.map_err(|failed| not_reached(self.remote, &failed))?);
-        probed.permits(package, self.discards_changes)?;
+        probed.permits(package, self)?;
         say(match probed.version() {
             Some(current) => format!("runs {current}; sending {} KiB", package.kibibytes),
             None => format!("has no version yet; sending {} KiB", package.kibibytes),
@@ -99,7 +101,7 @@ impl Deed<'_> {
         })
     }
 
-    fn roll_back(&self) -> Result<Done, Refusal> {
+    fn roll_back(&self, say: &mut dyn FnMut(String)) -> Result<Done, Refusal> {
         let script = script::roll_back(&self.deploy.folder, service(self.deploy));
         let said = self
             .remote
@@ -112,8 +114,15 @@ impl Deed<'_> {
                 _ if failed.is_unreachable() => not_reached(self.remote, &failed),
                 _ => failed.into(),
             })?;
+        let probed = Probed::read(&said);
+        if let Some(changed) = probed.changed() {
+            let left = name_of(probed.previous.as_deref()).unwrap_or_default();
+            say(format!(
+                "warning: {changed} in {left}, which does not count now; another `--rollback` goes back to it"
+            ));
+        }
         Ok(Done {
-            version: said.trim().to_owned(),
+            version: probed.version().unwrap_or_default().to_owned(),
             before: None,
             state: "is there",
         })
@@ -134,6 +143,7 @@ impl Probed {
                 "free" => probed.kibibytes = value.parse().ok(),
                 "rsync" => probed.has_rsync = true,
                 "current" => probed.current = Some(value.to_owned()),
+                "previous" => probed.previous = Some(value.to_owned()),
                 "changed" => probed
                     .changed
                     .push(value.trim_start_matches("./").to_owned()),
@@ -145,10 +155,19 @@ impl Probed {
 
     /// What runs there: versions are called as their folders.
     fn version(&self) -> Option<&str> {
-        self.current.as_ref()?.rsplit('/').next()
+        name_of(self.current.as_deref())
     }
 
-    fn permits(&self, package: &Package, discards_changes: bool) -> Result<(), Refusal> {
+    /// Which files were changed: the first, and how many more; `None`: nothing was.
+    fn changed(&self) -> Option<String> {
+        let first = self.changed.first()?;
+        Some(match self.changed.len() - 1 {
+            0 => format!("`{first}` was changed"),
+            more => format!("`{first}` and {more} more were changed"),
+        })
+    }
+
+    fn permits(&self, package: &Package, deed: &Deed<'_>) -> Result<(), Refusal> {
         let machine = self.machine.as_str();
         if !package.machines.contains(&machine) {
             let built = package.machines.first().copied().unwrap_or_default();
@@ -171,18 +190,32 @@ impl Probed {
                 Refusal::bad(message).help("fetch and remove old runs: `hulkgen recording pull`")
             );
         }
-        if let [first, ..] = self.changed.as_slice()
-            && !discards_changes
+        if let Some(changed) = self.changed()
+            && !deed.discards_changes
         {
-            let more = match self.changed.len() - 1 {
-                0 => String::new(),
-                more => format!(" and {more} more"),
-            };
-            return Err(Refusal::bad(format!("`{first}`{more} was changed on the robot and would be lost"))
-                .help("bring the values home, as `hulkgen param list` shows them, or give `--discard-changes`"));
+            let message = format!("{changed} on the robot and would be lost");
+            return Err(Refusal::bad(message).help(format!(
+                "bring it home with `{}`, here in the robot's folder; then give `--discard-changes`",
+                self.fetching(deed)
+            )));
         }
         Ok(())
     }
+
+    /// What a person types to get the changed files, each into its folder.
+    fn fetching(&self, deed: &Deed<'_>) -> String {
+        let (destination, folder) = (&deed.remote.destination, &deed.deploy.folder);
+        let files = self.changed.iter().map(|file| {
+            let file = format!("{destination}:{folder}/current/./{file}");
+            format!(" {}", as_a_word(&file))
+        });
+        format!("rsync -aR{} .", files.collect::<String>())
+    }
+}
+
+/// A version's name: that of its folder.
+fn name_of(folder: Option<&str>) -> Option<&str> {
+    folder?.rsplit('/').next()
 }
 
 /// ssh gave up.
@@ -239,6 +272,7 @@ mod tests {
             kibibytes: Some(1024),
             has_rsync: true,
             current: Some("/home/nao/robot/versions/2026".to_owned()),
+            previous: None,
             changed: vec!["a/b.toml".to_owned()],
         };
         assert_eq!(expected.version(), Some("2026"));
