@@ -99,6 +99,8 @@ impl Remote {
         command.args([
             "-az",
             "--partial",
+            // A ring is mostly holes: as long as all that was ever written, as large as its budget.
+            "--sparse",
             "--",
             &format!("{}:{from}/", self.destination),
             &format!("{into}/"),

@@ -6,6 +6,7 @@ mod field;
 mod skipped;
 
 use std::fs;
+use std::os::unix::fs::MetadataExt as _;
 use std::process::Command;
 use std::sync::atomic::Ordering;
 
@@ -356,9 +357,18 @@ fn robots_are_served_side_by_side_and_asked() {
     assert_eq!(status, 2, "{said}");
 
     field.write("disk/runs/1-1/recording.mcap", "first");
+    field.write("disk/runs/1-2/recording.mcap", "a ring");
+    let ring = field.path("disk/runs/1-2/recording.mcap");
+    let ring = fs::File::options().write(true).open(ring);
+    let ring = ring.expect("it is ours");
+    ring.set_len(1 << 24).expect("a hole takes no room");
     let (status, answer, said) = field.hulkgen("recording pull a");
     assert_eq!((status, answer.as_str()), (0, "runs/a\n"), "{said}");
     assert_eq!(field.read("robot/runs/a/1-1/recording.mcap"), "first");
+    let ring = fs::metadata(field.path("robot/runs/a/1-2/recording.mcap"));
+    let ring = ring.expect("it came");
+    assert_eq!(ring.len(), 1 << 24);
+    assert!(ring.blocks() * 512 < 1 << 20, "holes stay holes");
     field.write("disk/runs/2-2/recording.mcap", "second");
     let (status, answer, said) = field.hulkgen("recording pull a --newest --into here");
     assert_eq!((status, answer.as_str()), (0, "here/2-2\n"), "{said}");
