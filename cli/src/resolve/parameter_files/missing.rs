@@ -6,6 +6,7 @@ use camino::Utf8PathBuf;
 
 use super::Checker;
 use super::expected::Expected;
+use super::given::Robots;
 use super::layer::Layer;
 use super::unset::{self, Left, Part};
 use crate::diagnostics::{Code, Diagnostic, Diagnostics, listed};
@@ -162,14 +163,21 @@ impl Missing<'_> {
             .filter(|layer| !looked_at.contains(layer.file.as_str()))
             .filter_map(|layer| Some((layer, layer.given(path)?)));
         for (layer, place) in others.take(MOST_OTHERS) {
-            let location = layer.robots.location.as_deref().unwrap_or_default();
-            error = error.at(
-                layer.file,
-                place,
-                format!("given at location `{location}` alone"),
-            );
+            error = error.at(layer.file, place, given_for(&layer.robots));
         }
         error
+    }
+}
+
+/// Whose robots a value at another location is for.
+fn given_for(robots: &Robots) -> String {
+    let location = robots.location.as_deref().unwrap_or_default();
+    match &robots.identity {
+        None => format!("given for location `{location}`"),
+        Some(one) => format!(
+            "given for {} `{}` at location `{location}`",
+            one.name, one.id
+        ),
     }
 }
 

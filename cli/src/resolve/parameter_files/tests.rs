@@ -108,7 +108,7 @@ fn a_value_of_another_location_does_not_count() {
             &[
                 "no file gives the parameter `a` for target `sim`",
                 "parameters/field/default.toml:1:1",
-                "given at location `field` alone",
+                "given for location `field`",
                 "add `a = …`",
             ],
         );
@@ -126,7 +126,7 @@ fn a_value_of_an_identity_at_another_location_does_not_count() {
                 "no file gives the parameter `a`\n",
                 "looked at `parameters/default.toml` and `parameters/field/default.toml`",
                 "parameters/lab/head.P1.toml:1:1",
-                "given at location `lab` alone",
+                "given for head `P1` at location `lab`",
             ],
         );
 }

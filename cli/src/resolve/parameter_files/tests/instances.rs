@@ -71,7 +71,7 @@ fn every_instance_needs_its_own_value_below_the_table() {
             &[
                 "`control_a.arms_right.x`",
                 "parameters/lab/default.toml:1:22",
-                "given at location `lab` alone",
+                "given for location `lab`",
             ],
         );
 }
