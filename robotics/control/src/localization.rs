@@ -179,6 +179,10 @@ impl Localization {
                 !matches!(before, PrimaryState::Unstiff | PrimaryState::Initial)
                     || context.is_carried()
             }
+            // Nobody heard that the next half was prepared.
+            PrimaryState::Standby | PrimaryState::Ready | PrimaryState::Set => {
+                before == PrimaryState::Finished
+            }
             _ => false,
         };
         let belief = self.belief.settled_mut();

@@ -36,7 +36,7 @@ fn before_it_has_seen_anything_it_stands_where_its_number_starts() {
 
 #[test]
 fn before_the_second_half_it_is_put_to_its_start_whatever_it_believed() {
-    use PrimaryState::{Finished, Initial, Playing, Standby};
+    use PrimaryState::{Finished, Initial, Playing, Ready, Standby};
     let nothing = Vec::new();
     let start = pose(-3.0, 3.0, -FRAC_PI_2);
     let mut node = node();
@@ -70,6 +70,9 @@ fn before_the_second_half_it_is_put_to_its_start_whatever_it_believed() {
     assert_near(at(8, Initial, stepped, true), &start, 1e-4, 1e-4);
     let stepped_again = stepped * pose(0.1, 0.0, 0.0);
     assert_near(at(9, Initial, stepped_again, true), &expected, 1e-4, 1e-4);
+    // The referee was not heard in between.
+    at(10, Finished, stepped_again, true);
+    assert_near(at(11, Ready, stepped_again, true), &start, 1e-4, 1e-4);
 }
 
 #[test]
