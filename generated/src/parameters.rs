@@ -192,7 +192,7 @@ pub struct FieldDimensions {
     /// vision::penalty_mark_detection
     #[reflect(unit = "m", range = 0..)]
     pub line_width: f32,
-    /// control::localization, control::role_assignment, control::team_ball_filter,
+    /// control::localization, control::role_assignment, control::team_message_filter,
     /// vision::center_circle_detection, vision::corner_detection
     pub markings: FieldMarkings,
     /// vision::penalty_mark_detection
@@ -436,6 +436,9 @@ pub struct SupportFootFilter {
 #[serde(deny_unknown_fields)]
 pub struct TeamMessageFilter {
     /// control::team_message_filter
+    #[reflect(unit = "m", range = 0..)]
+    pub carpet: f32,
+    /// control::team_message_filter
     #[reflect(unit = "s", range = 0..)]
     pub forget_after: f32,
 }
@@ -496,7 +499,7 @@ pub struct WhistleFilter {
 #[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct WorldStateComposer {
-    /// control::world_state_composer
+    /// control::role_assignment, control::world_state_composer
     #[reflect(unit = "s", range = 0..)]
     pub set_play_lasts: f32,
 }

@@ -1199,9 +1199,11 @@ impl Nodes {
             ball: &frame.own.ball,
             team_ball: &frame.own.team_ball,
             teammates: &frame.own.teammates,
+            cycle_time: frame.cycle.time,
             player: &frame.parameters.player,
             parameters: &frame.parameters.role_assignment,
             markings: &frame.parameters.field_dimensions.markings,
+            set_play_lasts: &frame.parameters.world_state_composer.set_play_lasts,
         };
         let outputs = self
             .role_assignment
@@ -1368,7 +1370,6 @@ impl Nodes {
             teammates: &frame.own.teammates,
             cycle_time: frame.cycle.time,
             player: &frame.parameters.player,
-            markings: &frame.parameters.field_dimensions.markings,
             parameters: &frame.parameters.team_ball_filter,
         };
         let outputs = self
@@ -1398,6 +1399,8 @@ impl Nodes {
             cycle_time: frame.cycle.time,
             forget_after: &frame.parameters.team_message_filter.forget_after,
             rhythm: &frame.parameters.team_rhythm,
+            markings: &frame.parameters.field_dimensions.markings,
+            carpet: &frame.parameters.team_message_filter.carpet,
             teammates: &mut frame.own.teammates,
         };
         self.team_message_filter.call(&frame.cycle, |node| node.cycle(context))?;

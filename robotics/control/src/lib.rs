@@ -68,5 +68,6 @@ mod level;
 pub mod low_pass;
 mod pace;
 mod places;
+mod said;
 mod sight_noise;
 mod start_frame;

@@ -9,14 +9,16 @@
 //!
 //! Whose the goalkeeper's shirt is the referee says, and whoever has been taken out has no role: `teammates` leaves others out.
 
-use framework::{Input, MainOutput, Parameter, Reflect, Result, context};
+use framework::{CycleTime, Input, MainOutput, Parameter, Reflect, Result, context};
 use nalgebra::Point2;
 use serde::{Deserialize, Serialize};
 use types::ball::Ball;
 use types::behavior::Role;
 use types::field_markings::FieldMarkings;
-use types::game::{GameControllerState, KickingTeam, Player, PrimaryState, SetPlay};
+use types::game::{GameControllerState, KickingTeam, Player, PrimaryState};
 use types::team::Teammate;
+
+use crate::said::Said;
 
 /// In the order in which players without gloves and without the ball take them.
 const PLACES: [Role; 3] = [Role::DefenderLeft, Role::Supporter, Role::DefenderRight];
@@ -29,8 +31,7 @@ pub struct RoleAssignment {
     goalkeeper: Option<u8>,
     /// Whether that one was out.
     is_keeper_out: bool,
-    /// Whose shot it is in a penalty shoot-out; a referee that falls silent has not ended it.
-    shot_of: Option<KickingTeam>,
+    said: Said,
 }
 
 /// How robots of a team share the work.
@@ -60,11 +61,15 @@ pub struct CycleContext {
     ball: Input<Option<Ball>, "ball">,
     team_ball: Input<Option<Point2<f32>>, "team_ball">,
     teammates: Input<Vec<Teammate>, "teammates">,
+    cycle_time: CycleTime,
 
     /// Who this robot is in the game.
     player: Parameter<Player, "player">,
     parameters: Parameter<RoleParameters, "role_assignment">,
     markings: Parameter<FieldMarkings, "field_dimensions.markings">,
+    /// The ball is free so long after a set play began, also where no referee is heard to say so.
+    #[reflect(unit = "s", range = 0.0..)]
+    set_play_lasts: Parameter<f32, "world_state_composer.set_play_lasts">,
 }
 
 #[context]
@@ -81,8 +86,8 @@ impl RoleAssignment {
         Ok(Self {
             role: Some(Role::Striker),
             goalkeeper: None,
-            shot_of: None,
             is_keeper_out: false,
+            said: Said::default(),
         })
     }
 
@@ -109,20 +114,16 @@ impl RoleAssignment {
             distance: own.map(|distance| distance - head_start),
         };
         self.is_keeper_out = self.is_keeper_out(goalkeeper, &context);
-        let is_before_game = matches!(
-            context.primary_state,
-            PrimaryState::Unstiff | PrimaryState::Initial
-        );
-        self.shot_of = match said {
-            Some(said) => said.shot_of(),
-            None => self.shot_of.filter(|_| !is_before_game),
-        };
-        let in_shoot_out = self.shot_of.and_then(role_in_shoot_out);
+        let now = context.cycle_time.start;
+        self.said = self
+            .said
+            .next(said, *context.primary_state, now, *context.set_play_lasts);
+        let in_shoot_out = self.said.shot_of().and_then(role_in_shoot_out);
         self.role = match context.primary_state {
             PrimaryState::Penalized => None,
             _ if in_shoot_out.is_some() => in_shoot_out,
             // Alone, too, it may not leave its line.
-            _ if own.number == goalkeeper && said.is_some_and(is_penalty_kick_of_others) => {
+            _ if own.number == goalkeeper && self.said.is_penalty_kick_of_others() => {
                 Some(Role::Keeper)
             }
             state => {
@@ -154,10 +155,6 @@ impl RoleAssignment {
                 .is_some_and(|pose| (Point2::from(pose.translation.vector) - goal).norm() > reach)
         })
     }
-}
-
-fn is_penalty_kick_of_others(said: &GameControllerState) -> bool {
-    said.set_play == SetPlay::PenaltyKick && said.kicking_team == KickingTeam::Opponent
 }
 
 /// One robot shoots and one keeps, whatever their shirts.

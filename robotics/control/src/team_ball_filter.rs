@@ -3,14 +3,12 @@
 //! A sighting weighs as much as it is known: its variance grows with the distance to who saw it and with its age, and no place
 //! is known better than the robot that tells of it. Sightings that lie within the gate of one of them agree, and are merged
 //! by their weights; of those that disagree the heaviest company is the ball, the one that was it before with a head start.
-//! Who says that it stands, or that the ball lies, where there is no carpet is lost, or no team mate at all, and is not believed.
 //! Whom the referee has taken out, or nobody has heard for long, is not among `teammates`.
 
 use framework::{CycleTime, Input, MainOutput, Parameter, Reflect, Result, Timestamp, context};
 use nalgebra::{Isometry2, Point2, Vector2};
 use serde::{Deserialize, Serialize};
 use types::ball::Ball;
-use types::field_markings::FieldMarkings;
 use types::game::Player;
 use types::team::Teammate;
 
@@ -43,9 +41,6 @@ pub struct TeamBallParameters {
     /// In m after 1 s: how far the ball gets without anybody seeing it, one standard deviation.
     #[reflect(range = 0.0..)]
     pub age_noise: f32,
-    /// How far the carpet reaches beside the lines.
-    #[reflect(unit = "m", range = 0.0..)]
-    pub carpet: f32,
 }
 
 #[context]
@@ -60,7 +55,6 @@ pub struct CycleContext {
 
     /// Who this robot is in the game.
     player: Parameter<Player, "player">,
-    markings: Parameter<FieldMarkings, "field_dimensions.markings">,
     parameters: Parameter<TeamBallParameters, "team_ball_filter">,
 }
 
@@ -81,7 +75,6 @@ impl TeamBallFilter {
     pub fn cycle(&mut self, context: CycleContext) -> Result<MainOutputs> {
         let (now, parameters) = (context.cycle_time.start, context.parameters);
         let number = context.player.number;
-        let is_on_carpet = |place| context.markings.is_inside(place, parameters.carpet);
         let team_ball = context.ground_to_field.map(|ground_to_field| {
             let own = context
                 .ball
@@ -90,7 +83,7 @@ impl TeamBallFilter {
                 .teammates
                 .iter()
                 .filter(|teammate| teammate.message.player_number != number)
-                .filter_map(|teammate| sighting(teammate, now, is_on_carpet));
+                .filter_map(|teammate| sighting(teammate, now));
             let all = own.into_iter().chain(others);
             let recent = all.filter(|sighting| sighting.age <= parameters.oldest);
             self.last = heaviest(recent, self.last, parameters);
@@ -136,17 +129,10 @@ fn own_sighting(ball: &Ball, ground_to_field: &Isometry2<f32>, now: Timestamp) -
 }
 
 /// Of a team mate that knows where it is, and the ball.
-fn sighting(
-    teammate: &Teammate,
-    now: Timestamp,
-    is_on_carpet: impl Fn(Point2<f32>) -> bool,
-) -> Option<Sighting> {
+fn sighting(teammate: &Teammate, now: Timestamp) -> Option<Sighting> {
     let ball = teammate.message.ball?;
-    let pose = teammate.message.ground_to_field?;
-    let place = pose * ball.position;
-    let is_likely = is_on_carpet(pose.translation.vector.into()) && is_on_carpet(place);
-    is_likely.then(|| Sighting {
-        place,
+    Some(Sighting {
+        place: teammate.message.ground_to_field? * ball.position,
         distance: ball.position.coords.norm(),
         age: ball.age + (now - teammate.heard_at).as_secs_f32(),
     })
@@ -188,12 +174,8 @@ mod tests {
 
     const NOW: u64 = 10_000;
 
-    fn file() -> ParameterFile {
-        ParameterFile::new(include_str!("../../parameters/default.toml"))
-    }
-
     fn parameters() -> TeamBallParameters {
-        file().get("team_ball_filter")
+        ParameterFile::new(include_str!("../../parameters/default.toml")).get("team_ball_filter")
     }
 
     /// Stands so far from a ball of the field frame, on its left and with its back to it, and saw it so long ago.
@@ -248,7 +230,6 @@ mod tests {
                 number: 1,
                 team: 77,
             },
-            markings: &file().get("field_dimensions.markings"),
             parameters: &parameters(),
         };
         node.cycle(context).unwrap().team_ball.value
@@ -284,34 +265,6 @@ mod tests {
         let backwards: Vec<_> = honest.iter().rev().copied().collect();
         assert_near(cycle(&mut node(), None, &backwards), [1.2, 0.0], 1e-5);
         assert_near(cycle(&mut node(), None, &[liar]), [-3.0, 2.0], 1e-5);
-    }
-
-    #[test]
-    fn who_tells_of_what_lies_beside_the_carpet_is_not_believed() {
-        let mut nowhere = mate(3, [0.0, 0.0], 0.0, 0.0);
-        let mut far = |x, y| {
-            nowhere.message.ball = Some(TeamBall {
-                position: Point2::new(x, y),
-                age: 0.0,
-            });
-            nowhere
-        };
-        let from_outside = mate(4, [0.0, 0.0], 5.0, 0.0);
-        let liars = [
-            far(1e20, 0.0),
-            far(0.0, 40.0),
-            far(f32::NAN, 0.0),
-            from_outside,
-        ];
-        assert_eq!(cycle(&mut node(), None, &liars), None);
-        let honest = mate(2, [1.0, 0.0], 2.0, 1.0);
-        let all = [liars.as_slice(), &[honest]].concat();
-        assert_near(cycle(&mut node(), None, &all), [1.0, 0.0], 1e-5);
-        // Where it rolled over the line it is the ball.
-        let mut out = mate(2, [4.9, 3.3], 0.9, 0.0);
-        out.message.ground_to_field = Some(Isometry2::translation(4.0, 3.3));
-        out.message.ball.as_mut().unwrap().position = Point2::new(0.9, 0.0);
-        assert_near(cycle(&mut node(), None, &[out]), [4.9, 3.3], 1e-5);
     }
 
     #[test]

@@ -1,14 +1,17 @@
 //! Knows what the other robots of the own team said last, from messages that come when they come.
 //!
 //! What this robot said itself is no message: `team_message_parser` leaves it out. Whom the referee has taken out plays no
-//! part for its team, whatever it said before or says from beside the field.
+//! part for its team, whatever it said before or says from beside the field. Who says that it stands where there is no carpet
+//! does not know where it is, and a ball that would lie there is none.
 
 use framework::{
     CycleTime, Input, MainOutput, Parameter, PerceptionInput, Result, RollBack, Timestamp, context,
 };
+use nalgebra::{Isometry2, Point2};
 use serde::{Deserialize, Serialize};
+use types::field_markings::FieldMarkings;
 use types::game::{GameControllerState, PLAYER_COUNT, Penalty};
-use types::team::{TeamMessage, Teammate};
+use types::team::{TeamBall, TeamMessage, Teammate};
 
 use crate::team_rhythm::TeamRhythm;
 
@@ -36,6 +39,10 @@ pub struct CycleContext {
     #[reflect(unit = "s", range = 0.0..)]
     forget_after: Parameter<f32, "team_message_filter.forget_after">,
     rhythm: Parameter<TeamRhythm, "team_rhythm">,
+    markings: Parameter<FieldMarkings, "field_dimensions.markings">,
+    /// How far the carpet reaches beside the lines.
+    #[reflect(unit = "m", range = 0.0..)]
+    carpet: Parameter<f32, "team_message_filter.carpet">,
 
     /// The other robots of the own team that were heard lately and may play, by their number.
     teammates: MainOutput<Vec<Teammate>>,
@@ -75,8 +82,29 @@ impl TeamMessageFilter {
             referee.is_none_or(|referee| referee.penalty_of(number) == Penalty::None)
         };
         let recent = newest.into_iter().flatten().filter(is_recent);
-        context.teammates.extend(recent.filter(may_play));
+        let is_on_carpet =
+            |place: &Point2<f32>| context.markings.is_inside(*place, *context.carpet);
+        let believed = recent.filter(may_play).map(|teammate| Teammate {
+            message: believed(teammate.message, is_on_carpet),
+            ..teammate
+        });
+        context.teammates.extend(believed);
         Ok(MainOutputs {})
+    }
+}
+
+/// Without what cannot be so.
+fn believed(message: TeamMessage, is_on_carpet: impl Fn(&Point2<f32>) -> bool) -> TeamMessage {
+    let stands_there = |pose: &Isometry2<f32>| is_on_carpet(&pose.translation.vector.into());
+    let ground_to_field = message.ground_to_field.filter(stands_there);
+    let lies_there = |ball: &TeamBall| match ground_to_field {
+        Some(pose) => is_on_carpet(&(pose * ball.position)),
+        None => true,
+    };
+    TeamMessage {
+        ground_to_field,
+        ball: message.ball.filter(lies_there),
+        ..message
     }
 }
 
@@ -93,7 +121,7 @@ fn remember(team: &mut Team, heard_at: Timestamp, message: &TeamMessage) {
 
 #[cfg(test)]
 mod tests {
-    use framework::testing::{at_millis, cycle_time, perception};
+    use framework::testing::{ParameterFile, at_millis, cycle_time, perception};
 
     use super::*;
 
@@ -138,6 +166,9 @@ mod tests {
                 reserve: 30,
                 half: 600.0,
             },
+            markings: &ParameterFile::new(include_str!("../../parameters/default.toml"))
+                .get("field_dimensions.markings"),
+            carpet: &0.7,
             teammates: &mut teammates,
         };
         node.cycle(context).unwrap();
@@ -231,6 +262,31 @@ mod tests {
             let back = cycle_with(&mut node, Some(referee), 30, vec![], vec![]);
             assert_eq!(numbers(&back), [2, 5], "{penalty:?}");
         }
+    }
+
+    #[test]
+    fn who_tells_of_what_lies_beside_the_carpet_is_not_believed() {
+        let seen_from = |x: f32, y: f32, ball: [f32; 2]| {
+            let told = Some(TeamMessage {
+                player_number: 2,
+                ground_to_field: Some(Isometry2::translation(x, y)),
+                ball: Some(TeamBall {
+                    position: Point2::from(ball),
+                    age: 0.0,
+                }),
+                ..TeamMessage::default()
+            });
+            let heard = vec![(at_millis(10), &told)];
+            let message = cycle(&mut node(), 20, heard, vec![])[0].message;
+            (message.ground_to_field.is_some(), message.ball.is_some())
+        };
+        // Where it rolled over the line it is the ball.
+        assert_eq!(seen_from(4.0, 3.5, [0.9, -0.2]), (true, true));
+        for ball in [[1e20, 0.0], [0.0, 40.0], [f32::NAN, 0.0]] {
+            assert_eq!(seen_from(0.0, 0.0, ball), (true, false), "{ball:?}");
+        }
+        // Who does not know where it stands may still stand before a ball.
+        assert_eq!(seen_from(0.0, 6.0, [0.3, 0.0]), (false, true));
     }
 
     #[test]

@@ -2,32 +2,23 @@
 //!
 //! Whose the ball is stays so when the referee's computer falls silent: a free kick has not ended because the network has.
 
-use framework::{CycleTime, Input, MainOutput, Parameter, Result, Timestamp, context};
+use framework::{CycleTime, Input, MainOutput, Parameter, Result, context};
 use nalgebra::{Isometry2, Point2};
 use serde::{Deserialize, Serialize};
 use types::ball::Ball;
 use types::behavior::Role;
 use types::fall_state::FallState;
-use types::game::{GameControllerState, GamePhase, KickingTeam, PrimaryState, SetPlay};
+use types::game::{GameControllerState, PrimaryState};
 use types::obstacles::Obstacle;
 use types::team::Teammate;
 use types::world_state::WorldState;
+
+use crate::said::Said;
 
 /// What the referee said last about the game.
 #[derive(Debug, Deserialize, Serialize)]
 pub struct WorldStateComposer {
     said: Said,
-}
-
-/// Whose the ball is, and what this robot did when that was said.
-#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Serialize)]
-struct Said {
-    primary_state: PrimaryState,
-    game_phase: GamePhase,
-    kicking_team: KickingTeam,
-    set_play: SetPlay,
-    /// Since when it is this set play, in this state.
-    since: Timestamp,
 }
 
 #[context]
@@ -70,10 +61,8 @@ impl WorldStateComposer {
     /// Copies.
     pub fn cycle(&mut self, context: CycleContext) -> Result<MainOutputs> {
         let (state, now) = (*context.primary_state, context.cycle_time.start);
-        self.said = match context.game_controller_state {
-            Some(referee) => self.said.after(referee, state, now),
-            None => self.said.in_silence(state, now, *context.set_play_lasts),
-        };
+        let referee = context.game_controller_state.as_ref();
+        self.said = self.said.next(referee, state, now, *context.set_play_lasts);
         let world_state = context.world_state;
         world_state.primary_state = state;
         world_state.game_phase = self.said.game_phase;
@@ -92,55 +81,11 @@ impl WorldStateComposer {
     }
 }
 
-impl Said {
-    /// The referee says it now.
-    fn after(
-        self,
-        referee: &GameControllerState,
-        primary_state: PrimaryState,
-        now: Timestamp,
-    ) -> Self {
-        let goes_on = self.primary_state == primary_state && self.set_play == referee.set_play;
-        Self {
-            primary_state,
-            game_phase: referee.game_phase,
-            kicking_team: referee.kicking_team,
-            set_play: referee.set_play,
-            since: if goes_on { self.since } else { now },
-        }
-    }
-
-    /// Nobody says anything: it holds until somebody at the buttons, or the end of the set play, makes something else of the
-    /// game. A whistle in Set does not.
-    fn in_silence(self, primary_state: PrimaryState, now: Timestamp, set_play_lasts: f32) -> Self {
-        let is_kicked_off =
-            self.primary_state == PrimaryState::Set && primary_state == PrimaryState::Playing;
-        if is_kicked_off {
-            return Self {
-                primary_state,
-                since: now,
-                ..self
-            };
-        }
-        let is_over = primary_state == PrimaryState::Playing
-            && self.game_phase != GamePhase::PenaltyShootout
-            && self.set_play != SetPlay::None
-            && (now - self.since).as_secs_f32() > set_play_lasts;
-        if primary_state != self.primary_state || is_over {
-            return Self {
-                primary_state,
-                since: now,
-                ..Self::default()
-            };
-        }
-        self
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use framework::testing::cycle_time;
     use types::fall_state::Facing;
+    use types::game::{GamePhase, KickingTeam, SetPlay};
 
     use super::*;
 
@@ -194,94 +139,40 @@ mod tests {
         assert_eq!(world_state, expected);
     }
 
-    /// A cycle at `now` ms with what the referee says.
-    fn cycle(
-        node: &mut WorldStateComposer,
-        now: u64,
-        primary_state: PrimaryState,
-        said: Option<(GamePhase, KickingTeam, SetPlay)>,
-    ) -> (GamePhase, KickingTeam, SetPlay) {
-        let mut world_state = WorldState::default();
-        let referee = said.map(|(game_phase, kicking_team, set_play)| GameControllerState {
-            game_phase,
-            kicking_team,
-            set_play,
+    #[test]
+    fn whose_the_ball_is_stays_so_in_silence() {
+        let mut node = node();
+        let corner = GameControllerState {
+            kicking_team: KickingTeam::Opponent,
+            set_play: SetPlay::CornerKick,
             ..GameControllerState::default()
-        });
-        let context = CycleContext {
-            primary_state: &primary_state,
-            game_controller_state: &referee,
-            fall_state: &FallState::Upright,
-            has_ground_contact: &false,
-            ground_to_field: &None,
-            ball: &None,
-            obstacles: &vec![],
-            teammates: &vec![],
-            role: &None,
-            goalkeeper: &0,
-            team_ball: &None,
-            cycle_time: cycle_time(now, 12),
-            set_play_lasts: &LASTS,
-            world_state: &mut world_state,
         };
-        node.cycle(context).unwrap();
-        (
-            world_state.game_phase,
-            world_state.kicking_team,
-            world_state.set_play,
-        )
-    }
-
-    const NOTHING: (GamePhase, KickingTeam, SetPlay) =
-        (GamePhase::Normal, KickingTeam::Nobody, SetPlay::None);
-
-    #[test]
-    fn who_has_never_heard_a_referee_knows_of_no_set_play() {
-        let said = cycle(&mut node(), 12, PrimaryState::Playing, None);
-        assert_eq!(said, NOTHING);
-    }
-
-    #[test]
-    fn a_free_kick_goes_on_in_silence_until_its_time_is_over() {
-        let corner = (
-            GamePhase::Normal,
-            KickingTeam::Opponent,
-            SetPlay::CornerKick,
-        );
-        let (mut node, playing) = (node(), PrimaryState::Playing);
-        cycle(&mut node, 1_000, playing, Some(NOTHING));
-        cycle(&mut node, 2_000, playing, Some(corner));
-        assert_eq!(cycle(&mut node, 10_000, playing, Some(corner)), corner);
-        assert_eq!(cycle(&mut node, 31_900, playing, None), corner);
-        assert_eq!(cycle(&mut node, 32_100, playing, None), NOTHING);
-        // Whoever is heard knows better.
-        assert_eq!(cycle(&mut node, 33_000, playing, Some(corner)), corner);
-        assert_eq!(cycle(&mut node, 34_000, playing, Some(NOTHING)), NOTHING);
-        assert_eq!(cycle(&mut node, 35_000, playing, None), NOTHING);
-    }
-
-    #[test]
-    fn a_shot_of_the_shoot_out_goes_on_in_silence() {
-        let shot = (
-            GamePhase::PenaltyShootout,
-            KickingTeam::Opponent,
-            SetPlay::PenaltyKick,
-        );
-        let mut node = node();
-        cycle(&mut node, 1_000, PrimaryState::Set, Some(shot));
-        assert_eq!(cycle(&mut node, 5_000, PrimaryState::Playing, None), shot);
-        assert_eq!(cycle(&mut node, 65_000, PrimaryState::Playing, None), shot);
-    }
-
-    #[test]
-    fn a_whistle_in_silence_lets_the_others_kick_off_and_a_button_ends_what_was_said() {
-        let kick_off = (GamePhase::Normal, KickingTeam::Opponent, SetPlay::None);
-        let mut node = node();
-        cycle(&mut node, 1_000, PrimaryState::Ready, Some(kick_off));
-        cycle(&mut node, 2_000, PrimaryState::Set, Some(kick_off));
-        let playing = cycle(&mut node, 9_000, PrimaryState::Playing, None);
-        assert_eq!(playing, kick_off);
-        let penalized = cycle(&mut node, 10_000, PrimaryState::Penalized, None);
-        assert_eq!(penalized, NOTHING);
+        let mut at = |now, referee| {
+            let mut world_state = WorldState::default();
+            let context = CycleContext {
+                primary_state: &PrimaryState::Playing,
+                game_controller_state: &referee,
+                fall_state: &FallState::Upright,
+                has_ground_contact: &false,
+                ground_to_field: &None,
+                ball: &None,
+                obstacles: &vec![],
+                teammates: &vec![],
+                role: &None,
+                goalkeeper: &0,
+                team_ball: &None,
+                cycle_time: cycle_time(now, 12),
+                set_play_lasts: &LASTS,
+                world_state: &mut world_state,
+            };
+            node.cycle(context).unwrap();
+            (world_state.kicking_team, world_state.set_play)
+        };
+        let theirs = (KickingTeam::Opponent, SetPlay::CornerKick);
+        let nobodys = (KickingTeam::Nobody, SetPlay::None);
+        assert_eq!(at(1_000, None), nobodys);
+        assert_eq!(at(2_000, Some(corner)), theirs);
+        assert_eq!(at(31_900, None), theirs);
+        assert_eq!(at(32_100, None), nobodys);
     }
 }

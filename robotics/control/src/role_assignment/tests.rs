@@ -1,6 +1,6 @@
 //! Who is what by number, distance, and what the referee says.
 
-use framework::testing::at_millis;
+use framework::testing::{at_millis, cycle_time};
 use nalgebra::Isometry2;
 use types::team::{TeamBall, TeamMessage};
 
@@ -142,6 +142,8 @@ fn cycle_with(
             keeper_out: 1.8,
             keeper_back: 1.2,
         },
+        cycle_time: cycle_time(1000, 12),
+        set_play_lasts: &30.0,
     };
     node.cycle(context).unwrap()
 }
@@ -221,6 +223,9 @@ fn a_goalkeeper_alone_leaves_its_goal_but_not_at_a_penalty_kick_of_the_others() 
             Some(role),
             "{goalkeeper} {set_play:?} {kicking_team:?}"
         );
+        // Nor does it end because nobody is heard any more.
+        let outputs = cycle_with(&mut node, PrimaryState::Playing, &None, 1.0, &vec![]);
+        assert_eq!(outputs.role.value, Some(role), "in silence");
     }
 }
 
