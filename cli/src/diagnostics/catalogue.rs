@@ -169,6 +169,8 @@ catalogue! {
         "A node's state cannot be moved to another thread.";
     UnservedTrait, "unserved-trait", Error,
         "A target's hardware does not serve a trait that a node asks for.";
+    UnusedFile, "unused-file", Warning,
+        "A file among the parameters is read for no robot.";
     UnusedKey, "unused-key", Warning,
         "A key of the manifest has no effect here.";
     UnwrittenState, "unwritten-state", Error,

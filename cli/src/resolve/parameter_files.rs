@@ -14,6 +14,7 @@ mod opaque;
 mod other_names;
 pub(super) mod shown;
 mod unset;
+mod unused;
 mod values;
 mod variants;
 mod winners;
@@ -57,6 +58,7 @@ pub fn check(
 ) -> Unchecked {
     let choice = choice::load(workspace, &robot.parameters, diagnostics);
     let texts = layer::find(workspace, manifest, choice.as_ref(), diagnostics);
+    unused::check(workspace, manifest, diagnostics);
     let mut layers = Vec::new();
     for (file, text) in &texts {
         let (table, errors) = DeTable::parse_recoverable(text);

@@ -164,7 +164,7 @@ fn asked<'a>(manifest: &'a Manifest, choice: Option<&'a Choice>) -> Vec<Asked<'a
 }
 
 /// `head.P123.toml`.
-fn is_of_identity(file: &Utf8Path, manifest: &Manifest) -> bool {
+pub(super) fn is_of_identity(file: &Utf8Path, manifest: &Manifest) -> bool {
     let name = file.file_name().and_then(|name| name.strip_suffix(".toml"));
     let identity = name
         .and_then(|name| name.split_once('.'))

@@ -443,3 +443,19 @@ fn what_a_layer_takes_away_is_missed_where_it_has_to_be_given() {
     robot("a = { unset = false }\n", "").expect("mistyped-parameter", &["`a` is a table"]);
     robot("b = { unset = true }\n", "").expect("unknown-parameter", &["`b`"]);
 }
+
+#[test]
+fn a_file_that_is_a_layer_of_no_robot_is_told() {
+    for (file, help) in [
+        ("haed.P1.toml", "did you mean `head.P1.toml`?"),
+        ("field/defaults.toml", "did you mean `default.toml`?"),
+        ("wrist.P1.toml", "add `\"wrist\"` to the `identities`"),
+        ("notes.toml", "or call it `default.toml`"),
+    ] {
+        robot("a: Parameter<f32, \"a\">,", NAO)
+            .file("parameters/default.toml", "a = 1\n")
+            .file("parameters/field/default.toml", "")
+            .file(&format!("parameters/{file}"), "a = 1\n")
+            .expect("unused-file", &[file, "is read for no robot", help]);
+    }
+}
