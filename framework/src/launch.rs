@@ -39,7 +39,7 @@ use crate::robot::{Robot, Start};
 use crate::stop::Stop;
 use crate::timing::{self, Timing};
 use crate::world;
-use ending::Ending;
+use ending::{Ended, Ending};
 use options::{Command, Format, Options};
 use serde::Deserialize;
 pub use serving::{Listening, Serve, Served, nobody};
@@ -158,9 +158,10 @@ where
     let result = signals.and_then(|signals| {
         let supervisor = Supervisor::start(signals.clone(), stop.clone())?;
         let result = match &options.scenario {
-            Some(file) => scenario::run(target, options, file, &stop, output, &mut create, serve),
+            Some(file) => scenario::run(target, options, file, &stop, output, &mut create, serve)
+                .map(Ended::With),
             None if options.tool.is_some() => {
-                tool::run(target, options, &stop, output, &mut create)
+                tool::run(target, options, &stop, output, &mut create).map(Ended::With)
             }
             None => start_and_run(
                 target,
@@ -175,18 +176,12 @@ where
         stop.request();
         // The robot's own error comes first: the supervisor's may be its consequence.
         let joined = supervisor.join();
-        let result = result.and_then(|status| joined.map(|()| status));
+        let result = result.and_then(|ended| joined.map(|()| ended));
         // What fails while the user interrupts is mostly the interruption.
         if signals.interrupted() && result.as_ref().is_err_and(Error::is_stopped) {
             return Ok(INTERRUPTED);
         }
-        result.map(|status| {
-            if signals.interrupted() {
-                INTERRUPTED
-            } else {
-                status
-            }
-        })
+        result.map(|ended| ended.status(signals.interrupted()))
     });
     result.unwrap_or_else(|error| {
         tell(format_args!("error: {error}"));
@@ -202,7 +197,7 @@ fn start_and_run<H, P>(
     output: &mut dyn Write,
     create: &mut impl FnMut(&Arc<H>, Start<P>) -> Result<Robot<P>>,
     serve: Serve,
-) -> Result<u8>
+) -> Result<Ended>
 where
     H: Hardware + 'static,
     P: ParameterData,
@@ -272,7 +267,11 @@ where
     written.map_err(|error| Error::from(error).context("cannot write the report"))?;
     let recorded = report.recording.as_ref();
     let is_outstanding = recorded.is_some_and(|recorded| recorded.ended.is_outstanding);
-    Ok(if is_outstanding { FAILED } else { DONE })
+    Ok(if is_outstanding {
+        Ended::WithoutItsDisk
+    } else {
+        Ended::With(DONE)
+    })
 }
 
 /// With the layers of the hardware's identities.

@@ -4,7 +4,7 @@ use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::FAILED;
+use super::{FAILED, INTERRUPTED};
 use crate::error::Error;
 use crate::recorded::{Recording, RecordingReport};
 use crate::report::tell;
@@ -17,6 +17,25 @@ const SOON: Duration = Duration::from_secs(2);
 
 /// As the threads of the robot have.
 const HARDWARE: Duration = Duration::from_secs(10);
+
+/// How a run ended that did not fail before.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Ended {
+    With(u8),
+    /// Not all of its recording is known to be on the disk.
+    WithoutItsDisk,
+}
+
+impl Ended {
+    /// What the process exits with. Who interrupts a run asks for its end, not for the loss of its recording.
+    pub(super) fn status(self, is_interrupted: bool) -> u8 {
+        match self {
+            Self::WithoutItsDisk => FAILED,
+            Self::With(_) if is_interrupted => INTERRUPTED,
+            Self::With(status) => status,
+        }
+    }
+}
 
 /// Ends a recording: of one that its disk does not take in time, what is known then.
 pub(super) fn end(recording: Recording) -> RecordingReport {
@@ -91,7 +110,20 @@ fn look(steps: &Receiver<Step>, give_up: impl FnOnce()) {
 
 #[cfg(test)]
 mod tests {
+    use super::super::DONE;
     use super::*;
+
+    #[test]
+    fn a_disk_that_hangs_is_a_failure_whoever_ended_the_run() {
+        for is_interrupted in [false, true] {
+            assert_eq!(Ended::WithoutItsDisk.status(is_interrupted), FAILED);
+        }
+        // A scenario that somebody interrupts has shown nothing.
+        for status in [DONE, FAILED] {
+            assert_eq!(Ended::With(status).status(false), status);
+            assert_eq!(Ended::With(status).status(true), INTERRUPTED);
+        }
+    }
 
     #[test]
     fn an_end_that_takes_too_long_is_given_up_and_no_other() {
