@@ -122,7 +122,7 @@ pub struct RecordingCounts {
     pub dropped: u64,
     /// Frames of which something could not be encoded.
     pub failed: u64,
-    /// Of those recorded: the disk did not take them.
+    /// Of those recorded: the disk did not take them, or a value could not be written.
     pub lost: u64,
     /// Of those recorded: older ones that went because the file has no room for more.
     pub overwritten: u64,

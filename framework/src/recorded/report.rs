@@ -24,7 +24,7 @@ pub struct Missing {
     pub dropped: u64,
     /// They could not be encoded.
     pub failed: u64,
-    /// The disk did not take them, or a value of theirs could not be written there.
+    /// The disk did not take them, or a value of theirs could not be written.
     pub lost: u64,
 }
 
@@ -40,9 +40,9 @@ pub struct InstanceRecorded {
     pub dropped: u64,
     /// They could not be encoded.
     pub failed: u64,
-    /// The disk did not take them, or a value of theirs could not be written there.
+    /// The disk did not take them, or a value of theirs could not be written.
     pub lost: u64,
-    /// They were recorded, and left to younger ones when the file had its budget.
+    /// They were recorded, and left to younger ones when the file had its budget or the disk was full.
     pub overwritten: u64,
 }
 
@@ -103,10 +103,10 @@ impl fmt::Display for RecordingReport {
             let counts = [
                 (one.dropped, "dropped"),
                 (one.failed, "not encoded"),
-                (one.lost, "lost on the way to the disk"),
+                (one.lost, "lost on the way to the file"),
                 (
                     one.overwritten,
-                    "gave way to younger ones; `--recording-budget` keeps more",
+                    "gave way to younger ones: a larger `--recording-budget`, or more room on the disk, keeps more",
                 ),
             ];
             for (count, what) in counts.into_iter().filter(|(count, _)| *count > 0) {
@@ -126,7 +126,7 @@ impl fmt::Display for RecordingReport {
             } = one;
             writeln!(
                 formatter,
-                "{of}: {dropped} dropped (larger than a block, or none was free), {failed} not encoded, {lost} lost on the way to the disk"
+                "{of}: {dropped} dropped (larger than a block, or none was free), {failed} not encoded, {lost} lost on the way to the file"
             )?;
         }
         Ok(())
@@ -153,14 +153,26 @@ mod tests {
                 dropped: 1,
                 failed: 0,
                 lost: 0,
-                overwritten: 0,
+                overwritten: 2,
             }],
-            missing: Vec::new(),
+            missing: vec![Missing {
+                of: "Legs.outputs".to_owned(),
+                dropped: 0,
+                failed: 0,
+                lost: 3,
+            }],
         };
         let text = report.to_string();
         let first = format!("recording run.mcap: INCOMPLETE ({OUTSTANDING})\n");
         assert!(text.starts_with(&first), "{text}");
         assert!(text.contains("Legs: 1 of 5 frames dropped"), "{text}");
+        // Neither the disk nor the budget alone takes something.
+        for help in [
+            "2 of 5 frames gave way to younger ones: a larger `--recording-budget`, or more room on the disk, keeps more\n",
+            "3 lost on the way to the file\n",
+        ] {
+            assert!(text.contains(help), "{text}");
+        }
         assert_eq!(report.error().as_deref(), Some(OUTSTANDING));
         assert_eq!(report.to_json()[0]["recorded"], 4);
     }

@@ -426,7 +426,7 @@ export type RecordingCounts = {
   dropped: number;
   /** Frames of which something could not be encoded. */
   failed: number;
-  /** Of those recorded: the disk did not take them. */
+  /** Of those recorded: the disk did not take them, or a value could not be written. */
   lost: number;
   /** Of those recorded: older ones that went because the file has no room for more. */
   overwritten: number;
