@@ -30,6 +30,8 @@ mod tap;
 mod threads;
 #[path = "runtime/together.rs"]
 mod together;
+#[path = "runtime/unbegun.rs"]
+mod unbegun;
 #[path = "runtime/verified.rs"]
 mod verified;
 #[path = "runtime/wake_up.rs"]

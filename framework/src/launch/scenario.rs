@@ -183,11 +183,10 @@ impl Stage<'_> {
         });
         let audience = seats.transpose()?;
         for robot in 0..self.scenario.robot_count() {
-            let mut cast = self.cast(robot, seed, &casts, create)?;
-            if is_recorded {
-                cast.recording = Some(self.record(robot, seed, &cast)?);
-            }
-            casts.push(cast);
+            casts.push(self.cast(robot, seed, &casts, create)?);
+        }
+        if is_recorded {
+            self.record_all(seed, &mut casts)?;
         }
         let threads = || std::thread::available_parallelism().map_or(1, usize::from);
         let manner = Manner {
@@ -259,6 +258,18 @@ impl Stage<'_> {
     /// With the place in the file of what the scenario says.
     fn blame(&self, robot: usize, error: Error) -> Error {
         blame(self.file, robot, error)
+    }
+
+    /// Begins the files of all robots, behind everything else that may be wrong.
+    fn record_all<H: Hardware, P: ParameterData>(
+        &self,
+        seed: u64,
+        casts: &mut [Cast<H, P>],
+    ) -> Result<()> {
+        casts.iter_mut().enumerate().try_for_each(|(robot, cast)| {
+            cast.recording = Some(self.record(robot, seed, cast)?);
+            Ok(())
+        })
     }
 
     fn record<H: Hardware, P: ParameterData>(

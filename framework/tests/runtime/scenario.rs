@@ -37,7 +37,7 @@ pub(crate) fn written(scenario: &str) -> (TempDir, Vec<OsString>) {
 }
 
 /// Status and outcome of a scenario of one second, in which `Legs` has data every 10 ms and the world counts the events.
-fn play(scenario: &str, arguments: &[&str]) -> (u8, Value) {
+pub(crate) fn play(scenario: &str, arguments: &[&str]) -> (u8, Value) {
     let (_folder, mut all) = written(&format!("ends = 1.0\n{scenario}"));
     all.extend(arguments.iter().map(OsString::from));
     let create =
@@ -55,7 +55,7 @@ fn play(scenario: &str, arguments: &[&str]) -> (u8, Value) {
 
 const PARAMETERS: &str = "parameters = { gain = 7 }\n";
 
-fn assertion(what: &str) -> String {
+pub(crate) fn assertion(what: &str) -> String {
     format!("{PARAMETERS}[[assertion]]\nwhat = 'it'\n{what}\n")
 }
 
@@ -358,7 +358,7 @@ fn a_scenario_names_its_recordings_itself() {
     assert_eq!((status, recordings.as_array().map(Vec::len)), (0, Some(1)));
 }
 
-const TWO_ROBOTS: &str = "parameters = { gain = 6 }
+pub(crate) const TWO_ROBOTS: &str = "parameters = { gain = 6 }
 world = { step = 1.0 }
 [[robot]]
 parameters = { gain = 7 }
@@ -440,84 +440,4 @@ fn what_a_robot_says_while_it_is_created_is_its_own() {
         robots.flatten().collect::<Vec<_>>()
     });
     assert_eq!(heard.collect::<Vec<_>>(), [[1], [2]]);
-}
-
-#[test]
-fn a_robot_that_is_not_there_is_named() {
-    let scenario = format!(
-        "{}robot = 2\n",
-        assertion("value = 'truth.events'\nabove = 0")
-    );
-    assert_eq!(play(&scenario, &[]), (1, Value::Null));
-    let text = format!("ends = 1\n{scenario}");
-    let error = framework::scenario::Scenario::parse(&text).expect_err("there is one robot");
-    assert!(
-        error
-            .to_string()
-            .contains("assertion `it`: there is no robot 2"),
-        "{error}"
-    );
-}
-
-#[test]
-fn where_nothing_would_be_played_nothing_passes() {
-    for options in [
-        ["--repeat", "0", "--seed", "1"],
-        ["--repeat", "2", "--seed", "18446744073709551615"],
-    ] {
-        let (status, outcome) = play(TWO_ROBOTS, &options);
-        assert_ne!(status, 0, "{options:?}");
-        assert_eq!(outcome, Value::Null, "{options:?}");
-    }
-}
-
-#[test]
-fn where_nobody_can_watch_no_recording_is_left() {
-    let taken = std::net::TcpListener::bind("127.0.0.1:0").expect("a free port");
-    let address = taken.local_addr().expect("it has one").to_string();
-    let (folder, mut all) = written(&format!(
-        "ends = 1.0\n{}",
-        assertion("value = 'truth.events'\nabove = 0")
-    ));
-    all.extend(["--listen", &address, "--record", "on"].map(OsString::from));
-    let create = |hardware: &Arc<ScriptedHardware>,
-                  _: Start<Parameters>|
-     -> Result<Robot<Parameters>> { Ok(robot(hardware, &Setting::default())) };
-    let status = launch::run(TARGET, all, &mut Vec::new(), create, listens);
-    assert_eq!(status, 1);
-    assert!(!folder.path().join("run").exists());
-}
-
-fn listens(
-    _: framework::link::Link,
-    listening: launch::Listening,
-) -> Result<Option<Box<dyn launch::Served>>> {
-    listening.open().map(|_| None)
-}
-
-#[test]
-fn a_word_that_the_type_does_not_have_is_refused_before_anything_is_played() {
-    let value = |name: &str, rest: &str| {
-        assertion(&format!(
-            "value = 'Legs.main_outputs.{name}'\n{rest}\nfrom = 0.1"
-        ))
-    };
-    for wrong in [
-        value("phase", "is_not = 'Stnad'"),
-        value("phase", "equals = { Walk = { side = 'Lfet' } }"),
-        value("phase.Walk.side", "is_not = 'Up'"),
-    ] {
-        assert_eq!(play(&wrong, &[]), (1, Value::Null), "{wrong}");
-    }
-    for (right, passed) in [
-        (
-            value("phase", "is_not = { Walk = { side = 'Left' } }"),
-            true,
-        ),
-        (value("phase", "equals = 'Stand'"), true),
-        (value("phase", "is_not = 'Stand'"), false),
-    ] {
-        let (_, outcome) = play(&right, &[]);
-        assert_eq!(outcome["passed"], passed, "{right}: {outcome:#}");
-    }
 }
