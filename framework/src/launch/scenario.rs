@@ -9,14 +9,16 @@ use std::sync::Arc;
 
 use self::blame::{blame, place};
 use super::options::{Format, Options, Record};
-use super::{DONE, FAILED, Serve, Target, hardware_table, known_identities, layers, record};
+use super::{
+    DONE, FAILED, Serve, Target, ending, hardware_table, known_identities, layers, record,
+};
 use crate::clock::Clock;
 use crate::data::ParameterData;
 use crate::error::{Error, Result};
 use crate::hardware::{Hardware, HardwareContext};
 use crate::logs;
 use crate::parameters::{Above, Origin};
-use crate::recorded::Recording;
+use crate::recorded::{Recording, RecordingReport};
 use crate::report::tell;
 use crate::robot::{Robot, Start};
 use crate::scenario::{Audience, Cast, Manner, Outcome, Played, Scenario, misspelt, play};
@@ -185,9 +187,10 @@ impl Stage<'_> {
         for robot in 0..self.scenario.robot_count() {
             casts.push(self.cast(robot, seed, &casts, create)?);
         }
-        if is_recorded {
-            self.record_all(seed, &mut casts)?;
-        }
+        let recorded = match is_recorded {
+            true => self.record_all(seed, &mut casts),
+            false => Ok(()),
+        };
         let threads = || std::thread::available_parallelism().map_or(1, usize::from);
         let manner = Manner {
             threads: self.options.threads.unwrap_or_else(threads),
@@ -195,9 +198,15 @@ impl Stage<'_> {
             stop: self.stop,
             audience,
         };
-        let (mut played, chosen) = play(&self.scenario, seed, &mut casts, manner)?;
+        let played = recorded.and_then(|()| play(&self.scenario, seed, &mut casts, manner));
+        // Also where nothing was played: who drops a recording waits for its disk without end.
         let recordings = casts.into_iter().filter_map(|cast| cast.recording);
-        played.recordings = recordings.map(end).collect();
+        let reports: Vec<_> = recordings.map(ending::end).collect();
+        let (mut played, chosen) = played?;
+        for report in reports {
+            tell(format_args!("{}", report.to_string().trim_end()));
+            add(&mut played, report);
+        }
         Ok((played, chosen))
     }
 
@@ -295,10 +304,20 @@ impl Stage<'_> {
     }
 }
 
-/// Where it lies.
-fn end(recording: Recording) -> PathBuf {
-    let path = recording.path().to_owned();
-    let report = recording.end();
-    tell(format_args!("{}", report.to_string().trim_end()));
-    path
+/// What came of a recording belongs to what was played: without its end, nobody can see of it what was asked for.
+fn add(played: &mut Played, report: RecordingReport) {
+    if report.ended.is_outstanding {
+        played.passed = false;
+        let path = report.ended.path.display();
+        let why = format!(
+            "its recording {path}: {}",
+            report.error().unwrap_or_default()
+        );
+        let before = played.stopped.take().map(|before| format!("{before}; "));
+        played.stopped = Some(before.unwrap_or_default() + &why);
+    }
+    played.recordings.push(report.ended.path);
 }
+
+#[cfg(test)]
+mod tests;

@@ -13,9 +13,9 @@ use crate::report::plural;
 pub struct Played {
     /// What was drawn from it.
     pub seed: u64,
-    /// Whether every assertion was so, and nothing stopped before the end.
+    /// Whether every assertion was so, and nothing stopped before the end, its recording neither.
     pub passed: bool,
-    /// Why a robot, or all of it, stopped before the end.
+    /// Why a robot, all of it, or a recording stopped before the end.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stopped: Option<String>,
     /// Calls of nodes that failed.
