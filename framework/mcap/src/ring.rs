@@ -16,8 +16,8 @@ pub(crate) struct Ring {
     most: u64,
     budget: u64,
     gone: u64,
-    /// Whether the place of the chunk that went last was given back.
-    gives_back: bool,
+    /// Whether places in the file are given back; `None` before anybody has asked.
+    gives_back: Option<bool>,
 }
 
 impl Ring {
@@ -28,7 +28,7 @@ impl Ring {
             most: 0,
             budget,
             gone: 0,
-            gives_back: true,
+            gives_back: None,
         }
     }
 
@@ -66,8 +66,19 @@ impl Ring {
         let is_enough_left = self.chunks.len() > 1 && self.bytes - oldest >= self.most / 2;
         // Who gave no budget wants all of it, or an error.
         let is_ring = self.budget < u64::MAX;
-        let gives_back = self.gives_back && is_ring && is_enough_left;
-        gives_back && self.remove_oldest(file).is_ok_and(|gives_back| gives_back)
+        is_ring
+            && is_enough_left
+            && self.gives_back(file)
+            && self.remove_oldest(file).is_ok_and(|gives_back| gives_back)
+    }
+
+    /// Asked before the first chunk goes, which would be for nothing.
+    fn gives_back(&mut self, file: &mut dyn Storage) -> bool {
+        *self.gives_back.get_or_insert_with(|| {
+            // Behind the end there is nothing to lose.
+            let end = file.seek(SeekFrom::End(0));
+            end.is_ok_and(|end| file.give_back(end, 1))
+        })
     }
 
     /// Whether its place was given back; on an error it is still there.
@@ -75,11 +86,12 @@ impl Ring {
         let Some(oldest) = self.chunks.front() else {
             return Ok(false);
         };
-        self.gives_back = remove(file, oldest)?;
+        let gives_back = remove(file, oldest)?;
+        self.gives_back = Some(gives_back);
         self.bytes -= oldest.bytes();
         self.chunks.pop_front();
         self.gone += 1;
-        Ok(self.gives_back)
+        Ok(gives_back)
     }
 }
 

@@ -20,7 +20,8 @@ pub trait Storage: Write + Seek + Debug + Send {
     /// Those of the file.
     fn sync_all(&mut self) -> io::Result<()>;
 
-    /// Gives so many bytes from there on back to the disk, where it can: they are zeros, or what they were. Whether it could.
+    /// Gives so many bytes from there on back to the disk, where it can: they are zeros, or what they were. Whether it could;
+    /// that is asked of bytes behind the end, too, of which there are none.
     fn give_back(&mut self, offset: u64, bytes: u64) -> bool;
 }
 

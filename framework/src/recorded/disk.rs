@@ -20,22 +20,25 @@ pub(super) fn start(
     let disk = Disk {
         storage: file,
         path: path.to_owned(),
-        tell: |path, error| {
-            let room = match error.kind() {
-                ErrorKind::StorageFull | ErrorKind::QuotaExceeded => {
-                    "the oldest cycles of the recording make room for new ones, down to half of them; "
-                }
-                _ => "",
-            };
-            tell(format_args!(
-                "recording {}: {error}; {room}what the disk does not take is lost, the robot goes on",
-                path.display()
-            ));
-        },
+        tell: |path, error| tell(format_args!("{}", text(path, error))),
         is_told: false,
     };
     let writer = Writer::onto(Box::new(disk), description, settings.budget)?;
     Recorder::start_writing(path, writer, tracks, settings, rewrites)
+}
+
+/// What is told of it.
+fn text(path: &Path, error: &io::Error) -> String {
+    let room = match error.kind() {
+        ErrorKind::StorageFull | ErrorKind::QuotaExceeded => {
+            "where the file system can give back their place, the oldest cycles of the recording make room for new ones, down to half of them; "
+        }
+        _ => "",
+    };
+    let path = path.display();
+    format!(
+        "recording {path}: {error}; {room}what the disk does not take is lost, the robot goes on"
+    )
 }
 
 /// A file whose first error is told, by the thread that writes.
@@ -155,5 +158,17 @@ mod tests {
             disk.write_all(b"frame").expect_err("there is no room");
             assert_eq!(TOLD.load(Ordering::Relaxed), 1);
         }
+    }
+
+    #[test]
+    fn a_full_disk_is_not_told_that_everything_makes_room() {
+        let told = |kind: ErrorKind| text(Path::new("run.mcap"), &kind.into());
+        for full in [ErrorKind::StorageFull, ErrorKind::QuotaExceeded] {
+            let told = told(full);
+            let condition = "where the file system can give back their place, the oldest cycles";
+            assert!(told.contains(condition), "{told}");
+        }
+        let broken = told(ErrorKind::Other);
+        assert!(!broken.contains("make room"), "{broken}");
     }
 }
