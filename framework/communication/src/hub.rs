@@ -376,18 +376,17 @@ impl Hub {
         match &mut waiting.kind {
             WaitingFor::Read(source) => {
                 let source = self.sources.get_mut(*source)?;
-                if !source.is_reading(waiting.client, waiting.request) {
+                let passed_over = source.passed_over(waiting.client, waiting.request);
+                let Some(is_passed_over) = passed_over else {
                     return Some(None);
-                }
-                let client = self.clients.get(&waiting.client);
-                let may_ask = client.is_none_or(|client| client.outbox.may_ask(&self.limits));
+                };
                 is_over.then(|| {
                     source.stop_reading(waiting.client, Some(waiting.request));
                     let (path, seconds) = (&source.path, PATIENCE.as_secs());
-                    Some(Err(Failure::new(match may_ask {
-                        true => format!("no cycle wrote `{path}` within {seconds} s"),
-                        false => format!(
-                            "`{path}` was not read: for {seconds} s too many answers waited for this client to take them; ask for less at a time"
+                    Some(Err(Failure::new(match is_passed_over {
+                        false => format!("no cycle wrote `{path}` within {seconds} s"),
+                        true => format!(
+                            "`{path}` was not read within {seconds} s: cycles wrote it when too many answers waited for this client to take them; ask for less at a time"
                         ),
                     })))
                 })

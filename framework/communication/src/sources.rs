@@ -46,6 +46,8 @@ struct Subscriber {
 struct Reader {
     client: ClientId,
     request: u32,
+    /// A cycle wrote it when too many answers waited for the client.
+    is_passed_over: bool,
 }
 
 /// The greatest rate of a subscription, by the timestamps of cycles.
@@ -182,14 +184,19 @@ impl Source {
     /// The client gets the part of the next cycle that has one.
     pub(crate) fn read(&mut self, part: ResolvedPath, client: ClientId, request: u32) {
         let stream = self.stream(part, Encoding::Json);
-        stream.readers.push(Reader { client, request });
+        stream.readers.push(Reader {
+            client,
+            request,
+            is_passed_over: false,
+        });
         self.tap.open();
     }
 
-    /// Whether the client waits for this one still.
-    pub(crate) fn is_reading(&self, client: ClientId, request: u32) -> bool {
+    /// Whether a cycle passed the client over; `None` where it does not wait for this one any more.
+    pub(crate) fn passed_over(&self, client: ClientId, request: u32) -> Option<bool> {
         let mut readers = self.streams.iter().flat_map(|stream| &stream.readers);
-        readers.any(|reader| (reader.client, reader.request) == (client, request))
+        let reader = readers.find(|it| (it.client, it.request) == (client, request))?;
+        Some(reader.is_passed_over)
     }
 
     /// The client does not wait for this one any more; without a number, for none.
@@ -319,7 +326,9 @@ impl Stream {
     ) -> Vec<Reader> {
         let may_ask = |reader: &mut Reader| {
             let client = clients.get(&reader.client);
-            client.is_none_or(|client| client.outbox.may_ask(limits))
+            let may_ask = client.is_none_or(|client| client.outbox.may_ask(limits));
+            reader.is_passed_over |= !may_ask;
+            may_ask
         };
         self.readers.extract_if(.., may_ask).collect()
     }

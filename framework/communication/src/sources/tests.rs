@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use framework::parameters::Layers;
 use framework::reflect::{Reflect, Shape, binary};
@@ -151,6 +151,7 @@ fn whoever_reads_a_cycle_gets_the_one_text_that_is_made_of_it() {
         stream.readers.push(Reader {
             client: one,
             request,
+            is_passed_over: false,
         });
     }
     stream.subscribers.push(Subscriber {
@@ -168,6 +169,7 @@ fn whoever_reads_a_cycle_gets_the_one_text_that_is_made_of_it() {
     stream.readers.push(Reader {
         client: other,
         request: 9,
+        is_passed_over: false,
     });
     assert_eq!(hand_out(&mut stream, 2, &value, &mut clients, &limits), 1);
     let texts: Vec<_> = clients.values_mut().map(texts).collect();
@@ -201,6 +203,7 @@ fn who_does_not_take_its_answers_reads_nothing_meanwhile() {
         stream.readers.push(Reader {
             client: one,
             request: 0,
+            is_passed_over: false,
         });
     }
     assert_eq!(hand_out(&mut first, 1, &value, &mut clients, &limits), 1);
@@ -282,4 +285,39 @@ fn what_a_late_server_did_not_see_is_lost_for_those_who_want_every_cycle_alone()
     assert_eq!(lost.len(), 1, "{lost:?}");
     assert_eq!(lost[0]["subscription"], 1);
     assert!(lost[0]["updates"].as_u64() > Some(0));
+}
+
+#[test]
+fn a_read_without_a_value_says_whether_there_was_none_or_the_client_was_slow() {
+    for (is_written, expected) in [
+        (false, "no cycle wrote"),
+        (true, "cycles wrote it when too many answers waited"),
+    ] {
+        let stop = Stop::new();
+        let (mut hub, run) = zoo(stop.clone());
+        hub.limits.queued_bytes = 10;
+        let (client, _) = hub.connect();
+        hub.receive(
+            client,
+            r#"{"id":1,"ask":{"read":{"path":"Control.main_outputs.cycles"}}}"#,
+        );
+        let own = hub.clients.get_mut(&client).expect("it is there");
+        let other = r#""cycle":1,"time":1,"value":0}}"#.to_owned();
+        own.outbox.say_value(0, Arc::new(other));
+        if is_written {
+            let runs = std::thread::spawn(run);
+            std::thread::sleep(Duration::from_millis(200));
+            stop.request();
+            runs.join().expect("it ran").expect("no node fails");
+            hub.look();
+            // It takes them just before the time is over.
+            let own = hub.clients.get_mut(&client).expect("it is there");
+            assert!(!texts(own).is_empty());
+        }
+        hub.waiting[0].until = Instant::now();
+        hub.look();
+        let own = hub.clients.get_mut(&client).expect("it is there");
+        let last = texts(own).pop().expect("an answer").to_string();
+        assert!(last.contains(expected), "{last}");
+    }
 }
