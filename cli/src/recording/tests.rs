@@ -83,7 +83,6 @@ fn layouts() -> Layouts {
         )]
         .into(),
         images: [("Eye.main_outputs.image".to_owned(), "gray".to_owned())].into(),
-        ..Layouts::default()
     }
 }
 

@@ -92,7 +92,7 @@ fn wrong_rates_and_paths_are_refused_with_what_would_be_right() {
             "Contrl.main_outputs.cycles",
             "`Control.main_outputs.cycles`",
         ),
-        ("cycles", "`Control.main_outputs.cycles`"),
+        ("Control.cycles", "`Control.main_outputs.cycles`"),
         ("Control.pose.x", "`Control.main_outputs.pose.x`"),
         ("gait.period", "`parameters.gait.period`"),
     ] {
