@@ -19,6 +19,7 @@ fn obstacle_filter_computes_cycle_1331_of_control_again() {
         odometry: odometry.input(),
         sonar_distances: &captured.value("sonar_distances"),
         bumpers: &captured.value("bumpers"),
+        fall_state: &captured.value("fall_state"),
         cycle_time: captured.time(),
         parameters: &captured.value("parameters"),
         obstacles: &mut obstacles,

@@ -15,9 +15,11 @@ fn role_assignment_computes_cycle_932_of_control_again() {
         ball: &captured.value("ball"),
         team_ball: &captured.value("team_ball"),
         teammates: &captured.value("teammates"),
+        cycle_time: captured.time(),
         player: &captured.value("player"),
         parameters: &captured.value("parameters"),
         markings: &captured.value("markings"),
+        set_play_lasts: &captured.value("set_play_lasts"),
     };
     let outputs = node
         .cycle(context)

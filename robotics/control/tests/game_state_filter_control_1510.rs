@@ -1,13 +1,13 @@
-//! Cycle 510 of Control as it was recorded: `control::game_state_filter` computes the same again, bit for bit.
+//! Cycle 1510 of Control as it was recorded: `control::game_state_filter` computes the same again, bit for bit.
 //!
-//! Written by `hulkgen capture`, with its values in `captured/game_state_filter_control_510.json`.
+//! Written by `hulkgen capture`, with its values in `captured/game_state_filter_control_1510.json`.
 
 use control::game_state_filter::{CycleContext, GameStateFilter};
 use framework::testing::Captured;
 
 #[test]
-fn game_state_filter_computes_cycle_510_of_control_again() {
-    let captured = Captured::new(include_str!("captured/game_state_filter_control_510.json"));
+fn game_state_filter_computes_cycle_1510_of_control_again() {
+    let captured = Captured::new(include_str!("captured/game_state_filter_control_1510.json"));
     let mut node: GameStateFilter = captured.state();
     let context = CycleContext {
         game_controller_state: &captured.value("game_controller_state"),
