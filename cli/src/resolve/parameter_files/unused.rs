@@ -49,7 +49,7 @@ fn warn(file: &Utf8PathBuf, manifest: &Manifest, diagnostics: &mut Diagnostics) 
             warning.help(help).help_if(near)
         }
         None => {
-            let near = nearest(stem, ["default"].into_iter());
+            let near = nearest(stem, ["default"]);
             let near = near.map(|_| format!("did you mean `{DEFAULT}`?"));
             warning
                 .help(format!(

@@ -2,6 +2,7 @@
 
 use framework::testing::{at_millis, cycle_time};
 use nalgebra::Isometry2;
+use types::game::SetPlay;
 use types::team::{TeamBall, TeamMessage};
 
 use super::*;
