@@ -546,7 +546,7 @@ fn repeated<'r>(
     by_key
 }
 
-/// A kind where it has no meaning, or with arguments that it does not take.
+/// A kind where it has no meaning, or with arguments or hints that it does not take.
 fn misplaced(field: &Field) -> Option<&'static str> {
     let (contexts, types, literals): (&[&str], _, _) = match field.kind.text.as_str() {
         "Input" | "RequiredInput" => (&CONTEXTS[1..2], 1, 1..=2),
@@ -560,6 +560,9 @@ fn misplaced(field: &Field) -> Option<&'static str> {
         "CaptureTime" => (&CONTEXTS[2..], 0, 0..=0),
         _ => return Some("kind"),
     };
+    if field.has_hints && field.kind.text != "Parameter" {
+        return Some("hints");
+    }
     let fits = contexts.contains(&field.context)
         && field.types.len() == types
         && literals.contains(&field.literals.len());

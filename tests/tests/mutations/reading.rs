@@ -40,6 +40,8 @@ pub(crate) struct Field {
     pub(crate) types: Vec<Part>,
     /// Without quotes, as are their bytes.
     pub(crate) literals: Vec<Part>,
+    /// Whether it says unit or range.
+    pub(crate) has_hints: bool,
     /// Bytes of the whole field.
     pub(crate) bytes: Range<usize>,
 }
@@ -323,6 +325,7 @@ fn read_field(context: &'static str, field: &syn::Field) -> Option<Field> {
         kind: part(last.ident.to_string(), last.ident.span().byte_range()),
         types: Vec::new(),
         literals: Vec::new(),
+        has_hints: field.attrs.iter().any(|one| one.path().is_ident("reflect")),
         bytes: name.span().byte_range().start..field.ty.span().byte_range().end,
     };
     if let PathArguments::AngleBracketed(bracketed) = &last.arguments {
