@@ -31,6 +31,7 @@ pub struct RoleAssignment {
     goalkeeper: Option<u8>,
     /// Whether that one was out.
     is_keeper_out: bool,
+    /// Whose the ball is; a referee that falls silent has ended neither a penalty kick nor a shot.
     said: Said,
 }
 
