@@ -78,10 +78,8 @@ fn draw_row(text: &mut String, row: &Row<'_>, left: i32, width: i32) {
         Role::ForClients => ("clients", right - PADDING),
     };
     let data = row.field.data.as_deref().unwrap_or_default();
-    let about = format!(
-        "{} {}: {data} (line {})",
-        row.field.kind, row.field.name, row.field.line
-    );
+    // Without its line: a checked-in picture would change with every comment above the field.
+    let about = format!("{} {}: {data}", row.field.kind, row.field.name);
     line(
         text,
         format_args!(
