@@ -16,7 +16,7 @@ pub use elf::{Elf, Version};
 pub use flags::{ENCODED, Flags};
 pub use processor::Processor;
 pub use tools::Tools;
-pub use verdict::{Wanted, objections};
+pub use verdict::{Wanted, WrongTriple, objections};
 
 use crate::outcome::Refusal;
 

@@ -5,8 +5,11 @@
 mod folders;
 mod names;
 mod places;
+mod scheduling;
+mod targets;
 mod tolerant;
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use camino::Utf8Path;
@@ -16,6 +19,7 @@ use crate::diagnostics::{Code, Diagnostic, Diagnostics, Reported};
 use crate::workspace::{MANIFEST, Workspace};
 
 pub use folders::{mistake as mistake_of_generated_folder, without_dots};
+pub use targets::absent_files;
 
 /// The manifest without mistakes of its own.
 #[derive(Clone, Debug)]
@@ -43,6 +47,7 @@ pub struct Cycler {
     pub name_range: Range<usize>,
     /// Of `record`, if it has one.
     pub record_range: Option<Range<usize>>,
+    pub scheduling_ranges: SchedulingRanges,
     /// In manifest order; at least one.
     pub instances: Vec<Instance>,
     /// Setup nodes first, then nodes, both in manifest order.
@@ -60,6 +65,15 @@ pub struct Instance {
     pub range: Range<usize>,
     /// Of `record` in its table, if it has one.
     pub record_range: Option<Range<usize>>,
+    /// Of its own `scheduling`.
+    pub scheduling_ranges: SchedulingRanges,
+}
+
+/// Where the values of a `scheduling` stand; empty without one.
+#[derive(Clone, Debug, Default)]
+pub struct SchedulingRanges {
+    pub policy: Option<Range<usize>>,
+    pub priority: Option<Range<usize>>,
 }
 
 /// A line of `setup_nodes` or `nodes`.
@@ -83,6 +97,22 @@ pub struct Target {
     pub hardware_range: Range<usize>,
     /// Of its location, if it has one.
     pub location_range: Option<Range<usize>>,
+    /// Of its triple, if it has one.
+    pub triple_range: Option<Range<usize>>,
+    /// Of its profile, if it has one.
+    pub profile_range: Option<Range<usize>>,
+    pub deploy_ranges: DeployRanges,
+}
+
+/// Where the values of `[target.deploy]` stand; empty without one.
+#[derive(Clone, Debug, Default)]
+pub struct DeployRanges {
+    /// By their keys.
+    pub values: BTreeMap<String, Range<usize>>,
+    /// Of each of `files`.
+    pub files: Vec<Range<usize>>,
+    /// Of the destinations in `hosts`, by the robots' names.
+    pub hosts: BTreeMap<String, Range<usize>>,
 }
 
 /// What a bridge maps, and where it stands.
@@ -128,6 +158,10 @@ pub fn load(workspace: &Workspace, diagnostics: &mut Diagnostics) -> Result<Mani
     let declared = tolerant::read(&table, file, diagnostics)?;
     let manifest = places::locate(declared, table.get_ref(), text.clone());
     names::check(&manifest, diagnostics);
+    for cycler in &manifest.cyclers {
+        scheduling::check(cycler, diagnostics);
+    }
+    targets::check(workspace, &manifest, diagnostics);
     folders::check(workspace, &manifest, diagnostics);
     diagnostics.stop_at_errors()?;
     Ok(manifest)

@@ -12,6 +12,7 @@ mod glob;
 mod members;
 mod memory;
 mod parsed;
+mod profiles;
 mod revision;
 mod watch;
 

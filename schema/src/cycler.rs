@@ -100,7 +100,7 @@ pub enum Instance {
 pub struct InstanceTable {
     /// Suffix: `Top` of `Vision` is called `VisionTop`.
     pub name: InstanceSuffix,
-    /// Of its thread. Left out: the cycler's.
+    /// Of its thread, in place of the whole one of the cycler. Left out: the cycler's.
     #[serde(default)]
     pub scheduling: Option<Scheduling>,
     /// A longer cycle is an overrun. Left out: the cycler's.
@@ -139,7 +139,7 @@ pub struct Scheduling {
     /// Left out: the system's.
     #[serde(default)]
     pub policy: Option<Policy>,
-    /// 1 (least urgent) to 99, for `fifo` and `round-robin`.
+    /// 1 (least urgent) to 99: `fifo` and `round-robin` need one, without `policy` it has no effect.
     #[serde(default)]
     #[schemars(range(min = 1, max = 99))]
     pub priority: Option<u8>,

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Deploy {
-    /// Folder on the robot for versions and runs, for example `/home/nao/robot`.
+    /// Folder on the robot for versions and runs, from its root: `/home/nao/robot`.
     pub folder: String,
     /// Robots by name, each with its destination for ssh: `{ nao22 = "nao@10.1.24.22" }`.
     #[serde(default)]
@@ -17,10 +17,10 @@ pub struct Deploy {
     /// Configuration of ssh with keys and options, relative to the workspace root. Left out: the user's own.
     #[serde(default)]
     pub ssh_config: Option<String>,
-    /// Files and folders that the program reads besides its parameters, relative to the workspace root.
+    /// Files and folders in the workspace that the program reads besides its parameters, relative to its root.
     #[serde(default)]
     pub files: Vec<String>,
-    /// Unit file of systemd, relative to the workspace root; it starts `<folder>/current/start`. Left out: nothing is started.
+    /// Unit file of systemd in the workspace, relative to its root; it starts `<folder>/current/start`. Left out: nothing is started.
     #[serde(default)]
     pub unit: Option<String>,
     /// What manages the unit on the robot. Left out: `systemctl --user`.

@@ -10,7 +10,7 @@ use super::run::{absolute, choose_target, profile};
 use super::session::Session;
 use crate::arguments::{self, TextOrJson};
 use crate::cache::user_folder;
-use crate::cross::{self, Elf, Flags, Processor, Tools, Wanted};
+use crate::cross::{self, Elf, Flags, Processor, Tools, Wanted, WrongTriple};
 use crate::outcome::{Outcome, Refusal};
 use crate::resolve::robot::Target;
 
@@ -104,12 +104,7 @@ pub(super) fn run(
 }
 
 fn wanted_of(triple: &str) -> Result<Wanted, Refusal> {
-    Wanted::parse(triple).ok_or_else(|| {
-        Refusal::bad(format!(
-            "the target's triple `{triple}` ends with no version of glibc"
-        ))
-        .help("write it like `x86_64-unknown-linux-gnu.2.28`")
-    })
+    Wanted::parse(triple).map_err(|wrong| Refusal::bad(wrong.to_string()).help(WrongTriple::HELP))
 }
 
 /// Nothing is built with flags of the environment that let the program use what the processor lacks.

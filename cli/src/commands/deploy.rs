@@ -18,6 +18,7 @@ use super::cargo::OWN_PROFILE;
 use super::session::Session;
 use crate::arguments::{self, TextOrJson};
 use crate::deploy::{Contents, Package};
+use crate::manifest::absent_files;
 use crate::outcome::{Outcome, Refusal};
 use one::{Deed, Done};
 use reached::{Reached, Robot};
@@ -87,6 +88,13 @@ fn collect(
         Some(program) => program.clone(),
         None => built(target_folder(session)?, reached),
     };
+    if let Some((key, file)) = absent_files(&session.workspace, &reached.deploy).first() {
+        return Err(
+            Refusal::bad(format!("`{file}` is to be sent and is not there")).help(format!(
+                "look at `{key}` in `[target.deploy]` of hulk.toml: `hulkgen check` shows the line"
+            )),
+        );
+    }
     let mut files = vec![reached.parameters.as_str()];
     files.extend(reached.deploy.files.iter().map(String::as_str));
     Package::collect(&Contents {

@@ -23,16 +23,35 @@ pub struct Wanted {
     pub glibc: Option<Version>,
 }
 
+/// A triple behind which no version stands.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the target's triple `{triple}` ends with no version of glibc")]
+pub struct WrongTriple {
+    pub triple: String,
+}
+
+impl WrongTriple {
+    /// The deed that mends it.
+    pub const HELP: &str = "write it like `x86_64-unknown-linux-gnu.2.28`";
+}
+
 impl Wanted {
-    /// Takes a triple apart; `None` where what stands behind it is no version.
-    pub fn parse(triple: &str) -> Option<Self> {
-        let (triple, glibc) = match triple.split_once('.') {
-            Some((triple, version)) => (triple, Some(Version::parse(version)?)),
-            None => (triple, None),
+    /// Takes a triple apart.
+    ///
+    /// # Errors
+    /// If what stands behind it is no version.
+    pub fn parse(written: &str) -> Result<Self, WrongTriple> {
+        let (triple, version) = match written.split_once('.') {
+            Some((triple, version)) => (triple, Some(version)),
+            None => (written, None),
         };
-        Some(Self {
+        let wrong = || WrongTriple {
+            triple: written.to_owned(),
+        };
+        let glibc = version.map(|version| Version::parse(version).ok_or_else(wrong));
+        Ok(Self {
             triple: triple.to_owned(),
-            glibc,
+            glibc: glibc.transpose()?,
         })
     }
 
@@ -94,7 +113,11 @@ mod tests {
         assert_eq!(nao().glibc, Version::parse("2.28"));
         let plain = Wanted::parse("aarch64-unknown-linux-gnu").expect("it is a triple");
         assert_eq!((plain.glibc, plain.machine()), (None, Some(183)));
-        assert_eq!(Wanted::parse("x86_64-unknown-linux-gnu.new"), None);
+        for behind in [".", ".new"] {
+            let wrong = Wanted::parse(&format!("x86_64-unknown-linux-gnu{behind}"));
+            let message = wrong.expect_err("it is no version").to_string();
+            assert!(message.contains("no version of glibc"), "{message}");
+        }
     }
 
     #[test]

@@ -45,7 +45,7 @@ impl Package {
     /// Collects everything but what differs from robot to robot.
     ///
     /// # Errors
-    /// A file is missing, or the program is none.
+    /// The program is none, or a file cannot be copied.
     pub(crate) fn collect(contents: &Contents<'_>) -> Result<Self, Refusal> {
         let program = contents.program;
         if !program.is_file() {
@@ -58,14 +58,6 @@ impl Package {
         let into = text(&folder)?;
         let mut all = contents.files.clone();
         all.extend(contents.unit);
-        for file in &all {
-            if !contents.root.join(file).exists() {
-                return Err(
-                    Refusal::bad(format!("`{file}` is to be sent and is not there"))
-                        .help("look at `files` and `unit` in `[target.deploy]` of hulk.toml"),
-                );
-            }
-        }
         // Times are kept, so that rsync sends what has changed. `-R`: with their folders; `-L`: what links lead to.
         let mut copy = Command::new("rsync");
         copy.args(["-aRL", "--"]).args(&all).arg(format!("{into}/"));

@@ -111,6 +111,8 @@ catalogue! {
         "A node file lacks one of its three structs.";
     MissingDerive, "missing-derive", Error,
         "A node's state cannot be stored.";
+    MissingFile, "missing-file", Warning,
+        "A file that the manifest names is not there.";
     MissingKey, "missing-key", Error,
         "The manifest lacks a key.";
     MissingNode, "missing-node", Error,
@@ -161,6 +163,8 @@ catalogue! {
         "An input reads what no node of that cycler writes.";
     UnknownParameter, "unknown-parameter", Error,
         "A parameter file has a key that no node declares.";
+    UnknownProfile, "unknown-profile", Warning,
+        "A target's profile is none that cargo knows.";
     UnorderedStateWriters, "unordered-state-writers", Warning,
         "Two writers of a cycler state are ordered by the manifest alone.";
     UnreadOutputs, "unread-outputs", Warning,

@@ -127,25 +127,6 @@ fn check_counts(cycler: &Cycler, diagnostics: &mut Diagnostics) {
             "write a `queue` from 1 to 4096",
         );
     }
-    let own = cycler
-        .instances
-        .iter()
-        .filter_map(|one| one.table.as_ref()?.scheduling.as_ref());
-    let priorities = cycler
-        .declared
-        .scheduling
-        .iter()
-        .chain(own)
-        .filter_map(|one| one.priority);
-    if priorities
-        .into_iter()
-        .any(|priority| !(1..=99).contains(&priority))
-    {
-        wrong(
-            format!("a priority of cycler `{name}` is none of the system's"),
-            "write a `priority` from 1 to 99",
-        );
-    }
 }
 
 /// Keys that only mean something in the other kind of cycler.

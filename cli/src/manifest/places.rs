@@ -1,12 +1,15 @@
 //! Where every name of the manifest stands.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::Arc;
 
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::{Bridge, Cycler, Instance, Manifest, NodeEntry, Target};
+use super::{
+    Bridge, Cycler, DeployRanges, Instance, Manifest, NodeEntry, SchedulingRanges, Target,
+};
 
 /// Joins the manifest with its places. Both come from one text, so what the one has, the other has.
 pub(super) fn locate(declared: schema::Manifest, table: &DeTable<'_>, text: Arc<str>) -> Manifest {
@@ -73,11 +76,13 @@ fn locate_cycler(declared: schema::Cycler, place: &Spanned<DeValue<'_>>) -> Cycl
                     |place| range_of(place, "name").unwrap_or_else(|| place.span()),
                 ),
                 record_range: place.and_then(|place| range_of(place, "record")),
+                scheduling_ranges: place.map(locate_scheduling).unwrap_or_default(),
             }
         })
         .collect();
     Cycler {
         record_range: range_of(place, "record"),
+        scheduling_ranges: locate_scheduling(place),
         declared,
         name_range,
         instances,
@@ -91,7 +96,29 @@ fn locate_target(declared: schema::Target, place: &Spanned<DeValue<'_>>) -> Targ
         name_range: range("name"),
         hardware_range: range("hardware"),
         location_range: range_of(place, "location"),
+        triple_range: range_of(place, "triple"),
+        profile_range: range_of(place, "profile"),
+        deploy_ranges: below(place, "deploy")
+            .map(locate_deploy)
+            .unwrap_or_default(),
         declared,
+    }
+}
+
+fn locate_deploy(place: &Spanned<DeValue<'_>>) -> DeployRanges {
+    DeployRanges {
+        values: ranges(place),
+        files: list(place, "files").iter().map(Spanned::span).collect(),
+        hosts: below(place, "hosts").map(ranges).unwrap_or_default(),
+    }
+}
+
+/// Of a cycler, or of an instance's table.
+fn locate_scheduling(place: &Spanned<DeValue<'_>>) -> SchedulingRanges {
+    let range = |key| range_of(below(place, "scheduling")?, key);
+    SchedulingRanges {
+        policy: range("policy"),
+        priority: range("priority"),
     }
 }
 
@@ -106,7 +133,20 @@ fn locate_bridge(declared: schema::Bridge, place: &Spanned<DeValue<'_>>) -> Brid
 
 /// The range of a value in a table; `None` where the place is no table or lacks the key.
 pub(super) fn range_of(place: &Spanned<DeValue<'_>>, key: &str) -> Option<Range<usize>> {
-    Some(place.get_ref().as_table()?.get(key)?.span())
+    Some(below(place, key)?.span())
+}
+
+/// A value in a table; `None` where the place is no table or lacks the key.
+fn below<'a, 'i>(place: &'a Spanned<DeValue<'i>>, key: &str) -> Option<&'a Spanned<DeValue<'i>>> {
+    place.get_ref().as_table()?.get(key)
+}
+
+/// Of all values in a table.
+fn ranges(place: &Spanned<DeValue<'_>>) -> BTreeMap<String, Range<usize>> {
+    let values = place.get_ref().as_table().into_iter().flatten();
+    values
+        .map(|(key, value)| (key.get_ref().to_string(), value.span()))
+        .collect()
 }
 
 fn elements<'a, 'i>(table: &'a DeTable<'i>, key: &str) -> &'a [Spanned<DeValue<'i>>] {
@@ -114,8 +154,7 @@ fn elements<'a, 'i>(table: &'a DeTable<'i>, key: &str) -> &'a [Spanned<DeValue<'
 }
 
 fn list<'a, 'i>(place: &'a Spanned<DeValue<'i>>, key: &str) -> &'a [Spanned<DeValue<'i>>] {
-    let table = place.get_ref().as_table();
-    table.and_then(|table| table.get(key)).map_or(&[], array)
+    below(place, key).map_or(&[], array)
 }
 
 fn array<'a, 'i>(value: &'a Spanned<DeValue<'i>>) -> &'a [Spanned<DeValue<'i>>] {

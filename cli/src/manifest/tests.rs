@@ -1,5 +1,7 @@
 //! Manifests with one mistake each.
 
+mod targets;
+
 use super::load;
 use crate::diagnostics::{Code, Diagnostics, render};
 use crate::workspace::Workspace;
@@ -151,7 +153,7 @@ fn empty_lists_and_numbers_out_of_range_are_errors() {
         ("queue = 0", "from 1 to 4096"),
         (
             "scheduling = { policy = \"fifo\", priority = 100 }",
-            "from 1 to 99",
+            "from 1 (least urgent) to 99",
         ),
     ] {
         let (codes, text) = mistakes(&format!(
@@ -159,6 +161,62 @@ fn empty_lists_and_numbers_out_of_range_are_errors() {
         ));
         assert_eq!(codes, ["invalid-value"], "{text}");
         assert!(text.contains(part), "{text}");
+    }
+}
+
+#[test]
+fn policy_and_priority_of_a_thread_belong_together() {
+    let cycler = |cycler: &str, instances: &str| {
+        mistakes(&format!(
+            "{ROBOT}[[cycler]]\nname = \"A\"\nkind = \"perception\"\nnodes = [\"a::b\"]\n{instances}\n{cycler}\n"
+        ))
+    };
+    let fifo = "scheduling = { policy = \"fifo\", priority = 80, cores = [0] }";
+    let (codes, text) = cycler(
+        fifo,
+        "instances = [\"B\", { name = \"C\", scheduling = { cores = [2] } }]",
+    );
+    assert!(codes.is_empty(), "{text}");
+    for (of_cycler, instances, code, part, place) in [
+        (
+            "scheduling = { priority = 80 }",
+            "",
+            "unused-key",
+            "add `policy = \"fifo\"`",
+            "hulk.toml:8:27",
+        ),
+        (
+            "[cycler.scheduling]\npolicy = \"fifo\"",
+            "",
+            "missing-key",
+            "add `priority = …`",
+            "hulk.toml:9:10",
+        ),
+        (
+            fifo,
+            "instances = [{ name = \"B\", scheduling = { priority = 70 } }]",
+            "unused-key",
+            "write the cycler's `policy` here, too",
+            "hulk.toml:7:54",
+        ),
+        (
+            fifo,
+            "instances = [{ name = \"B\", scheduling = { policy = \"round-robin\" } }]",
+            "missing-key",
+            "add `priority = 80` here, too",
+            "hulk.toml:7:52",
+        ),
+        (
+            "",
+            "instances = [{ name = \"B\", scheduling = { policy = \"fifo\", priority = 0 } }]",
+            "invalid-value",
+            "from 1 (least urgent) to 99",
+            "hulk.toml:7:71",
+        ),
+    ] {
+        let (codes, text) = cycler(of_cycler, instances);
+        assert_eq!(codes, [code], "{text}");
+        assert!(text.contains(part) && text.contains(place), "{text}");
     }
 }
 

@@ -245,6 +245,36 @@ fn what_cannot_run_there_is_refused_before_the_switch() {
 }
 
 #[test]
+fn what_the_manifest_names_is_there_before_anything_is_sent() {
+    let Some(field) = Field::open("what_the_manifest_names_is_there_before_anything_is_sent")
+    else {
+        return;
+    };
+    let manifest = field.read("robot/hulk.toml");
+    for (right, wrong, part) in [
+        ("[\"motions\"]", "[\"motion\"]", "look at `files`"),
+        ("system/lamp", "system/lmap", "look at `unit`"),
+    ] {
+        field.write("robot/hulk.toml", &manifest.replace(right, wrong));
+        let (status, answer, said) = field.deploy("a");
+        assert_eq!(status, 1, "{answer}{said}");
+        assert!(said.contains(part), "{said}");
+    }
+    // A unit file of the system would not be copied from where it lies, but taken away.
+    let own = field.path("robot/system/lamp.service");
+    let elsewhere = manifest.replace("system/lamp.service", &own.display().to_string());
+    field.write("robot/hulk.toml", &elsewhere);
+    let (status, answer, said) = field.deploy("a");
+    assert_eq!(status, 1, "{answer}{said}");
+    assert!(
+        said.contains("is no plain path below the workspace"),
+        "{said}"
+    );
+    assert!(own.is_file());
+    assert_eq!(field.current(), None);
+}
+
+#[test]
 fn a_version_that_does_not_start_gives_way_to_the_one_before() {
     let Some(field) = Field::open("a_version_that_does_not_start_gives_way_to_the_one_before")
     else {
