@@ -22,6 +22,18 @@ pub trait Hardware: Send + Sync {
     where
         Self: Sized;
 
+    /// Reads of its context what [`Hardware::new`] reads, the table and the options, and connects to nothing: for
+    /// `--check-parameters`, so that a robot is not sent what it does not start with. By default nothing is looked at.
+    ///
+    /// # Errors
+    /// As [`Hardware::new`] has them of the same context.
+    fn check_parameters(_context: &HardwareContext) -> Result<()>
+    where
+        Self: Sized,
+    {
+        Ok(())
+    }
+
     /// The identities that choose parameter layers, as (name, id): `("body", "3108…")`.
     fn identities(&self) -> Vec<(String, String)> {
         Vec::new()

@@ -148,7 +148,7 @@ where
         return status_of(write!(output, "{}", H::options()));
     }
     if options.check_parameters {
-        return check::parameters::<P>(target, options, output);
+        return check::parameters::<H, P>(target, options, output);
     }
     if options.is_replay {
         return replay::run::<P>(target, options, output, serve);
@@ -369,10 +369,14 @@ fn connect<H: Hardware>(
         clock: clock.clone(),
         stop: stop.clone(),
     });
-    let hardware = hardware.map_err(|error| parameters.locate(target.name, error));
-    Ok(Arc::new(hardware.map_err(|error| {
-        error.context(format!("hardware of `{}`", target.name))
-    })?))
+    let hardware = hardware.map_err(|error| of_hardware(target, parameters, error));
+    Ok(Arc::new(hardware?))
+}
+
+/// What the hardware says, with its name and the place that it could not know.
+fn of_hardware(target: &Target, parameters: &Parameters, error: Error) -> Error {
+    let error = parameters.locate(target.name, error);
+    error.context(format!("hardware of `{}`", target.name))
 }
 
 /// What the parameters have for the hardware of this target.

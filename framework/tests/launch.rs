@@ -59,6 +59,13 @@ impl Hardware for TestHardware {
         })
     }
 
+    fn check_parameters(context: &HardwareContext) -> Result<()> {
+        if context.options == ["odd"] {
+            return Err("there is no option `odd`".into());
+        }
+        context.parameters::<Table>().map(drop)
+    }
+
     fn identities(&self) -> Vec<(String, String)> {
         [("head", "3"), ("body", "17"), ("tail", "1")]
             .map(|(name, id)| (name.into(), id.into()))
@@ -219,8 +226,7 @@ fn check(directory: &TempDir, location: &str) -> (u8, Vec<serde_json::Value>) {
 
 #[test]
 fn parameters_are_checked_for_every_robot_that_files_name() {
-    // Without the hardware's table: only the parameters are looked at.
-    let directory = workspace("gain = 1.0\n");
+    let directory = workspace(TEXT);
     assert_eq!(check(&directory, ""), (0, vec![]));
     let write = |file: &str, text: &str| {
         fs::write(directory.path().join(file), text).expect("can be written");
@@ -252,7 +258,7 @@ fn parameters_are_checked_for_every_robot_that_files_name() {
     );
 
     // Some robot's file has it, so it is not missing; without any file it is.
-    let directory = workspace("");
+    let directory = workspace("[hardware.simulated]\nport = 9559\n");
     assert_eq!(check(&directory, ""), (0, vec![]));
     fs::remove_file(directory.path().join("body.17.toml")).expect("was written");
     let (status, mistakes) = check(&directory, "");
@@ -280,6 +286,46 @@ fn parameters_are_checked_for_every_robot_that_files_name() {
         (text.status, text.output.as_str()),
         (1, ""),
         "text goes to standard error"
+    );
+}
+
+#[test]
+fn the_table_of_the_hardware_is_checked_without_the_hardware() {
+    let mistake = |text: &str| {
+        let directory = workspace(text);
+        let (status, mistakes) = check(&directory, "");
+        assert_eq!((status, mistakes.len()), (1, 1), "{mistakes:#?}");
+        let file = directory.path().join("default.toml").display().to_string();
+        assert_eq!(mistakes[0]["file"], file);
+        let words = ["key", "fault", "line"].map(|key| mistakes[0][key].to_string());
+        words.join(" ").replace('"', "")
+    };
+    let table = "gain = 1.0\n[hardware.simulated]\n";
+    assert_eq!(
+        mistake(&format!("{table}port = 1\nprot = 1\n")),
+        "hardware.simulated.prot unknown 4"
+    );
+    assert_eq!(mistake(table), "hardware.simulated.port missing 2");
+    assert_eq!(
+        mistake("gain = 1.0\n[hardware]\nsimulated = 1\n"),
+        "hardware.simulated invalid 3"
+    );
+    // As at the start, where the hardware says which identities there are, and its options count.
+    let directory = workspace(TEXT);
+    let file = directory.path().join("body.17.toml");
+    fs::write(file, "[hardware.simulated]\nprot = 1\n").expect("can be written");
+    assert_eq!(check(&directory, ""), (0, vec![]));
+    let asked = ["--check-parameters", "--format", "json", "--", "odd"];
+    let ran = run(&directory, &asked);
+    let answer: serde_json::Value = serde_json::from_str(&ran.output).expect("one object");
+    let mistake = &answer["mistakes"][0];
+    assert_eq!(
+        (ran.status, &mistake["key"], &mistake["message"]),
+        (
+            1,
+            &"hardware.simulated".into(),
+            &"hardware of `simulated`: there is no option `odd`".into()
+        )
     );
 }
 

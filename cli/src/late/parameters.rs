@@ -45,6 +45,11 @@ impl Mistake {
         self.fault == Fault::Missing
     }
 
+    /// Whether it is in the table that the target's hardware reads.
+    pub fn is_of_hardware(&self) -> bool {
+        self.key.split('.').next() == Some("hardware")
+    }
+
     /// At its line; the program was started in the robot's root.
     pub fn diagnostic(&self, workspace: &Workspace, location: Option<&str>) -> Diagnostic {
         let code = match self.fault {
@@ -153,5 +158,6 @@ mod tests {
         assert_eq!(one["spans"][0]["file"], "parameters/default.toml");
         assert_eq!(one["spans"][0]["column"], 10);
         assert_eq!(one["spans"][0]["label"], "at `field`, for head P1");
+        assert!(!mistake.is_of_hardware());
     }
 }

@@ -8,11 +8,14 @@ use serde::de::DeserializeOwned;
 use serde_json::json;
 
 use super::options::{Format, Options};
-use super::{DONE, FAILED, Target, check_hardware, layers};
-use crate::error::Error;
+use super::{DONE, FAILED, Target, check_hardware, layers, of_hardware};
+use crate::clock::Clock;
+use crate::error::{Error, Result};
+use crate::hardware::{Hardware, HardwareContext};
 use crate::parameters::{Fault, Layers, Origin, ParameterError};
 use crate::reflect::Reflect;
 use crate::report::tell;
+use crate::stop::Stop;
 
 /// Why a robot would not start.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -33,13 +36,17 @@ struct Mistake {
 /// Loads the parameters as every robot would that files name, and says what is wrong; gives the exit status.
 ///
 /// A value is only missing if no file of an identity has it: which robots there are, nobody knows here.
-pub(super) fn parameters<P: DeserializeOwned + Reflect>(
+pub(super) fn parameters<H: Hardware, P: DeserializeOwned + Reflect>(
     target: &Target,
     options: &Options,
     output: &mut dyn Write,
 ) -> u8 {
     let mistakes = match layers(target, options) {
-        Ok(layers) => mistakes::<P>(target, &layers.combinations(target.identities)),
+        Ok(layers) => {
+            let mut found = mistakes::<P>(target, &layers.combinations(target.identities));
+            found.extend(mistake_of_hardware::<H>(target, options, &layers));
+            found
+        }
         Err(error) => vec![Mistake::new(&error, Vec::new())],
     };
     let written = match options.format {
@@ -76,6 +83,37 @@ fn mistakes<P: DeserializeOwned + Reflect>(target: &Target, robots: &[Layers]) -
     }
     found.retain(|(mistake, robots)| mistake.fault != Fault::Missing || *robots == count);
     found.into_iter().map(|(mistake, _)| mistake).collect()
+}
+
+/// Why the hardware would not start; its table is that without identities, for it is the hardware that has them.
+fn mistake_of_hardware<H: Hardware>(
+    target: &Target,
+    options: &Options,
+    layers: &Layers,
+) -> Option<Mistake> {
+    // What cannot be loaded, or is for no target, is told of the parameters.
+    let loaded = layers.load().ok()?;
+    check_hardware(target, &loaded).ok()?;
+    let read = |table| -> Result<()> {
+        H::check_parameters(&HardwareContext {
+            options: options.hardware.clone(),
+            table,
+            run_folder: options.run_folder.clone(),
+            clock: Clock::wall(),
+            stop: Stop::new(),
+        })
+        .map_err(|error| of_hardware(target, &loaded, error))
+    };
+    let error = loaded.hardware(target.name).and_then(read).err()?;
+    let mistake = Mistake::new(&error, Vec::new());
+    Some(match mistake.key.as_str() {
+        // Neither key nor file: it says in its own words what is wrong.
+        "" => Mistake {
+            key: format!("hardware.{}", target.name),
+            ..mistake
+        },
+        _ => mistake,
+    })
 }
 
 fn tell_programs(mistakes: &[Mistake], output: &mut dyn Write) -> io::Result<()> {

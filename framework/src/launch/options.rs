@@ -121,7 +121,7 @@ Usage: {name} [OPTIONS] [-- HARDWARE OPTIONS]
   --parameters DIR    instead of {parameters}
   --location NAME     layer of parameters; empty: none
   --set PATH=VALUE    a parameter, above all layers; may be repeated
-  --check-parameters  load the parameters for every identity that a file names, report mistakes and end
+  --check-parameters  load the parameters for every identity that a file names, and those of the hardware, report mistakes and end
   --run-folder DIR    for files of this run, instead of runs/<start>-<process>
   --scenario FILE     play it in lockstep in place of running; the exit status says whether it passed
   --seed NUMBER       what a scenario draws its random numbers from; 1 without it

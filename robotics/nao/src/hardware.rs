@@ -75,6 +75,10 @@ impl framework::Hardware for Hardware {
         })
     }
 
+    fn check_parameters(context: &HardwareContext) -> Result<()> {
+        Settings::of(context).map(drop)
+    }
+
     fn identities(&self) -> Vec<(String, String)> {
         self.identities.clone()
     }

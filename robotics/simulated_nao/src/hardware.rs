@@ -67,6 +67,10 @@ impl framework::Hardware for Hardware {
         Self::on(stage, 0, &settings, context)
     }
 
+    fn check_parameters(context: &HardwareContext) -> Result<()> {
+        Settings::of(context).map(drop)
+    }
+
     fn join(&self, context: HardwareContext) -> Result<Self> {
         if !context.clock.is_stepped() {
             return Err(Error::new("robots can only share a world in lockstep"));

@@ -47,8 +47,9 @@ pub(super) fn ask_program(
     let others = others.map(|location| (Some(location.as_str()), false));
     for (location, is_used) in used.chain(others) {
         let answer = ask(&executable, session.workspace.root(), location)?;
+        // The hardware's table is the target's own, which runs at one of these locations.
+        let all = answer.mistakes.iter().filter(|one| !one.is_of_hardware());
         // Where no target runs, values may be missing.
-        let all = answer.mistakes.iter();
         for mistake in all.filter(|mistake| is_used || !mistake.is_of_location()) {
             let diagnostic = mistake.diagnostic(&session.workspace, location);
             let place = diagnostic

@@ -85,6 +85,10 @@ impl framework::Hardware for Hardware {
         })
     }
 
+    fn check_parameters(context: &HardwareContext) -> Result<()> {
+        context.parameters::<Settings>().map(drop)
+    }
+
     fn stop(&self) {
         self.stop.request();
     }

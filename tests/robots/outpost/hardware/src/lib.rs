@@ -43,6 +43,10 @@ impl framework::Hardware for Hardware {
         })
     }
 
+    fn check_parameters(context: &HardwareContext) -> Result<()> {
+        context.parameters::<Settings>().map(drop)
+    }
+
     fn identities(&self) -> Vec<(String, String)> {
         Vec::new()
     }

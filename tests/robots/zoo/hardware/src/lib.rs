@@ -81,6 +81,10 @@ impl framework::Hardware for Hardware {
         })
     }
 
+    fn check_parameters(context: &HardwareContext) -> Result<()> {
+        context.parameters::<Settings>().map(drop)
+    }
+
     fn identities(&self) -> Vec<(String, String)> {
         vec![("body".to_owned(), "1".to_owned())]
     }
