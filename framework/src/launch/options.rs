@@ -66,9 +66,14 @@ pub(super) struct Options {
 }
 
 impl Options {
-    /// Whether a recording is to answer something; else it is played, or there is none.
+    /// Whether a program or a person reads answers from standard output; else the program has nothing to say there.
     pub(super) fn answers(&self) -> bool {
-        self.is_replay && (self.replay.is_question() || !self.settings.is_empty())
+        // Of a recording; else it is played, or there is none.
+        let is_question = self.replay.is_question() || !self.settings.is_empty();
+        self.format == Format::Json
+            || self.scenario.is_some()
+            || self.tool.is_some()
+            || self.is_replay && is_question
     }
 
     /// What a server has to know; `None`: there is none.

@@ -11,8 +11,8 @@ use super::options::Options;
 use crate::error::Error;
 use crate::report::tell;
 
-/// Where this process writes its data; else the exit status. What nodes print, and libraries of theirs, may not come between
-/// the answers of a replay: it goes to standard error from here on.
+/// Where this process writes its data; else the exit status. What nodes and hardware print, and libraries of theirs, may not
+/// come between its answers: it goes to standard error from here on.
 pub(super) fn of_process(options: &Options) -> Result<Box<dyn Write>, u8> {
     if !options.answers() {
         return Ok(Box::new(io::stdout()));
