@@ -27,7 +27,7 @@ pub struct New {
     /// A checkout of hulkgen, or a version of the registry [default: the checkout that hulkgen was built from]
     #[arg(long, value_name = "PATH|VERSION")]
     pub framework: Option<String>,
-    /// Name of the robot in snake_case; the template `nao` has its own [default: that of the folder]
+    /// Name of the robot in snake_case; that of the template `nao` is always `nao` [default: that of the folder]
     #[arg(long, value_name = "NAME")]
     pub name: Option<String>,
     /// Form of the answer

@@ -17,6 +17,9 @@ use crate::workspace::Workspace;
 /// Where hulkgen was built; a framework stands beside it as long as that checkout does.
 const BUILT_IN: &str = env!("CARGO_MANIFEST_DIR");
 
+/// What the robot of the template `nao` is called; its tests use `nao_runtime`.
+const NAO: &str = "nao";
+
 pub(super) fn run(terminal: &Terminal, new: &New) -> Result<Outcome, Failure> {
     let current = current_folder()?;
     let folder = current.join(&new.path);
@@ -104,13 +107,16 @@ fn refuse_occupied(folder: &Utf8Path, asked: &Utf8Path) -> Result<(), Refusal> {
 
 /// The robot's name: what is asked for, else that of the folder.
 fn name(new: &New, folder: &Utf8Path) -> Result<String, Refusal> {
-    let name = match (&new.name, new.template) {
-        (None, Template::Nao) => return Ok("nao".to_owned()),
-        (Some(_), Template::Nao) => {
-            let message = "the robot of the template `nao` has a name: `nao`";
-            return Err(Refusal::wrong_usage(message).help("leave out `--name`"));
+    let name = match (new.name.as_deref(), new.template) {
+        (None | Some(NAO), Template::Nao) => return Ok(NAO.to_owned()),
+        (Some(other), Template::Nao) => {
+            let message = format!(
+                "the robot of the template `nao` is called `{NAO}`, not `{other}`: its own crates name it so"
+            );
+            return Err(Refusal::wrong_usage(message)
+                .help("leave out `--name`; the folder may have any name"));
         }
-        (Some(name), Template::Blank) => name.clone(),
+        (Some(name), Template::Blank) => name.to_owned(),
         (None, Template::Blank) => {
             let name = folder.file_name().unwrap_or_default().to_lowercase();
             name.replace(['-', ' ', '.'], "_")
@@ -129,7 +135,30 @@ fn to_json(name: &str, folder: &Utf8Path, files: &Changes) -> String {
 
 #[cfg(test)]
 mod tests {
+    use clap::Parser as _;
+
     use super::*;
+    use crate::arguments::{Arguments, Command};
+
+    #[test]
+    fn the_nao_has_its_name_whether_it_is_said_or_not() {
+        let named = |words: &[&str]| {
+            let line = ["hulkgen", "new", "team", "--template"];
+            let line = line.iter().chain(words);
+            let parsed = Arguments::try_parse_from(line).expect("it is right usage");
+            let Command::New(new) = parsed.command else {
+                panic!("it is `new`")
+            };
+            name(&new, Utf8Path::new("/teams/team"))
+        };
+        assert_eq!(named(&["nao"]), Ok("nao".to_owned()));
+        assert_eq!(named(&["nao", "--name", "nao"]), Ok("nao".to_owned()));
+        let refusal = named(&["nao", "--name", "other"]).expect_err("it has a name");
+        assert!(refusal.message.contains("not `other`"), "{refusal:?}");
+        assert!(refusal.help.is_some_and(|help| help.contains("any name")));
+        assert_eq!(named(&["blank"]), Ok("team".to_owned()));
+        assert_eq!(named(&["blank", "--name", "nao"]), Ok("nao".to_owned()));
+    }
 
     #[test]
     fn a_path_with_spaces_can_be_copied_into_a_shell() {
