@@ -123,13 +123,17 @@ impl ForRobot {
 
 /// The script that the unit starts. It goes into its own version, wherever `current` leads meanwhile.
 fn start(program: &str, revision: &str, options: &[String]) -> String {
-    let options: String = options
-        .iter()
-        .map(|it| format!(" {}", quoted(it)))
-        .collect();
+    let words = |words: &[String]| -> String {
+        let words = words.iter().map(|it| format!(" {}", quoted(it)));
+        words.collect()
+    };
+    // What `start` is given is the program's: behind `--` it would be the hardware's.
+    let own = options.iter().position(|it| it == "--");
+    let (own, hardware) = options.split_at(own.unwrap_or(options.len()));
+    let (own, hardware) = (words(own), words(hardware));
     format!(
         "#!/bin/sh\n# Written by `hulkgen deploy`.\ncd \"$(dirname \"$(readlink -f \"$0\")\")\" || exit 1\n\
-         export HULKGEN_REVISION={}\nexec ./{}{options} \"$@\"\n",
+         export HULKGEN_REVISION={}\nexec ./{}{own} \"$@\"{hardware}\n",
         quoted(revision),
         quoted(program)
     )
@@ -218,5 +222,13 @@ mod tests {
             ),
             "{start}"
         );
+    }
+
+    #[test]
+    fn what_start_is_given_is_no_option_of_the_hardware() {
+        let options = ["--location", "lab", "--", "--no-sound"].map(str::to_owned);
+        let start = start("nao", "", &options);
+        let expected = "\nexec ./'nao' '--location' 'lab' \"$@\" '--' '--no-sound'\n";
+        assert!(start.ends_with(expected), "{start}");
     }
 }
