@@ -121,7 +121,7 @@ pub struct Parameters {
     /// audio::whistle_detection, control::tone_selector
     pub whistle_detection: WhistleDetectionParameters,
     pub whistle_filter: WhistleFilter,
-    pub world_state_composer: WorldStateComposer,
+    pub whose_ball_filter: WhoseBallFilter,
 }
 
 #[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
@@ -498,8 +498,8 @@ pub struct WhistleFilter {
 
 #[derive(Clone, Debug, Deserialize, Reflect, Serialize)]
 #[serde(deny_unknown_fields)]
-pub struct WorldStateComposer {
-    /// control::role_assignment, control::world_state_composer
+pub struct WhoseBallFilter {
+    /// control::whose_ball_filter
     #[reflect(unit = "s", range = 0..)]
     pub set_play_lasts: f32,
 }

@@ -44,6 +44,7 @@ use control::tone_player;
 use control::tone_selector;
 use control::walking_engine;
 use control::whistle_filter;
+use control::whose_ball_filter;
 use control::world_state_composer;
 use framework::AdditionalOutput;
 use framework::Clear;
@@ -109,6 +110,7 @@ pub struct Nodes {
     pub tone_selector: Guarded<tone_selector::ToneSelector>,
     pub walking_engine: Guarded<walking_engine::WalkingEngine>,
     pub whistle_filter: Guarded<whistle_filter::WhistleFilter>,
+    pub whose_ball_filter: Guarded<whose_ball_filter::WhoseBallFilter>,
     pub world_state_composer: Guarded<world_state_composer::WorldStateComposer>,
 }
 
@@ -194,6 +196,11 @@ impl Nodes {
                 "control::game_state_filter",
                 OnFailure::Stop,
                 Self::create_game_state_filter()?,
+            ),
+            whose_ball_filter: Guarded::new(
+                "control::whose_ball_filter",
+                OnFailure::Stop,
+                Self::create_whose_ball_filter()?,
             ),
             localization: Guarded::new(
                 "control::localization",
@@ -371,6 +378,7 @@ impl Nodes {
         self.team_message_filter(frame)?;
         self.whistle_filter(frame)?;
         self.game_state_filter(frame)?;
+        self.whose_ball_filter(frame)?;
         self.localization(frame)?;
         self.obstacle_filter(frame)?;
         self.ball_filter(frame)?;
@@ -1187,7 +1195,8 @@ impl Nodes {
         Ok(())
     }
 
-    /// primary_state, game_controller_state, ball, team_ball, teammates -> role, goalkeeper
+    /// primary_state, game_controller_state, whose_ball, ball, team_ball, teammates -> role,
+    /// goalkeeper
     #[inline(always)]
     fn role_assignment<Hardware>(
         &mut self,
@@ -1196,14 +1205,13 @@ impl Nodes {
         let context = role_assignment::CycleContext {
             primary_state: &frame.own.primary_state,
             game_controller_state: &frame.own.game_controller_state,
+            whose_ball: &frame.own.whose_ball,
             ball: &frame.own.ball,
             team_ball: &frame.own.team_ball,
             teammates: &frame.own.teammates,
-            cycle_time: frame.cycle.time,
             player: &frame.parameters.player,
             parameters: &frame.parameters.role_assignment,
             markings: &frame.parameters.field_dimensions.markings,
-            set_play_lasts: &frame.parameters.world_state_composer.set_play_lasts,
         };
         let outputs = self
             .role_assignment
@@ -1542,8 +1550,30 @@ impl Nodes {
         Ok(())
     }
 
-    /// primary_state, game_controller_state, fall_state, has_ground_contact, ground_to_field,
-    /// ball, obstacles, teammates, role, goalkeeper, team_ball -> world_state
+    /// primary_state, game_controller_state -> whose_ball
+    #[inline(always)]
+    fn whose_ball_filter<Hardware>(
+        &mut self,
+        frame: &mut Frame<'_, Hardware>,
+    ) -> Result<()> {
+        let context = whose_ball_filter::CycleContext {
+            primary_state: &frame.own.primary_state,
+            game_controller_state: &frame.own.game_controller_state,
+            cycle_time: frame.cycle.time,
+            set_play_lasts: &frame.parameters.whose_ball_filter.set_play_lasts,
+        };
+        let outputs = self
+            .whose_ball_filter
+            .call(&frame.cycle, |node| node.cycle(context))?;
+        frame.own.whose_ball = outputs.whose_ball.value;
+        if let Some(injections) = frame.injections {
+            injections.whose_ball.replace(&mut frame.own.whose_ball);
+        }
+        Ok(())
+    }
+
+    /// primary_state, whose_ball, fall_state, has_ground_contact, ground_to_field, ball,
+    /// obstacles, teammates, role, goalkeeper, team_ball -> world_state
     #[inline(always)]
     fn world_state_composer<Hardware>(
         &mut self,
@@ -1552,7 +1582,7 @@ impl Nodes {
         Clear::clear(&mut frame.own.world_state);
         let context = world_state_composer::CycleContext {
             primary_state: &frame.own.primary_state,
-            game_controller_state: &frame.own.game_controller_state,
+            whose_ball: &frame.own.whose_ball,
             fall_state: &frame.own.fall_state,
             has_ground_contact: &frame.own.has_ground_contact,
             ground_to_field: &frame.own.ground_to_field,
@@ -1562,8 +1592,6 @@ impl Nodes {
             role: &frame.own.role,
             goalkeeper: &frame.own.goalkeeper,
             team_ball: &frame.own.team_ball,
-            cycle_time: frame.cycle.time,
-            set_play_lasts: &frame.parameters.world_state_composer.set_play_lasts,
             world_state: &mut frame.own.world_state,
         };
         self.world_state_composer.call(&frame.cycle, |node| node.cycle(context))?;
@@ -1810,6 +1838,12 @@ impl Nodes {
     fn create_whistle_filter() -> Result<whistle_filter::WhistleFilter> {
         let context = whistle_filter::CreationContext {};
         whistle_filter::WhistleFilter::new(context).in_node("control::whistle_filter")
+    }
+
+    fn create_whose_ball_filter() -> Result<whose_ball_filter::WhoseBallFilter> {
+        let context = whose_ball_filter::CreationContext {};
+        whose_ball_filter::WhoseBallFilter::new(context)
+            .in_node("control::whose_ball_filter")
     }
 
     fn create_world_state_composer() -> Result<

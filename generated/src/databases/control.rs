@@ -39,6 +39,7 @@ use types::feet::Feet;
 use types::feet::Side;
 use types::game::GameControllerState;
 use types::game::PrimaryState;
+use types::game::WhoseBall;
 use types::head::HeadAngles;
 use types::head::HeadCommand;
 use types::head::HeadRequest;
@@ -145,6 +146,8 @@ pub struct OwnOutputs {
     pub walk_commands: Option<MotorCommands>,
     /// control::whistle_filter
     pub whistle: Whistle,
+    /// control::whose_ball_filter
+    pub whose_ball: WhoseBall,
     /// control::world_state_composer
     pub world_state: WorldState,
 }
@@ -261,6 +264,7 @@ pub struct Injections {
     pub tone: Injection<Option<Tone>>,
     pub walk_commands: Injection<Option<MotorCommands>>,
     pub whistle: Injection<Whistle>,
+    pub whose_ball: Injection<WhoseBall>,
     pub world_state: Injection<WorldState>,
 }
 
@@ -308,6 +312,7 @@ impl InjectionTable for Injections {
             "tone" => Some(&mut self.tone),
             "walk_commands" => Some(&mut self.walk_commands),
             "whistle" => Some(&mut self.whistle),
+            "whose_ball" => Some(&mut self.whose_ball),
             "world_state" => Some(&mut self.world_state),
             _ => None,
         }

@@ -89,6 +89,7 @@ impl<
         ("control::team_message_filter", "teammates"),
         ("control::whistle_filter", "whistle"),
         ("control::game_state_filter", "primary_state"),
+        ("control::whose_ball_filter", "whose_ball"),
         ("control::localization", "ground_to_field"),
         ("control::obstacle_filter", "obstacles"),
         ("control::ball_filter", "ball"),
@@ -150,6 +151,7 @@ impl<
         self.nodes.team_message_filter.record(out);
         self.nodes.whistle_filter.record(out);
         self.nodes.game_state_filter.record(out);
+        self.nodes.whose_ball_filter.record(out);
         self.nodes.localization.record(out);
         self.nodes.ball_filter.record(out);
         self.nodes.obstacle_filter.record(out);
@@ -235,6 +237,7 @@ impl<
             );
         types.node("control::whistle_filter", |body| &body.nodes.whistle_filter);
         types.node("control::game_state_filter", |body| &body.nodes.game_state_filter);
+        types.node("control::whose_ball_filter", |body| &body.nodes.whose_ball_filter);
         types.node("control::localization", |body| &body.nodes.localization);
         types.node("control::ball_filter", |body| &body.nodes.ball_filter);
         types.node("control::obstacle_filter", |body| &body.nodes.obstacle_filter);
@@ -375,6 +378,7 @@ impl<
         digests.add(&self.own.previous().teammates);
         digests.add(&self.own.previous().whistle);
         digests.add(&self.own.previous().primary_state);
+        digests.add(&self.own.previous().whose_ball);
         digests.add(&self.own.previous().ground_to_field);
         digests.add(&self.own.previous().obstacles);
         digests.add(&self.own.previous().ball);
@@ -476,6 +480,11 @@ fn load_nodes(from: &mut Loading<'_>) -> Result<Nodes> {
         )?,
         game_state_filter: Guarded::recorded(
             "control::game_state_filter",
+            OnFailure::Stop,
+            from,
+        )?,
+        whose_ball_filter: Guarded::recorded(
+            "control::whose_ball_filter",
             OnFailure::Stop,
             from,
         )?,

@@ -237,6 +237,7 @@ impl<
             "teammates",
             "whistle",
             "primary_state",
+            "whose_ball",
             "ground_to_field",
             "ball",
             "obstacles",
@@ -288,6 +289,7 @@ impl<
             "teammates" => Some(&self.own.previous().teammates),
             "whistle" => Some(&self.own.previous().whistle),
             "primary_state" => Some(&self.own.previous().primary_state),
+            "whose_ball" => Some(&self.own.previous().whose_ball),
             "ground_to_field" => Some(&self.own.previous().ground_to_field),
             "ball" => Some(&self.own.previous().ball),
             "obstacles" => Some(&self.own.previous().obstacles),
@@ -374,6 +376,7 @@ impl<
         visitor.output(Some(&self.own.previous().teammates));
         visitor.output(Some(&self.own.previous().whistle));
         visitor.output(Some(&self.own.previous().primary_state));
+        visitor.output(Some(&self.own.previous().whose_ball));
         visitor.output(Some(&self.own.previous().ground_to_field));
         visitor.output(Some(&self.own.previous().ball));
         visitor.output(Some(&self.own.previous().obstacles));
@@ -434,6 +437,7 @@ impl<
         visit(self.nodes.team_message_filter.report());
         visit(self.nodes.whistle_filter.report());
         visit(self.nodes.game_state_filter.report());
+        visit(self.nodes.whose_ball_filter.report());
         visit(self.nodes.localization.report());
         visit(self.nodes.ball_filter.report());
         visit(self.nodes.obstacle_filter.report());
@@ -499,6 +503,7 @@ impl<
         visit("control::team_message_filter", &mut self.nodes.team_message_filter);
         visit("control::whistle_filter", &mut self.nodes.whistle_filter);
         visit("control::game_state_filter", &mut self.nodes.game_state_filter);
+        visit("control::whose_ball_filter", &mut self.nodes.whose_ball_filter);
         visit("control::localization", &mut self.nodes.localization);
         visit("control::ball_filter", &mut self.nodes.ball_filter);
         visit("control::obstacle_filter", &mut self.nodes.obstacle_filter);

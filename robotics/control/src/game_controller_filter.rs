@@ -255,7 +255,10 @@ mod tests {
             let shot = Some(shot);
             let heard = vec![(at_millis(90), &shot)];
             let state = cycle(&mut node(), 100, PLAYER, heard, vec![]).unwrap();
-            assert_eq!((state.set_play, state.shot_of()), (set_play, shot_of));
+            assert_eq!(
+                (state.set_play, state.whose_ball().shot_of()),
+                (set_play, shot_of)
+            );
         }
     }
 

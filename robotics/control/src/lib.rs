@@ -23,6 +23,7 @@ pub mod game_controller_filter;
 pub mod game_state_filter;
 pub mod team_message_filter;
 pub mod whistle_filter;
+pub mod whose_ball_filter;
 
 pub mod ball_filter;
 pub mod localization;
@@ -68,6 +69,5 @@ mod level;
 pub mod low_pass;
 mod pace;
 mod places;
-mod said;
 mod sight_noise;
 mod start_frame;

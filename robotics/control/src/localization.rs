@@ -226,7 +226,7 @@ impl Localization {
             self.put_for = None;
         }
         let said = context.game_controller_state.as_ref();
-        let shot_of = said.and_then(GameControllerState::shot_of);
+        let shot_of = said.and_then(|said| said.whose_ball().shot_of());
         let shot_of = shot_of.filter(|team| *team != KickingTeam::Nobody);
         let is_put = match is_in_set {
             true => *context.has_ground_contact,

@@ -9,21 +9,19 @@
 //!
 //! Whose the goalkeeper's shirt is the referee says, and whoever has been taken out has no role: `teammates` leaves others out.
 
-use framework::{CycleTime, Input, MainOutput, Parameter, Reflect, Result, context};
+use framework::{Input, MainOutput, Parameter, Reflect, Result, context};
 use nalgebra::Point2;
 use serde::{Deserialize, Serialize};
 use types::ball::Ball;
 use types::behavior::Role;
 use types::field_markings::FieldMarkings;
-use types::game::{GameControllerState, KickingTeam, Player, PrimaryState};
+use types::game::{GameControllerState, KickingTeam, Player, PrimaryState, WhoseBall};
 use types::team::Teammate;
-
-use crate::said::Said;
 
 /// In the order in which players without gloves and without the ball take them.
 const PLACES: [Role; 3] = [Role::DefenderLeft, Role::Supporter, Role::DefenderRight];
 
-/// What this robot was last, and what the referee said last.
+/// What this robot and the goalkeeper were last.
 #[derive(Debug, Deserialize, Serialize)]
 pub struct RoleAssignment {
     role: Option<Role>,
@@ -31,8 +29,6 @@ pub struct RoleAssignment {
     goalkeeper: Option<u8>,
     /// Whether that one was out.
     is_keeper_out: bool,
-    /// Whose the ball is; a referee that falls silent has ended neither a penalty kick nor a shot.
-    said: Said,
 }
 
 /// How robots of a team share the work.
@@ -59,18 +55,15 @@ pub struct CreationContext {}
 pub struct CycleContext {
     primary_state: Input<PrimaryState, "primary_state">,
     game_controller_state: Input<Option<GameControllerState>, "game_controller_state">,
+    whose_ball: Input<WhoseBall, "whose_ball">,
     ball: Input<Option<Ball>, "ball">,
     team_ball: Input<Option<Point2<f32>>, "team_ball">,
     teammates: Input<Vec<Teammate>, "teammates">,
-    cycle_time: CycleTime,
 
     /// Who this robot is in the game.
     player: Parameter<Player, "player">,
     parameters: Parameter<RoleParameters, "role_assignment">,
     markings: Parameter<FieldMarkings, "field_dimensions.markings">,
-    /// The ball is free so long after a set play began, also where no referee is heard to say so.
-    #[reflect(unit = "s", range = 0.0..)]
-    set_play_lasts: Parameter<f32, "world_state_composer.set_play_lasts">,
 }
 
 #[context]
@@ -88,7 +81,6 @@ impl RoleAssignment {
             role: Some(Role::Striker),
             goalkeeper: None,
             is_keeper_out: false,
-            said: Said::default(),
         })
     }
 
@@ -103,8 +95,10 @@ impl RoleAssignment {
             Some(Role::Striker) => context.parameters.hysteresis,
             _ => 0.0,
         };
-        let said = context.game_controller_state.as_ref();
-        self.goalkeeper = said.map(|said| said.goalkeeper).or(self.goalkeeper);
+        let referee = context.game_controller_state.as_ref();
+        self.goalkeeper = referee
+            .map(|referee| referee.goalkeeper)
+            .or(self.goalkeeper);
         let goalkeeper = self.goalkeeper.unwrap_or(context.parameters.keeper);
         let others = context.teammates.iter().map(|teammate| Candidate {
             number: teammate.message.player_number,
@@ -115,16 +109,12 @@ impl RoleAssignment {
             distance: own.map(|distance| distance - head_start),
         };
         self.is_keeper_out = self.is_keeper_out(goalkeeper, &context);
-        let now = context.cycle_time.start;
-        self.said = self
-            .said
-            .next(said, *context.primary_state, now, *context.set_play_lasts);
-        let in_shoot_out = self.said.shot_of().and_then(role_in_shoot_out);
+        let in_shoot_out = context.whose_ball.shot_of().and_then(role_in_shoot_out);
         self.role = match context.primary_state {
             PrimaryState::Penalized => None,
             _ if in_shoot_out.is_some() => in_shoot_out,
             // Alone, too, it may not leave its line.
-            _ if own.number == goalkeeper && self.said.is_penalty_kick_of_others() => {
+            _ if own.number == goalkeeper && context.whose_ball.is_penalty_kick_of_others() => {
                 Some(Role::Keeper)
             }
             state => {

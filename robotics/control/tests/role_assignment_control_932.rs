@@ -12,14 +12,13 @@ fn role_assignment_computes_cycle_932_of_control_again() {
     let context = CycleContext {
         primary_state: &captured.value("primary_state"),
         game_controller_state: &captured.value("game_controller_state"),
+        whose_ball: &captured.value("whose_ball"),
         ball: &captured.value("ball"),
         team_ball: &captured.value("team_ball"),
         teammates: &captured.value("teammates"),
-        cycle_time: captured.time(),
         player: &captured.value("player"),
         parameters: &captured.value("parameters"),
         markings: &captured.value("markings"),
-        set_play_lasts: &captured.value("set_play_lasts"),
     };
     let outputs = node
         .cycle(context)

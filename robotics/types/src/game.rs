@@ -248,9 +248,13 @@ pub struct GameControllerState {
 }
 
 impl GameControllerState {
-    /// Whose shot it is in a penalty shoot-out; `None` in any other part of the game.
-    pub fn shot_of(&self) -> Option<KickingTeam> {
-        (self.game_phase == GamePhase::PenaltyShootout).then_some(self.kicking_team)
+    /// Whose the ball is.
+    pub fn whose_ball(&self) -> WhoseBall {
+        WhoseBall {
+            game_phase: self.game_phase,
+            kicking_team: self.kicking_team,
+            set_play: self.set_play,
+        }
     }
 
     /// Why a player of the own team may not play; one that the referee's computer does not know may.
@@ -271,6 +275,29 @@ pub enum KickingTeam {
     Own,
     /// The other team.
     Opponent,
+}
+
+/// Whose the ball is, by what the referee said last.
+#[derive(Clear, Clone, Copy, Debug, Default, Deserialize, Eq, PartialEq, Reflect, Serialize)]
+pub struct WhoseBall {
+    /// Which part of the game it is.
+    pub game_phase: GamePhase,
+    /// Who kicks first.
+    pub kicking_team: KickingTeam,
+    /// How the game was resumed; a shot of the penalty shoot-out is a penalty kick.
+    pub set_play: SetPlay,
+}
+
+impl WhoseBall {
+    /// Whose shot it is in a penalty shoot-out; `None` in any other part of the game.
+    pub fn shot_of(&self) -> Option<KickingTeam> {
+        (self.game_phase == GamePhase::PenaltyShootout).then_some(self.kicking_team)
+    }
+
+    /// Whether the others have a penalty kick.
+    pub fn is_penalty_kick_of_others(&self) -> bool {
+        self.set_play == SetPlay::PenaltyKick && self.kicking_team == KickingTeam::Opponent
+    }
 }
 
 /// What this robot does in the game: the referee's state, penalties, buttons and whistles together.

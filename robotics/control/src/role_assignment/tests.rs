@@ -1,6 +1,6 @@
 //! Who is what by number, distance, and what the referee says.
 
-use framework::testing::{at_millis, cycle_time};
+use framework::testing::at_millis;
 use nalgebra::Isometry2;
 use types::game::SetPlay;
 use types::team::{TeamBall, TeamMessage};
@@ -110,19 +110,22 @@ fn cycle_in(
         goalkeeper,
         ..GameControllerState::default()
     });
-    cycle_with(node, primary_state, &referee, ball, &teammates)
+    let whose_ball = WhoseBall::default();
+    cycle_with(node, primary_state, &referee, whose_ball, ball, &teammates)
 }
 
 fn cycle_with(
     node: &mut RoleAssignment,
     primary_state: PrimaryState,
     referee: &Option<GameControllerState>,
+    whose_ball: WhoseBall,
     ball: f32,
     teammates: &Vec<Teammate>,
 ) -> MainOutputs {
     let context = CycleContext {
         primary_state: &primary_state,
         game_controller_state: referee,
+        whose_ball: &whose_ball,
         ball: &Some(Ball {
             position: Point2::new(ball, 0.0),
             ..Ball::default()
@@ -143,8 +146,6 @@ fn cycle_with(
             keeper_out: 1.8,
             keeper_back: 1.2,
         },
-        cycle_time: cycle_time(1000, 12),
-        set_play_lasts: &30.0,
     };
     node.cycle(context).unwrap()
 }
@@ -217,16 +218,19 @@ fn a_goalkeeper_alone_leaves_its_goal_but_not_at_a_penalty_kick_of_the_others() 
             ..GameControllerState::default()
         });
         let mut node = RoleAssignment::new(CreationContext {}).unwrap();
-        let outputs = cycle_with(&mut node, PrimaryState::Playing, &referee, 1.0, &vec![]);
-        let seen = outputs.role.value;
-        assert_eq!(
-            seen,
-            Some(role),
-            "{goalkeeper} {set_play:?} {kicking_team:?}"
-        );
+        let whose_ball = referee.map(|referee| referee.whose_ball());
+        let whose_ball = whose_ball.unwrap_or_default();
         // Nor does it end because nobody is heard any more.
-        let outputs = cycle_with(&mut node, PrimaryState::Playing, &None, 1.0, &vec![]);
-        assert_eq!(outputs.role.value, Some(role), "in silence");
+        for heard in [referee, None] {
+            let playing = PrimaryState::Playing;
+            let outputs = cycle_with(&mut node, playing, &heard, whose_ball, 1.0, &vec![]);
+            assert_eq!(
+                outputs.role.value,
+                Some(role),
+                "{goalkeeper} {set_play:?} {kicking_team:?} {}",
+                heard.is_some()
+            );
+        }
     }
 }
 
@@ -332,8 +336,10 @@ fn in_a_shoot_out_whose_shot_it_is_decides() {
             kicking_team,
             ..GameControllerState::default()
         });
+        let whose_ball = referee.map(|referee| referee.whose_ball());
+        let whose_ball = whose_ball.unwrap_or_default();
         for heard in [referee, None] {
-            let outputs = cycle_with(&mut node, state, &heard, 0.4, &vec![]);
+            let outputs = cycle_with(&mut node, state, &heard, whose_ball, 0.4, &vec![]);
             assert_eq!(
                 outputs.role.value,
                 expected,
