@@ -13,6 +13,7 @@ use simulated_nao::Hardware;
 use support::nao::Nao;
 use support::root;
 use types::ball::Ball;
+use types::obstacles::Obstacle;
 
 const TARGET: Target = Target {
     parameters: "robotics/parameters",
@@ -70,14 +71,22 @@ const BALLS: [&str; 2] = [
     "Control.additional_outputs.ball_filter.persistent_ball.",
 ];
 
+/// Where one that has seen others says where they stand, behind the number of one.
+const OBSTACLES: &str = "Control.main_outputs.obstacles.";
+
 #[test]
 fn every_scenario_asserts_what_there_is() {
     let files = files();
     assert!(files.len() >= 20, "{} scenarios", files.len());
-    let mut nao = Nao::new(&["--no-cameras", "--no-sound"], &[]);
+    let other = r#"{ position = [0.5, 0.0], team = "opponent", number = 2 }"#;
+    let others = format!("[{other}, {other}, {other}]");
+    let settings = [("hardware.simulated.robots", others.as_str())];
+    let mut nao = Nao::new(&["--no-cameras", "--no-sound"], &settings);
     nao.run(0.1, |_, _| {});
     let truth = framework::Hardware::truth(&*nao.hardware);
     let ball = serde_json::to_value(Ball::default()).expect("it is JSON");
+    let obstacles = vec![Obstacle::default(); 3];
+    let obstacles = serde_json::to_value(obstacles).expect("they are JSON");
     for file in files {
         let scenario = Scenario::load(&file).expect("it can be read");
         assert!(!scenario.about.is_empty(), "{}", file.display());
@@ -101,10 +110,14 @@ fn every_scenario_asserts_what_there_is() {
             };
             let found = match value.split_once('.') {
                 Some(("truth", path)) => has(&truth, path),
-                // A ball is known to nobody who has not seen one.
-                _ => match BALLS.iter().find_map(|start| value.strip_prefix(start)) {
-                    Some(path) => has(&ball, path),
-                    None => nao.robot.read(value).is_ok(),
+                // Neither is known to anybody who has not seen one.
+                _ => match (
+                    BALLS.iter().find_map(|start| value.strip_prefix(start)),
+                    value.strip_prefix(OBSTACLES),
+                ) {
+                    (Some(path), _) => has(&ball, path),
+                    (_, Some(path)) => has(&obstacles, path),
+                    _ => nao.robot.read(value).is_ok(),
                 },
             };
             assert!(found, "{}: there is no `{value}`", file.display());
@@ -127,6 +140,7 @@ fn some_are_played() {
         ("keeper_is_out", 1),
         ("message_budget", 1),
         ("second_half", 1),
+        ("robots_are_known", 1),
         ("removed_while_it_gets_up", 1),
     ] {
         let outcome = play(name, seeds);

@@ -33,6 +33,9 @@ pub struct ObstacleFilterParameters {
     /// Of anything else.
     #[reflect(unit = "m", range = 0.0..)]
     pub unknown_radius: f32,
+    /// How far the middle of a robot is behind the near side of its feet, which is what a camera sees.
+    #[reflect(unit = "m", range = 0.0..)]
+    pub feet_depth: f32,
     /// In m after 1 s: how far an obstacle gets, one standard deviation.
     pub position_noise: f32,
     /// In m per m of distance: how wrong a camera is, one standard deviation.
@@ -192,7 +195,7 @@ fn behind(
     parameters: &ObstacleFilterParameters,
 ) -> Option<Measurement> {
     let distance = candidate.position.coords.norm();
-    let farther = 1.0 + parameters.robot_radius / distance.max(f32::EPSILON);
+    let farther = 1.0 + parameters.feet_depth / distance.max(f32::EPSILON);
     distance.is_finite().then(|| Measurement {
         position: candidate.position * farther,
         noise: parameters.camera_noise * distance,

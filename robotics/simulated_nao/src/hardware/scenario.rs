@@ -152,7 +152,7 @@ impl Deed {
 /// getting anywhere; `still`, for how many it has stayed within 0.05 m and 0.15 rad; `harmful_commands`, how many wanted a joint
 /// beyond its limits; `ball.x`, `ball.y`, from the robot `ball.ahead`, `ball.aside`, `ball.seen` (both), `ball.distance`, and
 /// `ball_contacts` of all robots;
-/// `robots` are the others: `x`, `y`, `heading`, `team` (`own` or `opponent`), `number`;
+/// `robots` are the others: `x`, `y`, `heading`, from the robot `seen` (ahead and aside), `team` (`own` or `opponent`), `number`;
 /// `removed`, how often the referee has taken the robot out, and `misplaced`, how often for where it stood or walked; `plays`,
 /// whether it is not taken out now;
 /// `score.blue`, `score.red`, and where a game is played `game.state`, `game.set_play`, `game.kicking` (`blue` or `red`).
@@ -174,9 +174,11 @@ pub(super) fn truth(truth: &GroundTruth) -> Value {
             Team::Own => "own",
             Team::Opponent => "opponent",
         };
+        let place = Point3::new(robot.position.x, robot.position.y, 0.0);
+        let seen = ground.inverse() * place;
         json!({
             "x": robot.position.x, "y": robot.position.y, "heading": robot.heading,
-            "team": team, "number": robot.number,
+            "seen": [seen.x, seen.y], "team": team, "number": robot.number,
         })
     });
     let robots: Vec<Value> = robots.collect();
