@@ -1,0 +1,55 @@
+// What a driven robot is asked for, with a robot that is only played: it answers when the test says so.
+import assert from "node:assert/strict";
+import test from "node:test";
+import { load } from "../load.mjs";
+
+const { Driver } = await load("robotics/driver.ts");
+
+function driven(test) {
+  const [asked, said] = [[], []];
+  const robot = { ask: ({ call }) => new Promise((resolve, reject) => asked.push({ ...call, answer: (called) => resolve({ called }), refuse: reject })) };
+  const driver = new Driver(robot, { share: () => 1, held: () => undefined, state: (text) => said.push(text), failed: () => undefined });
+  Object.assign(driver, { walk: "walk", motion: "motion" });
+  test.after(() => driver.forget(""));
+  return { driver, asked, said, paths: () => asked.map(({ path }) => path) };
+}
+
+const settled = () => new Promise((resolve) => setTimeout(resolve, 0));
+
+test("a robot that does not answer is asked for one step, however long and whatever is held", async (test) => {
+  const { driver, asked, paths } = driven(test);
+  driver.hold("w");
+  driver.hold("a");
+  driver.hold("d");
+  driver.release("d");
+  await new Promise((resolve) => setTimeout(resolve, 600));
+  assert.deepEqual(paths(), ["walk"]);
+  asked[0].answer({});
+  await settled();
+  assert.deepEqual(asked.slice(1).map(({ path, argument }) => [path, argument]), [["walk", { forward: 0.06, left: 0.04, turn: 0 }]], "what is held by now");
+});
+
+test("nothing is behind the wish to stand, also where a step is answered after it", async (test) => {
+  const { driver, asked, said, paths } = driven(test);
+  driver.hold("w");
+  driver.hold("a");
+  driver.release("a");
+  driver.release("w");
+  asked[0].answer({});
+  await settled();
+  asked[1].answer(1);
+  await new Promise((resolve) => setTimeout(resolve, 300));
+  assert.deepEqual(paths(), ["walk", "motion"]);
+  assert.deepEqual(said, ["standing", "Stand"]);
+});
+
+test("steps go on after one that was refused, and with each period while something is held", async (test) => {
+  const { driver, asked, paths } = driven(test);
+  driver.hold("w");
+  asked[0].refuse(new Error("it has fallen"));
+  await new Promise((resolve) => setTimeout(resolve, 300));
+  assert.deepEqual(paths(), ["walk", "walk"]);
+  driver.letGo();
+  driver.letGo();
+  assert.deepEqual(paths(), ["walk", "walk", "motion"]);
+});
