@@ -58,8 +58,8 @@ for (const root of ["request", "message"].map(read)) {
 }
 const text = `// Written by \`npm run protocol\` from docs/protocol/*.schema.json. Do not edit.
 
-/** Anything that JSON can say. */
-export type Json = null | boolean | number | string | Json[] | { [key: string]: Json };
+/** Anything that JSON can say; integers that a number cannot hold are bigints. */
+export type Json = null | boolean | number | bigint | string | Json[] | { [key: string]: Json };
 
 ${[...types.keys()].sort().map((name) => types.get(name)).join("\n")}`;
 

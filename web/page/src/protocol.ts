@@ -1,7 +1,7 @@
 // Written by `npm run protocol` from docs/protocol/*.schema.json. Do not edit.
 
-/** Anything that JSON can say. */
-export type Json = null | boolean | number | string | Json[] | { [key: string]: Json };
+/** Anything that JSON can say; integers that a number cannot hold are bigints. */
+export type Json = null | boolean | number | bigint | string | Json[] | { [key: string]: Json };
 
 /** The answer to one request. */
 export type Answer = {

@@ -4,6 +4,7 @@ import { readFileSync } from "node:fs";
 import { load } from "./load.mjs";
 
 const { decode, Malformed } = await load("connection/binary.ts");
+const { readJson, writeJson } = await load("connection/exact.ts");
 
 /** As JSON; numbers of 32 bits are written with fewer digits than they have as 64. */
 function same(one, other) {
@@ -16,7 +17,8 @@ function same(one, other) {
 
 let count = 0;
 for (const line of readFileSync(process.argv[2], "utf8").split("\n").filter((text) => text !== "")) {
-  const { layout, bytes, value } = JSON.parse(line);
+  const { layout, bytes } = JSON.parse(line);
+  const { value } = readJson(line);
   let read;
   try {
     read = decode(layout, Uint8Array.from(Buffer.from(bytes, "hex")), Infinity);
@@ -27,7 +29,7 @@ for (const line of readFileSync(process.argv[2], "utf8").split("\n").filter((tex
     continue;
   }
   assert(value !== undefined, `it reads what the reference refuses: ${line}`);
-  assert(same(read, value), `${JSON.stringify(read)}\n${JSON.stringify(value)}`);
+  assert(same(read, value), `${writeJson(read)}\n${writeJson(value)}`);
   count += 1;
 }
 console.log(`${count} read`);

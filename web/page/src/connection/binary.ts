@@ -163,7 +163,7 @@ class Reader {
     return Number.isFinite(value) ? value : null;
   }
 
-  private integer(bits: number, isSigned: boolean): number | string {
+  private integer(bits: number, isSigned: boolean): number | bigint | string {
     const start = this.take(bits / 8);
     const { view } = this;
     if (bits === 8) return isSigned ? view.getInt8(start) : view.getUint8(start);
@@ -171,10 +171,10 @@ class Reader {
     if (bits === 32) return isSigned ? view.getInt32(start, true) : view.getUint32(start, true);
     const high = start + bits / 8 - 8;
     let value = isSigned ? view.getBigInt64(high, true) : view.getBigUint64(high, true);
-    if (bits === 64) return Number(value);
+    if (bits === 64) return exact(value);
     value = (value << 64n) | view.getBigUint64(start, true);
     const fits = isSigned ? BigInt.asIntN(64, value) === value : BigInt.asUintN(64, value) === value;
-    return fits ? Number(value) : value.toString();
+    return fits ? exact(value) : value.toString();
   }
 
   private string(): string {
@@ -254,4 +254,10 @@ class Reader {
         throw new Malformed("a kind that is not listed");
     }
   }
+}
+
+/** A number where it has all digits. */
+function exact(value: bigint): number | bigint {
+  const number = Number(value);
+  return Number.isSafeInteger(number) ? number : value;
 }

@@ -1,6 +1,7 @@
 // Owns the WebSocket: requests with their answers, messages of the robot, and coming back after it was lost.
 import type { Ask, Failure, Good, Message, Welcome } from "../protocol";
 import { readFrames, type Frame } from "./binary";
+import { readMessages, writeJson } from "./exact";
 
 /** `waiting`: there is no connection, and one is tried again and again. */
 export type State = "connecting" | "open" | "waiting";
@@ -78,7 +79,7 @@ export class Socket {
     const id = this.nextId++;
     return new Promise((resolve, reject) => {
       this.pending.set(id, { resolve, reject });
-      socket.send(JSON.stringify({ id, ask }));
+      socket.send(writeJson({ id, ask }));
     });
   }
 
@@ -167,9 +168,7 @@ function tolerate(deed: () => void): void {
 function parse(data: unknown): Message[] {
   if (typeof data !== "string") return [];
   try {
-    const said: unknown = JSON.parse(data);
-    const messages: unknown[] = Array.isArray(said) ? said : [said];
-    return messages.filter((message): message is Message => typeof message === "object" && message !== null);
+    return readMessages(data).filter((message): message is Message => typeof message === "object" && message !== null);
   } catch {
     console.warn("the robot sent something that is not JSON");
     return [];

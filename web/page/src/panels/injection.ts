@@ -1,7 +1,7 @@
 // A value in place of an output, until it is released or this page goes away.
 import type { Decoded } from "../connection/binary";
+import { readJson } from "../connection/exact";
 import { expect } from "../connection/socket";
-import type { Json } from "../protocol";
 import type { Robot } from "../store/robot";
 import { button, complain, make } from "../view/dom";
 import { json } from "../view/format";
@@ -29,7 +29,7 @@ export function injection(robot: Robot, shown: () => { path: string; value: Deco
   };
   const inject = async (): Promise<void> => {
     const { path } = shown();
-    const value = JSON.parse(text.value) as Json;
+    const value = readJson(text.value);
     if (injected !== path) await release();
     expect(await robot.ask({ inject: { path, value } }), "done");
     injected = path;

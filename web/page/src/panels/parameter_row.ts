@@ -1,4 +1,5 @@
 // One parameter: its value in the input that fits its type, its unit and range, and where it comes from.
+import { readJson, writeJson } from "../connection/exact";
 import type { Entry, Json, Provenance } from "../protocol";
 import { nameOf } from "../store/paths";
 import type { Parameter } from "../store/tuning";
@@ -61,7 +62,7 @@ export class ParameterRow {
     if (parameter.isUnstored) marks.push("unsaved");
     if (parameter.isCreationOnly) marks.push("at start");
     this.marks.textContent = marks.join(", ");
-    this.marks.title = parameter.isUnstored ? `the files say ${JSON.stringify(parameter.stored)}` : "nodes read it when they are created";
+    this.marks.title = parameter.isUnstored ? `the files say ${writeJson(parameter.stored)}` : "nodes read it when they are created";
     this.element.classList.toggle("unstored", parameter.isUnstored);
     if (!this.isEdited) this.editor.set(parameter.value);
   }
@@ -139,12 +140,12 @@ function json(): Editor {
   const element = make("textarea", { rows: 1, spellcheck: "false" });
   const get = (): Json | undefined => {
     try {
-      return JSON.parse(element.value) as Json;
+      return readJson(element.value);
     } catch {
       return undefined;
     }
   };
-  return { element, set: (value) => (element.value = JSON.stringify(value)), get };
+  return { element, set: (value) => (element.value = writeJson(value)), get };
 }
 
 function rangeOf(entry: Entry | undefined): string {

@@ -1,4 +1,5 @@
 // A panel with the robot's procedures: call them with an argument in JSON and read what their nodes say.
+import { readJson, writeJson } from "../connection/exact";
 import { expect } from "../connection/socket";
 import type { Entry, Json } from "../protocol";
 import { button, complain, make } from "../view/dom";
@@ -38,9 +39,9 @@ function procedure(context: Context, entry: Entry): HTMLElement {
     said.hidden = true;
     try {
       const text = argument.value.trim();
-      const value = text === "" ? null : (JSON.parse(text) as Json);
+      const value = text === "" ? null : readJson(text);
       const good = await context.robot.ask({ call: { path: entry.path, argument: value } });
-      said.textContent = JSON.stringify(expect(good, "called"), null, 2);
+      said.textContent = writeJson(expect(good, "called"), 2);
       said.hidden = false;
     } catch (error) {
       complain(failure, error);

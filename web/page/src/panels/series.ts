@@ -90,6 +90,7 @@ export function readCurves(text: string): Map<string, Series> {
 /** What a curve can show of a value: numbers, and flags as 0 and 1. */
 export function height(value: unknown): number | null {
   if (typeof value === "number") return value;
+  if (typeof value === "bigint") return Number(value);
   return typeof value === "boolean" ? Number(value) : null;
 }
 

@@ -19,11 +19,12 @@ function partsOf(value: Decoded): Parts | null {
 export function brief(value: Decoded): string {
   if (value === null) return "none";
   if (typeof value === "number") return number(value);
+  if (typeof value === "bigint") return String(value);
   if (typeof value === "string") return value;
   if (typeof value === "boolean") return String(value);
   if (value instanceof Uint8Array) return `${value.length} bytes`;
   if (Array.isArray(value)) {
-    const isShort = value.length <= 4 && value.every((item) => typeof item === "number");
+    const isShort = value.length <= 4 && value.every((item) => typeof item === "number" || typeof item === "bigint");
     return isShort ? `[${value.map((item) => brief(item as Decoded)).join(", ")}]` : `[${value.length}]`;
   }
   const names = Object.keys(value);

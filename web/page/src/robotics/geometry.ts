@@ -28,6 +28,7 @@ export function list(value: Decoded | undefined): Decoded[] {
 }
 
 export function number(value: Decoded | undefined): number | null {
+  if (typeof value === "bigint") return Number(value);
   return typeof value === "number" && Number.isFinite(value) ? value : null;
 }
 

@@ -1,4 +1,5 @@
 // Owns what a panel of parameters works on: what the robot has, what was changed here and not sent, and what can be undone.
+import { writeJson } from "../connection/exact";
 import { expect } from "../connection/socket";
 import type { Change, Entry, Json, Leaf, Reading, Unstored } from "../protocol";
 import type { Robot } from "./robot";
@@ -52,7 +53,7 @@ export class Tuning {
   /** Notes a change; the value that the robot has takes the note away. */
   note(parameter: Parameter, value: Json): void {
     const pending = new Map(this.pending.value);
-    if (JSON.stringify(value) === JSON.stringify(parameter.value)) pending.delete(parameter.path);
+    if (writeJson(value) === writeJson(parameter.value)) pending.delete(parameter.path);
     else pending.set(parameter.path, value);
     this.pending.set(pending);
   }

@@ -1,4 +1,5 @@
 // Owns how numbers and times are written for people.
+import { writeJson } from "../connection/exact";
 
 /** Six digits are more than a screen shows apart, and do not jump in width. */
 export function number(value: number): string {
@@ -25,5 +26,5 @@ export function plural(count: number, noun: string): string {
 
 /** A value as JSON; bytes become numbers again. */
 export function json(value: unknown): string {
-  return JSON.stringify(value, (_, part: unknown) => (part instanceof Uint8Array ? [...part] : part), 2);
+  return writeJson(value, 2);
 }
