@@ -1,14 +1,14 @@
 // A value in place of an output, until it is released or this page goes away.
 import type { Decoded } from "../connection/binary";
 import { readJson } from "../connection/exact";
-import { expect } from "../connection/socket";
+import { Injection } from "../store/injection";
 import type { Robot } from "../store/robot";
 import { button, complain, make } from "../view/dom";
 import { json } from "../view/format";
 
 /** `shown`: the path that the panel shows, and its newest value to begin with. */
 export function injection(robot: Robot, shown: () => { path: string; value: Decoded }): { element: HTMLElement; close(): void; moved(): void } {
-  let injected: string | null = null;
+  const injection = new Injection(robot);
   const text = make("textarea", { rows: 4, spellcheck: "false", "aria-label": "value to inject" });
   const failure = make("p", { class: "failure", hidden: true });
   const state = make("span", { class: "muted" });
@@ -19,41 +19,34 @@ export function injection(robot: Robot, shown: () => { path: string; value: Deco
     } catch (error) {
       complain(failure, error);
     }
-    state.textContent = injected === null ? "" : `${injected} is injected`;
-    element.classList.toggle("injected", injected !== null);
   };
-  const release = async (): Promise<void> => {
-    if (injected === null) return;
-    expect(await robot.ask({ release: { path: injected } }), "done");
-    injected = null;
-  };
-  const inject = async (): Promise<void> => {
-    const { path } = shown();
-    const value = readJson(text.value);
-    if (injected !== path) await release();
-    expect(await robot.ask({ inject: { path, value } }), "done");
-    injected = path;
-  };
+  const inject = async (): Promise<void> => injection.inject(shown().path, readJson(text.value));
   const bar = make(
     "div",
     { class: "bar" },
     button("Inject", "every reader gets this value in place of the node's", () => void attempt(inject), "deed"),
-    button("Release", "give the output back to its node", () => void attempt(release)),
+    button("Release", "give the output back to its node", () => void attempt(() => injection.release())),
     button("Take current", "begin with the newest value", () => (text.value = json(shown().value))),
     state,
   );
   const element = make("details", { class: "injection" }, make("summary", {}, "Inject"), text, bar, failure);
   // Only whole main outputs can be replaced.
   const moved = (): void => void (element.hidden = !/^[^.]+\.main_outputs\.[^.]+$/.test(shown().path));
-  // The robot releases what a lost connection had injected.
-  const stop = robot.state.watch((now) => {
-    if (now !== "waiting" || injected === null) return;
-    injected = null;
-    void attempt(() => Promise.reject(new Error("the connection was lost: nothing is injected any more")));
-  });
+  const stops = [
+    injection.path.watch((path) => {
+      state.textContent = path === null ? "" : `${path} is injected`;
+      element.classList.toggle("injected", path !== null);
+    }),
+    // The robot releases what a lost connection had injected.
+    robot.state.watch((now) => {
+      if (now !== "waiting" || injection.path.value === null) return;
+      injection.forget();
+      complain(failure, "the connection was lost: nothing is injected any more");
+    }),
+  ];
   const close = (): void => {
-    stop();
-    release().catch(() => undefined);
+    for (const stop of stops) stop();
+    injection.close();
   };
   return { element, close, moved };
 }

@@ -1,0 +1,48 @@
+// Owns what one panel has put in place of an output: at most one value, which is released when the panel goes.
+import { expect } from "../connection/socket";
+import type { Json } from "../protocol";
+import type { Robot } from "./robot";
+import { Signal, type Readable } from "./signal";
+import { Turns } from "./turns";
+
+export class Injection {
+  private readonly injected = new Signal<string | null>(null);
+  /** A release waits for the answer to what it releases: it may come long after somebody asked for it. */
+  private readonly turns = new Turns();
+
+  constructor(private readonly robot: Pick<Robot, "ask">) {}
+
+  /** The path of the output; null: there is none. */
+  get path(): Readable<string | null> {
+    return this.injected;
+  }
+
+  inject(path: string, value: Json): Promise<void> {
+    return this.turns.take(async () => {
+      if (this.injected.value !== path) await this.giveBack();
+      expect(await this.robot.ask({ inject: { path, value } }), "done");
+      this.injected.set(path);
+    });
+  }
+
+  release(): Promise<void> {
+    return this.turns.take(() => this.giveBack());
+  }
+
+  /** The robot released it by itself. */
+  forget(): void {
+    this.injected.set(null);
+  }
+
+  /** Nobody can release it later. */
+  close(): void {
+    this.release().catch(() => undefined);
+  }
+
+  private async giveBack(): Promise<void> {
+    const path = this.injected.value;
+    if (path === null) return;
+    expect(await this.robot.ask({ release: { path } }), "done");
+    this.injected.set(null);
+  }
+}
