@@ -1,18 +1,18 @@
-// Gives a test what a file of the page's sources exports, without a browser.
+// Gives a test what files of the page's sources export, without a browser.
 import { mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
-import { dirname, join } from "node:path";
+import { basename, dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { build } from "rolldown";
 
 const here = dirname(fileURLToPath(import.meta.url));
 
-/** `source`: below `src`. */
-export async function load(source) {
+/** `sources`: below `src`; what they share is the same to all of them. */
+export async function load(...sources) {
   const folder = mkdtempSync(join(tmpdir(), "hulkgen-source-"));
-  const file = join(folder, "source.mjs");
-  await build({ input: join(here, "../src", source), output: { file, format: "esm" }, logLevel: "warn" });
-  const exports = await import(file);
+  const input = sources.map((source) => join(here, "../src", source));
+  await build({ input, output: { dir: folder, entryFileNames: "[name].mjs", chunkFileNames: "shared-[name].mjs", format: "esm" }, logLevel: "warn" });
+  const exports = await Promise.all(sources.map((source) => import(join(folder, `${basename(source, ".ts")}.mjs`))));
   rmSync(folder, { recursive: true });
-  return exports;
+  return Object.assign({}, ...exports);
 }

@@ -1,59 +1,49 @@
 // One parameter: its value in the input that fits its type, its unit and range, and where it comes from.
-import { readJson, writeJson } from "../connection/exact";
-import type { Entry, Json, Provenance } from "../protocol";
+import { writeJson } from "../connection/exact";
+import type { Provenance } from "../protocol";
 import { nameOf } from "../store/paths";
-import type { Parameter } from "../store/tuning";
+import type { Draft, Parameter } from "../store/tuning";
 import { make } from "../view/dom";
 import { DRAGGED_PATH } from "./panel";
+import { keyOf, rangeOf, shapeOf, stepped, type Shape } from "./parameter_text";
 
 export interface RowListener {
-  note(parameter: Parameter, value: Json): void;
+  note(parameter: Parameter, draft: Draft): void;
+  discard(parameter: Parameter): void;
   write(): void;
-}
-
-/** An input, how a value gets into it, and what it says; `undefined`: nothing that the robot would understand. */
-interface Editor {
-  element: HTMLInputElement | HTMLSelectElement | HTMLTextAreaElement;
-  set(value: Json): void;
-  get(): Json | undefined;
 }
 
 export class ParameterRow {
   readonly element: HTMLElement;
-  private readonly editor: Editor;
+  /** A parameter with another one needs another row. */
+  readonly key: string;
+  private readonly shape: Shape;
+  private readonly input: HTMLInputElement | HTMLSelectElement | HTMLTextAreaElement;
   private readonly origin = make("span", { class: "origin muted" });
   private readonly marks = make("span", { class: "marks" });
-  private isEdited = false;
 
   constructor(
     private parameter: Parameter,
     private readonly listener: RowListener,
   ) {
     const { path, entry } = parameter;
-    this.editor = editorFor(parameter);
-    const input = this.editor.element;
-    input.setAttribute("aria-label", path);
-    input.dataset["path"] = path;
-    const event = input instanceof HTMLInputElement && input.type !== "checkbox" ? "input" : "change";
-    input.addEventListener(event, () => this.note());
-    input.addEventListener("keydown", (pressed) => {
-      const key = pressed as KeyboardEvent;
-      if (key.key === "Enter" && !(input instanceof HTMLTextAreaElement)) listener.write();
-      if (key.key === "Escape") {
-        this.reset();
-        listener.note(this.parameter, this.parameter.value);
-      }
-    });
+    this.key = keyOf(parameter);
+    this.shape = shapeOf(parameter);
+    this.input = inputFor(this.shape);
+    this.input.setAttribute("aria-label", path);
+    this.input.dataset["path"] = path;
+    // With each key: what is not noted is lost when the robot says something.
+    this.input.addEventListener("input", () => this.note());
+    this.input.addEventListener("keydown", (pressed) => this.press(pressed as KeyboardEvent));
     const about = [entry?.type, entry?.documentation].filter((text) => text != null).join("\n");
     const label = make("label", { class: "name", title: `${path}\n${about}`, draggable: "true" }, nameOf(path));
     label.addEventListener("dragstart", (drag) => drag.dataTransfer?.setData(DRAGGED_PATH, `parameters.${path}`));
-    const unit = make("span", { class: "unit muted" }, [entry?.unit ?? "", rangeOf(entry)].filter((text) => text !== "").join(" "));
-    this.element = make("div", { class: "parameter" }, label, input, unit, this.marks, this.origin);
-    this.show(parameter);
+    const unit = make("span", { class: "unit muted" }, [entry?.unit ?? "", rangeOf(entry?.range)].filter((text) => text !== "").join(" "));
+    this.element = make("div", { class: "parameter" }, label, this.input, unit, this.marks, this.origin);
   }
 
-  /** What the robot has; what somebody edits here stays. */
-  show(parameter: Parameter): void {
+  /** What was typed and not sent, or else what the robot has. */
+  show(parameter: Parameter, draft: Draft | undefined): void {
     this.parameter = parameter;
     const origin = originOf(parameter.leaf.provenance);
     this.origin.textContent = origin.slice(origin.lastIndexOf("/") + 1);
@@ -64,94 +54,80 @@ export class ParameterRow {
     this.marks.textContent = marks.join(", ");
     this.marks.title = parameter.isUnstored ? `the files say ${writeJson(parameter.stored)}` : "nodes read it when they are created";
     this.element.classList.toggle("unstored", parameter.isUnstored);
-    if (!this.isEdited) this.editor.set(parameter.value);
+    this.draw(draft);
   }
 
-  mark(isEdited: boolean): void {
-    this.isEdited = isEdited;
-    this.element.classList.toggle("edited", isEdited);
+  draw(draft: Draft | undefined): void {
+    const isWrong = draft !== undefined && "wrong" in draft;
+    this.element.classList.toggle("edited", draft !== undefined);
+    this.element.classList.toggle("wrong", isWrong);
+    this.input.setAttribute("aria-invalid", String(isWrong));
+    this.input.title = isWrong ? draft.wrong : "";
+    const isTyped = document.activeElement === this.input && draft === undefined;
+    // `1.50` is not made `1.5` under the hands of whoever types it.
+    if (isTyped && this.means(this.text, this.parameter)) return;
+    this.text = draft?.text ?? this.shape.write(this.parameter.value);
   }
 
-  /** Shows what the robot has again. */
-  reset(): void {
-    this.mark(false);
-    this.element.classList.remove("wrong");
-    if (document.activeElement !== this.editor.element || this.editor.get() !== this.parameter.value) this.editor.set(this.parameter.value);
+  focus(): void {
+    this.input.focus({ preventScroll: true });
+  }
+
+  read(text: string): Draft {
+    return this.shape.read(text);
+  }
+
+  private get text(): string {
+    return this.input instanceof HTMLInputElement && this.input.type === "checkbox" ? String(this.input.checked) : this.input.value;
+  }
+
+  private set text(text: string) {
+    if (text === this.text) return;
+    if (this.input instanceof HTMLInputElement && this.input.type === "checkbox") this.input.checked = text === "true";
+    else this.input.value = text;
+  }
+
+  private means(text: string, { value }: Parameter): boolean {
+    const draft = this.shape.read(text);
+    return "value" in draft && writeJson(draft.value) === writeJson(value);
   }
 
   private note(): void {
-    const value = this.editor.get();
-    this.element.classList.toggle("wrong", value === undefined);
-    this.isEdited = true;
-    if (value !== undefined) this.listener.note(this.parameter, value);
+    this.listener.note(this.parameter, this.shape.read(this.text));
+  }
+
+  private press(event: KeyboardEvent): void {
+    if (event.key === "Enter" && !(this.input instanceof HTMLTextAreaElement)) this.listener.write();
+    if (event.key === "Escape") {
+      this.text = this.shape.write(this.parameter.value);
+      this.listener.discard(this.parameter);
+    }
+    const direction = ({ ArrowUp: 1, ArrowDown: -1 } as const)[event.key];
+    if (this.shape.kind !== "number" || direction === undefined) return;
+    const draft = this.shape.read(this.text);
+    const next = "value" in draft ? stepped(this.text, direction, draft.value) : null;
+    if (next === null) return;
+    event.preventDefault();
+    this.text = next;
+    this.note();
   }
 }
 
-function editorFor({ value, entry }: Parameter): Editor {
-  if (typeof value === "boolean") return checkbox();
-  if (entry !== undefined && (entry.choices ?? []).length > 0) return choice(entry.choices ?? []);
-  if (typeof value === "number") return numeric(entry);
-  if (typeof value === "string") return words();
-  return json();
-}
-
-function checkbox(): Editor {
-  const element = make("input", { type: "checkbox" });
-  return { element, set: (value) => (element.checked = value === true), get: () => element.checked };
-}
-
-function choice(choices: readonly string[]): Editor {
-  const element = make("select", {}, ...choices.map((name) => make("option", { value: name }, name)));
-  return { element, set: (value) => (element.value = String(value)), get: () => element.value };
-}
-
-function numeric(entry: Entry | undefined): Editor {
-  // Not `type=number`: it hides what it does not understand, and its wheel changes values while one scrolls.
-  const element = make("input", { type: "text", inputmode: "decimal", spellcheck: "false" });
-  const { minimum, maximum, is_half_open } = entry?.range ?? {};
-  const get = (): number | undefined => {
-    const value = Number(element.value.trim() === "" ? Number.NaN : element.value);
-    const isInside = value >= (minimum ?? -Infinity) && value <= (maximum ?? Infinity) && !(is_half_open === true && value === maximum);
-    return Number.isFinite(value) && isInside ? value : undefined;
-  };
-  element.addEventListener("keydown", (event) => {
-    const direction = { ArrowUp: 1, ArrowDown: -1 }[event.key];
-    const value = get();
-    if (direction === undefined || value === undefined) return;
-    event.preventDefault();
-    element.value = String(step(value, direction, element.value));
-    element.dispatchEvent(new Event("input"));
-  });
-  return { element, set: (value) => (element.value = String(value)), get };
-}
-
-/** One more or less of the last digit that stands there. */
-function step(value: number, direction: number, text: string): number {
-  const digits = /\.(\d+)$/.exec(text)?.[1]?.length ?? 0;
-  return Number((value + direction * 10 ** -digits).toFixed(digits));
-}
-
-function words(): Editor {
-  const element = make("input", { type: "text", spellcheck: "false" });
-  return { element, set: (value) => (element.value = typeof value === "string" ? value : ""), get: () => element.value };
-}
-
-function json(): Editor {
-  const element = make("textarea", { rows: 1, spellcheck: "false" });
-  const get = (): Json | undefined => {
-    try {
-      return readJson(element.value);
-    } catch {
-      return undefined;
-    }
-  };
-  return { element, set: (value) => (element.value = writeJson(value)), get };
-}
-
-function rangeOf(entry: Entry | undefined): string {
-  const range = entry?.range;
-  if (range == null) return "";
-  return `${range.minimum ?? "−∞"} … ${range.is_half_open === true ? "< " : ""}${range.maximum ?? "∞"}`;
+function inputFor(shape: Shape): HTMLInputElement | HTMLSelectElement | HTMLTextAreaElement {
+  const placeholder = shape.isOptional ? "none" : null;
+  switch (shape.kind) {
+    case "flag":
+      return make("input", { type: "checkbox" });
+    case "choice":
+      return make("select", {}, ...shape.choices.map((name) => make("option", { value: name }, name === "" ? "none" : name)));
+    case "number":
+      // Not `type=number`: it hides what it does not understand, and its wheel changes values while one scrolls.
+      return make("input", { type: "text", inputmode: "decimal", spellcheck: "false", placeholder });
+    case "words":
+      return make("input", { type: "text", spellcheck: "false", placeholder });
+    case "json":
+      return make("textarea", { rows: 1, spellcheck: "false" });
+  }
 }
 
 function originOf(provenance: Provenance): string {

@@ -1,17 +1,19 @@
 // A panel to read and change the robot's parameters: several at once, with where they come from, and back into a file.
-import type { Json } from "../protocol";
-import { Tuning, type Parameter, type Tuned } from "../store/tuning";
+import { Tuning, type Draft, type Parameter, type Tuned } from "../store/tuning";
 import { button, complain, make, select } from "../view/dom";
 import { plural } from "../view/format";
 import { textSetting, type Context, type Panel, type PanelKind } from "./panel";
 import { ParameterRow } from "./parameter_row";
+import { keyOf } from "./parameter_text";
 
 class Parameters implements Panel {
   readonly content: HTMLElement;
   readonly tools: HTMLElement[];
   private readonly tuning: Tuning;
   private readonly list = make("div", { class: "parameters" });
+  /** Of the last deed. What was in the way of reading has a line of its own: it goes by itself. */
   private readonly failure = make("p", { class: "failure", hidden: true });
+  private readonly unread = make("p", { class: "failure", hidden: true });
   private readonly said = make("p", { class: "said", hidden: true });
   private readonly search: HTMLInputElement;
   private readonly writing = make("div", { class: "bar writing", hidden: true });
@@ -34,7 +36,7 @@ class Parameters implements Panel {
       this.undo,
       button("Reload", "take what the files say: changes that were not stored are gone", () => this.attempt(() => this.tuning.reload())),
     ];
-    this.content = make("div", { class: "scroll" }, make("div", { class: "bar" }, this.search), this.writing, this.storing, this.failure, this.said, this.list);
+    this.content = make("div", { class: "scroll" }, make("div", { class: "bar" }, this.search), this.writing, this.storing, this.failure, this.unread, this.said, this.list);
     this.stops = [
       context.robot.parameters.watch(() => void this.load()),
       context.robot.canWrite.watch((can) => this.content.classList.toggle("read-only", !can)),
@@ -55,10 +57,11 @@ class Parameters implements Panel {
   private async load(): Promise<void> {
     if (this.context.robot.state.value !== "open" && this.context.robot.welcome.value === null) return;
     try {
-      await this.tuning.load();
-      complain(this.failure, null);
+      const said = await this.tuning.load();
+      if (said !== undefined) complain(this.said, said);
+      complain(this.unread, null);
     } catch (error) {
-      complain(this.failure, error);
+      complain(this.unread, error);
     }
   }
 
@@ -77,36 +80,53 @@ class Parameters implements Panel {
   private draw(tuned: Tuned | null): void {
     this.undo.disabled = !this.tuning.canUndo;
     if (tuned === null) return;
-    const paths = new Set(tuned.parameters.map((parameter) => parameter.path));
-    const isSame = paths.size === this.rows.size && [...paths].every((path) => this.rows.has(path));
-    if (!isSame) {
-      this.rows.clear();
-      const root = group("", tuned.parameters, (parameter) => this.row(parameter));
-      this.list.replaceChildren(...root);
-    }
-    for (const parameter of tuned.parameters) this.rows.get(parameter.path)?.show(parameter);
+    const isSame = tuned.parameters.length === this.rows.size && tuned.parameters.every((parameter) => this.rows.get(parameter.path)?.key === keyOf(parameter));
+    if (!isSame) this.build(tuned);
+    const pending = this.tuning.pending.value;
+    for (const parameter of tuned.parameters) this.rows.get(parameter.path)?.show(parameter, pending.get(parameter.path));
     this.filter();
     this.drawStoring(tuned);
   }
 
-  private row(parameter: Parameter): HTMLElement {
-    const row = new ParameterRow(parameter, {
-      note: (shown, value: Json) => this.tuning.note(shown, value),
-      write: () => this.attempt(() => this.tuning.write()),
-    });
-    this.rows.set(parameter.path, row);
-    return row.element;
+  /** Rows that still fit stay as they are, with groups that are open and with the focus. */
+  private build(tuned: Tuned): void {
+    const before = new Map(this.rows);
+    const details = [...this.list.querySelectorAll<HTMLDetailsElement>("details[open]")];
+    const open = new Set(details.map((one) => one.dataset["below"]));
+    const focused = document.activeElement instanceof HTMLElement && this.list.contains(document.activeElement) ? document.activeElement : null;
+    this.rows.clear();
+    const row = (parameter: Parameter): HTMLElement => {
+      const kept = before.get(parameter.path);
+      const row = kept?.key === keyOf(parameter) ? kept : this.row(parameter);
+      this.rows.set(parameter.path, row);
+      return row.element;
+    };
+    this.list.replaceChildren(...group("", tuned.parameters, row));
+    for (const one of this.list.querySelectorAll<HTMLDetailsElement>("details")) one.open = open.has(one.dataset["below"]);
+    (focused === null ? undefined : this.rows.get(focused.dataset["path"] ?? ""))?.focus();
+    for (const parameter of tuned.parameters) {
+      const [row, draft] = [this.rows.get(parameter.path), this.tuning.pending.value.get(parameter.path)];
+      // What was typed may mean something else now.
+      if (row !== undefined && draft !== undefined && row !== before.get(parameter.path)) this.tuning.note(parameter, row.read(draft.text));
+    }
   }
 
-  private drawPending(pending: ReadonlyMap<string, Json>): void {
-    for (const [path, row] of this.rows) row.mark(pending.has(path));
-    if (pending.size === 0) {
-      for (const row of this.rows.values()) row.reset();
-    }
+  private row(parameter: Parameter): ParameterRow {
+    return new ParameterRow(parameter, {
+      note: (shown, draft) => this.tuning.note(shown, draft),
+      discard: (shown) => this.tuning.discard(shown.path),
+      write: () => this.attempt(() => this.tuning.write()),
+    });
+  }
+
+  private drawPending(pending: ReadonlyMap<string, Draft>): void {
+    for (const [path, row] of this.rows) row.draw(pending.get(path));
+    const wrong = [...pending].flatMap(([path, draft]) => ("wrong" in draft ? [`${path}: ${draft.wrong}`] : []));
     this.undo.disabled = !this.tuning.canUndo;
     this.writing.hidden = pending.size === 0;
     this.writing.replaceChildren(
       make("span", {}, `${plural(pending.size, "change")} not sent`),
+      wrong.length === 0 ? "" : make("span", { class: "wrong" }, wrong.join(", ")),
       button("Write", "all of them at once, or none", () => this.attempt(() => this.tuning.write()), "deed"),
       button("Discard", "forget them", () => this.tuning.discard()),
     );
@@ -152,7 +172,7 @@ function group(above: string, parameters: readonly Parameter[], row: (parameter:
     if (!name.endsWith(".")) return below.map(row);
     const content = make("div", { class: "group" }, ...group(above + name, below, row));
     const count = make("span", { class: "muted" }, String(below.length));
-    return [make("details", {}, make("summary", {}, name.slice(0, -1), " ", count), content)];
+    return [make("details", { "data-below": above + name }, make("summary", {}, name.slice(0, -1), " ", count), content)];
   });
 }
 

@@ -1,9 +1,10 @@
 // Owns what a panel of parameters works on: what the robot has, what was changed here and not sent, and what can be undone.
 import { writeJson } from "../connection/exact";
-import { expect } from "../connection/socket";
-import type { Change, Entry, Json, Leaf, Reading, Unstored } from "../protocol";
+import { expect, Refused } from "../connection/socket";
+import type { Change, Entry, Json, Leaf, Reading, Unstored, Welcome } from "../protocol";
 import type { Robot } from "./robot";
 import { Signal } from "./signal";
+import { Turns } from "./turns";
 
 export interface Parameter {
   /** From the root of the parameters. */
@@ -25,79 +26,151 @@ export interface Tuned {
   layers: readonly string[];
 }
 
+/** What somebody typed: the value that it is, or the reason why it is none. */
+export type Draft = { text: string; value: Json } | { text: string; wrong: string };
+
 const UNDO = 100;
 
 export class Tuning {
   readonly tuned = new Signal<Tuned | null>(null);
   /** Changed here and not sent, by path. */
-  readonly pending = new Signal<ReadonlyMap<string, Json>>(new Map());
+  readonly pending = new Signal<ReadonlyMap<string, Draft>>(new Map());
   /** Values that were replaced from here, newest last. */
   private readonly undone: Change[][] = [];
+  /** What a write replaces is known once the one before was answered. */
+  private readonly turns = new Turns();
+  /** The last write from here: another connection may be to another run, which counts versions anew. */
+  private written: { run: Welcome | null; version: number } = { run: null, version: 0 };
+  private loads = 0;
+  private shownLoad = 0;
 
-  constructor(private readonly robot: Robot) {}
+  constructor(private readonly robot: Pick<Robot, "ask" | "paths" | "welcome">) {}
 
   get canUndo(): boolean {
     return this.undone.length > 0;
   }
 
-  /** Asks the robot for everything. */
-  async load(): Promise<void> {
+  /** Asks the robot for everything; what it says for people. */
+  async load(): Promise<string | void> {
+    const load = ++this.loads;
     const [reading, unstored, entries] = await Promise.all([
       this.robot.ask({ parameters: { path: "" } }).then((good) => expect(good, "parameters")),
       this.robot.ask({ unstored: {} }).then((good) => expect(good, "unstored")),
       this.robot.paths.everything("parameters").catch((): readonly Entry[] => []),
     ]);
-    this.tuned.set(describe(reading, unstored, entries));
+    // Of before the last write, or behind the answer to a later question: what is newer is there, or asked for.
+    const isOld = this.written.run === this.robot.welcome.value && reading.version < this.written.version;
+    if (isOld || load < this.shownLoad) return;
+    this.shownLoad = load;
+    const tuned = describe(reading, unstored, entries);
+    const said = this.forgetWithout(tuned);
+    this.tuned.set(tuned);
+    return said;
   }
 
-  /** Notes a change; the value that the robot has takes the note away. */
-  note(parameter: Parameter, value: Json): void {
+  /** Notes what was typed; the value that the robot has takes the note away. */
+  note(parameter: Parameter, draft: Draft): void {
     const pending = new Map(this.pending.value);
-    if (writeJson(value) === writeJson(parameter.value)) pending.delete(parameter.path);
-    else pending.set(parameter.path, value);
+    if ("value" in draft && isSame(draft.value, parameter.value)) pending.delete(parameter.path);
+    else pending.set(parameter.path, draft);
     this.pending.set(pending);
   }
 
-  discard(): void {
-    this.pending.set(new Map());
+  /** Forgets what was typed for a path; absent: everything. */
+  discard(path?: string): void {
+    this.pending.set(new Map(path === undefined ? [] : [...this.pending.value].filter(([other]) => other !== path)));
   }
 
-  /** Sends what was noted: all of it is taken, or nothing. */
+  /** Sends what was noted by now: all of it is taken, or nothing. */
   async write(): Promise<void> {
-    const changes = [...this.pending.value].map(([path, value]) => ({ path, value }));
-    if (changes.length === 0) return;
-    const before = changes.map(({ path }) => ({ path, value: this.valueOf(path) }));
-    expect(await this.robot.ask({ write: { changes } }), "written");
-    this.undone.push(before);
-    if (this.undone.length > UNDO) this.undone.shift();
-    this.discard();
+    const noted = [...this.pending.value];
+    const wrong = noted.flatMap(([path, draft]) => ("wrong" in draft ? [`${path}: ${draft.wrong}`] : []));
+    if (wrong.length > 0) throw new Error(`nothing was sent\n${wrong.join("\n")}`);
+    const wanted = noted.flatMap(([path, draft]) => ("value" in draft ? [{ path, value: draft.value }] : []));
+    await this.turns.take(async () => {
+      // Somebody who presses twice wants it once.
+      const changes = wanted.filter(({ path, value }) => !isSame(value, this.valueOf(path)));
+      if (changes.length > 0) {
+        const before = changes.map(({ path }) => ({ path, value: this.valueOf(path) }));
+        await this.send(changes);
+        this.undone.push(before);
+        if (this.undone.length > UNDO) this.undone.shift();
+      }
+      this.settle(wanted);
+    });
   }
 
   /** Gives back what the last write from here replaced. */
-  async undo(): Promise<void> {
-    const changes = this.undone[this.undone.length - 1];
-    if (changes === undefined) return;
-    expect(await this.robot.ask({ write: { changes } }), "written");
-    this.undone.pop();
-    this.tuned.set(this.tuned.value);
+  undo(): Promise<void> {
+    return this.turns.take(async () => {
+      const changes = this.undone[this.undone.length - 1];
+      if (changes === undefined) return;
+      try {
+        await this.send(changes);
+      } catch (error) {
+        // Values that this robot does not take never will be: the write before may still be undone.
+        const isHopeless = error instanceof Refused && (error.failure.refusals ?? []).length > 0;
+        if (!isHopeless) throw error;
+        this.undone.pop();
+        this.tuned.set(this.tuned.value);
+        throw new Error(`the last write cannot be taken back: ${error.message}`);
+      }
+      this.undone.pop();
+      this.tuned.set(this.tuned.value);
+    });
   }
 
   /** Writes what is in no file into that of a layer; what it says for people. */
   async store(layer: string, paths: readonly string[] = []): Promise<string> {
     const stored = expect(await this.robot.ask({ store: { layer, paths: [...paths] } }), "stored");
-    await this.load();
-    return [`stored in ${stored.file}: ${stored.paths.join(", ")}`, ...stored.warnings].join("\n");
+    const said = await this.load();
+    return [`stored in ${stored.file}: ${stored.paths.join(", ")}`, ...stored.warnings, ...(said === undefined ? [] : [said])].join("\n");
   }
 
   /** Takes what the files say; what was not stored is gone. */
-  async reload(): Promise<void> {
+  async reload(): Promise<string | void> {
     expect(await this.robot.ask({ reload: {} }), "written");
-    await this.load();
+    return this.load();
+  }
+
+  /** What was written is shown until everything was asked for again. */
+  private async send(changes: Change[]): Promise<void> {
+    const run = this.robot.welcome.value;
+    const { version } = expect(await this.robot.ask({ write: { changes } }), "written");
+    this.written = { run, version };
+    const tuned = this.tuned.value;
+    if (tuned === null || tuned.version >= version) return;
+    const written = new Map(changes.map(({ path, value }) => [path, value]));
+    const parameters = tuned.parameters.map((one) => (written.has(one.path) ? { ...one, value: written.get(one.path) ?? null } : one));
+    this.tuned.set({ ...tuned, version, parameters });
+  }
+
+  /** What was sent is pending no more; what was typed meanwhile is. */
+  private settle(sent: readonly Change[]): void {
+    const pending = new Map(this.pending.value);
+    for (const { path, value } of sent) {
+      const draft = pending.get(path);
+      if (draft !== undefined && "value" in draft && isSame(draft.value, value)) pending.delete(path);
+    }
+    this.pending.set(pending);
+  }
+
+  /** Nobody sees what was typed for parameters that are not there any more, so that nobody may send it. */
+  private forgetWithout(tuned: Tuned): string | void {
+    const paths = new Set(tuned.parameters.map(({ path }) => path));
+    const gone = [...this.pending.value.keys()].filter((path) => !paths.has(path));
+    if (gone.length === 0) return;
+    this.pending.set(new Map([...this.pending.value].filter(([path]) => paths.has(path))));
+    return `not there any more, and what was typed is forgotten: ${gone.join(", ")}`;
   }
 
   private valueOf(path: string): Json {
     return this.tuned.value?.parameters.find((parameter) => parameter.path === path)?.value ?? null;
   }
+}
+
+function isSame(one: Json, other: Json): boolean {
+  return writeJson(one) === writeJson(other);
 }
 
 function describe(reading: Reading, unstored: Unstored, entries: readonly Entry[]): Tuned {

@@ -45,7 +45,18 @@ export async function parametersComeBack(page, other, address) {
   assert.equal(await input(other).inputValue(), after);
   await input(page).fill("1e999");
   await page.locator(".parameter.wrong").waitFor();
+  await input(page).press("Enter");
+  const refused = panel(page, "parameters").locator("p.failure", { hasText: `${PARAMETER}: \`1e999\` is no number` });
+  await refused.waitFor();
+  const origin = page.locator(".parameter", { has: input(page) }).locator(".origin");
+  const changed = changes(page, origin, "where the value comes from");
+  await input(other).fill(String(Number(after) + 0.25));
+  await input(other).press("Enter");
+  await changed;
+  assert(await refused.isVisible(), "what others do does not take the reason away");
+  assert.equal(await input(page).inputValue(), "1e999");
   await input(page).press("Escape");
+  assert.equal(await input(page).inputValue(), String(Number(after) + 0.25));
   await page.getByRole("button", { name: /^take the last write/ }).click();
   await other.waitForFunction(([path, value]) => document.querySelector(`input[data-path="${path}"]`)?.value === value, [PARAMETER, before], { timeout: PATIENCE });
   step("a parameter comes back from the robot, also to others, and is undone");

@@ -1,0 +1,92 @@
+// Owns how a parameter is written in a field, and what a text in the field means: by its type, without the field.
+import { readJson, writeJson } from "../connection/exact";
+import type { Json } from "../protocol";
+import type { Draft, Parameter } from "../store/tuning";
+
+export interface Shape {
+  kind: "flag" | "choice" | "number" | "words" | "json";
+  /** Of a choice: the texts to choose from; the empty one is none. */
+  choices: readonly string[];
+  /** Whether there may be none. */
+  isOptional: boolean;
+  write(value: Json): string;
+  read(text: string): Draft;
+}
+
+/** Where two differ, a field of the one is none for the other: a robot that began anew may have other types and ranges. */
+export function keyOf(parameter: Parameter): string {
+  const { type, range, unit, documentation } = parameter.entry ?? {};
+  const { kind, choices } = shapeOf(parameter);
+  return JSON.stringify([kind, choices, type, range, unit, documentation]);
+}
+
+export function shapeOf({ value, entry }: Parameter): Shape {
+  const [, content] = /^Option<(.*)>$/.exec(entry?.type ?? "") ?? [];
+  const isOptional = content !== undefined;
+  const type = content ?? entry?.type ?? "";
+  const choices = entry?.choices ?? [];
+  if (choices.length > 0) return choice(isOptional ? ["", ...choices] : choices);
+  if (isOptional && type === "bool") return choice(["", "false", "true"], readJson);
+  if (typeof value === "boolean") return { kind: "flag", choices: [], isOptional, write: String, read: (text) => ({ text, value: text === "true" }) };
+  if (typeof value === "number" || typeof value === "bigint" || (isOptional && /^([iu](8|16|32|64|128|size)|f32|f64)$/.test(type))) return numeric(entry?.range ?? {}, isOptional);
+  if (typeof value === "string" || (isOptional && type === "String")) return words(isOptional);
+  return { kind: "json", choices: [], isOptional, write: (shown) => writeJson(shown), read: readAny };
+}
+
+function choice(choices: readonly string[], meaning: (text: string) => Json = (text) => text): Shape {
+  return {
+    kind: "choice",
+    choices,
+    isOptional: choices.includes(""),
+    write: (value) => (value === null ? "" : String(value)),
+    read: (text) => ({ text, value: text === "" ? null : meaning(text) }),
+  };
+}
+
+function numeric({ minimum, maximum, is_half_open }: NonNullable<NonNullable<Parameter["entry"]>["range"]>, isOptional: boolean): Shape {
+  const read = (text: string): Draft => {
+    const digits = text.trim();
+    if (isOptional && (digits === "" || digits === "null")) return { text, value: null };
+    const isInteger = /^[+-]?\d+$/.test(digits) && !Number.isSafeInteger(Number(digits));
+    const value = isInteger ? BigInt(digits.replace("+", "")) : Number(digits === "" ? Number.NaN : digits);
+    if (!isInteger && !Number.isFinite(value)) return { text, wrong: digits === "" ? "there is no number" : `\`${digits}\` is no number` };
+    const isInside = value >= (minimum ?? -Infinity) && value <= (maximum ?? Infinity) && !(is_half_open === true && value === maximum);
+    return isInside ? { text, value } : { text, wrong: `${digits} is not within ${rangeOf({ minimum, maximum, is_half_open })}` };
+  };
+  return { kind: "number", choices: [], isOptional, write: (value) => (value === null ? "" : String(value)), read };
+}
+
+/** Of an optional text, nothing is none; what would be read otherwise stands in quotes. */
+function words(isOptional: boolean): Shape {
+  const write = (value: Json): string => {
+    if (typeof value !== "string") return "";
+    return isOptional && (value === "" || value.startsWith('"')) ? JSON.stringify(value) : value;
+  };
+  const read = (text: string): Draft => {
+    if (!isOptional) return { text, value: text };
+    if (text === "") return { text, value: null };
+    return text.startsWith('"') ? readAny(text) : { text, value: text };
+  };
+  return { kind: "words", choices: [], isOptional, write, read };
+}
+
+function readAny(text: string): Draft {
+  try {
+    return { text, value: readJson(text) };
+  } catch (error) {
+    return { text, wrong: `this is no JSON: ${error instanceof Error ? error.message : String(error)}` };
+  }
+}
+
+export function rangeOf(range: { minimum?: number | null | undefined; maximum?: number | null | undefined; is_half_open?: boolean | undefined } | null | undefined): string {
+  if (range == null) return "";
+  return `${range.minimum ?? "−∞"} … ${range.is_half_open === true ? "< " : ""}${range.maximum ?? "∞"}`;
+}
+
+/** One more or less of the last digit that stands there. */
+export function stepped(text: string, direction: 1 | -1, value: Json): string | null {
+  if (typeof value === "bigint") return String(value + BigInt(direction));
+  if (typeof value !== "number") return null;
+  const digits = /\.(\d+)$/.exec(text)?.[1]?.length ?? 0;
+  return String(Number((value + direction * 10 ** -digits).toFixed(digits)));
+}

@@ -1,0 +1,227 @@
+// What is typed for parameters and sent, with a robot that is only played: it answers when the test says so.
+import assert from "node:assert/strict";
+import test from "node:test";
+import { load } from "../load.mjs";
+
+const { Refused, Tuning } = await load("store/tuning.ts", "connection/socket.ts");
+const { keyOf, shapeOf, stepped } = await load("panels/parameter_text.ts");
+
+const settled = () => new Promise((resolve) => setTimeout(resolve, 0));
+
+/** A robot with these parameters, and what was asked of it. */
+class Played {
+  welcome = { value: {} };
+  paths = { everything: async () => [] };
+  version = 1;
+  writes = [];
+
+  constructor(values) {
+    this.values = values;
+  }
+
+  async ask(ask) {
+    if ("parameters" in ask) {
+      const leaves = Object.keys(this.values).map((path) => ({ path, provenance: { from: "nowhere" } }));
+      const said = { parameters: { value: { ...this.values }, version: this.version, leaves } };
+      await this.slow;
+      return said;
+    }
+    if ("unstored" in ask) return { unstored: { version: this.version, changes: [], layers: [], creation_only: [] } };
+    return new Promise((resolve, reject) => this.writes.push({ changes: ask.write.changes, take: () => resolve(this.take(ask.write.changes)), refuse: reject }));
+  }
+
+  take(changes) {
+    for (const { path, value } of changes) this.values[path] = value;
+    return { written: { version: ++this.version } };
+  }
+}
+
+async function tuned(values) {
+  const robot = new Played(values);
+  const tuning = new Tuning(robot);
+  await tuning.load();
+  const find = (path) => tuning.tuned.value.parameters.find((one) => one.path === path);
+  return {
+    robot,
+    tuning,
+    type: (path, text) => tuning.note(find(path), shapeOf(find(path)).read(text)),
+    value: (path) => find(path)?.value,
+    pending: () => [...tuning.pending.value].map(([path, { text }]) => [path, text]),
+  };
+}
+
+test("of what cannot be read nothing is sent, also not its beginning", async () => {
+  const { robot, tuning, type } = await tuned({ a: 2, b: 5 });
+  for (const text of ["3", "3.", "3.5", "3.5e"]) type("a", text);
+  type("b", "6");
+  await assert.rejects(tuning.write(), /a: `3.5e` is no number/);
+  assert.equal(robot.writes.length, 0);
+  type("a", "3.5e1");
+  const written = tuning.write();
+  await settled();
+  assert.deepEqual(robot.writes[0].changes, [{ path: "a", value: 35 }, { path: "b", value: 6 }]);
+  robot.writes[0].take();
+  await written;
+});
+
+test("what is typed while the robot answers stays, and what was sent is shown at once", async () => {
+  const { robot, tuning, type, value, pending } = await tuned({ a: 2, b: 5, c: 1 });
+  type("a", "3");
+  type("c", "2");
+  const written = tuning.write();
+  await settled();
+  type("b", "0.123");
+  type("c", "4");
+  robot.writes[0].take();
+  await written;
+  assert.deepEqual(pending(), [["c", "4"], ["b", "0.123"]]);
+  assert.deepEqual(["a", "b", "c"].map(value), [3, 5, 2], "before everything is asked for again");
+});
+
+test("writes that follow each other quickly are undone one by one", async () => {
+  const { robot, tuning, type, value } = await tuned({ a: 1 });
+  const all = ["2", "2", "3"].map((text) => {
+    type("a", text);
+    return tuning.write();
+  });
+  await settled();
+  assert.equal(robot.writes.length, 1, "the next one waits for the answer");
+  robot.writes[0].take();
+  await settled();
+  robot.writes[1].take();
+  await Promise.all(all);
+  assert.deepEqual(robot.writes.map(({ changes }) => changes[0].value), [2, 3], "and what was sent is not sent again");
+  for (const expected of [2, 1]) {
+    const undone = tuning.undo();
+    await settled();
+    robot.writes.at(-1).take();
+    await undone;
+    assert.equal(value("a"), expected);
+  }
+  assert(!tuning.canUndo);
+});
+
+test("an answer of before a write does not bring the old value back", async () => {
+  const { robot, tuning, type, value } = await tuned({ a: 1 });
+  let go;
+  robot.slow = new Promise((resolve) => (go = resolve));
+  const loaded = tuning.load();
+  type("a", "2");
+  const written = tuning.write();
+  await settled();
+  robot.writes[0].take();
+  await written;
+  go();
+  await loaded;
+  assert.equal(value("a"), 2);
+  // Another run counts its versions from the beginning.
+  Object.assign(robot, { welcome: { value: {} }, version: 1, values: { a: 7 } });
+  await tuning.load();
+  assert.equal(value("a"), 7);
+  // A replay goes back to earlier ones.
+  Object.assign(robot, { version: 0, values: { a: 6 } });
+  await tuning.load();
+  assert.equal(value("a"), 6);
+});
+
+test("an undo that the robot refuses is not in the way of the one before", async () => {
+  const { robot, tuning, type } = await tuned({ a: 1, b: 1 });
+  for (const path of ["a", "b"]) {
+    type(path, "2");
+    const written = tuning.write();
+    await settled();
+    robot.writes.at(-1).take();
+    await written;
+  }
+  const attempt = async (error) => {
+    const undone = tuning.undo();
+    await settled();
+    robot.writes.at(-1).refuse(error);
+    await assert.rejects(undone);
+    return robot.writes.at(-1).changes[0].path;
+  };
+  assert.equal(await attempt(new Error("the connection to the robot was lost")), "b");
+  assert.equal(await attempt(new Refused({ message: "authenticate first" })), "b", "it may be taken back once somebody has the token");
+  assert.equal(await attempt(new Refused({ message: "no", refusals: [{ path: "b", message: "there is no such parameter" }] })), "b");
+  const undone = tuning.undo();
+  await settled();
+  assert.deepEqual(robot.writes.at(-1).changes, [{ path: "a", value: 1 }]);
+  robot.writes.at(-1).take();
+  await undone;
+});
+
+test("what was typed for a parameter that went away is told and not sent", async () => {
+  const { robot, tuning, type, pending } = await tuned({ a: 1, "mode.Blink": 3 });
+  type("a", "77");
+  type("mode.Blink", "4");
+  robot.values = { a: 1, mode: "Off" };
+  assert.match(await tuning.load(), /mode\.Blink/);
+  assert.deepEqual(pending(), [["a", "77"]]);
+});
+
+test("integers have all their digits when they are written and taken back", async () => {
+  const seed = 11400714819323198485n;
+  const { robot, tuning, type, value } = await tuned({ seed });
+  type("seed", "11400714819323198486");
+  const written = tuning.write();
+  await settled();
+  assert.equal(robot.writes[0].changes[0].value, seed + 1n);
+  robot.writes[0].take();
+  await written;
+  const undone = tuning.undo();
+  await settled();
+  robot.writes[1].take();
+  await undone;
+  assert.equal(value("seed"), seed);
+  assert.equal(stepped("11400714819323198485", 1, seed), "11400714819323198486");
+});
+
+const parameter = (value, entry) => ({ path: "a", value, entry: { type: "f32", ...entry } });
+const read = (one, text) => {
+  const draft = shapeOf(one).read(text);
+  return "value" in draft ? draft.value : draft.wrong;
+};
+
+test("a number says why it is none, and what its range is", () => {
+  const one = parameter(1, { range: { minimum: 0, maximum: 100, is_half_open: true } });
+  assert.equal(read(one, " 12 "), 12);
+  assert.equal(read(one, "120"), "120 is not within 0 … < 100");
+  assert.match(read(one, "100"), /not within/);
+  for (const text of ["", "x", "1e999", "NaN", "Infinity"]) assert.match(read(parameter(1), text), /no number/, text);
+  assert.match(read(parameter([1], { type: "Vec<f32>" }), "[1,"), /^this is no JSON: /);
+});
+
+test("what may be none can be made none, and something again", () => {
+  for (const value of [5, null]) {
+    const number = parameter(value, { type: "Option<f32>" });
+    assert.deepEqual([read(number, ""), read(number, "null"), read(number, "2.5")], [null, null, 2.5]);
+    assert.equal(shapeOf(number).write(null), "");
+  }
+  for (const value of ["x", null]) {
+    const words = shapeOf(parameter(value, { type: "Option<String>" }));
+    assert.deepEqual(words.read(""), { text: "", value: null });
+    for (const text of ["", '"quoted"', "plain", "null"]) assert.equal(words.read(words.write(text)).value, text, "every text can be typed");
+  }
+  for (const value of [true, null]) {
+    const flag = shapeOf(parameter(value, { type: "Option<bool>" }));
+    for (const one of [null, true, false]) assert.equal(flag.read(flag.write(one)).value, one);
+  }
+  const choice = shapeOf(parameter("Left", { type: "Option<Side>", choices: ["Left", "Right"] }));
+  assert.deepEqual(choice.choices, ["", "Left", "Right"]);
+  assert.equal(choice.read("").value, null);
+  assert.deepEqual(shapeOf(parameter("Left", { type: "Side", choices: ["Left", "Right"] })).choices, ["Left", "Right"]);
+  // Whatever robots call a number of their own.
+  assert.equal(read(parameter(5, { type: "Option<Angle>" }), ""), null);
+  assert.equal(read(parameter(null, { type: "Option<Angle>" }), "5"), 5);
+  assert.match(read(parameter(5, { type: "f32" }), ""), /no number/);
+});
+
+test("a field is made anew where the type, the range or the unit is another, and stays where only the value is", () => {
+  const one = parameter(1, { range: { minimum: 0, maximum: 1 }, unit: "m" });
+  assert.equal(keyOf(one), keyOf({ ...one, value: 0.5 }));
+  assert.equal(keyOf(parameter(null, { type: "Option<f32>" })), keyOf(parameter(1, { type: "Option<f32>" })));
+  for (const other of [{ range: { minimum: 0, maximum: 2 } }, { unit: "cm" }, { type: "f64" }, { documentation: "new" }]) {
+    assert.notEqual(keyOf(one), keyOf({ ...one, entry: { ...one.entry, ...other } }), JSON.stringify(other));
+  }
+  assert.notEqual(keyOf(one), keyOf({ ...one, value: "text" }));
+});
