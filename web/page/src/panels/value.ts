@@ -1,4 +1,5 @@
 // A panel with any value of the robot, as a tree or as text.
+import { watchInjected } from "../store/injected";
 import type { Sample } from "../store/subscriptions";
 import { button, complain, eachFrame, make, select } from "../view/dom";
 import { json, seconds } from "../view/format";
@@ -13,15 +14,17 @@ function open(context: Context): Panel {
   let rate = numberSetting(context.settings, "rate", 10);
   let isText = context.settings["text"] === true;
   let stop = (): void => undefined;
+  let stopMark = (): void => undefined;
   let sample: Sample | null = null;
   let branch = new Branch("", "", true);
   const input = make("input", { type: "text", value: path, placeholder: "a path, e.g. from the list of paths", "aria-label": "path", spellcheck: "false" });
   const state = make("output", { class: "muted" });
+  const mark = make("span", { class: "injected-mark", hidden: true, title: "a client has put this value in place of what the node wrote" }, "injected");
   const failure = make("p", { class: "failure", hidden: true });
   const tree = make("ul", { class: "tree" });
   const text = make("pre", { class: "value-text" });
   const injecting = injection(context.robot, () => ({ path, value: sample?.value ?? null }));
-  const content = make("div", { class: "scroll" }, make("div", { class: "bar" }, input, state), failure, injecting.element, tree, text);
+  const content = make("div", { class: "scroll" }, make("div", { class: "bar" }, input, state, mark), failure, injecting.element, tree, text);
 
   const draw = eachFrame(() => {
     tree.hidden = isText;
@@ -34,6 +37,8 @@ function open(context: Context): Panel {
 
   const show = (): void => {
     stop();
+    stopMark();
+    mark.hidden = true;
     sample = null;
     state.textContent = "";
     text.textContent = "";
@@ -44,6 +49,7 @@ function open(context: Context): Panel {
     tree.replaceChildren(branch.element);
     complain(failure, null);
     if (path === "") return;
+    stopMark = watchInjected(context.robot, path, (isInjected) => (mark.hidden = !isInjected));
     stop = context.robot.subscriptions.watch(
       // As bytes, since an image as JSON would take seconds; the robot tells parameters as JSON alone.
       { path, rate, encoding: /^parameters(\.|$)/.test(path) ? "json" : "binary" },
@@ -77,6 +83,7 @@ function open(context: Context): Panel {
   show();
   const close = (): void => {
     stop();
+    stopMark();
     injecting.close();
   };
   return { content, tools, accept, close };

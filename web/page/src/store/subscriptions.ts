@@ -10,6 +10,8 @@ export interface Sample {
   time: number;
   /** Bytes: a JPEG file. */
   value: Decoded;
+  /** Whether a client has put it in place of what the node wrote: only updates in JSON say so. */
+  injected?: boolean;
 }
 
 export interface Watcher {
@@ -122,8 +124,8 @@ export class Subscriptions {
   }
 }
 
-function give(subscription: Subscription, { cycle, time, value }: Sample): void {
-  subscription.latest = { cycle, time, value };
+function give(subscription: Subscription, { cycle, time, value, injected }: Sample): void {
+  subscription.latest = { cycle, time, value, ...(injected === true ? { injected } : {}) };
   for (const watcher of [...subscription.watchers]) watcher.sample(subscription.latest);
 }
 

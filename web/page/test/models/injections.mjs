@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import test from "node:test";
 import { load } from "../load.mjs";
 
-const { Injection } = await load("store/injection.ts");
+const { Injection, Paths, Signal, Subscriptions, watchInjected } = await load("store/injection.ts", "store/injected.ts", "store/paths.ts", "store/signal.ts", "store/subscriptions.ts");
 
 function played() {
   const asked = [];
@@ -51,4 +51,30 @@ test("another output takes the place of the one before", async () => {
   await Promise.all([first, second]);
   assert.deepEqual(names(), ["inject A.main_outputs.x", "release A.main_outputs.x", "inject A.main_outputs.y"]);
   assert.equal(injection.path.value, "A.main_outputs.y");
+});
+
+test("whoever injects an output, all who look at a part of it are told", async () => {
+  const entries = {
+    "A.main_outputs": [{ path: "A.main_outputs.image", has_children: true }, { path: "A.main_outputs.lines", has_children: true }],
+    "A.main_outputs.image": [{ path: "A.main_outputs.image.data", has_children: true }, { path: "A.main_outputs.image.width", has_children: false }],
+  };
+  const asked = [];
+  const subscriptions = new Subscriptions(() => ({
+    ask: async (ask) => (asked.push(ask), "subscribe" in ask ? { subscribed: { subscription: asked.length } } : { done: {} }),
+  }));
+  const robot = { paths: new Paths(async ({ paths: { below } }) => ({ paths: entries[below] ?? [] })), subscriptions, welcome: new Signal({}) };
+  const told = [];
+  const stop = watchInjected(robot, "A.main_outputs.image.data.0", (isInjected) => told.push(isInjected));
+  await settled();
+  assert.deepEqual(asked, [{ subscribe: { path: "A.main_outputs.image.width", rate: 1, encoding: "json" } }], "not the image as JSON");
+  for (const injected of [undefined, true, undefined]) subscriptions.update({ subscription: 1, cycle: 1, time: 1, value: null, injected });
+  assert.deepEqual(told, [false, true, false]);
+  stop();
+  assert.deepEqual(asked.slice(1), [{ unsubscribe: { subscription: 1 } }]);
+  const stopLines = watchInjected(robot, "A.main_outputs.lines", () => undefined);
+  watchInjected(robot, "A.additional_outputs.x", () => undefined);
+  watchInjected(robot, "parameters.x", () => undefined)();
+  await settled();
+  assert.deepEqual(asked.slice(2).map(({ subscribe }) => subscribe.path), ["A.main_outputs.lines.0"]);
+  stopLines();
 });

@@ -93,7 +93,10 @@ export async function injectionsReplaceOutputs(page) {
   await value.getByRole("button", { name: /^every reader gets/ }).click();
   const reading = value.locator('.line:has(> .name[title$=".positions.head_pitch"]) > .reading');
   await reads(reading, /^0\.123/, "the injected value");
+  const mark = value.locator(".injected-mark");
+  await mark.waitFor({ timeout: PATIENCE });
   await value.getByRole("button", { name: /^give the output back/ }).click();
   await reading.filter({ hasNotText: /^0\.123/ }).waitFor({ timeout: PATIENCE });
+  await mark.waitFor({ state: "hidden", timeout: PATIENCE });
   step("an injected value takes the place of an output, until it is released");
 }
