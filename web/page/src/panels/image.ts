@@ -173,7 +173,8 @@ export class ImagePanel implements Panel {
     picture?.close();
     this.drawn(sample);
     complain(this.failure, null);
-    this.state.textContent = `${this.canvas.width} × ${this.canvas.height}, cycle ${sample.cycle}, ${seconds(sample.time)}`;
+    const size = picture === null ? "no image" : `${this.canvas.width} × ${this.canvas.height}`;
+    this.state.textContent = `${size}, cycle ${sample.cycle}, ${seconds(sample.time)}`;
   }
 }
 

@@ -86,8 +86,7 @@ export class Subscriptions {
     if (subscription === undefined) return;
     const { cycle, time, bytes } = frame;
     try {
-      const value = subscription.layout === null ? bytes : decode(subscription.layout, bytes);
-      give(subscription, { cycle, time, value });
+      give(subscription, { cycle, time, value: valueOf(subscription, bytes) });
     } catch (error) {
       refuse(subscription, String(error));
     }
@@ -124,8 +123,16 @@ export class Subscriptions {
   }
 }
 
+/** Null where the part is not there in this cycle: such a frame ends behind its header. */
+function valueOf({ layout }: Subscription, bytes: Uint8Array): Decoded {
+  if (bytes.length === 0) return null;
+  return layout === null ? bytes : decode(layout, bytes);
+}
+
 function give(subscription: Subscription, { cycle, time, value, injected }: Sample): void {
   subscription.latest = { cycle, time, value, ...(injected === true ? { injected } : {}) };
+  // What could not be read before may be good again.
+  if (subscription.refusal !== null) refuse(subscription, null);
   for (const watcher of [...subscription.watchers]) watcher.sample(subscription.latest);
 }
 
