@@ -8,13 +8,12 @@ export class Series {
   times: number[] = [];
   values: (number | null)[] = [];
 
-  /** A robot that was restarted begins its time anew: what was before belongs to another run. */
+  /** The time of a recording goes back, too: what lay behind it comes again. */
   add(time: number, value: number | null): void {
     const last = this.times[this.times.length - 1];
     if (last !== undefined && time <= last) {
       if (time === last) return;
-      this.times = [];
-      this.values = [];
+      this.times.length = this.values.length = this.from(time);
     }
     this.times.push(time);
     this.values.push(value);

@@ -1,0 +1,41 @@
+// Points of one curve, without a robot.
+import assert from "node:assert/strict";
+import test from "node:test";
+import { load } from "../load.mjs";
+
+const { Series } = await load("panels/series.ts");
+
+function drawn(...times) {
+  const series = new Series();
+  for (const time of times) series.add(time, 10 * time);
+  return series;
+}
+
+test("a step back in a recording leaves what lies before it", () => {
+  const series = drawn(1, 2, 3, 4, 3);
+  assert.deepEqual([series.times, series.values], [[1, 2, 3], [10, 20, 30]]);
+  series.add(2.5, 7);
+  assert.deepEqual([series.times, series.values], [[1, 2, 2.5], [10, 20, 7]]);
+  series.add(4, 40);
+  assert.deepEqual(series.times, [1, 2, 2.5, 4]);
+});
+
+test("a recording that is played backwards still has what lies before", () => {
+  const series = drawn(1, 2, 3, 4, 5, 6);
+  for (const time of [5, 4, 3]) series.add(time, 10 * time);
+  assert.deepEqual(series.times, [1, 2, 3]);
+  series.add(0.5, 5);
+  assert.deepEqual(series.times, [0.5]);
+});
+
+test("the same moment twice is one point", () => {
+  assert.deepEqual(drawn(1, 2, 2).times, [1, 2]);
+});
+
+test("what is newer than the robot's clock belongs to another run", () => {
+  const series = drawn(1, 2, 3);
+  series.isNow(3.5);
+  assert.deepEqual(series.times, [1, 2, 3]);
+  series.isNow(1.5);
+  assert.deepEqual(series.times, []);
+});
