@@ -72,7 +72,7 @@ class Plot implements Panel {
     for (const wanted of wantedIn(context.settings)) this.add(wanted);
     this.rebuild();
     const stops = [
-      context.robot.moment.watch((moment) => {
+      context.robot.moment.changed((moment) => {
         if (moment !== null) this.show([moment.time - this.window / 2, moment.time + this.window / 2]);
       }),
       context.robot.welcome.watch((welcome) => {

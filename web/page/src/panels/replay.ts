@@ -76,7 +76,7 @@ class Replay implements Panel {
       context.robot.state.watch((state) => {
         if (state === "open") void this.ask({ events: true });
       }),
-      context.robot.moment.watch((moment) => {
+      context.robot.moment.changed((moment) => {
         if (moment !== null) void this.ask({ instance: moment.instance, cycle: moment.cycle, play: false });
       }),
     ];

@@ -18,7 +18,7 @@ export interface Moment {
 }
 
 export class Robot {
-  /** The newest cycle that somebody jumped to. */
+  /** The newest cycle that somebody jumped to. A panel that is opened later goes nowhere. */
   readonly moment = new Signal<Moment | null>(null);
   readonly subscriptions = new Subscriptions(() => (this.isWelcome ? this.socket : null));
   readonly paths = new Paths((ask) => this.ask(ask));

@@ -22,8 +22,14 @@ export class Signal<T> implements Readable<T> {
   }
 
   watch(listener: (value: T) => void): () => void {
-    this.listeners.add(listener);
+    const stop = this.changed(listener);
     listener(this.current);
+    return stop;
+  }
+
+  /** Calls at every change from now on: for what is over once it was heard. */
+  changed(listener: (value: T) => void): () => void {
+    this.listeners.add(listener);
     return () => this.listeners.delete(listener);
   }
 }
