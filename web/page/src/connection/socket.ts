@@ -40,16 +40,26 @@ interface Pending {
 /** Short enough that a robot that restarts is there again at once, long enough for a phone's battery. */
 const RETRY_MILLISECONDS = 1000;
 
-/** A robot that does not answer so many questions in a row is gone, also where its network does not say so. */
-const SILENT_QUESTIONS = 3;
-const QUESTION_MILLISECONDS = 2000;
+/** A robot that says nothing while it is looked at so often in a row is gone, also where its network does not say so. */
+const SILENT_LOOKS = 3;
+/** As often on a link that turned out to be slow: the browser does not show that half of a message is there. */
+const MOST_SILENT_LOOKS = 32;
+/** A link that was never silent for longer than `SILENT_LOOKS` while it was looked at so often is quick again. */
+const QUICK_LOOKS = 60;
+const LOOK_MILLISECONDS = 2000;
 
 export class Socket {
   private socket: WebSocket | null = null;
   private readonly pending = new Map<number, Pending>();
   private nextId = 1;
-  /** Questions since the robot said something. */
+  /** Looks since the robot said something. */
   private silence = 0;
+  /** So many are borne. */
+  private patience = SILENT_LOOKS;
+  /** Looks since more silence than usual. */
+  private quick = 0;
+  /** Another question would only lie behind the one that has no answer yet. */
+  private isAsked = false;
   private readonly watching: number;
   private isClosed = false;
 
@@ -57,7 +67,7 @@ export class Socket {
     private readonly address: string,
     private readonly listener: Listener,
   ) {
-    this.watching = window.setInterval(() => this.watch(), QUESTION_MILLISECONDS);
+    this.watching = window.setInterval(() => this.watch(), LOOK_MILLISECONDS);
     this.connect();
   }
 
@@ -96,6 +106,7 @@ export class Socket {
     };
     this.socket = socket;
     this.silence = 0;
+    this.isAsked = false;
   }
 
   private lose(): void {
@@ -109,14 +120,23 @@ export class Socket {
   private watch(): void {
     const socket = this.socket;
     if (socket === null) return;
+    this.quick = this.silence < SILENT_LOOKS ? this.quick + 1 : 0;
+    if (this.quick >= QUICK_LOOKS) this.patience = SILENT_LOOKS;
     // Counted, not timed: browsers let hidden pages look at the clock once a minute.
-    if (this.silence++ >= SILENT_QUESTIONS) {
+    const isOpen = socket.readyState === WebSocket.OPEN;
+    if (this.silence++ >= (isOpen ? this.patience : SILENT_LOOKS)) {
+      // A large message may have been on its way: to ask for it again and again is worse than to see a loss late.
+      if (isOpen) this.patience = Math.min(2 * this.patience, MOST_SILENT_LOOKS);
       // `onclose` may take minutes where the network is silent.
       this.lose();
       socket.close();
-    } else if (socket.readyState === WebSocket.OPEN) {
+    } else if (isOpen && !this.isAsked) {
+      this.isAsked = true;
       // Anything that is answered shows that the robot is there.
-      this.ask({ paths: { below: "parameters", depth: 0 } }).catch(() => undefined);
+      const answered = (): void => {
+        if (this.socket === socket) this.isAsked = false;
+      };
+      this.ask({ paths: { below: "parameters", depth: 0 } }).then(answered, answered);
     }
   }
 

@@ -3,7 +3,7 @@
 import { expect } from "../connection/socket";
 import type { Json } from "../protocol";
 import { trace, type Lane, type Span } from "../store/trace";
-import { button, complain, eachFrame, make, select, sharp } from "../view/dom";
+import { alone, button, complain, eachFrame, make, select, sharp } from "../view/dom";
 import { microseconds } from "../view/format";
 import { numberSetting, textSetting, type Context, type Panel, type PanelKind } from "./panel";
 import { COLORS } from "./series";
@@ -64,8 +64,9 @@ class Cycles implements Panel {
     this.content = make("div", { class: "timeline" }, make("div", { class: "bar chips" }, this.input, ...key, this.about), this.failure, this.canvas);
     this.canvas.addEventListener("pointerdown", (event) => this.choose(this.timeAt(event.offsetX)));
     this.canvas.addEventListener("keydown", (event) => this.step(event));
-    this.timer = window.setInterval(() => void this.ask(), PERIOD_MILLISECONDS);
-    void this.ask();
+    const ask = alone(() => this.ask());
+    this.timer = window.setInterval(ask, PERIOD_MILLISECONDS);
+    ask();
   }
 
   close(): void {

@@ -1,7 +1,7 @@
 // A panel with how long cycles and nodes take, as a table that follows the robot.
 import { expect } from "../connection/socket";
 import type { Durations, InstanceTimings, NodeTimings, Timings } from "../protocol";
-import { button, complain, download, make, wrapping } from "../view/dom";
+import { alone, button, complain, download, make, wrapping } from "../view/dom";
 import { microseconds } from "../view/format";
 import { Flame } from "./flame";
 import type { Context, Panel, PanelKind } from "./panel";
@@ -12,6 +12,8 @@ const PERIOD_MILLISECONDS = 1000;
 const HEAD = ["", "rate", "p50", "p99", "max", "share", "runs", "skip\u00adped", "failed", "over\u00adruns"];
 
 function open(context: Context): Panel {
+  let now: Timings | null = null;
+  /** The answer before. */
   let before: Timings | null = null;
   const closed = new Set<string>();
   const failure = make("p", { class: "failure", hidden: true });
@@ -19,27 +21,31 @@ function open(context: Context): Panel {
   const head = make("tr", {}, ...HEAD.map((text) => make("th", { scope: "col" }, text)));
   const table = make("table", { class: "timings of-nodes" }, make("thead", {}, head), body);
 
-  const ask = async (): Promise<void> => {
+  const draw = (): void => {
+    const whole = now;
+    if (whole === null) return;
+    const others = recordedElsewhere(whole).map((one) => recordedLine(one, "instance"));
+    body.replaceChildren(...whole.instances.flatMap((instance) => rows(instance, whole, before, closed, draw)), ...others);
+  };
+  const ask = alone(async () => {
     if (context.robot.state.value !== "open" || document.hidden) return;
     try {
-      const now = expect(await context.robot.ask({ timings: {} }), "timings");
-      const others = recordedElsewhere(now).map((one) => recordedLine(one, "instance"));
-      body.replaceChildren(...now.instances.flatMap((instance) => rows(instance, now, before, closed, draw)), ...others);
-      before = now;
+      const next = expect(await context.robot.ask({ timings: {} }), "timings");
+      [now, before] = [next, now];
+      draw();
       complain(failure, null);
     } catch (error) {
       complain(failure, error);
     }
-  };
-  const draw = (): void => void ask();
+  });
   const trace = button("Trace", "the last seconds as a file for ui.perfetto.dev", () => {
     context.robot
       .ask({ trace: { seconds: 10 } })
       .then((good) => download("trace.json", JSON.stringify(expect(good, "trace"))))
       .catch((error: unknown) => complain(failure, error));
   });
-  const timer = window.setInterval(draw, PERIOD_MILLISECONDS);
-  const stop = context.robot.state.watch(draw);
+  const timer = window.setInterval(ask, PERIOD_MILLISECONDS);
+  const stop = context.robot.state.watch(ask);
   const close = (): void => {
     window.clearInterval(timer);
     stop();

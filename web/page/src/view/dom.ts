@@ -55,6 +55,16 @@ export function eachFrame(deed: () => void): () => void {
   };
 }
 
+/** Calls unless what was called last still goes on: questions would only wait behind each other. */
+export function alone(deed: () => Promise<void>): () => void {
+  let isGoingOn = false;
+  return () => {
+    if (isGoingOn) return;
+    isGoingOn = true;
+    void deed().finally(() => (isGoingOn = false));
+  };
+}
+
 /** A canvas as sharp as the screen, in units of the page; null while it has no place. */
 export function sharp(canvas: HTMLCanvasElement): CanvasRenderingContext2D | null {
   const ratio = window.devicePixelRatio;

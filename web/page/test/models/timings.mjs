@@ -1,0 +1,24 @@
+// The table of durations, with a robot that is only played.
+import assert from "node:assert/strict";
+import test from "node:test";
+import { opened, settled, tick } from "../dom.mjs";
+import { load } from "../load.mjs";
+
+const { timings } = await load("panels/timings.ts");
+
+const node = (name) => ({ node: name, calls: 3, skipped: 0, failures: 0, durations: { p50: 5, p99: 9, max: 12 } });
+const instance = (name, cycles) => ({ name, cycles, overruns: 0, failures: 0, deadline: 12000, cycle: { p50: 10, p99: 20, max: 30 }, lateness: null, framework: null, nodes: [node("control::one"), node("control::two")], queues: [] });
+const answer = (time) => ({ timings: { time: time * 1e9, instances: [instance("Control", 83 * time), instance("Vision", 30 * time)] } });
+
+test("the next question waits for the answer to the one before", async () => {
+  let tell;
+  const { context, asked } = opened(() => new Promise((resolve) => (tell = resolve)));
+  const panel = timings.open(context);
+  for (let turn = 0; turn < 3; turn++) tick();
+  assert.equal(asked.length, 1);
+  tell(answer(1));
+  await settled();
+  tick();
+  assert.equal(asked.length, 2);
+  panel.close();
+});
