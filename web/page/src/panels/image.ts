@@ -1,4 +1,4 @@
-// A panel with an image of the robot: as JPEG where the robot makes one, else as the camera's own bytes.
+// A panel with an image of the robot: as JPEG where the robot says that it is one, else as the camera's own bytes.
 import type { Encoding } from "../protocol";
 import type { Settings } from "../store/layout";
 import { isImage } from "../store/paths";
@@ -44,6 +44,10 @@ export class ImagePanel implements Panel {
   /** Oldest first. */
   private ready: Ready[] = [];
   private stop = (): void => undefined;
+  /** As what the image is asked for. */
+  private chosen: Encoding | null = null;
+  private turn = 0;
+  private readonly stopChoosing: () => void;
 
   constructor(protected readonly context: Context) {
     this.path = textSetting(context.settings, "path");
@@ -64,6 +68,9 @@ export class ImagePanel implements Panel {
     ];
     this.content = make("div", { class: "image" }, make("div", { class: "bar" }, this.input, this.choices, this.state), this.failure, this.stage);
     this.subscribe();
+    this.stopChoosing = context.robot.welcome.watch((welcome) => {
+      if (welcome !== null && this.path !== "") void this.choose();
+    });
   }
 
   accept(path: string): void {
@@ -73,6 +80,8 @@ export class ImagePanel implements Panel {
   }
 
   close(): void {
+    this.turn++;
+    this.stopChoosing();
     this.stop();
     this.forget();
   }
@@ -100,29 +109,40 @@ export class ImagePanel implements Panel {
 
   private subscribe(): void {
     this.stop();
+    this.chosen = null;
     this.forget();
     this.context.title(this.path);
     this.save();
     this.moved();
     complain(this.failure, null);
     if (this.path === "") return;
-    if (this.quality === "raw") this.watch("binary");
-    else this.watch({ jpeg: { quality: Number.parseInt(this.quality.slice("quality ".length), 10) } });
+    void this.choose();
   }
 
-  /** Where the robot makes no JPEG of it, its bytes may still be an image. */
-  private watch(encoding: Encoding): void {
+  /** Asks anew where another encoding is right: a robot that was built anew may have made another type of it. */
+  private async choose(): Promise<void> {
+    const turn = ++this.turn;
+    const encoding = await this.encoding();
+    const isSame = JSON.stringify(encoding) === JSON.stringify(this.chosen);
+    if (turn !== this.turn || this.path === "" || isSame) return;
     this.stop();
+    this.chosen = encoding;
     this.stop = this.context.robot.subscriptions.watch(
       { path: this.path, rate: this.rate, encoding },
       {
         sample: (sample) => void this.take(sample),
-        refused: (reason) => {
-          if (reason !== null && encoding !== "binary" && this.context.robot.state.value === "open") this.watch("binary");
-          else complain(this.failure, reason);
-        },
+        refused: (reason) => complain(this.failure, reason),
       },
     );
+  }
+
+  /** What the robot does not call an image may still have the bytes of one. */
+  private async encoding(): Promise<Encoding> {
+    if (this.quality === "raw") return "binary";
+    const entry = await this.context.robot.paths.find(this.path).catch(() => undefined);
+    // Why the robot does not give what it does not know, it says itself.
+    if (entry !== undefined && !isImage(entry)) return "binary";
+    return { jpeg: { quality: Number.parseInt(this.quality.slice("quality ".length), 10) } };
   }
 
   /** Decodes at once: the display comes before a JPEG is decoded. What comes while all decoders are busy is left out but for the newest. */
