@@ -8,7 +8,7 @@ import { fieldOf, RULES, type FieldSize } from "./field";
 import { ellipse, fields, list, number, outOf, point, pose, type Point, type Pose } from "./geometry";
 import { believed, Others, playerOf, watchBelief, type Other, type Player } from "./others";
 import { asTeamSees, TRUTH, watchTruth, type Truth } from "./truth";
-import { named, ofType, Values } from "./values";
+import { named, ofType, output, Values } from "./values";
 
 /** Told apart without colour, too: by shape, by fill, and by the letters beside them. */
 const [OWN, BALL, , , OTHER, MATE] = COLORS as [string, string, string, string, string, string];
@@ -84,13 +84,13 @@ class FieldMap implements Panel {
   private async find(): Promise<void> {
     const entries = await this.context.robot.paths.everything().catch((): readonly Entry[] => []);
     const watch = (name: string, entry: Entry | undefined, rate = RATE): void => this.values.set(name, entry?.path ?? null, rate);
-    watch("ball", named(entries, "ball"));
+    watch("ball", output(entries, "ball", "Ball"));
     watch("hypotheses", named(entries, "ball_filter.hypotheses"), 5);
-    watch("obstacles", named(entries, "obstacles.0") ?? ofType(entries, "Vec<Obstacle>"));
-    watch("team", ofType(entries, "Vec<Teammate>"), 5);
-    watch("odometry", ofType(entries, "Odometry"));
+    watch("obstacles", named(entries, "obstacles.0") ?? ofType(entries, "Vec<Obstacle>", "obstacles"));
+    watch("team", output(entries, "teammates", "Vec<Teammate>"), 5);
+    watch("odometry", output(entries, "odometry", "Odometry"));
     watchBelief(this.values, entries, RATE);
-    watch("command", ofType(entries, "MotionCommand"));
+    watch("command", output(entries, "motion_command", "MotionCommand"));
     watch("path", named(entries, "path") ?? named(entries, "planned_path"), 5);
     const cameras = entries.filter((entry) => /^[^.]+\.main_outputs\.lines$/.test(entry.path));
     [0, 1].forEach((at) => watch(`lines ${at}`, cameras[at]));

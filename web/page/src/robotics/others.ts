@@ -4,7 +4,7 @@ import type { Entry } from "../protocol";
 import type { Robot } from "../store/robot";
 import type { Known } from "../store/robots";
 import { fields, number, outOf, point, pose, turned, type Point, type Pose } from "./geometry";
-import { named, ofType, Values } from "./values";
+import { named, output, Values } from "./values";
 
 const RATE = 10;
 
@@ -32,7 +32,7 @@ export async function playerOf(robot: Robot): Promise<Player> {
 /** Subscribes to where a robot believes to be, under the names that `believed` reads. */
 export function watchBelief(values: Values, entries: readonly Entry[], rate: number): void {
   const watch = (name: string, entry: Entry | undefined): void => values.set(name, entry?.path ?? null, rate);
-  watch("believed", ofType(entries, "Isometry<f32, Unit<Complex<f32>>, 2>") ?? named(entries, "ground_to_field"));
+  watch("believed", output(entries, "ground_to_field", "Isometry<f32, Unit<Complex<f32>>, 2>"));
   watch("report", named(entries, "self_report"));
 }
 
@@ -84,7 +84,7 @@ class Watched {
   private async find(robot: Robot): Promise<void> {
     const entries = await robot.paths.everything().catch((): readonly Entry[] => []);
     watchBelief(this.values, entries, RATE);
-    this.values.set("ball", named(entries, "ball")?.path ?? null, RATE);
+    this.values.set("ball", output(entries, "ball", "Ball")?.path ?? null, RATE);
     this.player = await playerOf(robot);
     this.changed();
   }

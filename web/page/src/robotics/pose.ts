@@ -5,7 +5,7 @@ import type { Context, Panel, PanelKind } from "../panels/panel";
 import { COLORS } from "../panels/series";
 import { paletteOf } from "./chart";
 import { fields, list, number, place3, pose3, quaternion, rotate, transform, type Fields, type Place3, type Pose3 } from "./geometry";
-import { ofType, Values } from "./values";
+import { ofType, output, Values } from "./values";
 
 const RATE = 30;
 const SIDES = ["left", "right"] as const;
@@ -91,9 +91,9 @@ class PosePanel implements Panel {
 
   private async find({ robot }: Context): Promise<void> {
     const entries = await robot.paths.everything().catch(() => []);
-    const sensors = ofType(entries, "SensorData")?.path;
-    this.values.set("kinematics", ofType(entries, "RobotKinematics")?.path ?? null, RATE);
-    this.values.set("orientation", ofType(entries, "Unit<Quaternion<f32>>")?.path ?? null, RATE);
+    const sensors = output(entries, "sensor_data", "SensorData")?.path;
+    this.values.set("kinematics", output(entries, "robot_kinematics", "RobotKinematics")?.path ?? null, RATE);
+    this.values.set("orientation", output(entries, "orientation", "Unit<Quaternion<f32>>")?.path ?? null, RATE);
     this.values.set("forces", sensors === undefined ? null : `${sensors}.force_sensitive_resistors`, RATE);
     this.values.set("mass", entries.find((entry) => /^[^.]+\.main_outputs\.center_of_mass$/.test(entry.path))?.path ?? null, RATE);
   }

@@ -55,21 +55,31 @@ export class Values {
   }
 }
 
-/** The first entry with this type, `Option` or not, as people write it. */
-export function ofType(entries: readonly Entry[], type: string): Entry | undefined {
+/** The output that goes by this name; where none does, the first one of this type. */
+export function output(entries: readonly Entry[], name: string, type: string): Entry | undefined {
+  const best = ofType(entries, type, name);
+  return best !== undefined && isNamed(best, name) ? best : (named(entries, name) ?? best);
+}
+
+/** A main output with this type, `Option` or not, as people write it: the one with this name, or the first. */
+export function ofType(entries: readonly Entry[], type: string, name = ""): Entry | undefined {
   const wanted = [type, `Option<${type}>`];
-  return entries.find((entry) => isWhole(entry) && wanted.includes(entry.type ?? ""));
+  const found = entries.filter((entry) => isWhole(entry) && wanted.includes(entry.type ?? ""));
+  return found.find((entry) => isNamed(entry, name)) ?? found[0];
 }
 
 /** The entry of an output with this name, of any instance. */
 export function named(entries: readonly Entry[], name: string): Entry | undefined {
-  const end = new RegExp(`^[^.]+\\.(main|additional)_outputs\\.${name.replaceAll(".", "\\.")}$`);
-  return entries.find((entry) => end.test(entry.path));
+  return entries.find((entry) => isNamed(entry, name));
 }
 
 /** The procedure that takes this type. */
 export function taking(entries: readonly Entry[], request: string): Entry | undefined {
   return entries.find((entry) => entry.kind === "procedure" && entry.request === request);
+}
+
+function isNamed(entry: Entry, name: string): boolean {
+  return new RegExp(`^[^.]+\\.(main|additional)_outputs\\.${name.replaceAll(".", "\\.")}$`).test(entry.path);
 }
 
 /** Main outputs, not parts of others. */
