@@ -22,8 +22,10 @@ export function draw(canvas: HTMLCanvasElement, picture: Picture): void {
 function raw(value: Decoded): ImageData {
   const { width, height, bytes } = parts(value);
   const image = new ImageData(width, height);
-  if (bytes.length === width * height * 2) fromYuyv(bytes, image.data);
-  else if (bytes.length === width * height) bytes.forEach((byte, at) => image.data.set([byte, byte, byte, 255], at * 4));
+  const perPixel = bytes.length / (width * height);
+  if (perPixel === 1) fromGray(bytes, image.data);
+  else if (perPixel === 2) fromYuyv(bytes, image.data);
+  else if (perPixel === 3) fromRgb(bytes, image.data);
   else throw new Error(`${bytes.length} bytes are no image of ${width} × ${height}`);
   return image;
 }
@@ -31,12 +33,40 @@ function raw(value: Decoded): ImageData {
 function parts(value: Decoded): { width: number; height: number; bytes: Uint8Array } {
   if (value !== null && typeof value === "object" && !Array.isArray(value) && !(value instanceof Uint8Array)) {
     const { width, height } = value as Record<string, Decoded>;
-    const bytes = Object.values(value).find((part) => part instanceof Uint8Array);
-    if (typeof width === "number" && typeof height === "number" && bytes instanceof Uint8Array && width > 0 && height > 0) {
-      return { width, height, bytes };
+    const lists = Object.values(value).map(bytesOf).filter((part) => part !== null);
+    if (typeof width === "number" && typeof height === "number" && width > 0 && height > 0) {
+      // Beside its pixels it may have lists of other numbers.
+      const bytes = lists.find(({ length }) => [1, 2, 3].includes(length / (width * height))) ?? lists[0];
+      if (bytes !== undefined) return { width, height, bytes };
     }
   }
   throw new Error("this is no image: it has no width, height and bytes");
+}
+
+/** Short lists of bytes come as numbers. */
+function bytesOf(value: Decoded): Uint8Array | null {
+  if (value instanceof Uint8Array) return value;
+  const isBytes = Array.isArray(value) && value.length > 0 && value.every((one) => typeof one === "number");
+  return isBytes ? Uint8Array.from(value as number[]) : null;
+}
+
+function fromGray(bytes: Uint8Array, pixels: Uint8ClampedArray): void {
+  for (let at = 0, to = 0; at < bytes.length; at++) {
+    const luminance = bytes[at] as number;
+    pixels[to++] = luminance;
+    pixels[to++] = luminance;
+    pixels[to++] = luminance;
+    pixels[to++] = 255;
+  }
+}
+
+function fromRgb(bytes: Uint8Array, pixels: Uint8ClampedArray): void {
+  for (let at = 0, to = 0; at < bytes.length; ) {
+    pixels[to++] = bytes[at++] as number;
+    pixels[to++] = bytes[at++] as number;
+    pixels[to++] = bytes[at++] as number;
+    pixels[to++] = 255;
+  }
 }
 
 /** Full-range BT.601, bytes Y0 Cb Y1 Cr for two neighbouring pixels. */
