@@ -34,6 +34,9 @@ class Cycles implements Panel {
   private lanes: Lane[] = [];
   private readonly input: HTMLSelectElement;
   private inputs = new Map<string, Input>();
+  /** Whether they are those of the program that runs: another one may have come. */
+  private areKnown = false;
+  private readonly stop: () => void;
   /** Begin of the consumer's cycle that is looked at; null: the newest of which everything is known. */
   private chosen: number | null = null;
 
@@ -64,6 +67,7 @@ class Cycles implements Panel {
     this.content = make("div", { class: "timeline" }, make("div", { class: "bar chips" }, this.input, ...key, this.about), this.failure, this.canvas);
     this.canvas.addEventListener("pointerdown", (event) => this.choose(this.timeAt(event.offsetX)));
     this.canvas.addEventListener("keydown", (event) => this.step(event));
+    this.stop = context.robot.welcome.watch(() => (this.areKnown = false));
     const ask = alone(() => this.ask());
     this.timer = window.setInterval(ask, PERIOD_MILLISECONDS);
     ask();
@@ -71,6 +75,7 @@ class Cycles implements Panel {
 
   close(): void {
     window.clearInterval(this.timer);
+    this.stop();
   }
 
   resized(): void {
@@ -81,11 +86,11 @@ class Cycles implements Panel {
     const { robot } = this.context;
     if (this.isHeld || document.hidden || robot.state.value !== "open") return;
     try {
-      if (this.inputs.size === 0) this.know(inputsOf(expect(await robot.ask({ graph: {} }), "graph")));
+      if (!this.areKnown) this.know(inputsOf(expect(await robot.ask({ graph: {} }), "graph")));
       this.lanes = (await trace(robot, (1.5 * this.window + 200) / 1000)).map(({ instance, spans }) => ({ instance, spans: spans.filter((span) => span.isCycle) }));
       complain(this.failure, null);
     } catch (error) {
-      this.inputs.clear();
+      this.areKnown = false;
       complain(this.failure, error);
     }
     this.draw();
@@ -93,8 +98,10 @@ class Cycles implements Panel {
 
   private know(inputs: Map<string, Input>): void {
     this.inputs = inputs;
+    this.areKnown = true;
     const widest = [...inputs].sort(([, one], [, other]) => other.producers.length - one.producers.length)[0]?.[0] ?? "";
-    const chosen = this.input.value === "" ? textSetting(this.context.settings, "input", widest) : this.input.value;
+    const wanted = this.input.value === "" ? textSetting(this.context.settings, "input", widest) : this.input.value;
+    const chosen = inputs.has(wanted) ? wanted : widest;
     this.input.replaceChildren(...[...inputs.keys()].map((name) => make("option", { value: name, selected: name === chosen }, name)));
   }
 

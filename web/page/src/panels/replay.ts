@@ -35,13 +35,21 @@ class Replay implements Panel {
   private readonly timer: number;
   private readonly stop: () => void;
   private place: Place | null = null;
+  /** Whose cycles are stepped, if the recording has them. */
+  private chosen: string;
+  /** Whose cycles may be stepped. */
+  private offered: readonly string[] = [];
   private isDragged = false;
   private isAsked = false;
 
   constructor(private readonly context: Context) {
     this.play = button("Pause", "play or pause (space)", () => void this.ask({ play: !(this.place?.is_playing ?? false) }), "deed");
     this.speed = select(SPEEDS, "1 ×", "speed; negative: backwards", (speed) => void this.ask({ speed: Number.parseFloat(speed), play: true }));
-    this.whose = select([EVERY, textSetting(context.settings, "instance")].filter((name) => name !== ""), textSetting(context.settings, "instance", EVERY), "whose cycles are stepped", (instance) => context.save({ instance }));
+    this.chosen = textSetting(context.settings, "instance", EVERY);
+    this.whose = select([...new Set([EVERY, this.chosen])], this.chosen, "whose cycles are stepped", (instance) => {
+      this.chosen = instance;
+      context.save({ instance });
+    });
     const step = (text: string, about: string, by: number): HTMLButtonElement => button(text, about, () => this.step(by));
     this.content = make(
       "div",
@@ -122,7 +130,6 @@ class Replay implements Panel {
   }
 
   private show(place: Place): void {
-    const isFirst = this.place === null;
     this.place = place;
     this.play.textContent = place.is_playing ? "Pause" : "Play";
     Object.assign(this.slider, { min: String(place.begins), max: String(place.ends) });
@@ -131,16 +138,23 @@ class Replay implements Panel {
     this.state.textContent = `${place.time.toFixed(3)} s of ${place.begins.toFixed(1)} … ${place.ends.toFixed(1)} s ${direction}`;
     const speed = SPEEDS.find((text) => Number.parseFloat(text) === place.speed);
     if (speed !== undefined && document.activeElement !== this.speed) this.speed.value = speed;
-    if (isFirst) {
-      const chosen = this.whose.value;
-      this.whose.replaceChildren(...[EVERY, ...place.instances.map(({ instance }) => instance)].map((name) => make("option", { value: name, selected: name === chosen }, name)));
-    }
+    this.offer(place.instances.map(({ instance }) => instance));
     this.table.replaceChildren(
       ...place.instances.map(({ instance, cycle, frames, missing }) =>
         make("tr", { class: missing > 0 ? "bad" : "" }, make("td", {}, instance), ...[cycle ?? "–", frames, missing].map((text) => make("td", {}, String(text)))),
       ),
     );
     if (place.events !== undefined) this.drawEvents(place.events, place);
+  }
+
+  /** Another recording has others. */
+  private offer(instances: readonly string[]): void {
+    const names = [EVERY, ...instances];
+    if (names.join() === this.offered.join()) return;
+    this.offered = names;
+    // Also one that is not offered any more comes back when its recording does.
+    const chosen = names.includes(this.chosen) ? this.chosen : EVERY;
+    this.whose.replaceChildren(...names.map((name) => make("option", { value: name, selected: name === chosen }, name)));
   }
 
   /** A line for each instance to which something happened; what it was is told by words, too. */

@@ -71,6 +71,8 @@ export class Subscriptions {
     this.byNumber.clear();
     for (const subscription of this.byKey.values()) {
       subscription.number = null;
+      // Of a run that may be over: whoever watches later waits for the next one.
+      subscription.latest = null;
       void this.subscribe(subscription);
     }
   }

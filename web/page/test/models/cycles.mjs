@@ -1,7 +1,7 @@
 // The cycles on a time axis, with a robot that is only played.
 import assert from "node:assert/strict";
 import test from "node:test";
-import { opened, settled, tick } from "../dom.mjs";
+import { labelled, opened, settled, tick } from "../dom.mjs";
 import { load } from "../load.mjs";
 
 const { cycles } = await load("panels/cycles.ts");
@@ -26,5 +26,24 @@ test("the next question waits for the answer to the one before", async () => {
   await settled();
   tick();
   assert.equal(asked.length, 3);
+  panel.close();
+});
+
+test("a robot that comes back is asked for its graph, which may be that of another program", async () => {
+  const world = { graph: graph("VisionTop") };
+  const { context, robot } = opened((ask) => ("graph" in ask ? world.graph : TRACE));
+  const panel = cycles.open(context);
+  await settled();
+  const input = labelled(panel.content, "whose perception input");
+  const offered = () => input.options.map((option) => option.getAttribute("value"));
+  assert.deepEqual(offered(), ["filter.visiontop"]);
+  world.graph = graph("Audio", "VisionBottom");
+  tick();
+  await settled();
+  assert.deepEqual(offered(), ["filter.visiontop"], "the graph of a program does not change");
+  robot.welcome.set({ time: 0 });
+  tick();
+  await settled();
+  assert.deepEqual(offered(), ["filter.audio", "filter.visionbottom"]);
   panel.close();
 });

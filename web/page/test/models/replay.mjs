@@ -1,7 +1,7 @@
 // The panel of a recording, with a recording that is only played.
 import assert from "node:assert/strict";
 import test from "node:test";
-import { opened, settled } from "../dom.mjs";
+import { labelled, opened, settled, tick } from "../dom.mjs";
 import { load } from "../load.mjs";
 
 const { replay } = await load("panels/replay.ts");
@@ -22,4 +22,25 @@ test("a jump to a cycle is made once, not by each panel that is opened later", a
   assert.deepEqual(moves(asked), [{ events: true }]);
   first.close();
   second.close();
+});
+
+test("another recording has other instances", async () => {
+  const world = { instances: PLACE.instances };
+  const { context } = opened(() => ({ called: { ...PLACE, ...world } }));
+  const panel = replay.open(context);
+  await settled();
+  const whose = labelled(panel.content, "whose cycles");
+  const offered = () => whose.options.map((option) => option.getAttribute("value"));
+  assert.deepEqual([offered(), whose.value], [["all instances", "Control"], "all instances"]);
+  whose.value = "Control";
+  whose.tell("change");
+  world.instances = [{ ...PLACE.instances[0], instance: "Other" }];
+  tick();
+  await settled();
+  assert.deepEqual([offered(), whose.value], [["all instances", "Other"], "all instances"]);
+  world.instances = PLACE.instances;
+  tick();
+  await settled();
+  assert.deepEqual([offered(), whose.value], [["all instances", "Control"], "Control"]);
+  panel.close();
 });

@@ -22,6 +22,19 @@ async function watched(encoding, layout) {
   return { subscriptions, heard, frame };
 }
 
+test("what the run before said last is not told to those who watch later", async () => {
+  const { subscriptions, frame } = await watched("binary", PLACE);
+  frame(place(1, 2));
+  const later = () => {
+    const heard = [];
+    subscriptions.watch({ path: "Control.main_outputs.ball.position", encoding: "binary" }, { sample: ({ value }) => heard.push(value) });
+    return heard;
+  };
+  assert.deepEqual(later(), [[1, 2]]);
+  subscriptions.renew();
+  assert.deepEqual(later(), []);
+});
+
 const place = (x, y) => new Uint8Array(Float32Array.of(x, y).buffer);
 
 test("a part that is not there in a cycle is none, and no mistake", async () => {
