@@ -1,10 +1,13 @@
 // A panel with what the robot says: newest last, filtered by severity and words.
 import type { Level, Log } from "../protocol";
+import { isRemark, type Line } from "../store/logs";
 import { button, complain, eachFrame, make, select } from "../view/dom";
 import { seconds } from "../view/format";
 import { textSetting, type Context, type Panel, type PanelKind } from "./panel";
 
 const LEVELS: readonly Level[] = ["trace", "debug", "info", "warn", "error"];
+/** Of the levels that a robot makes. */
+const UNCHANGED = "unchanged";
 /** More lines are slower to draw than anybody reads. */
 const SHOWN = 500;
 
@@ -21,10 +24,10 @@ function open(context: Context): Panel {
   const draw = eachFrame(() => {
     const least = LEVELS.indexOf(level);
     const wanted = words.toLowerCase().split(/\s+/).filter((word) => word !== "");
-    const isWanted = (log: Log): boolean => LEVELS.indexOf(log.level) >= least && wanted.every((word) => textOf(log).includes(word));
+    const isWanted = (line: Line): boolean => isRemark(line) || (LEVELS.indexOf(line.level) >= least && wanted.every((word) => textOf(line).includes(word)));
     const shown = context.robot.logs.value.filter(isWanted).slice(-SHOWN);
     isDrawing = true;
-    list.replaceChildren(...shown.map((log) => row(context, log)));
+    list.replaceChildren(...shown.map((line) => row(context, line)));
     if (isFollowing) list.scrollTop = list.scrollHeight;
     isDrawing = false;
   });
@@ -36,10 +39,18 @@ function open(context: Context): Panel {
     save();
     draw();
   });
-  const most = select(LEVELS, "info", "what the robot keeps: less severe messages are not made", (choice) => {
+  const wished = make("span", { class: "muted" });
+  // The robot does not say what it makes, and others may change it: the list stands for a wish, and forgets it.
+  const most = select([UNCHANGED, ...LEVELS], UNCHANGED, "what the robot keeps: less severe messages are not made", (choice) => {
+    most.value = UNCHANGED;
+    if (choice === UNCHANGED) return;
+    wished.textContent = "";
     context.robot
       .ask({ set_log_level: { level: choice as Level } })
-      .then(() => complain(failure, null))
+      .then(() => {
+        wished.textContent = `${choice}, as was chosen here`;
+        complain(failure, null);
+      })
       .catch((error: unknown) => complain(failure, error));
   });
   const tools = [
@@ -54,16 +65,21 @@ function open(context: Context): Panel {
     }),
   ];
   context.robot.wantLogs();
-  const stop = context.robot.logs.watch(draw);
-  const bar = make("div", { class: "bar" }, search, make("label", { class: "muted" }, "robot makes ", most));
-  return { content: make("div", { class: "logs" }, bar, failure, list), tools, close: stop };
+  const stops = [
+    context.robot.logs.watch(draw),
+    // A robot that was started anew makes what its files say.
+    context.robot.welcome.watch(() => (wished.textContent = "")),
+  ];
+  const bar = make("div", { class: "bar" }, search, make("label", { class: "muted" }, "robot makes ", most), wished);
+  return { content: make("div", { class: "logs" }, bar, failure, list), tools, close: () => stops.forEach((stop) => stop()) };
 }
 
 function textOf(log: Log): string {
   return `${log.message} ${log.instance ?? ""} ${log.node ?? ""} ${JSON.stringify(log.fields ?? {})}`.toLowerCase();
 }
 
-function row({ robot }: Context, log: Log): HTMLElement {
+function row({ robot }: Context, log: Line): HTMLElement {
+  if (isRemark(log)) return make("div", { class: "entry remark" }, make("span", {}, log.remark));
   const from = [log.instance, log.node].filter((part) => part != null).join(" ");
   const fields = Object.entries(log.fields ?? {}).map(([name, value]) => `${name}=${typeof value === "string" ? value : JSON.stringify(value)}`);
   const { instance, cycle } = log;

@@ -1,13 +1,11 @@
 // Owns what the page knows of its robot: connection, paths, subscriptions, logs. Panels read it and ask through it.
 import { expect, Refused, Socket, type State } from "../connection/socket";
-import type { Ask, Good, Log, Message, Welcome } from "../protocol";
+import type { Ask, Good, Message, Welcome } from "../protocol";
 import { Alignment } from "./clock";
+import { Logs, type Line } from "./logs";
 import { Paths } from "./paths";
 import { Signal, type Readable } from "./signal";
 import { Subscriptions } from "./subscriptions";
-
-/** Enough for minutes of a robot that talks, and little for a phone. */
-const LOGS = 2000;
 
 /** A cycle that somebody wants to look at in every panel. */
 export interface Moment {
@@ -28,7 +26,7 @@ export class Robot {
   private readonly welcomes = new Signal<Welcome | null>(null);
   private readonly writes = new Signal(false);
   private readonly versions = new Signal(0);
-  private readonly kept = new Signal<readonly Log[]>([]);
+  private readonly said = new Logs();
   private isWelcome = false;
   private areLogsWanted = false;
 
@@ -69,8 +67,8 @@ export class Robot {
   }
 
   /** The newest messages, oldest first. */
-  get logs(): Readable<readonly Log[]> {
-    return this.kept;
+  get logs(): Readable<readonly Line[]> {
+    return this.said.lines;
   }
 
   /** Seconds from the times of another robot to those of this one; null: not known now. */
@@ -95,7 +93,8 @@ export class Robot {
   wantLogs(): void {
     if (this.areLogsWanted) return;
     this.areLogsWanted = true;
-    if (this.isWelcome) this.askForLogs();
+    const { value: welcome } = this.welcomes;
+    if (this.isWelcome && welcome !== null) this.askForLogs(welcome);
   }
 
   private enter(state: State): void {
@@ -111,7 +110,7 @@ export class Robot {
     this.writes.set(welcome.can_write && !welcome.needs_token);
     this.welcomes.set(welcome);
     this.versions.set(this.versions.value + 1);
-    if (this.areLogsWanted) this.askForLogs();
+    if (this.areLogsWanted) this.askForLogs(welcome);
     const token = sessionStorage.getItem(this.tokenKey);
     if (welcome.needs_token && token !== null) {
       this.authenticate(token).catch((error: unknown) => {
@@ -120,15 +119,15 @@ export class Robot {
     }
   }
 
-  private askForLogs(): void {
-    this.kept.set([]);
+  private askForLogs({ time }: Welcome): void {
+    this.said.begin(time);
     this.ask({ logs: { level: "trace" } }).catch((error: unknown) => console.warn("no logs:", error));
   }
 
   private hear(message: Message): void {
     if ("update" in message) this.subscriptions.update(message.update);
     else if ("lost" in message) this.subscriptions.lost(message.lost);
-    else if ("log" in message && typeof message.log?.message === "string") this.kept.set([...this.kept.value.slice(1 - LOGS), message.log]);
+    else if ("log" in message && typeof message.log?.message === "string") this.said.add(message.log);
     else if ("parameters_changed" in message) this.versions.set(this.versions.value + 1);
   }
 }

@@ -1,0 +1,83 @@
+// What the robot says, with a robot that is only played.
+import assert from "node:assert/strict";
+import test from "node:test";
+import { all, labelled, ofClass, opened, settled, signal } from "../dom.mjs";
+import { load } from "../load.mjs";
+
+const { Logs } = await load("store/logs.ts");
+const { logs } = await load("panels/logs.ts");
+
+const log = (number, message = `message ${number}`, more = {}) => ({ number, time: number * 1e9, level: "info", message, ...more });
+const said = ({ lines }) => lines.value.map((line) => line.remark ?? line.message);
+
+/** Numbers 1 to 3 of the first run, whose clock is at 4 s. */
+function talked() {
+  const all = new Logs();
+  all.begin(0);
+  for (const number of [1, 2, 3]) all.add(log(number));
+  return all;
+}
+
+test("last words stay when the robot begins anew", () => {
+  const all = talked();
+  all.begin(0.5e9);
+  for (const number of [1, 2]) all.add({ ...log(number, `new ${number}`), time: 0.1e9 * number });
+  assert.deepEqual(said(all), ["message 1", "message 2", "message 3", "the robot began anew", "new 1", "new 2"]);
+});
+
+test("what the same run says again after a loss is there once", () => {
+  const all = talked();
+  all.begin(9e9);
+  for (const number of [2, 3, 4]) all.add(log(number));
+  assert.deepEqual(said(all), ["message 1", "message 2", "message 3", "message 4"]);
+});
+
+test("a later run is known by what it says, also if its clock is ahead", () => {
+  const all = talked();
+  all.begin(60e9);
+  all.add({ ...log(1, "new"), time: 0.2e9 });
+  assert.deepEqual(said(all), ["message 1", "message 2", "message 3", "the robot began anew", "new"]);
+});
+
+test("of what was said in time nobody was there for, the clock tells the run", () => {
+  const [same, other] = [talked(), talked()];
+  same.begin(60e9);
+  other.begin(1e9);
+  for (const all of [same, other]) all.add(log(50, "later"));
+  assert.deepEqual(said(same).slice(3), ["later"]);
+  assert.deepEqual(said(other).slice(3), ["the robot began anew", "later"]);
+});
+
+function shown(lines) {
+  const { context, robot, asked } = opened(async () => ({ done: {} }), { logs: signal(lines), wantLogs: () => undefined });
+  const panel = logs.open(context);
+  return { panel, robot, asked };
+}
+
+test("a remark is shown whatever is filtered", async () => {
+  const { panel } = shown([log(1, "one"), { remark: "the robot began anew" }, log(2, "two")]);
+  const filter = labelled(panel.content, "filter");
+  filter.value = "two";
+  filter.tell("input");
+  await settled();
+  assert.deepEqual(ofClass(panel.content, "entry").map((one) => one.textContent.includes("two") || one.textContent), ["the robot began anew", true]);
+  panel.close();
+});
+
+test("the level that a robot makes is a wish: any can be chosen at any time", async () => {
+  const { panel, robot, asked } = shown([]);
+  const list = labelled(panel.content, "what the robot keeps");
+  assert.deepEqual(list.options.map((option) => option.getAttribute("value")), ["unchanged", "trace", "debug", "info", "warn", "error"]);
+  for (const level of ["info", "debug"]) {
+    list.value = level;
+    list.tell("change");
+    await settled();
+    assert.equal(list.value, "unchanged");
+  }
+  assert.deepEqual(asked, ["info", "debug"].map((level) => ({ set_log_level: { level } })));
+  const hints = () => all(panel.content, ({ textContent }) => /as was chosen here$/.test(textContent)).length > 0;
+  assert(hints());
+  robot.welcome.set({ time: 0 });
+  assert(!hints(), "a robot that comes back may make another one");
+  panel.close();
+});
