@@ -68,6 +68,8 @@ export class Curve {
   readonly series = new Series();
   /** Why it has no points, or no further ones. */
   failure: string | null = null;
+  /** Cycles that did not come through: there are gaps. */
+  missing = 0;
   private readonly stops: (() => void)[] = [];
   /** From its robot's clock to that of the panel's robot, in seconds; null: not known now. */
   private shift: number | null = 0;
@@ -104,6 +106,11 @@ export class Curve {
             if (this.shift === null) return;
             this.series.add(time / 1e9 + this.shift, height(value));
             changed();
+          },
+          lost: (updates) => {
+            this.missing += updates;
+            this.series.interrupt();
+            told();
           },
           refused: (reason) => this.fail(reason),
         },

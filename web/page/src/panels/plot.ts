@@ -2,7 +2,7 @@
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 import { button, complain, download, eachFrame, make, select } from "../view/dom";
-import { number } from "../view/format";
+import { number, plural } from "../view/format";
 import { nameOf } from "../store/paths";
 import { Curve, isShared, kept, lookOfOtherRun, looksOf, nameIn, wantedIn, type Look, type Wanted } from "./curve";
 import { numberSetting, type Context, type Panel, type PanelKind } from "./panel";
@@ -27,6 +27,7 @@ class Plot implements Panel {
   private readonly chart = make("div", { class: "chart" });
   private readonly chips = make("div", { class: "bar chips" });
   private readonly failure = make("p", { class: "failure", hidden: true });
+  private readonly missing = make("output", { class: "muted" });
   private readonly pause: HTMLButtonElement;
   private readonly input = make("input", { type: "text", placeholder: "add a path", "aria-label": "add a path", spellcheck: "false" });
   /** Of which robot the next curve is; only where there are several. */
@@ -131,6 +132,8 @@ class Plot implements Panel {
   private tell(): void {
     const failures = this.curves.flatMap(({ failure, wanted }) => (failure === null ? [] : [`${wanted.path}: ${failure}`]));
     complain(this.failure, failures.length > 0 ? failures.join("\n") : null);
+    const missing = this.curves.reduce((sum, curve) => sum + curve.missing, 0);
+    this.missing.textContent = missing === 0 ? "" : `gaps: ${plural(missing, "value")} did not come through`;
     this.curves.forEach((curve, at) => this.chips.children[at]?.classList.toggle("lost", !curve.isThere));
   }
 
@@ -155,7 +158,7 @@ class Plot implements Panel {
     const looks = looksOf(this.curves);
     this.lines = this.curves.map((curve, at) => ({ label: this.label(curve), look: looks[at] as Look, series: curve.series, isOfOtherRun: false }));
     this.context.title(this.lines.map(({ label }) => label).join(", "));
-    this.chips.replaceChildren(...this.curves.map((curve, at) => this.chip(curve, looks[at] as Look)), this.input, this.whose);
+    this.chips.replaceChildren(...this.curves.map((curve, at) => this.chip(curve, looks[at] as Look)), this.input, this.whose, this.missing);
     this.tell();
     // Curves that the other run has, too.
     this.curves.forEach((curve, at) => {

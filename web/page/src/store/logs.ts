@@ -41,6 +41,12 @@ export class Logs {
     this.push(log);
   }
 
+  /** So many messages did not come through. */
+  lost(messages: number): void {
+    if (!(messages > 0)) return;
+    this.push({ remark: `… ${messages} ${messages === 1 ? "message" : "messages"} left out` });
+  }
+
   private recognise(log: Log, clock: number): void {
     const messages = this.kept.value.filter((line): line is Log => !isRemark(line));
     const last = messages.at(-1);

@@ -1,6 +1,6 @@
 // Owns what the page knows of its robot: connection, paths, subscriptions, logs. Panels read it and ask through it.
 import { expect, Refused, Socket, type State } from "../connection/socket";
-import type { Ask, Good, Message, Welcome } from "../protocol";
+import type { Ask, Good, Lost, Message, Welcome } from "../protocol";
 import { Alignment } from "./clock";
 import { Logs, type Line } from "./logs";
 import { Paths } from "./paths";
@@ -124,9 +124,14 @@ export class Robot {
     this.ask({ logs: { level: "trace" } }).catch((error: unknown) => console.warn("no logs:", error));
   }
 
+  private miss(lost: Lost): void {
+    if (typeof lost.subscription === "number") this.subscriptions.lost(lost);
+    else this.said.lost(lost.updates);
+  }
+
   private hear(message: Message): void {
     if ("update" in message) this.subscriptions.update(message.update);
-    else if ("lost" in message) this.subscriptions.lost(message.lost);
+    else if ("lost" in message) this.miss(message.lost);
     else if ("log" in message && typeof message.log?.message === "string") this.said.add(message.log);
     else if ("parameters_changed" in message) this.versions.set(this.versions.value + 1);
   }

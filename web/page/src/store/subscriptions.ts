@@ -96,7 +96,7 @@ export class Subscriptions {
 
   lost(lost: Lost): void {
     const subscription = typeof lost.subscription === "number" ? this.byNumber.get(lost.subscription) : undefined;
-    for (const watcher of subscription?.watchers ?? []) watcher.lost?.(lost.updates);
+    for (const watcher of [...(subscription?.watchers ?? [])]) watcher.lost?.(lost.updates);
   }
 
   private async subscribe(subscription: Subscription): Promise<void> {

@@ -173,6 +173,19 @@ test("a restart of the panel's robot ends what belongs to the run before", async
   near(curve.series.times[0], 1);
 });
 
+test("values that did not come through leave a gap, and are counted", () => {
+  const own = new Played(0);
+  let told = 0;
+  const curve = new Curve({ path: "a" }, known(0, own), own, () => undefined, () => told++);
+  for (const time of [1, 2]) own.tell(time, time);
+  const before = told;
+  own.watchers[0].lost(812);
+  own.tell(3, 3);
+  assert.deepEqual(curve.series.values, [1, 2, null, 3]);
+  assert.equal(curve.missing, 812);
+  assert.equal(told, before + 1);
+});
+
 test("a robot that the page may not show is told, and nobody is asked", () => {
   const curve = new Curve({ path: "a", robot: "x:1" }, null, new Played(0), () => undefined, () => undefined);
   assert.match(curve.failure, /^x:1 is not among the robots/);

@@ -81,3 +81,11 @@ test("the level that a robot makes is a wish: any can be chosen at any time", as
   assert(!hints(), "a robot that comes back may make another one");
   panel.close();
 });
+
+test("messages that did not come through are missed where they are missing", () => {
+  const all = talked();
+  all.lost(12);
+  all.lost(-1);
+  all.add(log(16));
+  assert.deepEqual(said(all).slice(2), ["message 3", "… 12 messages left out", "message 16"]);
+});
