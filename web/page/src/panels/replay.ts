@@ -1,7 +1,8 @@
 // A panel that moves the time of a recording which a program shows in place of a robot: play, step, backwards, any speed.
 import { expect } from "../connection/socket";
 import type { Json } from "../protocol";
-import { button, complain, make, select } from "../view/dom";
+import { button, make, select } from "../view/dom";
+import { Failures } from "../view/failures";
 import { plural } from "../view/format";
 import { kindsOf, lanesOf, type Happened } from "./happened";
 import { textSetting, type Context, type Panel, type PanelKind } from "./panel";
@@ -10,6 +11,9 @@ const TIMELINE = "Replay.procedures.timeline";
 const PERIOD_MILLISECONDS = 250;
 const SPEEDS = ["-4 ×", "-1 ×", "-0.25 ×", "0.1 ×", "0.25 ×", "0.5 ×", "1 ×", "2 ×", "4 ×", "16 ×"];
 const EVERY = "all instances";
+
+/** What the procedure is asked. */
+type Move = { [key: string]: Json };
 
 interface Place {
   time: number;
@@ -26,7 +30,7 @@ class Replay implements Panel {
   private readonly slider = make("input", { type: "range", min: 0, max: 1, step: 0.001, value: 0, "aria-label": "time of the recording" });
   private readonly marks = make("div", { class: "lanes-of-events" });
   private readonly state = make("output", { class: "muted" });
-  private readonly failure = make("p", { class: "failure", hidden: true });
+  private readonly failures = new Failures();
   private readonly table = make("tbody");
   private readonly play: HTMLButtonElement;
   private readonly speed: HTMLSelectElement;
@@ -41,6 +45,8 @@ class Replay implements Panel {
   private offered: readonly string[] = [];
   private isDragged = false;
   private isAsked = false;
+  /** Of the recording that is shown. */
+  private areEventsKnown = false;
 
   constructor(private readonly context: Context) {
     this.play = button("Pause", "play or pause (space)", () => void this.ask({ play: !(this.place?.is_playing ?? false) }), "deed");
@@ -67,7 +73,7 @@ class Replay implements Panel {
         this.cycle,
         this.state,
       ),
-      this.failure,
+      this.failures.element,
       make("div", { class: "time-axis" }, this.slider, this.marks),
       make("table", { class: "timings" }, make("thead", {}, make("tr", {}, ...["instance", "cycle", "recorded", "missing"].map((text) => make("th", { scope: "col" }, text)))), this.table),
       make("p", { class: "muted" }, "To compare with a second run: save its curves with CSV in a plot, and open them with Compare in a plot of this one."),
@@ -79,10 +85,11 @@ class Replay implements Panel {
     this.slider.addEventListener("change", () => (this.isDragged = false));
     this.cycle.addEventListener("change", () => void this.ask({ cycle: Number(this.cycle.value), instance: this.instance() ?? this.place?.instances.at(-1)?.instance ?? "" }));
     this.content.addEventListener("keydown", (event) => this.key(event));
-    this.timer = window.setInterval(() => void this.ask({}), PERIOD_MILLISECONDS);
+    this.timer = window.setInterval(() => void this.look(), PERIOD_MILLISECONDS);
     const stops = [
-      context.robot.state.watch((state) => {
-        if (state === "open") void this.ask({ events: true });
+      context.robot.state.watch(() => {
+        this.areEventsKnown = false;
+        void this.look();
       }),
       context.robot.moment.changed((moment) => {
         if (moment !== null) void this.ask({ instance: moment.instance, cycle: moment.cycle, play: false });
@@ -114,17 +121,24 @@ class Replay implements Panel {
     event.preventDefault();
   }
 
-  private async ask(move: { [key: string]: Json }): Promise<void> {
-    const { robot } = this.context;
-    const isQuestion = Object.keys(move).length === 0;
-    if (robot.state.value !== "open" || (isQuestion && (this.isAsked || document.hidden))) return;
+  /** Moves the time, as somebody wants it. */
+  private async ask(move: Move): Promise<void> {
+    await this.call(move, (reason) => this.failures.did(reason));
+  }
+
+  /** Asks where the time is, unless that is being told. */
+  private async look(): Promise<void> {
+    if (this.context.robot.state.value !== "open" || this.isAsked || document.hidden) return;
+    await this.call(this.areEventsKnown ? {} : { events: true }, (reason) => this.failures.asked(reason));
+  }
+
+  private async call(argument: Move, told: (reason: unknown) => void): Promise<void> {
     this.isAsked = true;
     try {
-      const place = expect(await robot.ask({ call: { path: TIMELINE, argument: move } }), "called") as unknown as Place;
-      this.show(place);
-      complain(this.failure, null);
+      this.show(expect(await this.context.robot.ask({ call: { path: TIMELINE, argument } }), "called") as unknown as Place);
+      told(null);
     } catch (error) {
-      complain(this.failure, error);
+      told(error);
     }
     this.isAsked = false;
   }
@@ -144,7 +158,9 @@ class Replay implements Panel {
         make("tr", { class: missing > 0 ? "bad" : "" }, make("td", {}, instance), ...[cycle ?? "–", frames, missing].map((text) => make("td", {}, String(text)))),
       ),
     );
-    if (place.events !== undefined) this.drawEvents(place.events, place);
+    if (place.events === undefined) return;
+    this.areEventsKnown = true;
+    this.drawEvents(place.events, place);
   }
 
   /** Another recording has others. */

@@ -1,7 +1,8 @@
 // A panel with how long cycles and nodes take, as a table that follows the robot.
 import { expect } from "../connection/socket";
 import type { Durations, InstanceTimings, NodeTimings, Timings } from "../protocol";
-import { alone, button, complain, download, make, wrapping } from "../view/dom";
+import { alone, button, download, make, wrapping } from "../view/dom";
+import { Failures } from "../view/failures";
 import { microseconds } from "../view/format";
 import { Flame } from "./flame";
 import type { Context, Panel, PanelKind } from "./panel";
@@ -16,7 +17,7 @@ function open(context: Context): Panel {
   /** The answer before. */
   let before: Timings | null = null;
   const closed = new Set<string>();
-  const failure = make("p", { class: "failure", hidden: true });
+  const failures = new Failures();
   const body = make("tbody");
   const head = make("tr", {}, ...HEAD.map((text) => make("th", { scope: "col" }, text)));
   const table = make("table", { class: "timings of-nodes" }, make("thead", {}, head), body);
@@ -33,16 +34,19 @@ function open(context: Context): Panel {
       const next = expect(await context.robot.ask({ timings: {} }), "timings");
       [now, before] = [next, now];
       draw();
-      complain(failure, null);
+      failures.asked(null);
     } catch (error) {
-      complain(failure, error);
+      failures.asked(error);
     }
   });
   const trace = button("Trace", "the last seconds as a file for ui.perfetto.dev", () => {
     context.robot
       .ask({ trace: { seconds: 10 } })
-      .then((good) => download("trace.json", JSON.stringify(expect(good, "trace"))))
-      .catch((error: unknown) => complain(failure, error));
+      .then((good) => {
+        download("trace.json", JSON.stringify(expect(good, "trace")));
+        failures.did(null);
+      })
+      .catch((error: unknown) => failures.did(error));
   });
   const timer = window.setInterval(ask, PERIOD_MILLISECONDS);
   const stop = context.robot.state.watch(ask);
@@ -52,7 +56,7 @@ function open(context: Context): Panel {
   };
   const flame = new Flame(context.robot);
   const flames = button("Flame", "one cycle with its nodes", () => flame.toggle());
-  return { content: make("div", { class: "scroll" }, failure, flame.element, table), tools: [flames, trace], close };
+  return { content: make("div", { class: "scroll" }, failures.element, flame.element, table), tools: [flames, trace], close };
 }
 
 function rows(instance: InstanceTimings, now: Timings, before: Timings | null, closed: Set<string>, draw: () => void): HTMLElement[] {

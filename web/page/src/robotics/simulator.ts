@@ -1,6 +1,7 @@
 // A panel that is the hand in a simulated world: puts ball and robot elsewhere, pushes, presses, whistles.
 import { expect } from "../connection/socket";
-import { button, complain, eachFrame, make, select } from "../view/dom";
+import { button, eachFrame, make, select } from "../view/dom";
+import { Failures } from "../view/failures";
 import type { Context, Panel, PanelKind } from "../panels/panel";
 import { COLORS } from "../panels/series";
 import type { Json } from "../protocol";
@@ -29,7 +30,7 @@ class Simulator implements Panel {
   private readonly canvas = make("canvas", { class: "field", role: "img", "aria-label": "the simulated world: drag ball and robot", tabindex: "0" });
   private readonly chart = new Chart(this.canvas, this.draw);
   private readonly state = make("output", { class: "muted" });
-  private readonly failure = make("p", { class: "failure", hidden: true });
+  private readonly failures = new Failures();
   private readonly speed: HTMLSelectElement;
   private readonly scenario = make("select", { "aria-label": "which scenario is played" });
   private readonly scenarios = make("span", { hidden: true }, this.scenario, button("Play", "play this scenario from its beginning", () => void this.play(this.scenario.value)));
@@ -73,7 +74,7 @@ class Simulator implements Panel {
           if (penalty !== "penalise …") this.deed({ penalise: penalty });
         }),
       ),
-      this.failure,
+      this.failures.element,
     );
     this.canvas.addEventListener("pointerdown", (event) => this.grasp(event));
     // What begins anew goes on at a speed of its own, and may be another scenario.
@@ -104,8 +105,8 @@ class Simulator implements Panel {
 
   private deed(deed: { [key: string]: Json }): void {
     disturb(this.context.robot, deed).then(
-      () => complain(this.failure, null),
-      (error: unknown) => complain(this.failure, error),
+      () => this.failures.did(null),
+      (error: unknown) => this.failures.did(error),
     );
   }
 
@@ -128,9 +129,9 @@ class Simulator implements Panel {
       const choices = list(programme?.["choices"]).map(String);
       this.scenario.replaceChildren(...choices.map((name) => make("option", { value: name, selected: name === programme?.["playing"] }, name)));
       this.scenarios.hidden = false;
-      complain(this.failure, null);
+      this.tell(wished, null);
     } catch (error) {
-      complain(this.failure, error);
+      this.tell(wished, error);
     }
   }
 
@@ -139,11 +140,17 @@ class Simulator implements Panel {
     try {
       this.confirmed = Number(expect(await this.context.robot.ask({ call: { path: SPEED, argument: wished } }), "called"));
       this.speed.hidden = false;
-      complain(this.failure, null);
+      this.tell(wished, null);
     } catch (error) {
-      complain(this.failure, error);
+      this.tell(wished, error);
     }
     this.showSpeed();
+  }
+
+  /** What became of a wish for the world; `null` is a question that nobody put. */
+  private tell(wished: string | number | null, reason: unknown): void {
+    if (wished === null) this.failures.asked(reason);
+    else this.failures.did(reason);
   }
 
   /** Somebody else may have wished one that is not offered here: it stands behind those that are. */

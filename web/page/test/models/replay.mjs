@@ -1,12 +1,12 @@
 // The panel of a recording, with a recording that is only played.
 import assert from "node:assert/strict";
 import test from "node:test";
-import { labelled, opened, settled, tick } from "../dom.mjs";
+import { labelled, ofClass, opened, settled, tick } from "../dom.mjs";
 import { load } from "../load.mjs";
 
 const { replay } = await load("panels/replay.ts");
 
-const PLACE = { time: 5, begins: 0, ends: 20, is_playing: true, speed: 1, instances: [{ instance: "Control", cycle: 7, frames: 9, missing: 0 }] };
+const PLACE = { time: 5, begins: 0, ends: 20, is_playing: true, speed: 1, instances: [{ instance: "Control", cycle: 7, frames: 9, missing: 0 }], events: [] };
 const MOMENT = { time: 6, instance: "Control", cycle: 500 };
 const moves = (asked) => asked.map(({ call }) => call.argument);
 
@@ -42,5 +42,28 @@ test("another recording has other instances", async () => {
   tick();
   await settled();
   assert.deepEqual([offered(), whose.value], [["all instances", "Control"], "Control"]);
+  panel.close();
+});
+
+test("why somebody's wish was not done stays until the next one", async () => {
+  const { context } = opened(({ call }) => {
+    if (call.argument.cycle === 99) throw new Error("cycle 99 of `Control` was not recorded");
+    return { called: PLACE };
+  });
+  const panel = replay.open(context);
+  await settled();
+  const [failure] = ofClass(panel.content, "failure");
+  const cycle = labelled(panel.content, "go to this cycle");
+  const wish = async (number) => {
+    cycle.value = String(number);
+    cycle.tell("change");
+    await settled();
+  };
+  await wish(99);
+  tick();
+  await settled();
+  assert.deepEqual([failure.hidden, failure.textContent], [false, "cycle 99 of `Control` was not recorded"]);
+  await wish(7);
+  assert(failure.hidden);
   panel.close();
 });

@@ -1,7 +1,7 @@
 // The table of durations, with a robot that is only played.
 import assert from "node:assert/strict";
 import test from "node:test";
-import { opened, settled, tick } from "../dom.mjs";
+import { ofClass, opened, settled, tick } from "../dom.mjs";
 import { load } from "../load.mjs";
 
 const { timings } = await load("panels/timings.ts");
@@ -20,5 +20,20 @@ test("the next question waits for the answer to the one before", async () => {
   await settled();
   tick();
   assert.equal(asked.length, 2);
+  panel.close();
+});
+
+test("why there is no trace stays, whatever the table hears", async () => {
+  const { context } = opened((ask) => {
+    if ("trace" in ask) throw new Error("no trace");
+    return answer(1);
+  });
+  const panel = timings.open(context);
+  await settled();
+  panel.tools[1].click();
+  await settled();
+  tick();
+  await settled();
+  assert.equal(ofClass(panel.content, "failure")[0].textContent, "no trace");
   panel.close();
 });
