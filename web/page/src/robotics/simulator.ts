@@ -22,6 +22,9 @@ const LOOKS = 10;
 /** A finger is wider than a ball on a small field, px. */
 const REACH = 24;
 
+/** Of a drag: what was held is put down, or left where it was. */
+const ENDS = ["pointerup", "pointercancel"] as const;
+
 type Thing = "ball" | "robot" | "heading";
 
 class Simulator implements Panel {
@@ -70,9 +73,7 @@ class Simulator implements Panel {
         press("Chest", "chest"),
         press("Head", "head"),
         button("Whistle", "somebody whistles", () => this.deed({ whistle: true })),
-        select(["penalise …", ...PENALTIES], "penalise …", "the referee takes the robot out, where a game is played", (penalty) => {
-          if (penalty !== "penalise …") this.deed({ penalise: penalty });
-        }),
+        this.penalties(),
       ),
       this.failures.element,
     );
@@ -101,6 +102,16 @@ class Simulator implements Panel {
 
   resized(): void {
     this.draw();
+  }
+
+  /** The list goes back to its beginning: the same penalty may be given again. */
+  private penalties(): HTMLElement {
+    const begin = "penalise …";
+    const element = select([begin, ...PENALTIES], begin, "the referee takes the robot out, where a game is played", (penalty) => {
+      element.value = begin;
+      if (penalty !== begin) this.deed({ penalise: penalty });
+    });
+    return element;
   }
 
   private deed(deed: { [key: string]: Json }): void {
@@ -171,21 +182,25 @@ class Simulator implements Panel {
 
   private grasp(event: PointerEvent): void {
     const { truth } = this;
+    if (event.button !== 0) return;
     const thing = truth === null ? null : this.under([event.offsetX, event.offsetY], truth);
     if (thing === null) return this.chart.pan(event);
     this.canvas.setPointerCapture(event.pointerId);
     const move = (next: PointerEvent): void => {
+      if (next.pointerId !== event.pointerId) return;
       this.dragged = { thing, at: this.chart.toField([next.offsetX, next.offsetY]) };
       this.draw();
     };
-    const drop = (): void => {
+    const end = (last: PointerEvent): void => {
+      if (last.pointerId !== event.pointerId) return;
       this.canvas.removeEventListener("pointermove", move);
-      if (this.dragged !== null) this.put(this.dragged.thing, this.dragged.at);
+      for (const name of ENDS) this.canvas.removeEventListener(name, end);
+      if (this.dragged !== null && last.type === "pointerup") this.put(this.dragged.thing, this.dragged.at);
       this.dragged = null;
+      this.draw();
     };
     this.canvas.addEventListener("pointermove", move);
-    this.canvas.addEventListener("pointerup", drop, { once: true });
-    this.canvas.addEventListener("pointercancel", () => (this.dragged = null), { once: true });
+    for (const name of ENDS) this.canvas.addEventListener(name, end);
   }
 
   private under([x, y]: Point, { robot, ball }: Truth): Thing | null {
