@@ -9,10 +9,19 @@ const SHOWN = 200;
 
 type Parts = [string, Decoded][];
 
-function partsOf(value: Decoded): Parts | null {
+interface Shown {
+  parts: Parts;
+  /** So many more are not shown. */
+  rest: number;
+}
+
+function partsOf(value: Decoded): Shown | null {
   if (value instanceof Uint8Array || value === null || typeof value !== "object") return null;
-  if (Array.isArray(value)) return value.slice(0, SHOWN).map((item, index) => [String(index), item as Decoded]);
-  return Object.entries(value).slice(0, SHOWN) as Parts;
+  // Long lists of numbers come often: only what is shown of them is looked at.
+  const isList = Array.isArray(value);
+  const parts = isList ? value.slice(0, SHOWN).map((item, index): [string, Decoded] => [String(index), item as Decoded]) : (Object.entries(value) as Parts);
+  const count = isList ? value.length : parts.length;
+  return { parts: parts.slice(0, SHOWN), rest: Math.max(count - SHOWN, 0) };
 }
 
 /** One line for a value. */
@@ -36,7 +45,9 @@ export class Branch {
   readonly element: HTMLLIElement;
   private readonly caret: HTMLButtonElement;
   private readonly text = make("span", { class: "reading" });
-  private readonly list = make("ul");
+  /** Behind the parts that are shown. */
+  private readonly rest = make("li", { class: "muted", hidden: true });
+  private readonly list = make("ul", {}, this.rest);
   private readonly below = new Map<string, Branch>();
   private value: Decoded = null;
   private isOpen: boolean;
@@ -64,8 +75,8 @@ export class Branch {
   }
 
   private draw(): void {
-    const parts = partsOf(this.value);
-    const hasParts = parts !== null && parts.length > 0;
+    const shown = partsOf(this.value);
+    const hasParts = shown !== null && shown.parts.length > 0;
     this.caret.classList.toggle("leaf", !hasParts);
     this.caret.classList.toggle("open", this.isOpen);
     this.caret.setAttribute("aria-expanded", String(this.isOpen));
@@ -74,11 +85,11 @@ export class Branch {
     this.text.classList.toggle("none", this.value === null);
     this.text.classList.toggle("parts", hasParts);
     this.list.hidden = !hasParts || !this.isOpen;
-    if (this.list.hidden || parts === null) return;
-    this.drawParts(parts);
+    if (this.list.hidden || shown === null) return;
+    this.drawParts(shown);
   }
 
-  private drawParts(parts: Parts): void {
+  private drawParts({ parts, rest }: Shown): void {
     const names = new Set(parts.map(([name]) => name));
     for (const [name, branch] of this.below) {
       if (names.has(name)) continue;
@@ -90,9 +101,12 @@ export class Branch {
       if (branch === undefined) {
         branch = new Branch(name, `${this.path}.${name}`);
         this.below.set(name, branch);
-        this.list.append(branch.element);
+        this.list.insertBefore(branch.element, this.rest);
       }
       branch.show(value);
     }
+    this.rest.hidden = rest === 0;
+    const text = `and ${rest} more`;
+    if (this.rest.textContent !== text) this.rest.textContent = text;
   }
 }
