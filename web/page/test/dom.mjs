@@ -3,6 +3,11 @@
 class Node_ {
   parentElement = null;
 
+  replaceWith(other) {
+    this.parentElement.insertBefore(other, this);
+    this.remove();
+  }
+
   remove() {
     if (this.parentElement === null) return;
     const { childNodes } = this.parentElement;
@@ -10,6 +15,8 @@ class Node_ {
     this.parentElement = null;
   }
 }
+
+Node_.ELEMENT_NODE = 1;
 
 class Text_ extends Node_ {
   nodeType = 3;

@@ -3,6 +3,7 @@ import type { Level, Log } from "../protocol";
 import { isRemark, type Line } from "../store/logs";
 import { button, complain, eachFrame, make, select } from "../view/dom";
 import { seconds } from "../view/format";
+import { arrange } from "../view/renew";
 import { textSetting, type Context, type Panel, type PanelKind } from "./panel";
 
 const LEVELS: readonly Level[] = ["trace", "debug", "info", "warn", "error"];
@@ -21,13 +22,21 @@ function open(context: Context): Panel {
   const search = make("input", { type: "search", value: words, placeholder: "filter: words, instance, node", "aria-label": "filter" });
   const save = (): void => context.save({ level, words });
 
+  /** A row stays the same element: messages come while somebody clicks. */
+  const rows = new WeakMap<Line, HTMLElement>();
+  const rowOf = (line: Line): HTMLElement => {
+    const found = rows.get(line) ?? row(context, line);
+    rows.set(line, found);
+    return found;
+  };
+
   const draw = eachFrame(() => {
     const least = LEVELS.indexOf(level);
     const wanted = words.toLowerCase().split(/\s+/).filter((word) => word !== "");
     const isWanted = (line: Line): boolean => isRemark(line) || (LEVELS.indexOf(line.level) >= least && wanted.every((word) => textOf(line).includes(word)));
     const shown = context.robot.logs.value.filter(isWanted).slice(-SHOWN);
     isDrawing = true;
-    list.replaceChildren(...shown.map((line) => row(context, line)));
+    arrange(list, shown.map(rowOf));
     if (isFollowing) list.scrollTop = list.scrollHeight;
     isDrawing = false;
   });

@@ -4,6 +4,7 @@ import type { Json } from "../protocol";
 import { button, make, select } from "../view/dom";
 import { Failures } from "../view/failures";
 import { plural } from "../view/format";
+import { renew } from "../view/renew";
 import { kindsOf, lanesOf, type Happened } from "./happened";
 import { textSetting, type Context, type Panel, type PanelKind } from "./panel";
 
@@ -153,9 +154,10 @@ class Replay implements Panel {
     const speed = SPEEDS.find((text) => Number.parseFloat(text) === place.speed);
     if (speed !== undefined && document.activeElement !== this.speed) this.speed.value = speed;
     this.offer(place.instances.map(({ instance }) => instance));
-    this.table.replaceChildren(
-      ...place.instances.map(({ instance, cycle, frames, missing }) =>
-        make("tr", { class: missing > 0 ? "bad" : "" }, make("td", {}, instance), ...[cycle ?? "–", frames, missing].map((text) => make("td", {}, String(text)))),
+    renew(
+      this.table,
+      place.instances.map(({ instance, cycle, frames, missing }) =>
+        make("tr", { class: missing > 0 ? "bad" : "", "data-key": instance }, make("td", {}, instance), ...[cycle ?? "–", frames, missing].map((text) => make("td", {}, String(text)))),
       ),
     );
     if (place.events === undefined) return;

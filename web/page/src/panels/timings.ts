@@ -4,6 +4,7 @@ import type { Durations, InstanceTimings, NodeTimings, Timings } from "../protoc
 import { alone, button, download, make, wrapping } from "../view/dom";
 import { Failures } from "../view/failures";
 import { microseconds } from "../view/format";
+import { renew } from "../view/renew";
 import { Flame } from "./flame";
 import type { Context, Panel, PanelKind } from "./panel";
 import { type RecordedLine, recordedElsewhere, recordedOf } from "./recorded";
@@ -25,8 +26,8 @@ function open(context: Context): Panel {
   const draw = (): void => {
     const whole = now;
     if (whole === null) return;
-    const others = recordedElsewhere(whole).map((one) => recordedLine(one, "instance"));
-    body.replaceChildren(...whole.instances.flatMap((instance) => rows(instance, whole, before, closed, draw)), ...others);
+    const instances = whole.instances.flatMap((instance) => keyed(instance.name, rows(instance, whole, before, closed, draw)));
+    renew(body, [...instances, ...keyed("", recordedElsewhere(whole).map((one) => recordedLine(one, "instance")))]);
   };
   const ask = alone(async () => {
     if (context.robot.state.value !== "open" || document.hidden) return;
@@ -57,6 +58,12 @@ function open(context: Context): Panel {
   const flame = new Flame(context.robot);
   const flames = button("Flame", "one cycle with its nodes", () => flame.toggle());
   return { content: make("div", { class: "scroll" }, failures.element, flame.element, table), tools: [flames, trace], close };
+}
+
+/** By which the next answer finds them. */
+function keyed(owner: string, lines: readonly HTMLElement[]): readonly HTMLElement[] {
+  lines.forEach((one, at) => one.setAttribute("data-key", `${owner} ${at}`));
+  return lines;
 }
 
 function rows(instance: InstanceTimings, now: Timings, before: Timings | null, closed: Set<string>, draw: () => void): HTMLElement[] {

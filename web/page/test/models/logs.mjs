@@ -89,3 +89,18 @@ test("messages that did not come through are missed where they are missing", () 
   all.add(log(16));
   assert.deepEqual(said(all).slice(2), ["message 3", "… 12 messages left out", "message 16"]);
 });
+
+test("rows stay the same elements while others come: a click that has begun ends there", async () => {
+  const lines = [1, 2].map((number) => log(number, `message ${number}`, { instance: "Control", cycle: number }));
+  const { panel, robot } = shown(lines);
+  await settled();
+  const before = ofClass(panel.content, "entry");
+  robot.logs.set([...lines.slice(1), log(3)]);
+  await settled();
+  const after = ofClass(panel.content, "entry");
+  assert.deepEqual(after.length, 2);
+  assert.equal(after[0], before[1]);
+  labelled(after[0], "plots and replay").click();
+  assert.deepEqual(robot.moment.value, { time: 2, instance: "Control", cycle: 2 });
+  panel.close();
+});

@@ -1,7 +1,7 @@
 // The panel of a recording, with a recording that is only played.
 import assert from "node:assert/strict";
 import test from "node:test";
-import { labelled, ofClass, opened, settled, tick } from "../dom.mjs";
+import { all, labelled, ofClass, opened, settled, tick } from "../dom.mjs";
 import { load } from "../load.mjs";
 
 const { replay } = await load("panels/replay.ts");
@@ -65,5 +65,20 @@ test("why somebody's wish was not done stays until the next one", async () => {
   assert.deepEqual([failure.hidden, failure.textContent], [false, "cycle 99 of `Control` was not recorded"]);
   await wish(7);
   assert(failure.hidden);
+  panel.close();
+});
+
+test("rows stay the same elements while their numbers change", async () => {
+  const world = { cycle: 7 };
+  const { context } = opened(() => ({ called: { ...PLACE, instances: [{ ...PLACE.instances[0], ...world }] } }));
+  const panel = replay.open(context);
+  await settled();
+  const row = () => all(panel.content, (one) => one.getAttribute("data-key") === "Control")[0];
+  const before = row();
+  world.cycle = 8;
+  tick();
+  await settled();
+  assert.equal(row(), before);
+  assert.match(row().textContent, /^Control8/);
   panel.close();
 });

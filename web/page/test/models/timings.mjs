@@ -1,7 +1,7 @@
 // The table of durations, with a robot that is only played.
 import assert from "node:assert/strict";
 import test from "node:test";
-import { ofClass, opened, settled, tick } from "../dom.mjs";
+import { labelled, ofClass, opened, settled, tick } from "../dom.mjs";
 import { load } from "../load.mjs";
 
 const { timings } = await load("panels/timings.ts");
@@ -35,5 +35,26 @@ test("why there is no trace stays, whatever the table hears", async () => {
   tick();
   await settled();
   assert.equal(ofClass(panel.content, "failure")[0].textContent, "no trace");
+  panel.close();
+});
+
+test("rows stay the same elements while their numbers change, and nodes come and go", async () => {
+  let time = 1;
+  const { context, asked } = opened(() => answer(time++));
+  const panel = timings.open(context);
+  await settled();
+  const caret = labelled(panel.content, "nodes of Vision");
+  const rows = () => ofClass(panel.content, "instance").concat(ofClass(panel.content, "node"));
+  const before = rows();
+  tick();
+  await settled();
+  assert.equal(labelled(panel.content, "nodes of Vision"), caret);
+  assert.deepEqual(rows(), before);
+  assert.match(ofClass(panel.content, "instance")[0].textContent, /83\.0 Hz.*166/, "and say what is new");
+  caret.click();
+  assert.equal(labelled(panel.content, "nodes of Vision"), caret);
+  assert.deepEqual([rows().length, caret.classList.contains("open"), asked.length], [before.length - 2, false, 2]);
+  caret.click();
+  assert.deepEqual([rows().length, caret.classList.contains("open")], [before.length, true]);
   panel.close();
 });
