@@ -48,20 +48,7 @@ function open(context: Context): Panel {
     save();
     draw();
   });
-  const wished = make("span", { class: "muted" });
-  // The robot does not say what it makes, and others may change it: the list stands for a wish, and forgets it.
-  const most = select([UNCHANGED, ...LEVELS], UNCHANGED, "what the robot keeps: less severe messages are not made", (choice) => {
-    most.value = UNCHANGED;
-    if (choice === UNCHANGED) return;
-    wished.textContent = "";
-    context.robot
-      .ask({ set_log_level: { level: choice as Level } })
-      .then(() => {
-        wished.textContent = `${choice}, as was chosen here`;
-        complain(failure, null);
-      })
-      .catch((error: unknown) => complain(failure, error));
-  });
+  const made = levelMade(context, failure);
   const tools = [
     select(LEVELS, level, "at least this severe", (choice) => {
       level = choice as Level;
@@ -74,13 +61,29 @@ function open(context: Context): Panel {
     }),
   ];
   context.robot.wantLogs();
-  const stops = [
-    context.robot.logs.watch(draw),
-    // A robot that was started anew makes what its files say.
-    context.robot.welcome.watch(() => (wished.textContent = "")),
-  ];
-  const bar = make("div", { class: "bar" }, search, make("label", { class: "muted" }, "robot makes ", most), wished);
+  const stops = [context.robot.logs.watch(draw), made.stop];
+  const bar = make("div", { class: "bar" }, search, ...made.elements);
   return { content: make("div", { class: "logs" }, bar, failure, list), tools, close: () => stops.forEach((stop) => stop()) };
+}
+
+/** Which messages the robot makes: it does not say so, and others may change it, so the list stands for a wish and forgets it. */
+function levelMade({ robot }: Context, failure: HTMLElement): { elements: HTMLElement[]; stop(): void } {
+  const wished = make("span", { class: "muted" });
+  const list = select([UNCHANGED, ...LEVELS], UNCHANGED, "what the robot keeps: less severe messages are not made", (choice) => {
+    list.value = UNCHANGED;
+    if (choice === UNCHANGED) return;
+    wished.textContent = "";
+    robot
+      .ask({ set_log_level: { level: choice as Level } })
+      .then(() => {
+        wished.textContent = `${choice}, as was chosen here`;
+        complain(failure, null);
+      })
+      .catch((error: unknown) => complain(failure, error));
+  });
+  // A robot that was started anew makes what its files say.
+  const stop = robot.welcome.watch(() => (wished.textContent = ""));
+  return { elements: [make("label", { class: "muted" }, "robot makes ", list), wished], stop };
 }
 
 function textOf(log: Log): string {
