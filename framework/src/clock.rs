@@ -74,6 +74,13 @@ impl Clock {
         }
     }
 
+    /// Moves virtual time anywhere, as a replay does.
+    pub(crate) fn set(&self, time: Timestamp) {
+        if let Source::Stepped { now } = &self.0 {
+            now.store(time.as_nanos(), Ordering::Relaxed);
+        }
+    }
+
     /// Moves virtual time ahead, never back.
     pub(crate) fn advance_to(&self, time: Timestamp) {
         if let Source::Stepped { now } = &self.0 {

@@ -237,6 +237,20 @@ fn additional_outputs_are_computed_for_whoever_listens() {
 }
 
 #[test]
+fn what_is_told_beside_cycles_has_the_time_that_is_shown() {
+    let (_replayed, mut client) = Replayed::new();
+    go(&mut client, json!({ "time": 0.5 }));
+    let speed = client.subscribe(SPEED);
+    client.update(speed);
+    for (seconds, nanoseconds) in [(1.5, 1_500_000_000_u64), (0.25, 250_000_000)] {
+        go(&mut client, json!({ "time": seconds }));
+        assert_eq!(client.update(speed)["time"], json!(nanoseconds));
+        let timings = client.ok(json!({ "timings": {} }));
+        assert_eq!(timings["timings"]["time"], json!(nanoseconds));
+    }
+}
+
+#[test]
 fn parameters_are_those_of_the_time_that_is_shown() {
     let (_replayed, mut client) = Replayed::new();
     let events = go(&mut client, json!({ "events": true, "time": 0.0 }));

@@ -114,6 +114,8 @@ pub struct Timeline<'r> {
     passed: usize,
     /// Nanoseconds of the run.
     now: f64,
+    /// That of the link, at the same time.
+    clock: Clock,
     is_playing: bool,
     speed: f64,
     moves: Answerer<Move, Place>,
@@ -146,12 +148,14 @@ impl<'r> Timeline<'r> {
         }
         let (caller, moves) = procedure();
         instances.push(instances::timeline(vec![(PROCEDURE, Box::new(caller))]));
-        let clock = Clock::wall();
+        // What clients are told beside the cycles happened when those did.
+        let clock = Clock::stepped();
+        clock.set(first);
         let (writer, [], []) = crate::buffer::buffer_of(|| parameters.clone(), []);
         let parameters = LiveParameters::new(writer, parameters.clone(), clock.clone());
         let link = Link {
             robot,
-            clock,
+            clock: clock.clone(),
             stop: stop.clone(),
             rearm: Rearm::default(),
             procedures: Vec::new(),
@@ -168,6 +172,7 @@ impl<'r> Timeline<'r> {
             moments,
             passed: 0,
             now: first.as_nanos() as f64,
+            clock,
             is_playing: true,
             speed: 1.0,
             moves,
@@ -268,12 +273,12 @@ impl<'r> Timeline<'r> {
             .unwrap_or(self.is_playing && asked.step.is_none());
         if let Some(passed) = passed {
             let before = std::mem::replace(&mut self.passed, passed);
+            let (begins, ends) = self.ends();
+            self.stand_at(match asked.time {
+                Some(time) => (time * 1e9).clamp(begins, ends),
+                None => self.moments[passed - 1].at.as_nanos() as f64,
+            });
             self.come_from(before);
-            self.now = self.moments[passed - 1].at.as_nanos() as f64;
-            if let Some(time) = asked.time {
-                let (begins, ends) = self.ends();
-                self.now = (time * 1e9).clamp(begins, ends);
-            }
         }
         Ok(())
     }
@@ -324,15 +329,21 @@ impl<'r> Timeline<'r> {
         while !is_late && self.step_to(until) {
             is_late = !may_go_on() && self.is_due(until);
         }
-        self.now = match is_late {
+        self.stand_at(match is_late {
             true => self.moments[self.passed - 1].at.as_nanos() as f64,
             false => until,
-        };
+        });
         self.come_from(before);
         if wanted != until && !is_late {
             // It has come to one of its ends.
             self.is_playing = false;
         }
+    }
+
+    /// It is so many nanoseconds of the run, for clients, too.
+    fn stand_at(&mut self, now: f64) {
+        self.now = now;
+        self.clock.set(Timestamp::from_nanos(now as u64));
     }
 
     /// Whether a cycle lies between where it is and this time.
