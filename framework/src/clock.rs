@@ -23,6 +23,11 @@ enum Source {
     Stepped {
         now: Arc<AtomicU64>,
     },
+    /// What a replay shows, and the system's clock at its start.
+    Shown {
+        now: Arc<AtomicU64>,
+        start: u64,
+    },
 }
 
 impl Clock {
@@ -38,6 +43,14 @@ impl Clock {
         })
     }
 
+    /// The time that a replay shows, which goes wherever clients send it.
+    pub(crate) fn shown(time: Timestamp) -> Self {
+        Self(Source::Shown {
+            now: Arc::new(AtomicU64::new(time.as_nanos())),
+            start: monotonic(),
+        })
+    }
+
     /// Whether time is virtual: then nothing may wait for it.
     pub fn is_stepped(&self) -> bool {
         matches!(self.0, Source::Stepped { .. })
@@ -46,7 +59,7 @@ impl Clock {
     /// What tells virtual time from that of other robots, as long as it exists; clones have the same.
     pub(crate) fn identity(&self) -> Option<usize> {
         match &self.0 {
-            Source::Wall { .. } => None,
+            Source::Wall { .. } | Source::Shown { .. } => None,
             Source::Stepped { now } => Some(Arc::as_ptr(now).addr()),
         }
     }
@@ -56,7 +69,19 @@ impl Clock {
     pub fn now(&self) -> Timestamp {
         match &self.0 {
             Source::Wall { start } => Timestamp::from_nanos(monotonic().saturating_sub(*start)),
-            Source::Stepped { now } => Timestamp::from_nanos(now.load(Ordering::Relaxed)),
+            Source::Stepped { now } | Source::Shown { now, .. } => {
+                Timestamp::from_nanos(now.load(Ordering::Relaxed))
+            }
+        }
+    }
+
+    /// Time that never goes back, for rates: that of the system where a replay shows another.
+    pub(crate) fn passed(&self) -> Timestamp {
+        match &self.0 {
+            Source::Shown { start, .. } => {
+                Timestamp::from_nanos(monotonic().saturating_sub(*start))
+            }
+            _ => self.now(),
         }
     }
 
@@ -67,16 +92,16 @@ impl Clock {
         match &self.0 {
             Source::Wall { .. } => Ok(blocking(|| stop.wait(time - self.now()))?),
             Source::Stepped { .. } if self.now() >= time => Ok(stop.check()?),
-            Source::Stepped { .. } => Err(Error::new(format!(
+            Source::Stepped { .. } | Source::Shown { .. } => Err(Error::new(format!(
                 "would have to wait until {time}, which lockstep cannot: it is {}",
                 self.now()
             ))),
         }
     }
 
-    /// Moves virtual time anywhere, as a replay does.
-    pub(crate) fn set(&self, time: Timestamp) {
-        if let Source::Stepped { now } = &self.0 {
+    /// Shows another time, in a replay.
+    pub(crate) fn show(&self, time: Timestamp) {
+        if let Source::Shown { now, .. } = &self.0 {
             now.store(time.as_nanos(), Ordering::Relaxed);
         }
     }

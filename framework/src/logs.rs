@@ -72,7 +72,7 @@ struct Place {
 pub struct Record {
     /// Of the robot's clock, of a recording's robot in a replay.
     pub time: Timestamp,
-    /// When the sink got it, by its own clock: the same, apart from a replay.
+    /// When the sink got it: the same, apart from a replay, where time goes on here while it does not there.
     pub heard: Timestamp,
     pub level: Level,
     /// The module that says it.
@@ -277,9 +277,9 @@ fn hand_out(
         return;
     }
     for sink in wanting {
-        let heard = sink.clock.now();
+        let heard = sink.clock.passed();
         sink.keep(Record {
-            time: again::time().unwrap_or(heard),
+            time: again::time().unwrap_or_else(|| sink.clock.now()),
             heard,
             level,
             module: module.into(),

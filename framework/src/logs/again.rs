@@ -38,9 +38,8 @@ pub(crate) fn again(how: Again) -> Replayed {
 pub(crate) fn say_again(record: &Record) {
     let instance = record.instance.as_deref();
     for sink in sinks_for(record.level, &record.module, instance, ROBOT.get()) {
-        let heard = sink.clock.now();
         sink.keep(Record {
-            heard,
+            heard: sink.clock.passed(),
             ..record.clone()
         });
     }

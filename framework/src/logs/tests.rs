@@ -109,6 +109,23 @@ fn robots_hear_themselves_and_what_is_said_between() {
 }
 
 #[test]
+fn in_a_replay_messages_have_the_time_that_is_shown_and_rates_the_systems() {
+    let [late, early] = [5_000_000_000, 7].map(Timestamp::from_nanos);
+    let clock = Clock::shown(late);
+    let sink = Sink::new(clock.clone());
+    record(Level::WARN, "test::shown", format_args!("late"));
+    clock.show(early);
+    record(Level::WARN, "test::shown", format_args!("early"));
+    let kept = std::iter::from_fn(|| sink.take()).filter(|record| record.module == "test::shown");
+    let kept: Vec<_> = kept.map(|record| (record.time, record.heard)).collect();
+    let [(first, heard), (second, heard_then)] = kept[..] else {
+        panic!("two: {kept:?}");
+    };
+    assert_eq!((first, second), (late, early));
+    assert!(heard <= heard_then && heard_then < late, "{kept:?}");
+}
+
+#[test]
 fn what_finds_no_place_is_counted_and_long_texts_are_cut() {
     let clock = Clock::stepped();
     let sink = Sink::new(clock.clone());

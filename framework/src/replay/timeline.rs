@@ -149,8 +149,7 @@ impl<'r> Timeline<'r> {
         let (caller, moves) = procedure();
         instances.push(instances::timeline(vec![(PROCEDURE, Box::new(caller))]));
         // What clients are told beside the cycles happened when those did.
-        let clock = Clock::stepped();
-        clock.set(first);
+        let clock = Clock::shown(first);
         let (writer, [], []) = crate::buffer::buffer_of(|| parameters.clone(), []);
         let parameters = LiveParameters::new(writer, parameters.clone(), clock.clone());
         let link = Link {
@@ -343,7 +342,7 @@ impl<'r> Timeline<'r> {
     /// It is so many nanoseconds of the run, for clients, too.
     fn stand_at(&mut self, now: f64) {
         self.now = now;
-        self.clock.set(Timestamp::from_nanos(now as u64));
+        self.clock.show(Timestamp::from_nanos(now as u64));
     }
 
     /// Whether a cycle lies between where it is and this time.
