@@ -1,5 +1,6 @@
 //! What a path of names stands for, by rustc's rules.
 
+use std::collections::BTreeSet;
 use std::rc::Rc;
 
 use syn::Item;
@@ -169,7 +170,7 @@ impl Library<'_> {
                 })),
             },
             Some(Entry::Import(import)) => self.imported(module, name, import, depth),
-            None => self.look_in_globs(module, module, name, depth),
+            None => self.look_in_globs(module, name, depth),
         }
     }
 
@@ -190,34 +191,48 @@ impl Library<'_> {
         )
     }
 
-    /// What all globs of a module agree on, as far as code in the module `from` sees it.
-    fn look_in_globs(
-        &self,
-        module: &Rc<Module>,
-        from: &Module,
-        name: &str,
-        depth: usize,
-    ) -> Option<Found> {
+    /// What all globs of a module agree on, as far as the module sees it.
+    fn look_in_globs(&self, module: &Rc<Module>, name: &str, depth: usize) -> Option<Found> {
         let search = (module.path.clone(), name.to_owned());
         if module.globs.is_empty() || !self.searching.borrow_mut().insert(search.clone()) {
             return None;
         }
-        let mut found: Option<Found> = None;
-        let mut clash = false;
-        for (target, visible) in self.glob_targets(module, depth).iter() {
-            if !visible.reaches(from, module) || target.path == module.path {
-                continue;
-            }
-            let new = match target.entries.get(name) {
-                Some(entry) if !entry.visible().reaches(module, target) => None,
-                Some(_) => self.look_in(target, name, depth + 1),
-                None => self.look_in_globs(target, module, name, depth + 1),
-            };
-            clash |= matches!((&new, &found), (Some(new), Some(old)) if !new.is(old));
-            found = found.or(new);
-        }
+        let found = self.agreed(module, name, depth);
         self.searching.borrow_mut().remove(&search);
-        found.filter(|_| !clash)
+        found
+    }
+
+    /// The one thing of this name in all modules to which globs lead, whatever the ways between them are: every module
+    /// is looked at once for each that names it.
+    fn agreed(&self, start: &Rc<Module>, name: &str, depth: usize) -> Option<Found> {
+        let mut found: Option<Found> = None;
+        let mut judged = BTreeSet::new();
+        let mut seen = BTreeSet::new();
+        // With the module that looks into it.
+        let mut waiting = vec![(start.clone(), start.clone())];
+        while let Some((module, from)) = waiting.pop() {
+            for (target, visible) in self.glob_targets(&module, depth).iter() {
+                if !visible.reaches(&from, &module) || target.path == module.path {
+                    continue;
+                }
+                let Some(entry) = target.entries.get(name) else {
+                    if seen.insert((target.path.clone(), module.path.clone())) {
+                        waiting.push((target.clone(), module.clone()));
+                    }
+                    continue;
+                };
+                if !entry.visible().reaches(&module, target) || !judged.insert(target.path.clone())
+                {
+                    continue;
+                }
+                let new = self.look_in(target, name, depth + 1);
+                if matches!((&new, &found), (Some(new), Some(old)) if !new.is(old)) {
+                    return None;
+                }
+                found = found.or(new);
+            }
+        }
+        found
     }
 
     /// Where the globs of a module lead. A glob may name what another glob of the module brings in, so those that lead

@@ -315,3 +315,29 @@ fn what_cannot_be_known_is_written_with_absolute_names() {
     }
     assert_eq!(resolve("struct S;", "[u8; S::COUNT]").private.len(), 1);
 }
+
+#[test]
+fn modules_that_bring_each_other_in_by_globs_are_searched_once() {
+    const MODULES: usize = 20;
+    let globs = |own: usize| -> String {
+        let others = (0..MODULES).filter(|other| *other != own);
+        others
+            .map(|other| format!("pub use super::m{other}::*; "))
+            .collect()
+    };
+    let modules: String = (0..MODULES)
+        .map(|own| format!("pub mod m{own} {{ {} pub struct T{own}; }} ", globs(own)))
+        .collect();
+    let head = format!("{modules} use m0::*;");
+    let begin = std::time::Instant::now();
+    let last = resolve(&head, "T19");
+    assert_eq!(
+        (last.text.as_str(), last.private.len()),
+        ("nodes::a::m19::T19", 0)
+    );
+    assert_eq!(resolve(&head, "Missing").lost, ["Missing"]);
+    assert!(begin.elapsed() < std::time::Duration::from_secs(20));
+    // Two of one name are none, however they come.
+    let two = "pub mod x { pub struct T; } pub mod y { pub struct T; } pub mod z { pub use super::x::*; pub use super::y::*; } use z::*;";
+    assert!(!resolve(two, "T").is_known());
+}

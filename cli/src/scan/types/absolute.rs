@@ -82,9 +82,6 @@ impl Library<'_> {
     }
 }
 
-/// Globs may lead in circles; no honest name comes from further away.
-const DEEPEST: usize = 8;
-
 /// Makes names absolute.
 struct Absolute<'a> {
     library: &'a Library<'a>,
@@ -237,15 +234,21 @@ impl<'a> Absolute<'a> {
         if names.len() == 1 && EVERYWHERE.contains(&first.as_str()) {
             return;
         }
-        match self.trace(self.module, first, 0) {
+        match self.trace(self.module, first, &mut BTreeSet::new()) {
             Some(text) => begin_with(path, 1, &text),
             None => self.lost.push(written(path)),
         }
     }
 
     /// Where a name comes from that is no type's, or that several items of one module have, or that a macro may define.
-    fn trace(&mut self, module: &Rc<Module>, name: &str, depth: usize) -> Option<String> {
-        if depth > DEEPEST {
+    /// Imports and globs may lead in circles: nothing is looked for twice.
+    fn trace(
+        &mut self,
+        module: &Rc<Module>,
+        name: &str,
+        seen: &mut BTreeSet<(String, String)>,
+    ) -> Option<String> {
+        if !seen.insert((module.path.clone(), name.to_owned())) {
             return None;
         }
         let own = self.library.unlisted(module, name);
@@ -256,7 +259,7 @@ impl<'a> Absolute<'a> {
         if let Some(Entry::Import(import)) = module.entries.get(name) {
             let (last, front) = import.segments.split_last()?;
             return match self.library.follow(module, front, import.absolute, 0)? {
-                Found::Module(module) => self.trace(&module, last, depth + 1),
+                Found::Module(module) => self.trace(&module, last, seen),
                 _ => None,
             };
         }
@@ -272,7 +275,7 @@ impl<'a> Absolute<'a> {
                 .filter(|_| is_seen)?
             {
                 Found::Module(target) if target.path != module.path => {
-                    self.trace(&target, name, depth + 1)
+                    self.trace(&target, name, seen)
                 }
                 _ => None,
             }
