@@ -232,7 +232,8 @@ impl Library<'_> {
                 |shapes| single(shapes, Shape::Slice),
             ),
             Type::Reference(reference) => {
-                let lifetime = reference.lifetime.as_ref().map(|one| format!("{one} "));
+                let lifetime = reference.lifetime.as_ref();
+                let lifetime = lifetime.map(|one| format!("{} ", lifetime_text(one, generics)));
                 let lifetime = lifetime.unwrap_or_default();
                 let mutable = if reference.mutability.is_some() {
                     "mut "
@@ -336,7 +337,7 @@ impl Library<'_> {
                                 in_braces(value, constant)
                             }
                             GenericArgument::Lifetime(lifetime) => {
-                                let text = lifetime.to_string();
+                                let text = lifetime_text(lifetime, generics);
                                 Resolved::constant(text.clone(), text)
                             }
                             _ => return None,
@@ -396,6 +397,13 @@ pub(super) fn named(name: String, definition: Definition, arguments: Vec<Resolve
             arguments,
         },
     )
+}
+
+/// A lifetime, or what stands for it where it is a parameter.
+fn lifetime_text(lifetime: &syn::Lifetime, generics: &Substitutions) -> String {
+    let written = lifetime.to_string();
+    let given = generics.get(&written).map(|given| given.text.clone());
+    given.unwrap_or(written)
 }
 
 fn tuple_text(texts: &[String]) -> String {

@@ -341,3 +341,22 @@ fn modules_that_bring_each_other_in_by_globs_are_searched_once() {
     let two = "pub mod x { pub struct T; } pub mod y { pub struct T; } pub mod z { pub use super::x::*; pub use super::y::*; } use z::*;";
     assert!(!resolve(two, "T").is_known());
 }
+
+#[test]
+fn lifetimes_of_aliases_are_those_that_are_given() {
+    let aliases = "pub type Speeds<'a> = &'a [f32]; pub type Named<'a, T> = std::borrow::Cow<'a, T>; \
+                   pub type Calls<'a> = Box<dyn Fn(&'a u8) + 'a>; type Hidden<'a> = &'a u8;";
+    for (written, text) in [
+        ("Speeds<'_>", "&'_ [f32]"),
+        ("Speeds", "&'_ [f32]"),
+        ("Option<Speeds<'static>>", "Option<&'static [f32]>"),
+        ("Named<'static, str>", "std::borrow::Cow<'static, str>"),
+        ("Hidden<'_>", "&'_ u8"),
+    ] {
+        let resolved = resolve(aliases, written);
+        assert_eq!(resolved.text, text, "{written}");
+        assert!(resolved.is_known(), "{written}");
+    }
+    // What is known to rustc alone stays behind its alias.
+    assert_eq!(resolve(aliases, "Calls<'_>").text, "nodes::a::Calls<'_>");
+}

@@ -8,9 +8,9 @@ use std::rc::Rc;
 use quote::{ToTokens, quote};
 use syn::visit::{self, Visit};
 use syn::visit_mut::{self, VisitMut};
-use syn::{Expr, Item, PatIdent, Path, PathArguments, PathSegment, QSelf, Type};
+use syn::{Expr, Item, Lifetime, PatIdent, Path, PathArguments, PathSegment, QSelf, Type};
 
-use super::{Resolved, Shape, Substitutions, written};
+use super::{Resolved, Shape, Substitutions, lifetime_text, written};
 use crate::scan::beyond::may_make;
 use crate::scan::library::Library;
 use crate::scan::lookup::{Found, ItemId};
@@ -125,6 +125,13 @@ impl VisitMut for Absolute<'_> {
             // What a macro does with its names is its own.
             Expr::Macro(call) => self.lost.push(written(call)),
             _ => visit_mut::visit_expr_mut(self, value),
+        }
+    }
+
+    fn visit_lifetime_mut(&mut self, lifetime: &mut Lifetime) {
+        let text = lifetime_text(lifetime, self.generics);
+        if let Ok(given) = syn::parse_str(&text) {
+            *lifetime = given;
         }
     }
 

@@ -34,7 +34,8 @@ impl Library<'_> {
         };
         let expanded = self.resolve_with(&item.module, &alias.ty, &generics, depth + 1);
         // What the alias stands for may be hidden, or be known to rustc alone; the alias is not.
-        let is_hidden = !expanded.private.is_empty() && generics.is_empty();
+        let has_arguments = generics.keys().any(|name| !name.starts_with('\''));
+        let is_hidden = !expanded.private.is_empty() && !has_arguments;
         if (is_hidden || !expanded.is_known()) && self.public_path(item).is_some() {
             return by_name(expanded.shape);
         }
@@ -46,10 +47,11 @@ impl Library<'_> {
         &self,
         module: &Rc<Module>,
         generics: &Generics,
-        mut arguments: Vec<Resolved>,
+        arguments: Vec<Resolved>,
         depth: usize,
     ) -> Vec<Resolved> {
-        arguments.retain(|argument| !is_lifetime(argument));
+        let (lifetimes, mut arguments): (Vec<_>, Vec<_>) =
+            arguments.into_iter().partition(is_lifetime);
         let missing = parameters(generics).skip(arguments.len());
         for (_, parameter) in missing.collect::<Vec<_>>() {
             let known = parameters(generics).map(|(name, _)| name);
@@ -70,18 +72,27 @@ impl Library<'_> {
                 None => break,
             }
         }
+        arguments.extend(lifetimes);
         arguments
     }
 }
 
-/// What the parameters of an alias or a struct stand for, lifetimes aside; `None` if their numbers differ.
+/// What the parameters of an alias or a struct stand for; `None` if their numbers differ. A lifetime that is not written
+/// is whatever it may be.
 pub(in crate::scan) fn substitutions(
     generics: &Generics,
-    mut arguments: Vec<Resolved>,
+    arguments: Vec<Resolved>,
 ) -> Option<Substitutions> {
-    arguments.retain(|argument| !is_lifetime(argument));
+    let (lifetimes, arguments): (Vec<_>, Vec<_>) = arguments.into_iter().partition(is_lifetime);
+    let mut lifetimes = lifetimes.into_iter();
+    let any = || Resolved::constant("'_".to_owned(), "'_".to_owned());
+    let declared = generics.lifetimes().map(|one| one.lifetime.to_string());
+    let lifetimes: Substitutions = declared
+        .map(|name| (name, lifetimes.next().unwrap_or_else(any)))
+        .collect();
     let names: Vec<String> = parameters(generics).map(|(name, _)| name).collect();
-    (names.len() == arguments.len()).then(|| names.into_iter().zip(arguments).collect())
+    let is_whole = names.len() == arguments.len();
+    is_whole.then(|| names.into_iter().zip(arguments).chain(lifetimes).collect())
 }
 
 fn parameters(generics: &Generics) -> impl Iterator<Item = (String, &GenericParam)> {
