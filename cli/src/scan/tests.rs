@@ -1,5 +1,6 @@
 //! Finding nodes and reading their files.
 
+mod answers;
 mod names;
 
 use super::Library;

@@ -10,7 +10,7 @@ use syn::{Item, ItemTrait, PathArguments, ReturnType, TraitItem, Type, TypeParam
 use super::library::Library;
 use super::lookup::{Found, ItemId};
 use super::module::Module;
-use super::types::Substitutions;
+use super::types::{Definition, Resolved, Shape, Substitutions};
 use crate::diagnostics::listed;
 
 pub use methods::{Answer, Method};
@@ -194,7 +194,7 @@ impl Library<'_> {
         let Item::Trait(definition) = item.item() else {
             return None;
         };
-        if has_reading_method(definition) {
+        if self.has_reading_method(&item.module, definition) {
             return Some(true);
         }
         let mut answer = Some(false);
@@ -217,16 +217,49 @@ impl Library<'_> {
         }
         answer
     }
-}
 
-fn has_reading_method(definition: &ItemTrait) -> bool {
-    definition.items.iter().any(|item| match item {
-        TraitItem::Fn(method) => match &method.sig.output {
-            ReturnType::Default => false,
-            ReturnType::Type(_, data) => !is_nothing(data) && !is_result_of_nothing(data),
-        },
-        _ => false,
-    })
+    fn has_reading_method(&self, module: &Rc<Module>, definition: &ItemTrait) -> bool {
+        definition.items.iter().any(|item| match item {
+            TraitItem::Fn(method) => self.answer(module, &method.sig.output) == Answer::Something,
+            _ => false,
+        })
+    }
+
+    /// What a method gives, by what the names of its module stand for.
+    fn answer(&self, module: &Rc<Module>, output: &ReturnType) -> Answer {
+        let data = match output {
+            ReturnType::Default => return Answer::Nothing,
+            ReturnType::Type(_, data) if is_nothing(data) => return Answer::Nothing,
+            ReturnType::Type(_, data) => data,
+        };
+        let is_empty =
+            |one: &Resolved| matches!(&one.shape, Shape::Tuple(parts) if parts.is_empty());
+        let resolved = self.quietly(|| self.resolve(module, data));
+        let is_result = match &resolved.shape {
+            Shape::Tuple(parts) if parts.is_empty() => return Answer::Nothing,
+            Shape::Named {
+                definition,
+                arguments,
+            } => {
+                let is_result = match definition {
+                    Definition::Prelude(name) => name == "Result",
+                    Definition::Standard(path) | Definition::Foreign(path) => {
+                        path.ends_with("::Result")
+                    }
+                    Definition::Workspace(_) => false,
+                };
+                let is_plain =
+                    matches!(definition, Definition::Standard(path) if path == "fmt::Result");
+                is_plain || is_result && arguments.first().is_some_and(is_empty)
+            }
+            Shape::Unknown => is_written_as_result_of_nothing(data),
+            _ => false,
+        };
+        match is_result {
+            true => Answer::ResultOfNothing,
+            false => Answer::Something,
+        }
+    }
 }
 
 fn is_nothing(data: &Type) -> bool {
@@ -238,17 +271,13 @@ fn is_nothing(data: &Type) -> bool {
     }
 }
 
-/// `Result<()>`, whatever its error is, and whatever crate it comes from.
-fn is_result_of_nothing(data: &Type) -> bool {
+/// `Result<()>` by its letters, for what no name leads to: a macro or another crate may define it.
+fn is_written_as_result_of_nothing(data: &Type) -> bool {
     let Type::Path(path) = data else {
         return false;
     };
-    let Some(last) = path
-        .path
-        .segments
-        .last()
-        .filter(|last| last.ident == "Result")
-    else {
+    let last = path.path.segments.last();
+    let Some(last) = last.filter(|last| last.ident == "Result") else {
         return false;
     };
     match &last.arguments {

@@ -9,7 +9,7 @@ use syn::{
     TraitItemFn, Type, TypeParamBound,
 };
 
-use super::{MARKERS, is_nothing, is_result_of_nothing};
+use super::MARKERS;
 use crate::scan::library::Library;
 use crate::scan::lookup::{Found, ItemId};
 use crate::scan::module::Module;
@@ -101,13 +101,7 @@ impl Library<'_> {
             ReturnType::Default => (String::new(), Answer::Nothing),
             ReturnType::Type(_, data) => {
                 let text = self.result(module, data)?;
-                let answer = if is_nothing(data) {
-                    Answer::Nothing
-                } else if is_result_of_nothing(data) {
-                    Answer::ResultOfNothing
-                } else {
-                    Answer::Something
-                };
+                let answer = self.answer(module, output);
                 (format!(" -> {}", self.by_root(module, &text)), answer)
             }
         };
