@@ -105,8 +105,9 @@ pub fn resolve(
 fn check_nodes(manifest: &Manifest, sources: &Sources<'_>, diagnostics: &mut Diagnostics) -> usize {
     let here = || hardware::running_here(manifest, sources);
     sendable::check_states(here(), sources, diagnostics);
-    let conditional = here().filter(|node| sources.library.is_conditional(&node.module));
-    conditional.count()
+    let uncertain =
+        here().filter(|node| node.is_uncertain() || sources.library.is_conditional(&node.module));
+    uncertain.count()
         + hardware::foreign_bounds(here(), &sources.library)
         + failures::check(here(), sources, diagnostics)
         + hardware::check_served(manifest, sources, diagnostics)

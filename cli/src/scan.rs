@@ -11,6 +11,7 @@ mod beyond;
 mod brackets;
 pub mod compare;
 pub mod components;
+mod conditional;
 mod depth;
 pub mod failure;
 pub mod fields;

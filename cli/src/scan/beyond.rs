@@ -138,7 +138,7 @@ pub(super) fn may_make(module: &Module, name: &str) -> bool {
     })
 }
 
-fn stands_in(tokens: TokenStream, name: &str) -> bool {
+pub(super) fn stands_in(tokens: TokenStream, name: &str) -> bool {
     tokens.into_iter().any(|token| match token {
         TokenTree::Ident(ident) => ident == name,
         TokenTree::Group(group) => stands_in(group.stream(), name),

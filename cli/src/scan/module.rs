@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use camino::{Utf8Path, Utf8PathBuf};
+pub(crate) use grammar::{is_conditional, only_for_tests};
 use proc_macro2::{TokenStream, TokenTree};
 use syn::{Attribute, Item, UseTree, Visibility};
 
@@ -260,31 +261,6 @@ pub(crate) fn folder_of(file: &Utf8Path, is_root: bool) -> Utf8PathBuf {
         Some(stem) if !is_root && stem != "mod" => beside.join(stem),
         _ => beside.to_owned(),
     }
-}
-
-/// Whether a `#[cfg(…)]` decides about what these stand at.
-pub(crate) fn is_conditional(attributes: &[Attribute]) -> bool {
-    attributes.iter().any(|one| one.path().is_ident("cfg"))
-}
-
-/// `#[cfg(test)]`, also among other conditions that all have to hold.
-pub(crate) fn only_for_tests(attributes: &[Attribute]) -> bool {
-    attributes
-        .iter()
-        .filter(|attribute| attribute.path().is_ident("cfg"))
-        .any(|attribute| {
-            attribute
-                .parse_args::<syn::Meta>()
-                .is_ok_and(|condition| match condition {
-                    syn::Meta::Path(path) => path.is_ident("test"),
-                    syn::Meta::List(list) if list.path.is_ident("all") => list
-                        .tokens
-                        .clone()
-                        .into_iter()
-                        .any(|token| token.to_string() == "test"),
-                    _ => false,
-                })
-        })
 }
 
 /// The attributes of an item that can be for tests alone.

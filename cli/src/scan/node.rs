@@ -41,7 +41,7 @@ pub(super) fn scan(
     report(&module, mistakes, diagnostics);
     let contexts = read_contexts(&module, diagnostics);
     let signatures = signatures?;
-    let state = state::find(&module.syntax, &signatures.node);
+    let state = state::find(library, &module, &signatures.node);
     check_derives(&module, &signatures, state.as_ref(), diagnostics);
     let Contexts {
         creation: Some(creation),
@@ -61,6 +61,14 @@ pub(super) fn scan(
         signatures,
         state,
     })
+}
+
+impl NodeSource {
+    /// Whether a condition decides about its functions or its struct, or what that derives cannot be seen.
+    pub fn is_uncertain(&self) -> bool {
+        let state = self.state.as_ref();
+        self.signatures.is_conditional || state.is_some_and(|state| state.is_uncertain)
+    }
 }
 
 #[derive(Default)]

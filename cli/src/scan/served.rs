@@ -31,6 +31,8 @@ pub struct Hardware {
     item: ItemId,
     /// A parameter that the target gives no argument, and that has no default.
     open: Option<String>,
+    /// A condition decides whether it is there under the name that the target gives.
+    is_conditional: bool,
     /// By library.
     crates: BTreeMap<String, Option<Implemented>>,
 }
@@ -72,18 +74,32 @@ impl Hardware {
         self.open.as_deref()
     }
 
-    /// Whether rustc will certainly not find `framework::Hardware` implemented.
-    pub fn is_none(&mut self, library: &Library<'_>) -> bool {
+    /// Whether rustc alone knows if the type is there.
+    pub fn is_conditional(&self) -> bool {
+        self.is_conditional
+    }
+
+    /// Whether rustc will find `framework::Hardware` implemented.
+    pub fn serves_framework(&mut self, library: &Library<'_>) -> Serves {
         if library.quietly(|| library.plainly_implements(&self.item, FRAMEWORK)) {
-            return false;
+            return Serves::Surely;
         }
-        self.implemented_in(library, self.item.module.library().to_owned())
-            .is_some_and(|found| {
-                let mut traits = found.traits.iter();
-                let is_it =
-                    |path: &String| path.starts_with("framework::") && path.ends_with("::Hardware");
-                !found.perhaps.contains(FRAMEWORK) && !traits.any(is_it)
-            })
+        match library.quietly(|| library.implements(&self.item, FRAMEWORK, is_of_framework)) {
+            Some(true) => return Serves::Surely,
+            Some(false) => return Serves::Perhaps,
+            None => {}
+        }
+        let found = self.implemented_in(library, self.item.module.library().to_owned());
+        let is_lacking = found.is_some_and(|found| {
+            let mut traits = found.traits.iter();
+            let is_it =
+                |path: &String| path.starts_with("framework::") && path.ends_with("::Hardware");
+            !found.perhaps.contains(FRAMEWORK) && !traits.any(is_it)
+        });
+        match is_lacking {
+            true => Serves::Never,
+            false => Serves::Perhaps,
+        }
     }
 
     /// What one crate implements for the type; `None`: something there cannot be read.
@@ -96,7 +112,9 @@ impl Hardware {
 
     /// Whether rustc will find the trait implemented.
     pub fn serves(&mut self, library: &Library<'_>, asked: &ItemId) -> Serves {
-        match library.quietly(|| library.implements(&self.item, asked)) {
+        let is_asked =
+            |found: &Found| matches!(found, Found::Item(item) if item.path() == asked.path());
+        match library.quietly(|| library.implements(&self.item, &asked.name, is_asked)) {
             Some(true) => return Serves::Surely,
             Some(false) => return Serves::Perhaps,
             None => {}
@@ -116,6 +134,17 @@ impl Hardware {
 
 /// The trait that the framework asks of every hardware.
 const FRAMEWORK: &str = "Hardware";
+
+fn is_of_framework(found: &Found) -> bool {
+    match found {
+        Found::Item(item) => item.name == FRAMEWORK && item.module.library() == "framework",
+        Found::Foreign(path) => {
+            let ends = (path.first(), path.last());
+            matches!(ends, (Some(first), Some(last)) if first == "framework" && last == FRAMEWORK)
+        }
+        _ => false,
+    }
+}
 
 impl Library<'_> {
     /// The hardware type `crate::Type` of a target; `None` if it is not plainly a type of the workspace.
@@ -144,9 +173,13 @@ impl Library<'_> {
             .iter()
             .all(|one| is_harmless(one) && !one.path().is_ident("cfg_attr"))
             && derives_nothing_unknown(attributes);
+        let is_conditional = is_conditional(attributes)
+            || self.is_conditional(&item.module)
+            || self.is_path_conditional(&path);
         plain.then_some(Hardware {
             item,
             open,
+            is_conditional,
             crates: BTreeMap::new(),
         })
     }
@@ -170,7 +203,12 @@ impl Library<'_> {
     /// Whether the crate of a hardware type plainly has an `impl` of a trait for it; `Some(false)`: under a condition.
     ///
     /// The usual case, for which few files are needed: those with the trait's name, and those around them.
-    fn implements(&self, hardware: &ItemId, asked: &ItemId) -> Option<bool> {
+    fn implements(
+        &self,
+        hardware: &ItemId,
+        name: &str,
+        is_asked: impl Fn(&Found) -> bool,
+    ) -> Option<bool> {
         let root = self.root(hardware.module.library());
         let mut waiting: Vec<(Rc<Module>, bool)> =
             root.into_iter().map(|root| (root, true)).collect();
@@ -181,13 +219,13 @@ impl Library<'_> {
                 let is_always = is_always && !is_conditional(attributes(item));
                 match item {
                     _ if only_for_tests(attributes(item)) => {}
-                    Item::Impl(item) if self.is_of(&module, item, hardware, asked) => {
+                    Item::Impl(item) if self.is_of(&module, item, hardware, &is_asked) => {
                         if is_always {
                             return Some(true);
                         }
                         found = Some(false);
                     }
-                    Item::Mod(item) if self.may_name(&module, item, &asked.name) => {
+                    Item::Mod(item) if self.may_name(&module, item, name) => {
                         let below = self.declared(&module, &item.ident.to_string());
                         waiting.extend(below.map(|below| (below, is_always)));
                     }
@@ -203,18 +241,16 @@ impl Library<'_> {
         module: &Rc<Module>,
         item: &ItemImpl,
         hardware: &ItemId,
-        asked: &ItemId,
+        is_asked: impl Fn(&Found) -> bool,
     ) -> bool {
         let Some((None, written, _)) = &item.trait_ else {
             return false;
         };
-        let is_asked = || {
-            let definition = self.trait_of_workspace(module, written);
-            definition.is_some_and(|definition| definition.path() == asked.path())
-        };
         !is_parameter(item, &item.self_ty)
             && self.is_type(module, &item.self_ty, hardware) == Some(true)
-            && is_asked()
+            && self
+                .find(module, written)
+                .is_some_and(|found| is_asked(&found))
     }
 
     /// Whether a module or one inside of it may have an `impl` of a trait under its own name; nobody is lost by a wrong no,

@@ -1,9 +1,16 @@
 //! The struct of a node: what it derives, and which of its fields are not stored.
 
 use std::ops::Range;
+use std::rc::Rc;
 
-use syn::{Attribute, Item, ItemStruct, Meta, Token, punctuated::Punctuated};
+use grammar::is_written_for_tests;
+use syn::visit::{self, Visit};
+use syn::{Attribute, Item, ItemImpl, ItemStruct, Meta, Token, punctuated::Punctuated};
 
+use super::beyond::stands_in;
+use super::library::Library;
+use super::lookup::Found;
+use super::module::{Module, attributes, is_conditional, only_for_tests};
 use super::range;
 
 /// A node's struct, if it is written in the node's file.
@@ -13,20 +20,35 @@ pub struct StateSource {
     pub range: Range<usize>,
     /// `Serialize` and `Deserialize`, as far as nothing provides them.
     pub missing_derives: Vec<&'static str>,
+    /// A condition, or what cannot be looked into, decides whether it is there and what it derives.
+    pub is_uncertain: bool,
     /// Fields with `#[serde(skip)]`: name and place.
     pub skipped: Vec<(String, Range<usize>)>,
 }
 
 /// Reads the struct of this name; `None` if the file does not have it.
-pub(super) fn find(file: &syn::File, node: &syn::Ident) -> Option<StateSource> {
-    let item = file.items.iter().find_map(|item| match item {
-        Item::Struct(item) if item.ident == *node => Some(item),
+pub(super) fn find(
+    library: &Library<'_>,
+    module: &Rc<Module>,
+    node: &syn::Ident,
+) -> Option<StateSource> {
+    let item = module.syntax.items.iter().find_map(|item| match item {
+        Item::Struct(item) if item.ident == *node && !only_for_tests(&item.attrs) => Some(item),
         _ => None,
     })?;
-    let missing_derives = ["Serialize", "Deserialize"]
-        .into_iter()
-        .filter(|name| !derives(&item.attrs, name) && !implements(file, item, name))
-        .collect();
+    let mut is_uncertain = is_conditional(&item.attrs);
+    let mut missing_derives = Vec::new();
+    for name in ["Serialize", "Deserialize"] {
+        match provides(library, module, item, name) {
+            Provides::Surely => {}
+            Provides::Perhaps => is_uncertain = true,
+            Provides::Never => missing_derives.push(name),
+        }
+    }
+    // Another struct may stand in its place, or the condition never holds.
+    if is_uncertain {
+        missing_derives.clear();
+    }
     let skipped = item
         .fields
         .iter()
@@ -42,6 +64,7 @@ pub(super) fn find(file: &syn::File, node: &syn::Ident) -> Option<StateSource> {
     Some(StateSource {
         range: range(item.ident.span()),
         missing_derives,
+        is_uncertain,
         skipped: skipped.collect(),
     })
 }
@@ -79,30 +102,127 @@ fn is_skip(meta: &Meta) -> bool {
         .any(|name| meta.path().is_ident(name))
 }
 
-/// `impl Serialize for Node` in the node's file, or an attribute macro or derive that hides it.
-fn implements(file: &syn::File, item: &ItemStruct, name: &str) -> bool {
+/// Whether a node's struct has a trait of serde.
+enum Provides {
+    Surely,
+    /// Under a condition, or something may hide it.
+    Perhaps,
+    Never,
+}
+
+fn provides(library: &Library<'_>, module: &Rc<Module>, item: &ItemStruct, name: &str) -> Provides {
+    if derives(&item.attrs, name) {
+        return Provides::Surely;
+    }
+    // The macro of an attribute may write anything, and so may what stands behind a condition.
     let unknown = |attribute: &Attribute| {
         let known = [
-            "derive", "doc", "serde", "allow", "expect", "must_use", "repr", "cfg_attr",
+            "cfg", "derive", "doc", "serde", "allow", "expect", "must_use", "repr",
         ];
-        let serde_by_condition = attribute.path().is_ident("cfg_attr");
-        serde_by_condition || !known.iter().any(|known| attribute.path().is_ident(known))
+        !is_written_for_tests(attribute)
+            && !known.iter().any(|known| attribute.path().is_ident(known))
     };
-    let by_hand = file.items.iter().any(|other| match other {
-        Item::Impl(block) => {
-            let named =
-                |path: &syn::Path| path.segments.last().is_some_and(|last| last.ident == name);
-            let of_node = match &*block.self_ty {
-                syn::Type::Path(path) => path.path.is_ident(&item.ident),
+    match by_hand(library, module, item, name) {
+        Provides::Never if item.attrs.iter().any(unknown) => Provides::Perhaps,
+        found => found,
+    }
+}
+
+/// An `impl` of the trait, which may stand anywhere in the crate, or a call of a macro with the node's name.
+fn by_hand(library: &Library<'_>, module: &Rc<Module>, item: &ItemStruct, name: &str) -> Provides {
+    let mut found = Provides::Never;
+    let mut waiting: Vec<(Rc<Module>, bool)> = vec![(module.clone(), true)];
+    let root = library.root(module.library());
+    waiting.extend(root.map(|root| (root, true)));
+    while let Some((module, always)) = waiting.pop() {
+        let mut search = Search {
+            library,
+            module: &module,
+            node: &item.ident,
+            name,
+            always,
+            found: &mut found,
+        };
+        search.visit_file(&module.syntax);
+        if matches!(found, Provides::Surely) {
+            break;
+        }
+        for item in &module.syntax.items {
+            let Item::Mod(item) = item else { continue };
+            if !only_for_tests(&item.attrs) {
+                let below = library.quietly(|| library.declared(&module, &item.ident.to_string()));
+                let always = always && !is_conditional(&item.attrs);
+                waiting.extend(below.map(|below| (below, always)));
+            }
+        }
+    }
+    found
+}
+
+struct Search<'a> {
+    library: &'a Library<'a>,
+    module: &'a Rc<Module>,
+    node: &'a syn::Ident,
+    name: &'a str,
+    always: bool,
+    found: &'a mut Provides,
+}
+
+impl<'ast> Visit<'ast> for Search<'_> {
+    fn visit_item_mod(&mut self, _: &'ast syn::ItemMod) {}
+
+    fn visit_item(&mut self, item: &'ast Item) {
+        if !only_for_tests(attributes(item)) {
+            visit::visit_item(self, item);
+        }
+    }
+
+    fn visit_item_impl(&mut self, block: &'ast ItemImpl) {
+        visit::visit_item_impl(self, block);
+        let Some((None, written, _)) = &block.trait_ else {
+            return;
+        };
+        let is_named = |path: &syn::Path| {
+            path.segments
+                .last()
+                .is_some_and(|last| last.ident == self.name)
+        };
+        let is_trait = is_named(written)
+            || match self.library.find(self.module, written) {
+                Some(Found::Standard(path) | Found::Foreign(path)) => {
+                    path.last().is_some_and(|last| last == self.name)
+                }
                 _ => false,
             };
-            of_node
-                && block
-                    .trait_
-                    .as_ref()
-                    .is_some_and(|(_, path, _)| named(path))
+        let is_of_node = match &*block.self_ty {
+            syn::Type::Path(path) => path
+                .path
+                .segments
+                .last()
+                .is_some_and(|last| last.ident == *self.node),
+            _ => false,
+        };
+        if is_trait && is_of_node {
+            let surely = self.always && !is_conditional(&block.attrs);
+            self.note(if surely {
+                Provides::Surely
+            } else {
+                Provides::Perhaps
+            });
         }
-        _ => false,
-    });
-    by_hand || item.attrs.iter().any(unknown)
+    }
+
+    fn visit_item_macro(&mut self, call: &'ast syn::ItemMacro) {
+        if call.ident.is_none() && stands_in(call.mac.tokens.clone(), &self.node.to_string()) {
+            self.note(Provides::Perhaps);
+        }
+    }
+}
+
+impl Search<'_> {
+    fn note(&mut self, found: Provides) {
+        if !matches!(self.found, Provides::Surely) {
+            *self.found = found;
+        }
+    }
 }

@@ -5,6 +5,7 @@
 //! line never disagree. Nothing here panics on what an author writes: whatever cannot be read is a [`Mistake`] with the
 //! place, what was expected, and the deed that mends it.
 
+mod condition;
 mod context;
 mod field;
 mod hints;
@@ -14,6 +15,7 @@ mod nearest;
 mod path;
 pub mod signature;
 
+pub use condition::{is_conditional, is_written_for_tests, only_for_tests};
 pub use context::{
     AnyContext, Context, ContextKind, is_context_attribute, parse_context, structural_mistakes,
 };

@@ -8,6 +8,7 @@ use proc_macro2::Span;
 use syn::spanned::Spanned;
 use syn::{Fields, Item, ItemStruct};
 
+use crate::condition::{is_conditional, only_for_tests};
 use crate::context::ContextKind;
 use crate::mistake::{Mistake, Rule};
 use candidate::{Candidate, candidates, choose};
@@ -22,6 +23,8 @@ pub struct Signatures {
     pub cycle: Signature,
     /// Only where the node has one.
     pub restore: Option<Signature>,
+    /// One of them, or an `impl` that has it, stands under a `#[cfg(…)]`.
+    pub is_conditional: bool,
 }
 
 /// One function.
@@ -97,6 +100,7 @@ fn read_signatures(
             new,
             cycle,
             restore,
+            is_conditional: node.is_conditional(),
         }),
         _ => None,
     };
@@ -152,7 +156,7 @@ fn missing(file: &syn::File) -> Mistake {
 
 fn structs(file: &syn::File) -> impl Iterator<Item = &ItemStruct> {
     file.items.iter().filter_map(|item| match item {
-        Item::Struct(item) => Some(item),
+        Item::Struct(item) if !only_for_tests(&item.attrs) => Some(item),
         _ => None,
     })
 }
@@ -160,7 +164,7 @@ fn structs(file: &syn::File) -> impl Iterator<Item = &ItemStruct> {
 /// Whether a context of the file has a field `HardwareInterface`; `None` if the file has no such context.
 fn asks_for_hardware(file: &syn::File, context: ContextKind) -> Option<bool> {
     // One under a condition is told where contexts are read.
-    let is_always = |item: &&ItemStruct| !item.attrs.iter().any(|one| one.path().is_ident("cfg"));
+    let is_always = |item: &&ItemStruct| !is_conditional(&item.attrs);
     let mut items = structs(file).filter(is_always);
     let item = items.find(|item| item.ident == context.name())?;
     let Fields::Named(fields) = &item.fields else {

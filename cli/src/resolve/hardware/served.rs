@@ -48,6 +48,8 @@ pub(in crate::resolve) fn check_served(
             diagnostics.add(error);
             continue;
         }
+        unknown += usize::from(hardware.is_conditional());
+        unknown += usize::from(hardware.serves_framework(&sources.library) == Serves::Perhaps);
         for one in union.values() {
             match hardware.serves(&sources.library, &one.definition) {
                 Serves::Surely => {}
@@ -107,7 +109,7 @@ fn useless(
                 "name it with its arguments by `pub type`, and write that name, or give `{parameter}` a default"
             ),
         )
-    } else if hardware.is_none(library) {
+    } else if hardware.serves_framework(library) == Serves::Never {
         (
             format!("`{path}` does not implement `framework::Hardware`"),
             "has no such `impl`",

@@ -24,6 +24,84 @@ fn a_conditional_node_is_counted() {
 }
 
 #[test]
+fn conditional_functions_and_derives_of_a_node_are_counted() {
+    const RESTORE: &str = "pub fn restore(&mut self, context: CreationContext) -> Result<()> {}";
+    let text = control().text("crates/nodes/src/a.rs");
+    let with = |more: &str| format!("{text}{more}");
+    let within = |from: &str, to: &str| text.replacen(from, to, 1);
+    let derive = "#[derive(Deserialize, Serialize)]";
+    for (text, left, restores) in [
+        (
+            with(&format!("#[cfg(test)] impl Node {{ {RESTORE} }}")),
+            0,
+            false,
+        ),
+        (
+            with(&format!("impl Node {{ #[cfg(test)] {RESTORE} }}")),
+            0,
+            false,
+        ),
+        (
+            with(&format!("#[cfg(any())] impl Node {{ {RESTORE} }}")),
+            1,
+            true,
+        ),
+        (
+            with(&format!("impl Node {{ #[cfg(any())] {RESTORE} }}")),
+            1,
+            true,
+        ),
+        (
+            with("#[cfg(any())] impl Node { fn help(&self) {} }"),
+            0,
+            false,
+        ),
+        (within("impl Node {", "#[cfg(any())] impl Node {"), 1, false),
+        (
+            within("pub fn cycle", "#[cfg(any())] pub fn cycle"),
+            1,
+            false,
+        ),
+        (
+            within(
+                derive,
+                &format!("#[cfg_attr(any(), {})]", &derive[2..derive.len() - 1]),
+            ),
+            1,
+            false,
+        ),
+        (within(derive, "#[written]"), 1, false),
+        (within(derive, &format!("#[cfg(any())] {derive}")), 1, false),
+        (
+            within(
+                derive,
+                &format!("#[cfg_attr(any(), derive(Debug))] {derive}"),
+            ),
+            0,
+            false,
+        ),
+        (
+            within(
+                "pub struct Node {",
+                "#[cfg(test)] struct Node; #[derive(Deserialize, Serialize)] pub struct Node {",
+            )
+            .replacen(derive, "", 1),
+            0,
+            false,
+        ),
+    ] {
+        let robot = control().file("crates/nodes/src/a.rs", &text).robot();
+        assert_eq!(robot.besides_edges, left, "{text}");
+        assert_eq!(robot.left_to_rustc, left, "{text}");
+        assert_eq!(robot.cyclers[0].nodes[0].restores, restores, "{text}");
+    }
+    let tested = within(derive, "#[cfg_attr(test, derive(Deserialize, Serialize))]");
+    control()
+        .file("crates/nodes/src/a.rs", &tested)
+        .expect("missing-derive", &["`Serialize` and `Deserialize`"]);
+}
+
+#[test]
 fn a_conditional_context_is_told_at_the_condition() {
     let text = control().text("crates/nodes/src/a.rs");
     let other = "#[cfg(any())]\n#[context]\npub struct CycleContext {}\n#[context]\npub struct CycleContext";
@@ -112,6 +190,76 @@ fn a_conditional_impl_of_the_hardware_is_counted() {
             .robot();
         assert_eq!(robot.besides_edges, unknown, "{condition}");
     }
+}
+
+#[test]
+fn a_hardware_that_is_there_under_a_condition_is_counted() {
+    let control = cycler("Control", "real-time", "", &[], &["a"]);
+    let rest = "pub trait Motors { fn write(&self); } impl Motors for Hardware {}";
+    let serves = "impl framework::Hardware for Hardware {}";
+    for (library, name, unknown) in [
+        (format!("pub struct Hardware; {serves}"), "Hardware", 0),
+        (
+            format!("pub struct Hardware; #[cfg(any())] {serves}"),
+            "Hardware",
+            1,
+        ),
+        (
+            format!(
+                "pub struct Hardware; #[cfg(any())] mod inner {{ use crate::Hardware; {serves} }}"
+            ),
+            "Hardware",
+            1,
+        ),
+        (
+            format!("pub struct Hardware; mod inner {{ use crate::Hardware; {serves} }}"),
+            "Hardware",
+            0,
+        ),
+        (
+            format!("#[cfg(any())] pub struct Hardware; {serves}"),
+            "Hardware",
+            1,
+        ),
+        (
+            format!("pub struct Hardware; {serves} #[cfg(any())] pub type Hw = Hardware;"),
+            "Hw",
+            1,
+        ),
+        (
+            format!("pub struct Hardware; {serves} #[cfg(any())] pub use crate::Hardware as Hw;"),
+            "Hw",
+            1,
+        ),
+        (
+            format!(
+                "pub struct Hardware; {serves} pub use inner::Hw; mod inner {{ #[cfg(any())] pub use crate::Hardware as Hw; }}"
+            ),
+            "Hw",
+            1,
+        ),
+        (
+            format!("pub struct Hardware; {serves} pub use crate::Hardware as Hw;"),
+            "Hw",
+            0,
+        ),
+    ] {
+        let target = format!("[[target]]\nname = \"bench\"\nhardware = \"hardware::{name}\"\n");
+        let robot = Fixture::new(&format!("{control}{target}"))
+            .node("a", ACTS)
+            .file("crates/hardware/src/lib.rs", &format!("{library} {rest}"))
+            .robot();
+        assert_eq!(robot.besides_edges, unknown, "{library}");
+    }
+    let tested = format!("pub struct Hardware; #[cfg(test)] {serves} {rest}");
+    let target = "[[target]]\nname = \"bench\"\nhardware = \"hardware::Hardware\"\n";
+    Fixture::new(&format!("{control}{target}"))
+        .node("a", ACTS)
+        .file("crates/hardware/src/lib.rs", &tested)
+        .expect(
+            "unknown-hardware",
+            &["does not implement `framework::Hardware`"],
+        );
 }
 
 #[test]

@@ -7,6 +7,7 @@ use syn::{
 };
 
 use super::check::last_segment;
+use crate::condition::{is_conditional, only_for_tests};
 use crate::context::ContextKind;
 use crate::field::peel;
 use crate::mistake::{Mistake, Rule};
@@ -14,8 +15,14 @@ use crate::mistake::{Mistake, Rule};
 /// A type with an `impl` of its own, with all functions of all its `impl`s.
 pub(super) struct Candidate<'file> {
     pub(super) name: Ident,
-    methods: Vec<&'file ImplItemFn>,
+    methods: Vec<Method<'file>>,
     impls: Vec<&'file ItemImpl>,
+}
+
+/// A function, and whether it or its `impl` stands under a `#[cfg(…)]`.
+struct Method<'file> {
+    item: &'file ImplItemFn,
+    is_conditional: bool,
 }
 
 /// How clearly a function takes a context.
@@ -27,16 +34,23 @@ enum Takes {
     ByValue,
 }
 
-/// All types of a file that have an `impl`, in the order of the file.
+/// All types of a file that have an `impl`, in the order of the file. What is there for tests alone is none of them.
 pub(super) fn candidates(file: &syn::File) -> Vec<Candidate<'_>> {
     let mut candidates: Vec<Candidate<'_>> = Vec::new();
     for item in &file.items {
         let Item::Impl(block) = item else { continue };
+        if only_for_tests(&block.attrs) {
+            continue;
+        }
+        let always = !is_conditional(&block.attrs);
         let Some(name) = last_segment(&block.self_ty).filter(|_| block.trait_.is_none()) else {
             continue;
         };
         let methods = block.items.iter().filter_map(|item| match item {
-            ImplItem::Fn(method) => Some(method),
+            ImplItem::Fn(item) if !only_for_tests(&item.attrs) => Some(Method {
+                item,
+                is_conditional: !always || is_conditional(&item.attrs),
+            }),
             _ => None,
         });
         match candidates
@@ -86,10 +100,18 @@ pub(super) fn choose(all: Vec<Candidate<'_>>) -> Result<Candidate<'_>, Vec<Candi
 
 impl<'file> Candidate<'file> {
     pub(super) fn method(&self, name: &str) -> Option<&'file ImplItemFn> {
-        self.methods
-            .iter()
-            .copied()
-            .find(|method| method.sig.ident == name)
+        let mut methods = self.methods.iter().map(|method| method.item);
+        methods.find(|method| method.sig.ident == name)
+    }
+
+    /// Whether a condition decides if one of the functions is there that generated code calls.
+    pub(super) fn is_conditional(&self) -> bool {
+        let called = [self.method("new"), self.method("cycle"), self.restore()];
+        let mut conditional = self.methods.iter().filter(|method| method.is_conditional);
+        conditional.any(|method| {
+            let mut called = called.iter().flatten();
+            called.any(|called| called.sig.ident == method.item.sig.ident)
+        })
     }
 
     /// `restore`, if it is meant for the framework: public or taking a context.
