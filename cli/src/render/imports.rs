@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use syn::punctuated::Punctuated;
 use syn::visit_mut::{self, VisitMut};
-use syn::{Item, ItemUse, Path, Token};
+use syn::{GenericArgument, Item, ItemUse, Path, Token};
 
 use crate::model::names::{PRELUDE, is_primitive, last};
 
@@ -233,6 +233,24 @@ impl VisitMut for Shorten<'_> {
         }
     }
 
+    fn visit_generic_argument_mut(&mut self, argument: &mut GenericArgument) {
+        visit_mut::visit_generic_argument_mut(self, argument);
+        // A constant of one name needs no braces.
+        if let GenericArgument::Const(value) = argument
+            && let Some(path) = path_in_braces(value)
+            && path.path.get_ident().is_some()
+        {
+            *argument = syn::parse_quote!(#path);
+        }
+    }
+
+    fn visit_type_array_mut(&mut self, array: &mut syn::TypeArray) {
+        visit_mut::visit_type_array_mut(self, array);
+        if let Some(path) = path_in_braces(&array.len) {
+            array.len = syn::Expr::Path(path);
+        }
+    }
+
     fn visit_attribute_mut(&mut self, attribute: &mut syn::Attribute) {
         visit_derive(attribute, |path| self.visit_path_mut(path));
     }
@@ -240,6 +258,17 @@ impl VisitMut for Shorten<'_> {
     fn visit_macro_mut(&mut self, invocation: &mut syn::Macro) {
         self.visit_path_mut(&mut invocation.path);
         visit_vec(invocation, |element| self.visit_expr_mut(element));
+    }
+}
+
+/// The path of a block that is nothing but one.
+fn path_in_braces(value: &syn::Expr) -> Option<syn::ExprPath> {
+    let syn::Expr::Block(block) = value else {
+        return None;
+    };
+    match block.block.stmts.as_slice() {
+        [syn::Stmt::Expr(syn::Expr::Path(path), None)] => Some(path.clone()),
+        _ => None,
     }
 }
 

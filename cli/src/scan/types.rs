@@ -363,7 +363,7 @@ impl Library<'_> {
             && let Some(Found::Item(item)) = self.find(module, &path.path)
             && matches!(item.item(), Item::Const(_))
         {
-            return self.constant_item(&item);
+            return path_in_braces(self.constant_item(&item));
         }
         self.resolve_with(module, data, generics, depth)
     }
@@ -374,6 +374,18 @@ fn in_braces(written: &syn::Expr, constant: Resolved) -> Resolved {
     let is_computed = matches!(constant.shape, Shape::Unknown);
     let bare = is_computed && matches!(written, syn::Expr::Block(_));
     if !bare || constant.text.starts_with('{') {
+        return path_in_braces(constant);
+    }
+    Resolved {
+        text: format!("{{ {} }}", constant.text),
+        ..constant
+    }
+}
+
+/// An argument of several names is read as a type, unless braces stand around it.
+fn path_in_braces(constant: Resolved) -> Resolved {
+    let is_path = syn::parse_str::<syn::Path>(&constant.text);
+    if !is_path.is_ok_and(|path| path.segments.len() > 1) {
         return constant;
     }
     Resolved {

@@ -137,3 +137,21 @@ fn traits_are_imported_where_items_say_so() {
     );
     assert_eq!(text, "use framework::InNode;\nstruct A;\n");
 }
+
+#[test]
+fn a_constant_that_stays_whole_keeps_its_braces() {
+    let text = imported(
+        quote!(
+            struct A(
+                ::types::Few<{ ::types::N }>,
+                ::types::Many<{ ::one::COUNT }, { ::two::COUNT }>,
+                [u8; { ::types::N }],
+            );
+        ),
+        &[],
+    );
+    assert!(
+        text.contains("struct A(Few<N>, Many<{ one::COUNT }, { two::COUNT }>, [u8; N]);"),
+        "{text}"
+    );
+}

@@ -307,6 +307,12 @@ fn what_cannot_be_known_is_written_with_absolute_names() {
             "(nodes::a::W<{ let x = 1; x }>, nodes::a::V<{ 1 + 2 }>)",
             false,
         ),
+        (
+            "use types::COUNT; pub struct W<const N: usize>; pub type V<const M: usize> = W<M>;",
+            "(W<COUNT>, W<{ types::COUNT }>, V<COUNT>)",
+            "(nodes::a::W<{ types::COUNT }>, nodes::a::W<{ types::COUNT }>, nodes::a::W<{ types::COUNT }>)",
+            true,
+        ),
     ] {
         let resolved = resolve(head, written);
         assert_eq!(resolved.text, text, "{head} {written}");
