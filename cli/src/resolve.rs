@@ -6,6 +6,7 @@
 
 mod bridges;
 mod crates;
+mod declared;
 mod failures;
 mod hardware;
 mod hints;
@@ -108,6 +109,7 @@ fn check_nodes(manifest: &Manifest, sources: &Sources<'_>, diagnostics: &mut Dia
     let uncertain =
         here().filter(|node| node.is_uncertain() || sources.library.is_conditional(&node.module));
     uncertain.count()
+        + declared::unsure(here(), &sources.library)
         + hardware::foreign_bounds(here(), &sources.library)
         + failures::check(here(), sources, diagnostics)
         + hardware::check_served(manifest, sources, diagnostics)

@@ -3,6 +3,7 @@
 mod agreement;
 mod bridges;
 mod conditional;
+mod declared;
 mod failures;
 mod inputs;
 mod nondeterminism;

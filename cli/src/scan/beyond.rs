@@ -130,12 +130,17 @@ impl Library<'_> {
 
 /// Whether a macro of the module may define the name: it stands in its call, or what is included is not to be seen.
 pub(super) fn may_make(module: &Module, name: &str) -> bool {
-    module.syntax.items.iter().any(|item| match item {
+    module.syntax.items.iter().any(|item| makes(item, name))
+}
+
+/// Whether this is a call of a macro that may define the name.
+pub(super) fn makes(item: &Item, name: &str) -> bool {
+    match item {
         Item::Macro(call) if call.ident.is_none() => {
             call.mac.path.is_ident("include") || stands_in(call.mac.tokens.clone(), name)
         }
         _ => false,
-    })
+    }
 }
 
 pub(super) fn stands_in(tokens: TokenStream, name: &str) -> bool {

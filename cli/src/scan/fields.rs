@@ -222,6 +222,7 @@ impl Library<'_> {
             Item::Type(item) => range(item.ident.span()),
             Item::Trait(item) => range(item.ident.span()),
             Item::Const(item) => range(item.ident.span()),
+            Item::Macro(call) => range(syn::spanned::Spanned::span(&call.mac.path)),
             _ => 0..0,
         }
     }

@@ -26,8 +26,8 @@ pub struct Library<'workspace> {
     modules: RefCell<BTreeMap<String, Option<Rc<Module>>>>,
     /// Files that cannot be read or parsed.
     problems: RefCell<Vec<Diagnostic>>,
-    /// Public paths of items whose definition is not public.
-    pub(super) public_paths: RefCell<BTreeMap<String, Option<String>>>,
+    /// Public paths of items whose definition is not public, and whether a condition decides about them.
+    pub(super) public_paths: RefCell<BTreeMap<String, Option<(String, bool)>>>,
     /// Where the globs of a module lead.
     pub(super) glob_targets: RefCell<BTreeMap<String, Globs>>,
     /// Names that are being looked for right now, with their modules: globs may lead in circles.

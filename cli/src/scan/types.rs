@@ -26,6 +26,8 @@ pub struct Resolved {
     pub private: Vec<ItemId>,
     /// Names in it that could not be followed to what they mean, so that they mean nothing elsewhere.
     pub lost: Vec<String>,
+    /// Paths in it of which a macro or a condition decides whether generated code can write them.
+    pub unsure: Vec<String>,
 }
 
 /// What a type is, by definitions instead of names.
@@ -127,6 +129,7 @@ impl Resolved {
             shape: Shape::Unknown,
             private: Vec::new(),
             lost: Vec::new(),
+            unsure: Vec::new(),
         }
     }
 
@@ -147,11 +150,13 @@ impl Resolved {
         let texts: Vec<String> = parts.iter().map(|part| part.text.clone()).collect();
         let private = parts.iter().flat_map(|part| part.private.clone()).collect();
         let lost = parts.iter().flat_map(|part| part.lost.clone()).collect();
+        let unsure = parts.iter().flat_map(|part| part.unsure.clone()).collect();
         Self {
             text: text(&texts),
             shape: shape(parts),
             private,
             lost,
+            unsure,
         }
     }
 }
@@ -307,6 +312,9 @@ impl Library<'_> {
         let public = self.public_path(item);
         let text = public.clone().unwrap_or_else(|| item.path());
         let mut resolved = named(text, Definition::Workspace(item.clone()), arguments);
+        if self.is_sometimes_public(item) {
+            resolved.unsure.extend(public.clone());
+        }
         if public.is_none() {
             resolved.private.push(item.clone());
         }

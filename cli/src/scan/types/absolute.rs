@@ -11,7 +11,7 @@ use syn::visit_mut::{self, VisitMut};
 use syn::{Expr, Item, Lifetime, PatIdent, Path, PathArguments, PathSegment, QSelf, Type};
 
 use super::{Resolved, Shape, Substitutions, lifetime_text, written};
-use crate::scan::beyond::may_make;
+use crate::scan::beyond::{makes, may_make};
 use crate::scan::library::Library;
 use crate::scan::lookup::{Found, ItemId};
 use crate::scan::module::{Entry, Module, Visible};
@@ -91,6 +91,7 @@ struct Absolute<'a> {
     variables: BTreeSet<String>,
     private: Vec<ItemId>,
     lost: Vec<String>,
+    unsure: Vec<String>,
 }
 
 impl<'ast> Visit<'ast> for Absolute<'_> {
@@ -150,6 +151,7 @@ impl<'a> Absolute<'a> {
             variables: BTreeSet::new(),
             private: Vec::new(),
             lost: Vec::new(),
+            unsure: Vec::new(),
         }
     }
 
@@ -159,6 +161,7 @@ impl<'a> Absolute<'a> {
             shape: Shape::Unknown,
             private: self.private,
             lost: self.lost,
+            unsure: self.unsure,
         }
     }
 
@@ -168,6 +171,7 @@ impl<'a> Absolute<'a> {
         let argument = self.generics.get(&name.to_string())?;
         self.private.extend(argument.private.iter().cloned());
         self.lost.extend(argument.lost.iter().cloned());
+        self.unsure.extend(argument.unsure.iter().cloned());
         Some(argument.text.clone())
     }
 
@@ -226,6 +230,10 @@ impl<'a> Absolute<'a> {
             let text = match self.library.find(self.module, &front) {
                 Some(Found::Item(item)) => self.name(item),
                 Some(Found::Module(module)) if end < names.len() => {
+                    if let Some(text) = self.trace(&module, &names[end], &mut BTreeSet::new()) {
+                        begin_with(path, end + 1, &text);
+                        return;
+                    }
                     self.name_in(&module, &names[end]);
                     module.path.clone()
                 }
@@ -271,7 +279,7 @@ impl<'a> Absolute<'a> {
             };
         }
         if may_make(module, name) {
-            return Some(format!("{}::{name}", module.path));
+            return Some(self.made(module, name));
         }
         let globs: Vec<_> = module.globs.clone();
         globs.iter().find_map(|glob| {
@@ -289,7 +297,37 @@ impl<'a> Absolute<'a> {
         })
     }
 
+    /// The path of what a macro may define.
+    fn made(&mut self, module: &Rc<Module>, name: &str) -> String {
+        let definition = format!("{}::{name}", module.path);
+        let found = self.library.public_way_of_made(module, name);
+        let mut items = module.syntax.items.iter();
+        let call = items.position(|item| makes(item, name));
+        // A macro may speak of what a glob brings in from where nobody here can look.
+        let is_certain = module.globs.iter().all(|glob| {
+            let target = self.library.follow_import(module, glob);
+            matches!(target, Some(Found::Module(_)))
+        });
+        match (found, call) {
+            (None, Some(index)) if is_certain => self.private.push(ItemId {
+                module: module.clone(),
+                index,
+                name: name.to_owned(),
+                public: false,
+            }),
+            (Some((path, _)), _) => {
+                self.unsure.push(path.clone());
+                return path;
+            }
+            (None, _) => self.unsure.push(definition.clone()),
+        }
+        definition
+    }
+
     fn name(&mut self, item: ItemId) -> String {
+        if self.library.is_sometimes_public(&item) {
+            self.unsure.push(item.path());
+        }
         let public = self.library.public_path(&item);
         public.unwrap_or_else(|| {
             let path = item.path();
@@ -300,8 +338,9 @@ impl<'a> Absolute<'a> {
 
     /// Notes a function or the like of another module that generated code cannot name.
     fn name_in(&mut self, module: &Rc<Module>, name: &str) {
-        if let Some(item) = self.library.unlisted(module, name) {
-            self.name(item);
+        match self.library.unlisted(module, name) {
+            Some(item) => drop(self.name(item)),
+            None => self.unsure.push(format!("{}::{name}", module.path)),
         }
     }
 }

@@ -23,6 +23,9 @@ impl Library<'_> {
             let definition = super::Definition::Workspace(item.clone());
             let mut resolved = named(text, definition, arguments.clone());
             resolved.shape = shape;
+            if self.is_sometimes_public(item) {
+                resolved.unsure.extend(public.clone());
+            }
             if public.is_none() {
                 resolved.private.push(item.clone());
             }
