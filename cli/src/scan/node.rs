@@ -135,9 +135,20 @@ fn check_derives(
     state: Option<&StateSource>,
     diagnostics: &mut Diagnostics,
 ) {
-    let Some(state) = state.filter(|state| !state.missing_derives.is_empty()) else {
+    let Some(state) = state else { return };
+    for (data, place) in &state.borrowing {
+        let message = format!(
+            "the node `{}` cannot be restored: `{data}` is only read from text that lives forever",
+            signatures.node
+        );
+        let error = Diagnostic::new(Code::MissingDerive, message)
+            .at(&module.file, place.clone(), "its state is recorded and restored")
+            .help("keep a `String`, a `Vec` or the like in its place, or write `#[serde(skip)]` at the field and rebuild it in `restore`");
+        diagnostics.add(error);
+    }
+    if state.missing_derives.is_empty() {
         return;
-    };
+    }
     let names: Vec<String> = state
         .missing_derives
         .iter()

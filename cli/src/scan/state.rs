@@ -4,6 +4,7 @@ use std::ops::Range;
 use std::rc::Rc;
 
 use grammar::is_written_for_tests;
+use quote::ToTokens as _;
 use syn::visit::{self, Visit};
 use syn::{Attribute, Item, ItemImpl, ItemStruct, Meta, Token, punctuated::Punctuated};
 
@@ -12,6 +13,7 @@ use super::library::Library;
 use super::lookup::Found;
 use super::module::{Module, attributes, is_conditional, only_for_tests};
 use super::range;
+use super::types::written;
 
 /// A node's struct, if it is written in the node's file.
 #[derive(Clone, Debug)]
@@ -22,6 +24,8 @@ pub struct StateSource {
     pub missing_derives: Vec<&'static str>,
     /// A condition, or what cannot be looked into, decides whether it is there and what it derives.
     pub is_uncertain: bool,
+    /// Fields that are read from text which has to live forever: type and place.
+    pub borrowing: Vec<(String, Range<usize>)>,
     /// Fields with `#[serde(skip)]`: name and place.
     pub skipped: Vec<(String, Range<usize>)>,
 }
@@ -65,6 +69,7 @@ pub(super) fn find(
         range: range(item.ident.span()),
         missing_derives,
         is_uncertain,
+        borrowing: borrowing(item),
         skipped: skipped.collect(),
     })
 }
@@ -94,6 +99,83 @@ fn has_serde(attributes: &[Attribute], fits: impl Fn(&Meta) -> bool) -> bool {
             let items = attribute.parse_args_with(Punctuated::<Meta, Token![,]>::parse_terminated);
             items.is_ok_and(|items| items.iter().any(&fits))
         })
+}
+
+/// The fields for which `#[derive(Deserialize)]` borrows from what it reads, so that nothing but text which lives forever
+/// can be read; `None` of them where attributes may change that.
+fn borrowing(item: &ItemStruct) -> Vec<(String, Range<usize>)> {
+    let own_way = |meta: &Meta| {
+        ["bound", "from", "remote", "try_from", "transparent"]
+            .iter()
+            .any(|name| meta.path().is_ident(name))
+    };
+    if !derives(&item.attrs, "Deserialize") || has_serde(&item.attrs, own_way) {
+        return Vec::new();
+    }
+    let read_otherwise = |meta: &Meta| {
+        let names = [
+            "bound",
+            "deserialize_with",
+            "skip",
+            "skip_deserializing",
+            "with",
+        ];
+        names.iter().any(|name| meta.path().is_ident(name))
+    };
+    let is_borrow = |meta: &Meta| matches!(meta, Meta::Path(path) if path.is_ident("borrow"));
+    let fields = item.fields.iter().filter(|field| {
+        let mut attributes = field.attrs.iter();
+        !attributes.any(|one| one.path().is_ident("cfg") || one.path().is_ident("cfg_attr"))
+            && !has_serde(&field.attrs, read_otherwise)
+            && (is_borrowed(&field.ty)
+                || has_serde(&field.attrs, is_borrow) && names_static(field.ty.to_token_stream()))
+    });
+    let found = fields.map(|field| {
+        (
+            written(&field.ty),
+            range(syn::spanned::Spanned::span(&field.ty)),
+        )
+    });
+    found.collect()
+}
+
+/// `&'static str` and `&'static [u8]`, also in an `Option`: what serde borrows unasked.
+fn is_borrowed(data: &syn::Type) -> bool {
+    match data {
+        syn::Type::Reference(reference) => {
+            let is_static = reference
+                .lifetime
+                .as_ref()
+                .is_some_and(|one| one.ident == "static");
+            let is_named = |data: &syn::Type, name: &str| matches!(data, syn::Type::Path(path) if path.path.is_ident(name));
+            let is_text = match &*reference.elem {
+                syn::Type::Slice(slice) => is_named(&slice.elem, "u8"),
+                data => is_named(data, "str"),
+            };
+            is_static && is_text && reference.mutability.is_none()
+        }
+        syn::Type::Path(path) => {
+            let last = path
+                .path
+                .segments
+                .last()
+                .filter(|last| last.ident == "Option");
+            match last.map(|last| &last.arguments) {
+                Some(syn::PathArguments::AngleBracketed(list)) => match list.args.first() {
+                    Some(syn::GenericArgument::Type(inner @ syn::Type::Reference(_))) => {
+                        is_borrowed(inner)
+                    }
+                    _ => false,
+                },
+                _ => false,
+            }
+        }
+        _ => false,
+    }
+}
+
+fn names_static(tokens: proc_macro2::TokenStream) -> bool {
+    stands_in(tokens, "static")
 }
 
 fn is_skip(meta: &Meta) -> bool {

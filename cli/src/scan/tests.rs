@@ -2,6 +2,7 @@
 
 mod answers;
 mod names;
+mod state;
 
 use super::Library;
 use super::fixture::{Fixture, Node};
