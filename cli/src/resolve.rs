@@ -105,12 +105,12 @@ pub fn resolve(
 /// What makes a node as a whole useless for the generated crate; the number of questions that are left to rustc.
 fn check_nodes(manifest: &Manifest, sources: &Sources<'_>, diagnostics: &mut Diagnostics) -> usize {
     let here = || hardware::running_here(manifest, sources);
-    sendable::check_states(here(), sources, diagnostics);
     let uncertain =
         here().filter(|node| node.is_uncertain() || sources.library.is_conditional(&node.module));
     uncertain.count()
         + declared::unsure(here(), &sources.library)
         + hardware::foreign_bounds(here(), &sources.library)
+        + sendable::check_states(here(), sources, diagnostics)
         + failures::check(here(), sources, diagnostics)
         + hardware::check_served(manifest, sources, diagnostics)
 }

@@ -3,15 +3,19 @@
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::scan::{NodeSource, Sources};
 
-/// Adds an error for each field of a state that surely keeps its node on one thread.
+/// Adds an error for each field of a state that surely keeps its node on one thread; the number of states of which
+/// nobody but rustc can tell whether they do.
 pub(super) fn check_states<'a>(
     nodes: impl Iterator<Item = &'a NodeSource>,
     sources: &Sources<'_>,
     diagnostics: &mut Diagnostics,
-) {
+) -> usize {
+    let mut unknown = 0;
     for node in nodes {
         let state = &node.signatures.node;
-        for tied in sources.library.tied_fields(&node.module, state) {
+        let found = sources.library.tied_state(&node.module, state);
+        unknown += usize::from(found.is_unknown);
+        for tied in found.fields {
             let message = format!("the node `{state}` cannot be moved to the thread of its cycler");
             let blame = match &tied.within {
                 Some(within) => format!("`{}` in `{within}` is not `Send`", tied.what),
@@ -23,4 +27,5 @@ pub(super) fn check_states<'a>(
             diagnostics.add(error);
         }
     }
+    unknown
 }

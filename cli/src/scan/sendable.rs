@@ -1,7 +1,7 @@
 //! What surely cannot move to another thread, or be shared with one.
 //!
 //! Invariant: a type is called so only if rustc will certainly agree: what a macro, a crate outside of the workspace or an
-//! `impl` by hand may decide is passed over.
+//! `impl` by hand may decide is unknown.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -19,6 +19,7 @@ use super::lookup::{Found, ItemId};
 use super::module::{Module, is_conditional};
 use super::range;
 use super::served::derives_nothing_unknown;
+use super::state::derives;
 use super::types::written;
 
 /// A field of a node's state that keeps the node on the thread that made it.
@@ -32,6 +33,15 @@ pub struct Tied {
     pub within: Option<String>,
 }
 
+/// What is known of a node's state.
+#[derive(Debug, Default)]
+pub struct TiedState {
+    /// Fields that surely keep it on one thread.
+    pub fields: Vec<Tied>,
+    /// Nobody but rustc can tell whether something else does.
+    pub is_unknown: bool,
+}
+
 /// `Send` or `Sync`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Marker {
@@ -41,6 +51,7 @@ enum Marker {
 
 /// How a type of the standard library comes by a marker.
 enum Rule {
+    Always,
     Never,
     /// If all its arguments have it.
     AsArguments,
@@ -113,9 +124,56 @@ const CONTAINERS: &[&str] = &[
     "vec::Vec",
 ];
 
+/// Below `std` or everywhere: plain data, and handles that any thread may use.
+const FREE: &[&str] = &[
+    "String",
+    "any::TypeId",
+    "bool",
+    "char",
+    "f32",
+    "f64",
+    "ffi::CString",
+    "ffi::OsString",
+    "fs::File",
+    "i128",
+    "i16",
+    "i32",
+    "i64",
+    "i8",
+    "io::Error",
+    "io::Stderr",
+    "io::Stdin",
+    "io::Stdout",
+    "isize",
+    "marker::PhantomPinned",
+    "net::IpAddr",
+    "net::Ipv4Addr",
+    "net::Ipv6Addr",
+    "net::SocketAddr",
+    "net::TcpListener",
+    "net::TcpStream",
+    "net::UdpSocket",
+    "path::PathBuf",
+    "process::Child",
+    "str",
+    "string::String",
+    "sync::Barrier",
+    "sync::Condvar",
+    "time::Duration",
+    "time::Instant",
+    "time::SystemTime",
+    "u128",
+    "u16",
+    "u32",
+    "u64",
+    "u8",
+    "usize",
+];
+
 impl Rule {
     fn of(path: &str, marker: Marker) -> Self {
         match (path, marker) {
+            (path, _) if FREE.contains(&path) || path.starts_with("sync::atomic::") => Self::Always,
             (path, _) if TIED.contains(&path) => Self::Never,
             (path, Marker::Send) if GUARDS.contains(&path) => Self::Never,
             (path, Marker::Sync) if CELLS.contains(&path) => Self::Never,
@@ -125,6 +183,17 @@ impl Rule {
             ("sync::Mutex" | "sync::mpsc::Sender", _) => Self::Needs(Marker::Send),
             ("sync::OnceLock" | "sync::RwLock", Marker::Send) => Self::Needs(Marker::Send),
             ("sync::OnceLock" | "sync::RwLock", Marker::Sync) => Self::NeedsBoth,
+            _ => Self::Unknown,
+        }
+    }
+
+    /// Of a crate outside of the workspace: data that has what its arguments have.
+    fn of_foreign(path: &[String]) -> Self {
+        const OF_FRAMEWORK: &[&str] = &["Error", "History", "Horizon", "Past", "Timestamp"];
+        let last = path.last().map(String::as_str).unwrap_or_default();
+        match path.first().map(String::as_str) {
+            Some("nalgebra") => Self::AsArguments,
+            Some("framework") if OF_FRAMEWORK.contains(&last) => Self::AsArguments,
             _ => Self::Unknown,
         }
     }
@@ -140,37 +209,71 @@ impl Marker {
 }
 
 impl Library<'_> {
-    /// Fields of a node's state that surely keep it on one thread.
-    pub fn tied_fields(&self, module: &Rc<Module>, state: &syn::Ident) -> Vec<Tied> {
+    /// What keeps a node's state on one thread.
+    pub fn tied_state(&self, module: &Rc<Module>, state: &syn::Ident) -> TiedState {
+        let unknown = TiedState {
+            fields: Vec::new(),
+            is_unknown: true,
+        };
         let Some(item) = self.item_in(module, &state.to_string()) else {
-            return Vec::new();
+            return unknown;
         };
         let Item::Struct(definition) = item.item() else {
-            return Vec::new();
+            return unknown;
         };
         let mut search = Search {
             library: self,
             around: BTreeSet::from([item.path()]),
+            // A condition does not change the fields, but the macro of an attribute may.
+            is_unknown: !definition
+                .attrs
+                .iter()
+                .all(|one| is_harmless(one) || one.path().is_ident("cfg")),
         };
         let parameters = Parameters::new();
-        let fields = definition.fields.iter().filter(|field| is_always(field));
-        let tied = fields.filter_map(|field| {
-            let (what, within) =
-                search.blame(&item.module, &field.ty, Marker::Send, &parameters)?;
-            Some(Tied {
-                range: range(syn::spanned::Spanned::span(&field.ty)),
-                what,
-                within,
-            })
-        });
-        let tied: Vec<Tied> = tied.collect();
-        let by_hand = || self.may_implement(&item, "Send");
+        let mut tied = Vec::new();
+        for field in &definition.fields {
+            let Some((what, within)) =
+                search.blame(&item.module, &field.ty, Marker::Send, &parameters)
+            else {
+                continue;
+            };
+            if is_always(field) {
+                tied.push(Tied {
+                    range: range(syn::spanned::Spanned::span(&field.ty)),
+                    what,
+                    within,
+                });
+            } else {
+                search.is_unknown = true;
+            }
+        }
         let attributes = &definition.attrs;
         let is_plain = attributes.iter().all(is_harmless) && derives_nothing_unknown(attributes);
-        if tied.is_empty() || !is_plain || by_hand() {
-            return Vec::new();
+        if tied.is_empty() || is_plain && !self.may_implement(&item, "Send") {
+            return TiedState {
+                fields: tied,
+                is_unknown: search.is_unknown,
+            };
         }
-        tied
+        TiedState {
+            fields: Vec::new(),
+            is_unknown: !self.plainly_implements(&item, "Send"),
+        }
+    }
+
+    /// Whether a type of the workspace without parameters surely can be sent and shared.
+    pub(super) fn is_free(&self, item: &ItemId) -> bool {
+        let parameters = Parameters::new();
+        [Marker::Send, Marker::Sync].into_iter().all(|marker| {
+            let mut search = Search {
+                library: self,
+                around: BTreeSet::new(),
+                is_unknown: false,
+            };
+            let blame = search.blame_item(&item.module, item, &[], marker, &parameters);
+            blame.is_none() && !search.is_unknown
+        })
     }
 }
 
@@ -178,9 +281,16 @@ struct Search<'a> {
     library: &'a Library<'a>,
     /// Structs whose fields are being looked at.
     around: BTreeSet<String>,
+    /// Something was met of which only rustc knows whether it has the marker.
+    is_unknown: bool,
 }
 
 impl Search<'_> {
+    fn unknown(&mut self) -> Option<Blame> {
+        self.is_unknown = true;
+        None
+    }
+
     /// What keeps a type from having a marker, if that is certain.
     fn blame(
         &mut self,
@@ -193,10 +303,16 @@ impl Search<'_> {
             Type::Ptr(_) => Some((written(data), None)),
             Type::TraitObject(object) => {
                 let mut bounds = object.bounds.iter();
-                bounds
-                    .all(|bound| self.is_without(module, bound, marker, 0))
-                    .then(|| (written(data), None))
+                if bounds.all(|bound| self.is_without(module, bound, marker, 0)) {
+                    return Some((written(data), None));
+                }
+                let mut bounds = object.bounds.iter();
+                if !bounds.any(|bound| self.brings(module, bound, marker, 0)) {
+                    self.is_unknown = true;
+                }
+                None
             }
+            Type::BareFn(_) | Type::Never(_) => None,
             Type::Reference(reference) if reference.mutability.is_none() => {
                 self.blame(module, &reference.elem, Marker::Sync, parameters)
             }
@@ -214,7 +330,7 @@ impl Search<'_> {
             Type::Path(path) if path.qself.is_none() => {
                 self.blame_path(module, data, &path.path, marker, parameters)
             }
-            _ => None,
+            _ => self.unknown(),
         }
     }
 
@@ -232,20 +348,24 @@ impl Search<'_> {
             return known.clone();
         }
         if module.is_uncertain(path.to_token_stream()) {
-            return None;
+            return self.unknown();
         }
-        let arguments = arguments(path)?;
-        let rule = match self.library.find(module, path)? {
-            Found::Prelude(name) => Rule::of(&name, marker),
-            Found::Standard(path) => Rule::of(&path.join("::"), marker),
-            Found::Item(item) => {
+        let Some(arguments) = arguments(path) else {
+            return self.unknown();
+        };
+        let rule = match self.library.find(module, path) {
+            Some(Found::Prelude(name)) => Rule::of(&name, marker),
+            Some(Found::Standard(path)) => Rule::of(&path.join("::"), marker),
+            Some(Found::Foreign(path)) => Rule::of_foreign(&path),
+            Some(Found::Item(item)) => {
                 return self.blame_item(module, &item, &arguments, marker, parameters);
             }
-            Found::Module(_) | Found::Foreign(_) => return None,
+            Some(Found::Module(_)) | None => Rule::Unknown,
         };
         let markers: &[Marker] = match rule {
             Rule::Never => return Some((written(data), None)),
-            Rule::Unknown => return None,
+            Rule::Always => return None,
+            Rule::Unknown => return self.unknown(),
             Rule::NeedsBoth => &[Marker::Send, Marker::Sync],
             Rule::Needs(Marker::Send) => &[Marker::Send],
             Rule::Needs(Marker::Sync) => &[Marker::Sync],
@@ -271,33 +391,67 @@ impl Search<'_> {
             Item::Type(item) => (&item.attrs, &item.generics),
             Item::Struct(item) => (&item.attrs, &item.generics),
             Item::Enum(item) => (&item.attrs, &item.generics),
-            _ => return None,
+            _ => return self.unknown(),
         };
-        let is_plain = attributes.iter().all(is_harmless) && derives_nothing_unknown(attributes);
         let path = item.path();
-        if !is_plain || self.around.len() > DEEPEST || !self.around.insert(path.clone()) {
+        if self.around.contains(&path) {
             return None;
         }
+        // The macro of an attribute may give it other fields.
+        let of_thiserror =
+            |one: &Attribute| one.path().is_ident("error") && derives(attributes, "Error");
+        let mut attributes_left = attributes.iter().filter(|one| !of_thiserror(one));
+        if !attributes_left.all(is_harmless) || self.around.len() > DEEPEST {
+            return self.unknown();
+        }
+        self.around.insert(path.clone());
         let own = self.parameters(module, generics, arguments, parameters);
-        let fields: Vec<&Fields> = match item.item() {
-            Item::Struct(item) => vec![&item.fields],
-            Item::Enum(item) => {
-                let variants = item.variants.iter();
-                let always = variants.filter(|one| !is_conditional(&one.attrs));
-                always.map(|one| &one.fields).collect()
-            }
-            _ => Vec::new(),
-        };
-        let mut fields = fields.into_iter().flatten().filter(|one| is_always(one));
         let found = match item.item() {
             Item::Type(alias) => self.blame(&item.module, &alias.ty, marker, &own),
-            _ => fields
-                .find_map(|field| self.blame(&item.module, &field.ty, marker, &own))
-                .filter(|_| !self.library.may_implement(item, marker.name()))
+            _ => self
+                .blame_fields(item, marker, &own)
                 .map(|(what, within)| (what, within.or(Some(path.clone())))),
         };
         self.around.remove(&path);
-        found
+        let is_alias = matches!(item.item(), Item::Type(_));
+        let may_differ = || {
+            !derives_nothing_unknown(attributes) || self.library.may_implement(item, marker.name())
+        };
+        if found.is_none() || is_alias || !may_differ() {
+            return found;
+        }
+        match self.library.plainly_implements(item, marker.name()) {
+            true => None,
+            false => self.unknown(),
+        }
+    }
+
+    fn blame_fields(
+        &mut self,
+        item: &ItemId,
+        marker: Marker,
+        parameters: &Parameters,
+    ) -> Option<Blame> {
+        let fields: Vec<(&Fields, bool)> = match item.item() {
+            Item::Struct(item) => vec![(&item.fields, true)],
+            Item::Enum(item) => {
+                let variants = item.variants.iter();
+                variants
+                    .map(|one| (&one.fields, !is_conditional(&one.attrs)))
+                    .collect()
+            }
+            _ => Vec::new(),
+        };
+        for (fields, always) in fields {
+            for field in fields {
+                let found = self.blame(&item.module, &field.ty, marker, parameters);
+                if found.is_some() && always && is_always(field) {
+                    return found;
+                }
+                self.is_unknown |= found.is_some();
+            }
+        }
+        None
     }
 
     /// What the parameters of an alias or a struct stand for; nothing is known of those with a default.
@@ -319,11 +473,39 @@ impl Search<'_> {
         for (index, name) in types.enumerate() {
             for marker in [Marker::Send, Marker::Sync] {
                 let argument = arguments.get(index);
-                let blame = argument.and_then(|data| self.blame(module, data, marker, parameters));
+                let blame = match argument {
+                    Some(data) => self.blame(module, data, marker, parameters),
+                    None => self.unknown(),
+                };
                 own.insert((name.to_string(), marker), blame);
             }
         }
         own
+    }
+
+    /// Whether a bound of a `dyn` brings the marker, by itself or by what it asks for.
+    fn brings(
+        &self,
+        module: &Rc<Module>,
+        bound: &TypeParamBound,
+        marker: Marker,
+        depth: usize,
+    ) -> bool {
+        let TypeParamBound::Trait(bound) = bound else {
+            return false;
+        };
+        match self.library.find(module, &bound.path) {
+            Some(Found::Prelude(name)) => name == marker.name(),
+            Some(Found::Standard(path)) => path.last().is_some_and(|last| last == marker.name()),
+            Some(Found::Item(item)) if depth < DEEPEST => match item.item() {
+                Item::Trait(definition) => {
+                    let mut above = definition.supertraits.iter();
+                    above.any(|bound| self.brings(&item.module, bound, marker, depth + 1))
+                }
+                _ => false,
+            },
+            _ => false,
+        }
     }
 
     /// Whether a bound of a `dyn` certainly does not bring the marker, by itself or by what it asks for.

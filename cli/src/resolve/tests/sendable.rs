@@ -57,40 +57,60 @@ const TRAITS: &str = "
 ";
 
 #[test]
-fn what_may_be_send_is_left_to_rustc() {
-    for (field, head) in [
-        ("std::cell::RefCell<u8>", ""),
+fn what_may_be_send_is_left_to_rustc_and_counted() {
+    for (field, head, left) in [
+        ("std::cell::RefCell<u8>", "", 0),
         (
             "std::sync::Arc<std::sync::Mutex<std::cell::RefCell<u8>>>",
             "",
+            0,
         ),
-        ("Box<dyn Fn() + Send>", ""),
-        ("Box<dyn hardware::Above>", ""),
-        ("Box<dyn framework::Elsewhere>", ""),
-        ("fn(std::rc::Rc<u8>)", ""),
-        ("framework::Elsewhere<std::rc::Rc<u8>>", ""),
+        ("Box<dyn Fn() + Send>", "", 0),
+        ("Box<dyn hardware::Above>", "", 0),
+        ("Box<dyn framework::Elsewhere>", "", 1),
+        ("fn(std::rc::Rc<u8>)", "", 0),
+        ("framework::Elsewhere<std::rc::Rc<u8>>", "", 1),
+        ("nalgebra::Isometry2<f32>", "", 0),
+        ("elsewhere::Handle", "", 1),
+        ("std::vec::IntoIter<std::rc::Rc<u8>>", "", 1),
+        ("std::sync::LazyLock<std::rc::Rc<u8>>", "", 1),
+        (
+            "<u8 as Tr>::Out",
+            "trait Tr { type Out; } impl Tr for u8 { type Out = std::rc::Rc<u8>; }",
+            1,
+        ),
         (
             "Within",
             "struct Within(*const u8); unsafe impl Send for Within {}",
+            0,
         ),
-        ("Within", "struct Within(*const u8); sends!(Within);"),
-        ("Within", "#[sends] struct Within(*const u8);"),
-        ("Within", "struct Within { #[cfg(never)] x: *const u8 }"),
-        ("Within", "#[derive(Sends)] struct Within(*const u8);"),
-        ("Within", "enum Within { A, #[cfg(never)] B(*const u8) }"),
+        ("Within", "struct Within(*const u8); sends!(Within);", 1),
+        ("Within", "#[sends] struct Within(*const u8);", 1),
+        ("Within", "struct Within { #[cfg(never)] x: *const u8 }", 1),
+        ("Within", "#[derive(Sends)] struct Within(*const u8);", 1),
+        ("Within", "#[derive(Sends)] struct Within(u8);", 0),
+        ("Within", "enum Within { A, #[cfg(never)] B(*const u8) }", 1),
         (
             "Shared<u8>",
             "#[cfg(never)] use std::rc::Rc as Shared; #[cfg(not(never))] use std::sync::Arc as Shared;",
+            1,
         ),
-        ("*const u8", "unsafe impl Send for Node {}"),
-        ("Ring", "struct Ring { next: Option<Box<Ring>> }"),
+        ("*const u8", "unsafe impl Send for Node {}", 0),
+        ("Ring", "struct Ring { next: Option<Box<Ring>> }", 0),
         (
             "Generic<std::rc::Rc<u8>>",
             "struct Generic<T> { inner: framework::Elsewhere<T> }",
+            1,
+        ),
+        (
+            "Generic<u8>",
+            "struct Generic<T, U = T> { inner: Vec<(T, U)> }",
+            1,
         ),
     ] {
-        fixture(&format!("#[serde(skip)] x: {field},"), head)
+        let robot = fixture(&format!("#[serde(skip)] x: {field},"), head)
             .file("crates/hardware/src/lib.rs", TRAITS)
             .robot();
+        assert_eq!(robot.besides_edges, left, "{field} {head}");
     }
 }
