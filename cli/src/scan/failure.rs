@@ -112,10 +112,17 @@ impl Library<'_> {
                     false => Failure::Unknown,
                 }
             }
-            Definition::Standard(path) if path.ends_with("Error") => Failure::Converts,
+            // One with arguments is as they are.
+            Definition::Standard(path) if path.ends_with("Error") && arguments.is_empty() => {
+                Failure::Converts
+            }
             Definition::Standard(path) if path == "convert::Infallible" => Failure::Converts,
-            Definition::Foreign(path) if is_converting(path) => Failure::Converts,
-            Definition::Workspace(item) if item.module.library() == "framework" => {
+            Definition::Foreign(path) if is_converting(path) && is_named_error(path) => {
+                Failure::Converts
+            }
+            Definition::Workspace(item)
+                if item.module.library() == "framework" && item.name == "Error" =>
+            {
                 Failure::Converts
             }
             Definition::Workspace(item) => self.quietly(|| self.judge_own(item, &error.text)),
@@ -136,9 +143,12 @@ impl Library<'_> {
         if !item.public {
             return Failure::Private(item.clone());
         }
-        // Of thiserror and others.
+        // Of thiserror and others. The framework's error moves between threads, and so does what becomes one.
         if derives(attributes, "Error") || self.plainly_implements(item, "Error") {
-            return Failure::Converts;
+            return match self.is_free(item) && !has_lifetimes(item) {
+                true => Failure::Converts,
+                false => Failure::Unknown,
+            };
         }
         let is_plain = attributes
             .iter()
@@ -173,9 +183,23 @@ impl Library<'_> {
     }
 }
 
+fn is_named_error(path: &str) -> bool {
+    path.ends_with("::Error") || path.ends_with("::Report")
+}
+
 fn is_converting(path: &str) -> bool {
     let mut names = path.split("::");
     names
         .next()
         .is_some_and(|first| CONVERTING.contains(&first))
+}
+
+/// The framework's error keeps nothing that is borrowed.
+fn has_lifetimes(item: &ItemId) -> bool {
+    let generics = match item.item() {
+        Item::Struct(item) => &item.generics,
+        Item::Enum(item) => &item.generics,
+        _ => return true,
+    };
+    generics.lifetimes().next().is_some()
 }

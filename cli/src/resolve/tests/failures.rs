@@ -78,6 +78,34 @@ fn an_error_that_may_convert_is_left_to_rustc() {
             0,
         ),
         ("framework::Error", "", 0),
+        // The framework's error moves between threads.
+        (
+            "E",
+            "pub struct E(Box<dyn std::error::Error>); impl std::error::Error for E {}",
+            1,
+        ),
+        (
+            "E",
+            "pub struct E(Box<dyn std::error::Error + Send + Sync>); impl std::error::Error for E {}",
+            0,
+        ),
+        (
+            "E",
+            "#[derive(Debug, thiserror::Error)] pub enum E { A { #[source] a: std::rc::Rc<u8> } }",
+            1,
+        ),
+        (
+            "E",
+            "#[derive(Debug, thiserror::Error)] pub enum E { #[error(\"x\")] A { #[from] a: std::io::Error, b: String } }",
+            0,
+        ),
+        (
+            "E<'static>",
+            "pub struct E<'a>(&'a str); impl std::error::Error for E<'_> {}",
+            1,
+        ),
+        ("std::sync::PoisonError<u8>", "", 1),
+        ("framework::Timestamp", "", 1),
         ("String", "", 0),
         ("&'static str", "", 0),
         ("std::io::Error", "", 0),
