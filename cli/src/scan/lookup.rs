@@ -274,7 +274,27 @@ impl Library<'_> {
                 None => Some(Found::Foreign(vec![library.to_owned()])),
             },
             Some(Origin::Outside(name)) => Some(Found::Foreign(vec![name.to_owned()])),
-            None => self.root(name).map(Found::Module),
+            None => match self.named_by_root(module, name) {
+                Some(found) => Some(found),
+                None => self.root(name).map(Found::Module),
+            },
+        }
+    }
+
+    /// What `extern crate … as name` in the crate's root gives a name to for all of the crate.
+    fn named_by_root(&self, module: &Rc<Module>, name: &str) -> Option<Found> {
+        let root = self.root(module.library())?;
+        let named = root.syntax.items.iter().find_map(|item| match item {
+            Item::ExternCrate(item) => {
+                let (_, given) = item.rename.as_ref()?;
+                (given == name).then(|| item.ident.to_string())
+            }
+            _ => None,
+        })?;
+        match named.as_str() {
+            "self" => Some(Found::Module(root)),
+            other if other == name => None,
+            other => self.find_crate(module, other),
         }
     }
 }

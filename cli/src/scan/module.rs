@@ -142,11 +142,16 @@ impl Module {
             }
             Item::ExternCrate(item) => {
                 let name = item.rename.as_ref().map_or(&item.ident, |(_, name)| name);
-                let segments = vec![item.ident.to_string()];
+                let is_self = item.ident == "self";
+                let first = if is_self {
+                    "crate".to_owned()
+                } else {
+                    item.ident.to_string()
+                };
                 let visible = Visible::new(&item.vis);
                 let import = Import {
-                    segments,
-                    absolute: true,
+                    segments: vec![first],
+                    absolute: !is_self,
                     visible,
                     is_conditional: is_conditional(&item.attrs),
                 };

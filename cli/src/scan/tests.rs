@@ -6,6 +6,7 @@ mod state;
 
 use super::Library;
 use super::fixture::{Fixture, Node};
+use super::types::Resolved;
 use crate::workspace::Workspace;
 
 const WRITER: Node<'_> = Node {
@@ -24,6 +25,15 @@ fn acting() -> Node<'static> {
         cycle: "hardware: HardwareInterface,",
         ..WRITER
     }
+}
+
+/// The type that an author writes in the node file `a` of a fixture that something is added to, resolved.
+fn resolve_in(with: impl Fn(Fixture) -> Fixture, head: &str, written: &str) -> Resolved {
+    let fixture = Fixture::control(&["a"]).node("a", Node { head, ..WRITER });
+    let workspace = Workspace::in_memory(with(fixture).files());
+    let library = Library::new(&workspace, "generated".into());
+    let module = library.find_module("nodes::a").expect("it is there");
+    library.resolve(&module, &syn::parse_str(written).expect("it is a type"))
 }
 
 #[test]

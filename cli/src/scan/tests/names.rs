@@ -1,18 +1,13 @@
 //! Following names to the types they stand for.
 
-use super::WRITER;
+use super::resolve_in;
 use crate::scan::compare::{Comparison, compare};
-use crate::scan::fixture::{Fixture, Node};
-use crate::scan::{Library, types::Resolved};
-use crate::workspace::Workspace;
+use crate::scan::fixture::Fixture;
+use crate::scan::types::Resolved;
 
 /// The type that an author writes in a node file, resolved.
 fn resolve(head: &str, written: &str) -> Resolved {
-    let fixture = Fixture::control(&["a"]).node("a", Node { head, ..WRITER });
-    let workspace = Workspace::in_memory(fixture.files());
-    let library = Library::new(&workspace, "generated".into());
-    let module = library.find_module("nodes::a").expect("it is there");
-    library.resolve(&module, &syn::parse_str(written).expect("it is a type"))
+    resolve_in(|fixture| fixture, head, written)
 }
 
 #[test]
@@ -365,4 +360,34 @@ fn lifetimes_of_aliases_are_those_that_are_given() {
     }
     // What is known to rustc alone stays behind its alias.
     assert_eq!(resolve(aliases, "Calls<'_>").text, "nodes::a::Calls<'_>");
+}
+
+#[test]
+fn dependencies_of_some_machines_are_dependencies() {
+    let manifest = "[package]\nname = \"nodes\"\n[dependencies]\nframework = \"1\"\nserde = \"1\"\n\
+                    [target.'cfg(unix)'.dependencies]\nnalgebra = \"0.35\"\n";
+    let with = |fixture: Fixture| fixture.file("crates/nodes/Cargo.toml", manifest);
+    let found = resolve_in(with, "", "nalgebra::Vector3<f32>");
+    assert_eq!(found.text, "nalgebra::Vector3<f32>");
+    assert!(found.is_known() && found.lost.is_empty());
+}
+
+#[test]
+fn a_crate_may_give_itself_another_name() {
+    for library in [
+        "extern crate self as me; pub mod types { pub struct F; }",
+        "extern crate types as me;",
+    ] {
+        let with = |fixture: Fixture| {
+            let modules = fixture.text("crates/nodes/src/lib.rs");
+            fixture.file("crates/nodes/src/lib.rs", &format!("{modules} {library}"))
+        };
+        let (written, text) = match library.contains("self") {
+            true => ("me::types::F", "nodes::types::F"),
+            false => ("me::Ball", "types::Ball"),
+        };
+        let found = resolve_in(with, "", written);
+        assert_eq!(found.text, text);
+        assert!(found.is_known());
+    }
 }

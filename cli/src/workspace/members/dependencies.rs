@@ -306,13 +306,21 @@ impl Entry {
     }
 }
 
-/// `[dependencies]` of a package or of a workspace.
+/// `[dependencies]` of a package or of a workspace, then what stands under `[target.'cfg(…)']`, which only some machines
+/// have: where they do not, its names mean nothing to the package's own code either.
 pub(super) fn read_dependencies(table: &toml::Table) -> Dependencies {
-    let entries = table.get("dependencies").and_then(toml::Value::as_table);
-    let entries = entries.into_iter().flatten();
-    entries
-        .map(|(key, value)| (underscored(key), Entry::new(key, value)))
-        .collect()
+    let targets = table.get("target").and_then(toml::Value::as_table);
+    let targets = targets.into_iter().flatten();
+    let of_targets = targets.filter_map(|(_, target)| target.as_table());
+    let mut found = Dependencies::new();
+    for table in std::iter::once(table).chain(of_targets) {
+        let entries = table.get("dependencies").and_then(toml::Value::as_table);
+        for (key, value) in entries.into_iter().flatten() {
+            let entry = || Entry::new(key, value);
+            found.entry(underscored(key)).or_insert_with(entry);
+        }
+    }
+    found
 }
 
 /// Shared dependencies by their names in code.
