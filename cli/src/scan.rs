@@ -87,7 +87,9 @@ pub fn scan<'workspace>(
                     NotFound::Private { parent, name, .. } => {
                         !private.insert((parent.path.clone(), name.clone()))
                     }
-                    NotFound::Item { .. } | NotFound::Module { .. } => false,
+                    NotFound::Item { .. } | NotFound::Module { .. } | NotFound::Several { .. } => {
+                        false
+                    }
                 };
                 let found = match is_told {
                     true => &mut unread,

@@ -8,9 +8,10 @@ use std::sync::Arc;
 
 use camino::{Utf8Path, Utf8PathBuf};
 use syn::ext::IdentExt;
-use syn::{Expr, ExprLit, Item, ItemMod, Lit, Meta};
+use syn::{Item, ItemMod};
 
 use super::brackets::unbalanced;
+use super::conditional::{conditional_path, has_conditional_path, named_path};
 use super::depth::too_deep;
 use super::module::{Entry, Module, Visible, attributes, folder_of, is_conditional};
 use super::range;
@@ -56,6 +57,11 @@ pub(super) enum NotFound {
     },
     /// What stands there is no module.
     Item {
+        parent: Rc<Module>,
+        name: String,
+    },
+    /// Several items have this name, and conditions choose from them.
+    Several {
         parent: Rc<Module>,
         name: String,
     },
@@ -150,6 +156,12 @@ impl<'workspace> Library<'workspace> {
                 range: range(item.ident.span()),
             });
         }
+        if matches!(entry, Entry::Ambiguous) {
+            return Err(NotFound::Several {
+                parent: parent.clone(),
+                name: name.to_owned(),
+            });
+        }
         match self.item_in(parent, name) {
             Some(_) => Err(NotFound::Item {
                 parent: parent.clone(),
@@ -181,6 +193,7 @@ impl<'workspace> Library<'workspace> {
             _ => &[],
         };
         is_conditional(declaration)
+            || has_conditional_path(declaration)
             || is_conditional(&module.syntax.attrs)
             || self.is_conditional(&parent)
     }
@@ -391,6 +404,16 @@ impl NotFound {
                     .at(file, place.clone(), "")
                     .help(help)
             }
+            Self::Several { parent, name } => {
+                let message = format!(
+                    "`{}` declares `{name}` several times, and conditions choose from them",
+                    parent.path
+                );
+                unknown(message).at(file, place.clone(), "").help(format!(
+                    "declare one `pub mod {name};` in `{}` without `#[cfg(…)]`, and write the conditions within it",
+                    parent.file
+                ))
+            }
             Self::Told => unknown(format!("the file of node `{path}` cannot be read")).at(
                 file,
                 place.clone(),
@@ -425,20 +448,10 @@ pub(crate) fn places(base: &Utf8Path, folder: &Utf8Path, item: &ItemMod) -> Vec<
     }
 }
 
-/// The file that `#[path = "…"]` names.
+/// The file that `#[path = "…"]` names, also under a condition that holds on this machine.
 pub(crate) fn path_attribute(item: &ItemMod) -> Option<String> {
-    item.attrs
-        .iter()
-        .find_map(|attribute| match &attribute.meta {
-            Meta::NameValue(meta) if meta.path.is_ident("path") => match &meta.value {
-                Expr::Lit(ExprLit {
-                    lit: Lit::Str(text),
-                    ..
-                }) => Some(text.value()),
-                _ => None,
-            },
-            _ => None,
-        })
+    let mut attributes = item.attrs.iter();
+    attributes.find_map(|one| named_path(&one.meta).or_else(|| conditional_path(one)))
 }
 
 #[cfg(test)]

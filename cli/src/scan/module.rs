@@ -8,6 +8,8 @@ pub(crate) use grammar::{is_conditional, only_for_tests};
 use proc_macro2::{TokenStream, TokenTree};
 use syn::{Attribute, Item, UseTree, Visibility};
 
+use super::conditional::is_elsewhere;
+
 /// A module and everything that has a name in it.
 #[derive(Debug)]
 pub struct Module {
@@ -178,9 +180,24 @@ impl Module {
             // Of a type that is imported rustc would not allow another here: the import is of a function or macro.
             (None | Some(Entry::Import(_)), entry) => entry,
             (Some(_), Entry::Import(_)) => return,
+            (Some(Entry::Item { index: first, .. }), Entry::Item { index, visible })
+                if self.is_module_of_others(*first) && matches!(self.item(index), Item::Mod(_)) =>
+            {
+                Entry::Item { index, visible }
+            }
+            (Some(Entry::Item { index: first, .. }), Entry::Item { index, .. })
+                if self.is_module_of_others(index) && matches!(self.item(*first), Item::Mod(_)) =>
+            {
+                return;
+            }
             (Some(_), _) => Entry::Ambiguous,
         };
         self.entries.insert(name, entry);
+    }
+
+    /// A module that is there on other machines alone.
+    fn is_module_of_others(&self, index: usize) -> bool {
+        matches!(self.item(index), Item::Mod(item) if is_elsewhere(&item.attrs))
     }
 
     fn add_use(&mut self, before: &Import, tree: &UseTree) {

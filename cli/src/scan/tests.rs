@@ -1,6 +1,7 @@
 //! Finding nodes and reading their files.
 
 mod answers;
+mod chosen;
 mod names;
 mod state;
 
