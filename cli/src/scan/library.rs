@@ -15,6 +15,7 @@ use super::conditional::{conditional_path, has_conditional_path, named_path};
 use super::depth::too_deep;
 use super::module::{Entry, Module, Visible, attributes, folder_of, is_conditional};
 use super::range;
+use super::types::Resolved;
 use crate::diagnostics::{Code, Diagnostic, Diagnostics, listed, nearest};
 use crate::workspace::{Member, Workspace};
 
@@ -29,6 +30,8 @@ pub struct Library<'workspace> {
     problems: RefCell<Vec<Diagnostic>>,
     /// Public paths of items whose definition is not public, and whether a condition decides about them.
     pub(super) public_paths: RefCell<BTreeMap<String, Option<(String, bool)>>>,
+    /// What aliases without parameters stand for.
+    pub(super) aliases: RefCell<BTreeMap<String, Resolved>>,
     /// Where the globs of a module lead.
     pub(super) glob_targets: RefCell<BTreeMap<String, Globs>>,
     /// Names that are being looked for right now, with their modules: globs may lead in circles.
@@ -78,6 +81,7 @@ impl<'workspace> Library<'workspace> {
             modules: RefCell::default(),
             problems: RefCell::default(),
             public_paths: RefCell::default(),
+            aliases: RefCell::default(),
             glob_targets: RefCell::default(),
             searching: RefCell::default(),
         }
@@ -113,6 +117,7 @@ impl<'workspace> Library<'workspace> {
         modules.retain(|path, module| module.is_some() || known.contains(path));
         if modules.len() < before {
             self.public_paths.take();
+            self.aliases.take();
             self.glob_targets.take();
         }
         drop(modules);

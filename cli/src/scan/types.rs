@@ -76,10 +76,26 @@ const PRELUDE_OF_STANDARD: &[(&str, &str)] = &[
 /// Aliases may lead in circles; no honest alias is deeper.
 const DEEPEST: usize = 32;
 
+/// Types may double with every step; no honest one has more parts.
+const LARGEST: usize = 1000;
+/// As text.
+const LONGEST: usize = 20_000;
+
 impl Resolved {
     /// Whether every name in it was followed to its end.
     pub fn is_known(&self) -> bool {
         self.shape.is_known()
+    }
+
+    /// Whether it has more parts than an honest type, as one that doubles with every alias or field.
+    pub fn is_huge(&self) -> bool {
+        let mut left = LARGEST;
+        self.text.len() > LONGEST || !self.fits(&mut left)
+    }
+
+    fn fits(&self, left: &mut usize) -> bool {
+        *left = left.saturating_sub(1);
+        *left > 0 && self.shape.parts().all(|part| part.fits(left))
     }
 
     /// `U`, if this is an `Option<U>`.

@@ -5,6 +5,7 @@ use crate::pipeline;
 use crate::scan::fixture::{Fixture, Node, cycler};
 use crate::workspace::Workspace;
 
+mod endless;
 mod instances;
 mod ranges;
 

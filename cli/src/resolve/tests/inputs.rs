@@ -403,3 +403,15 @@ fn private_traits_and_types_cannot_be_named_by_generated_code() {
         &["`nodes::a::Own` is private", "used by `nodes::a`"],
     );
 }
+
+#[test]
+fn a_path_into_a_type_that_doubles_is_left_to_rustc() {
+    let types = "pub struct P<T> { pub v: T, pub n: Option<Box<P<(T, T)>>> }";
+    let writer = Fixture::control(&["a", "b"])
+        .file("crates/types/src/lib.rs", types)
+        .node("a", writes("p: MainOutput<P<f32>>,"));
+    let field = format!("x: Input<Option<f32>, \"p.{}v\">", "n?.".repeat(40));
+    let answer = with_field(writer, "b", &field).answer();
+    let robot = answer.robot.expect(&answer.text);
+    assert_eq!(robot.left_to_rustc, 1);
+}

@@ -391,3 +391,17 @@ fn a_crate_may_give_itself_another_name() {
         assert!(found.is_known());
     }
 }
+
+#[test]
+fn types_that_double_come_to_an_end() {
+    let aliases: String = (0..40)
+        .map(|own| format!("pub type A{own} = (A{0}, A{0}); ", own + 1))
+        .collect();
+    let head = format!("{aliases} pub type A40 = f32; pub type D<T> = (T, T);");
+    assert_eq!(resolve(&head, "A39").text, "(f32, f32)");
+    let whole = resolve(&head, "A0");
+    assert!(!whole.is_known());
+    assert_eq!(whole.text, "nodes::a::A0");
+    let written = format!("{}u8{}", "D<".repeat(40), ">".repeat(40));
+    assert!(!resolve(&head, &written).is_known());
+}

@@ -17,6 +17,26 @@ impl Library<'_> {
         arguments: Vec<Resolved>,
         depth: usize,
     ) -> Resolved {
+        if !alias.generics.params.is_empty() {
+            return self.expanded(item, alias, arguments, depth);
+        }
+        // Without parameters it always stands for the same.
+        let path = item.path();
+        if let Some(known) = self.aliases.borrow().get(&path) {
+            return known.clone();
+        }
+        let found = self.expanded(item, alias, arguments, depth);
+        self.aliases.borrow_mut().insert(path, found.clone());
+        found
+    }
+
+    fn expanded(
+        &self,
+        item: &ItemId,
+        alias: &ItemType,
+        arguments: Vec<Resolved>,
+        depth: usize,
+    ) -> Resolved {
         let by_name = |shape| {
             let public = self.public_path(item);
             let text = public.clone().unwrap_or_else(|| item.path());
@@ -36,6 +56,9 @@ impl Library<'_> {
             return by_name(super::Shape::Unknown);
         };
         let expanded = self.resolve_with(&item.module, &alias.ty, &generics, depth + 1);
+        if expanded.is_huge() {
+            return by_name(super::Shape::Unknown);
+        }
         // What the alias stands for may be hidden, or be known to rustc alone; the alias is not.
         let has_arguments = generics.keys().any(|name| !name.starts_with('\''));
         let is_hidden = !expanded.private.is_empty() && !has_arguments;
