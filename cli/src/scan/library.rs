@@ -410,14 +410,8 @@ impl NotFound {
                     .help(help)
             }
             Self::Several { parent, name } => {
-                let message = format!(
-                    "`{}` declares `{name}` several times, and conditions choose from them",
-                    parent.path
-                );
-                unknown(message).at(file, place.clone(), "").help(format!(
-                    "declare one `pub mod {name};` in `{}` without `#[cfg(…)]`, and write the conditions within it",
-                    parent.file
-                ))
+                let (message, help) = several(parent, name);
+                unknown(message).at(file, place.clone(), "").help(help)
             }
             Self::Told => unknown(format!("the file of node `{path}` cannot be read")).at(
                 file,
@@ -426,6 +420,16 @@ impl NotFound {
             ),
         }
     }
+}
+
+fn several(parent: &Module, name: &str) -> (String, String) {
+    let (path, file) = (&parent.path, &parent.file);
+    let message =
+        format!("`{path}` declares `{name}` several times, and conditions choose from them");
+    let help = format!(
+        "declare one `pub mod {name};` in `{file}` without `#[cfg(…)]`, and write the conditions within it"
+    );
+    (message, help)
 }
 
 /// Where the file of a module may lie; files are called without `r#`.
