@@ -8,12 +8,15 @@ use crate::model::accessor::Accessor;
 use crate::model::frame::Hardware;
 use crate::model::names::begins_with_type;
 
+/// A keyword since edition 2024, that of the generated crate, and a name for syn and in crates of older editions.
+const LATEST_KEYWORD: &str = "gen";
+
 /// A name, raw where it is a keyword.
 pub(super) fn ident(name: &str) -> Ident {
     let name = name.trim_start_matches("r#");
     match syn::parse_str::<Ident>(name) {
-        Ok(ident) => ident,
-        Err(_) => Ident::new_raw(name, Span::call_site()),
+        Ok(ident) if name != LATEST_KEYWORD => ident,
+        _ => Ident::new_raw(name, Span::call_site()),
     }
 }
 
@@ -61,6 +64,12 @@ impl VisitMut for MakeAbsolute {
             path.leading_colon.get_or_insert_default();
         }
         syn::visit_mut::visit_path_mut(self, path);
+    }
+
+    fn visit_ident_mut(&mut self, name: &mut Ident) {
+        if *name == LATEST_KEYWORD {
+            *name = Ident::new_raw(LATEST_KEYWORD, name.span());
+        }
     }
 }
 

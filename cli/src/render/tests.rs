@@ -142,6 +142,20 @@ fn keywords_are_names_like_others() {
 }
 
 #[test]
+fn a_keyword_of_the_latest_edition_is_a_name_of_older_crates() {
+    let files = render(&model_of(&robot(vec![
+        real_time("Control")
+            .node(node("control::a").output("a", "types::gen::Wide"))
+            .node(node("control::b").input("gen", "types::gen::Wide", "a")),
+    ])));
+    let text = |path: &str| &files[&Utf8PathBuf::from("generated/src").join(path)];
+    let database = text("databases/control.rs");
+    assert!(database.contains("use types::r#gen::Wide;"), "{database}");
+    let nodes = text("cyclers/control.rs");
+    assert!(nodes.contains("r#gen: &frame.own.a"), "{nodes}");
+}
+
+#[test]
 fn names_of_the_prelude_are_names_like_others() {
     let files = render(&model_of(&robot(vec![
         real_time("Option").node(

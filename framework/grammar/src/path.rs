@@ -124,9 +124,12 @@ impl fmt::Display for SegmentName {
     }
 }
 
+/// A keyword since edition 2024, that of the generated crate; syn takes it for a name.
+pub(crate) const LATEST_KEYWORD: &str = "gen";
+
 /// Whether a field, an instance or a procedure may be called so.
 pub(crate) fn is_identifier(text: &str) -> bool {
-    is_bare(text) && syn::parse_str::<Ident>(text).is_ok()
+    is_bare(text) && text != LATEST_KEYWORD && syn::parse_str::<Ident>(text).is_ok()
 }
 
 fn is_keyword(text: &str) -> bool {

@@ -487,11 +487,14 @@ fn a_field_is_not_conditional_and_an_output_no_keyword() {
         (read.mistake().0, read.mistake().1),
         (Rule::InvalidField, "#[cfg(test)]")
     );
-    let read = Read::field(ContextKind::MainOutputs, "r#type: MainOutput<f32>");
-    assert_eq!(
-        (read.mistake().0, read.mistake().1),
-        (Rule::InvalidName, "r#type")
-    );
+    for name in ["r#type", "gen"] {
+        let field = format!("{name}: MainOutput<f32>");
+        let read = Read::field(ContextKind::MainOutputs, &field);
+        assert_eq!(
+            (read.mistake().0, read.mistake().1),
+            (Rule::InvalidName, name)
+        );
+    }
     for field in [
         "r#type: Input<f32, \"x\">",
         "r#type: Parameter<f32, \"x\">",

@@ -80,6 +80,7 @@ fn what_is_no_path_is_told_with_the_reason() {
         ("a.0", "`0` is no identifier"),
         ("a-b", "`a-b` is no identifier"),
         ("a.type", "`type` is a keyword of Rust"),
+        ("gen.a", "`gen` is a keyword of Rust"),
         ("a._", "`_` is no identifier"),
         ("a/*x*/", "`a/*x*/` is no identifier"),
         (

@@ -9,7 +9,7 @@ use crate::context::ContextKind;
 use crate::hints::{Hints, is_hint_attribute};
 use crate::kind::Kind;
 use crate::mistake::{Mistake, Rule};
-use crate::path::{DataPath, SegmentName};
+use crate::path::{DataPath, LATEST_KEYWORD, SegmentName};
 
 /// An attribute that generated code cannot know about.
 pub(super) fn attribute_mistake(field: &syn::Field) -> Option<Mistake> {
@@ -49,7 +49,8 @@ pub(super) fn hint_mistake(kind: Kind, field: &syn::Field) -> Option<Mistake> {
 /// A name that no path can have; only an output's name is one that paths begin with.
 pub(super) fn keyword_mistake(kind: Kind, field: &syn::Field) -> Option<Mistake> {
     let name = field.ident.as_ref()?;
-    (kind == Kind::MainOutput && *name != name.unraw()).then(|| {
+    let is_keyword = *name != name.unraw() || *name == LATEST_KEYWORD;
+    (kind == Kind::MainOutput && is_keyword).then(|| {
         let message = format!("`{name}` is a keyword, and no path can name it");
         Mistake::new(Rule::InvalidName, name.span(), message)
     })
