@@ -6,7 +6,7 @@ mod sources;
 use serde::Serialize;
 
 use super::frame::{self, FrameField, Hardware, InstanceParameters};
-use super::names::{Names, PRELUDE, name_nodes, snake_case};
+use super::names::{Names, PRELUDE, constant_case, name_nodes, snake_case};
 use super::node::{NodeModel, StepOutput, Surroundings, asked};
 use super::parameters::Parameters;
 use super::sentences;
@@ -54,6 +54,8 @@ pub struct CyclerModel {
     /// The root first; none if there are no additional outputs.
     pub additional_structs: Vec<Struct>,
     pub additional_outputs: Vec<AdditionalOutput>,
+    /// The constant with their names, which is none of an instance: `ADDITIONAL_OUTPUTS`.
+    pub additional_names: String,
     /// The root first; none if there are no states.
     pub state_structs: Vec<Struct>,
     pub procedures: Vec<ProcedureField>,
@@ -136,6 +138,8 @@ pub struct Perception {
     pub lanes: Vec<Source>,
     /// Cyclers whose instances are read as one.
     pub interleavings: Vec<Interleaving>,
+    /// The field with how far all of them are consumed, which is none of an instance: `horizon`.
+    pub horizon: String,
 }
 
 /// The order over all instances of one perception cycler.
@@ -290,6 +294,7 @@ pub fn describe(
             vec![&node.new_bounds, &node.cycle_bounds, &node.restore_bounds]
         }),
         additional_outputs,
+        additional_names: additional_names(cycler),
         instance_parameters,
         frame,
         creation,
@@ -302,6 +307,13 @@ pub fn describe(
 fn body(cycler: &Cycler) -> String {
     let taken = PRELUDE.into_iter().chain(["Hardware"]);
     Names::with(taken.map(str::to_owned)).give(&cycler.name)
+}
+
+/// What the constant with the names of additional outputs is called beside those of the instances.
+fn additional_names(cycler: &Cycler) -> String {
+    let instances = cycler.instances.iter();
+    let taken = instances.map(|instance| constant_case(&instance.name));
+    Names::with(taken).give("ADDITIONAL_OUTPUTS")
 }
 
 /// What all nodes together ask of the hardware, if there is a type parameter for it.

@@ -61,10 +61,11 @@ fn quote_additional_outputs(cycler: &CyclerModel) -> Option<TokenStream> {
         return None;
     }
     let names = names.by_ref().flatten();
+    let constant = ident(&cycler.additional_names);
     let about = doc("What clients can listen to, in the order of `Subscribed`.");
     Some(quote! {
         #about
-        pub const ADDITIONAL_OUTPUTS: &[&str] = &[#(#names),*];
+        pub const #constant: &[&str] = &[#(#names),*];
     })
 }
 

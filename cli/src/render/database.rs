@@ -245,10 +245,11 @@ fn quote_perception(cycler: &CyclerModel) -> TokenStream {
         quote!(pub #name: ::framework::Consumer<#shared>,)
     });
     let about = doc("Perception instances in one order of time.");
+    let horizon = ident(&perception.horizon);
     quote! {
         #about
         pub struct Perception {
-            pub horizon: ::framework::Horizon,
+            pub #horizon: ::framework::Horizon,
             #(pub #interleavings: ::framework::Interleaving,)*
             #(#lanes)*
         }

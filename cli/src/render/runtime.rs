@@ -158,9 +158,9 @@ fn quote_ends(model: &RuntimeModel, instance: &InstanceModel) -> TokenStream {
     let variable = &instance.variable;
     let injections = ident(&format!("{variable}_injections"));
     let injected = (!cycler.outputs.is_empty()).then(|| ident(&format!("{variable}_injected")));
-    let subscriptions = quote_subscriptions(cycler, instance, |module| {
-        let module = ident(module);
-        quote!(#module::ADDITIONAL_OUTPUTS)
+    let subscriptions = quote_subscriptions(cycler, instance, |module, names| {
+        let (module, names) = (ident(module), ident(names));
+        quote!(#module::#names)
     });
     let procedures = instance.procedures.iter().map(|procedure| {
         let (caller, answerer) = (ident(&procedure.caller), ident(&procedure.answerer));
@@ -177,14 +177,14 @@ fn quote_ends(model: &RuntimeModel, instance: &InstanceModel) -> TokenStream {
 pub(super) fn quote_subscriptions(
     cycler: &CyclerModel,
     instance: &InstanceModel,
-    shared: impl Fn(&str) -> TokenStream,
+    shared: impl Fn(&str, &str) -> TokenStream,
 ) -> Option<TokenStream> {
     if cycler.additional_outputs.is_empty() {
         return None;
     }
     let subscriptions = ident(&format!("{}_subscriptions", instance.variable));
     let names = if cycler.names_are_shared() {
-        shared(&cycler.module)
+        shared(&cycler.module, &cycler.additional_names)
     } else {
         let names = cycler.additional_outputs.iter().map(|output| {
             let own = output.names.get(instance.id.instance);

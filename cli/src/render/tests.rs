@@ -180,6 +180,38 @@ fn names_of_the_prelude_are_names_like_others() {
 }
 
 #[test]
+fn instances_are_called_like_what_stands_beside_them() {
+    let files = render(&model_of(&robot(vec![
+        perception("Additional", &["Outputs"]).node(
+            node("vision::a")
+                .additional("extra", "f32", "extra")
+                .output("ball", "f32"),
+        ),
+        perception("Horizon", &[]).node(node("vision::b").output("line", "f32")),
+        real_time("Control").node(
+            node("control::a")
+                .perception("balls", "f32", "Additional", "ball")
+                .perception("lines", "f32", "Horizon", "line"),
+        ),
+    ])));
+    let text = |path: &str| &files[&Utf8PathBuf::from("generated/src").join(path)];
+    let body = text("runtime/additional.rs");
+    let constant = "pub const ADDITIONAL_OUTPUTS: InstanceDescription";
+    assert!(body.contains(constant), "{body}");
+    assert!(body.contains("pub const ADDITIONAL_OUTPUTS2: "), "{body}");
+    let names = "additional::ADDITIONAL_OUTPUTS2";
+    assert!(text("runtime.rs").contains(names), "{}", text("runtime.rs"));
+    let replay = text("recording/additional.rs");
+    assert!(replay.contains(names), "{replay}");
+    let database = text("databases/control.rs");
+    assert!(database.contains("pub horizon2: Horizon,"), "{database}");
+    let body = text("runtime/control.rs");
+    assert!(body.contains(".horizon2"), "{body}");
+    let runtime = text("runtime.rs");
+    assert!(runtime.contains("horizon2: Horizon::new()"), "{runtime}");
+}
+
+#[test]
 fn a_value_of_the_instance_below_a_struct_that_is_read_whole_has_the_type_its_reader_wrote() {
     let files = render(&model_of(&robot(vec![
         real_time("Control").node(

@@ -39,8 +39,12 @@ pub(super) fn perception(robot: &Robot, cycler: &Cycler, latest: &[Source]) -> O
             .map(|lane| lane.field.clone())
             .collect(),
     });
+    let interleavings: Vec<Interleaving> = interleavings.collect();
+    let orders = interleavings.iter().map(|order| order.field.clone());
+    let fields = lanes.iter().map(|lane| lane.field.clone()).chain(orders);
     Some(Perception {
-        interleavings: interleavings.collect(),
+        horizon: Names::with(fields).give("horizon"),
+        interleavings,
         lanes,
     })
 }

@@ -158,13 +158,14 @@ fn quote_consume(cycler: &CyclerModel) -> TokenStream {
         return quote!();
     };
     let lanes = perception.lanes.iter().map(|lane| ident(&lane.field));
+    let horizon = ident(&perception.horizon);
     let merges = perception.interleavings.iter().map(|interleaving| {
         let order = ident(&interleaving.field);
         let lanes = interleaving.lanes.iter().map(|lane| ident(lane));
         quote!(self.perception.#order.merge([#(&self.perception.#lanes),*]);)
     });
     quote! {
-        self.perception.horizon.consume(cycle.time.start, [#(&mut self.perception.#lanes),*]);
+        self.perception.#horizon.consume(cycle.time.start, [#(&mut self.perception.#lanes),*]);
         #(#merges)*
     }
 }

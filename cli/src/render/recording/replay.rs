@@ -120,8 +120,8 @@ fn quote_inputs(
 
 /// What clients listen to and call.
 fn quote_ends(cycler: &CyclerModel, instance: &InstanceModel) -> TokenStream {
-    let subscriptions = quote_subscriptions(cycler, instance, |module| {
-        path(&format!("crate::runtime::{module}::ADDITIONAL_OUTPUTS"))
+    let subscriptions = quote_subscriptions(cycler, instance, |module, names| {
+        path(&format!("crate::runtime::{module}::{names}"))
     });
     let procedures = instance.procedures.iter().map(|procedure| {
         let answerer = ident(&procedure.answerer);

@@ -194,6 +194,7 @@ fn quote_perception(
         return quote!();
     };
     let whole = database(cycler, "Perception");
+    let horizon = ident(&perception.horizon);
     let orders = perception
         .interleavings
         .iter()
@@ -209,7 +210,7 @@ fn quote_perception(
     });
     quote! {
         #whole {
-            horizon: ::framework::Horizon::new(),
+            #horizon: ::framework::Horizon::new(),
             #(#orders: ::framework::Interleaving::new(),)*
             #(#lanes)*
         }
