@@ -57,6 +57,8 @@ pub(super) enum NotFound {
         parent: Rc<Module>,
         name: String,
         range: Range<usize>,
+        /// A `use` brings it in.
+        imported: bool,
     },
     /// What stands there is no module.
     Item {
@@ -151,14 +153,24 @@ impl<'workspace> Library<'workspace> {
                 file,
             });
         };
-        if !entry.is_public()
-            && let Entry::Item { index, .. } = entry
-            && let Item::Mod(item) = parent.item(*index)
-        {
+        let private = match entry {
+            Entry::Item { index, .. } if !entry.is_public() => match parent.item(*index) {
+                Item::Mod(item) => Some(item.ident.span()),
+                _ => None,
+            },
+            // The name alone may be that of a function or macro.
+            Entry::Import(_) if self.is_hidden(parent, name) => {
+                let is_module = self.module_in(parent, name).is_some();
+                is_module.then(|| parent.import_span(name)).flatten()
+            }
+            _ => None,
+        };
+        if let Some(span) = private {
             return Err(NotFound::Private {
                 parent: parent.clone(),
                 name: name.to_owned(),
-                range: range(item.ident.span()),
+                range: range(span),
+                imported: matches!(entry, Entry::Import(_)),
             });
         }
         if matches!(entry, Entry::Ambiguous) {
@@ -385,17 +397,8 @@ impl NotFound {
                 parent,
                 name,
                 range,
-            } => Diagnostic::new(
-                Code::NotPublic,
-                format!("module `{}::{name}` is private", parent.path),
-            )
-            .at(
-                &parent.file,
-                range.clone(),
-                "not visible for the generated crate",
-            )
-            .at(file, place.clone(), "a node in it")
-            .help(format!("write `pub mod {name};`")),
+                imported,
+            } => private(parent, name, range, *imported).at(file, place.clone(), "a node in it"),
             Self::Item { parent, name } => {
                 let parent_path = &parent.path;
                 let help = match parent_path.contains("::") {
@@ -430,6 +433,23 @@ fn several(parent: &Module, name: &str) -> (String, String) {
         "declare one `pub mod {name};` in `{file}` without `#[cfg(…)]`, and write the conditions within it"
     );
     (message, help)
+}
+
+fn private(parent: &Module, name: &str, range: &Range<usize>, imported: bool) -> Diagnostic {
+    let message = format!("module `{}::{name}` is private", parent.path);
+    let help = match imported {
+        true => {
+            "write `pub use` there, or name the node by the path where it is declared".to_owned()
+        }
+        false => format!("write `pub mod {name};`"),
+    };
+    Diagnostic::new(Code::NotPublic, message)
+        .at(
+            &parent.file,
+            range.clone(),
+            "not visible for the generated crate",
+        )
+        .help(help)
 }
 
 /// Where the file of a module may lie; files are called without `r#`.

@@ -5,8 +5,8 @@ use std::rc::Rc;
 
 use camino::{Utf8Path, Utf8PathBuf};
 pub(crate) use grammar::{is_conditional, only_for_tests};
-use proc_macro2::{TokenStream, TokenTree};
-use syn::{Attribute, Item, UseTree, Visibility};
+use proc_macro2::{Span, TokenStream, TokenTree};
+use syn::{Attribute, Ident, Item, UseTree, Visibility};
 
 use super::conditional::is_elsewhere;
 
@@ -103,6 +103,24 @@ impl Module {
         self.entries.iter().filter_map(|(name, entry)| match entry {
             Entry::Item { index, .. } => {
                 matches!(self.item(*index), Item::Mod(_)).then_some(name.as_str())
+            }
+            _ => None,
+        })
+    }
+
+    /// Whether macros write some of its items.
+    pub(super) fn calls_macros(&self) -> bool {
+        let mut items = self.syntax.items.iter();
+        items.any(|item| matches!(item, Item::Macro(call) if call.ident.is_none()))
+    }
+
+    /// Where a `use` or `extern crate` brings a name in.
+    pub(super) fn import_span(&self, name: &str) -> Option<Span> {
+        self.syntax.items.iter().find_map(|item| match item {
+            Item::Use(item) => named(&item.tree, None, name),
+            Item::ExternCrate(item) => {
+                let ident = item.rename.as_ref().map_or(&item.ident, |(_, ident)| ident);
+                (ident == name).then(|| ident.span())
             }
             _ => None,
         })
@@ -274,6 +292,22 @@ impl Visible {
             Self::Inside => inside,
         }
     }
+}
+
+/// Where a tree of `use` names this; `last` stands right before the tree.
+fn named(tree: &UseTree, last: Option<&Ident>, name: &str) -> Option<Span> {
+    let found = match tree {
+        UseTree::Path(path) => return named(&path.tree, Some(&path.ident), name),
+        UseTree::Group(group) => {
+            let mut trees = group.items.iter();
+            return trees.find_map(|tree| named(tree, last, name));
+        }
+        UseTree::Name(own) if own.ident == "self" => last?,
+        UseTree::Name(own) => &own.ident,
+        UseTree::Rename(rename) => &rename.rename,
+        UseTree::Glob(_) => return None,
+    };
+    (found == name).then(|| found.span())
 }
 
 /// Where the modules of a file lie: beside `lib.rs` and `mod.rs`, else in the folder of the file's name.

@@ -94,6 +94,32 @@ impl Library<'_> {
         self.search(library, &search).map(|path| (path, true))
     }
 
+    /// Whether another crate is certainly refused a name of a module that stands for an item or module of the
+    /// workspace.
+    pub(super) fn is_hidden(&self, module: &Rc<Module>, name: &str) -> bool {
+        !self.may_be_seen(module, name, &mut BTreeSet::new())
+    }
+
+    fn may_be_seen(&self, module: &Rc<Module>, name: &str, seen: &mut BTreeSet<String>) -> bool {
+        match module.entries.get(name) {
+            Some(Entry::Ambiguous) => true,
+            Some(Entry::Import(import)) if import.is_conditional => true,
+            Some(entry) => entry.is_public(),
+            // What a macro defines hides what a glob brings in.
+            None if module.calls_macros() => true,
+            None => {
+                let globs = module.globs.iter();
+                let mut public = globs.filter(|glob| glob.visible == Visible::Everywhere);
+                public.any(|glob| match self.follow_import(module, glob) {
+                    Some(Found::Module(target)) => {
+                        seen.insert(target.path.clone()) && self.may_be_seen(&target, name, seen)
+                    }
+                    _ => true,
+                })
+            }
+        }
+    }
+
     /// Breadth first through the public modules of a crate.
     fn search(&self, library: &str, sought: &Search<'_>) -> Option<String> {
         let root = self.root(library)?;

@@ -164,6 +164,36 @@ fn a_private_module_cannot_be_a_node() {
 }
 
 #[test]
+fn a_node_is_not_named_through_a_private_use() {
+    let single = Fixture::control(&["a"]).node("a", acting());
+    let node = single.text("crates/nodes/src/a.rs");
+    let node = node.as_str();
+    for import in [
+        "use m::{b, a as alias};",
+        "pub(crate) use crate::m::a as alias;",
+    ] {
+        let fixture = Fixture::control(&["nodes::alias"])
+            .file("crates/nodes/src/lib.rs", &format!("mod m; {import}"))
+            .file("crates/nodes/src/m.rs", "pub mod a; pub mod b {}")
+            .file("crates/nodes/src/m/a.rs", node);
+        let place = import.find("alias").expect("it stands there") + 8;
+        fixture.expect(
+            "not-public",
+            &[
+                "module `nodes::alias` is private",
+                &format!("crates/nodes/src/lib.rs:1:{place}"),
+                "write `pub use` there",
+            ],
+        );
+    }
+    let public = Fixture::control(&["nodes::alias"])
+        .file("crates/nodes/src/lib.rs", "mod m; pub use m::a as alias;")
+        .file("crates/nodes/src/m.rs", "pub mod a;")
+        .file("crates/nodes/src/m/a.rs", node);
+    public.robot();
+}
+
+#[test]
 fn a_private_module_is_told_once_for_all_of_its_nodes() {
     let fixture = Fixture::control(&["nodes::m::a", "nodes::m::b"])
         .file("crates/nodes/src/lib.rs", "mod m;")

@@ -136,6 +136,7 @@ impl Library<'_> {
     pub fn missing_type(&self, path: &str) -> Option<(String, String)> {
         let (modules, name) = path.rsplit_once("::")?;
         let mut module = self.root(modules.split("::").next()?)?;
+        let mut hidden = None;
         for part in modules.split("::").skip(1) {
             let Some(below) = self.module_in(&module, part) else {
                 let near = crate::diagnostics::nearest(part, module.module_names());
@@ -154,31 +155,26 @@ impl Library<'_> {
                     help,
                 ));
             };
+            if hidden.is_none() && self.is_hidden(&module, part) {
+                hidden = Some(format!("module `{}::{part}`", module.path));
+            }
             module = below;
         }
-        if let Some(found) = self.find(
-            &module,
-            &syn::Path::from(syn::parse_str::<syn::Ident>(name).ok()?),
-        ) {
-            let private = match &found {
-                Found::Item(item) => item.module.path == module.path && !item.public,
-                _ => false,
-            };
-            return private.then(|| {
-                (
-                    format!("`{path}` is private"),
-                    format!("write `pub` at `{name}`"),
-                )
-            });
-        }
+        let name_alone = syn::Path::from(syn::parse_str::<syn::Ident>(name).ok()?);
+        let found = self.find(&module, &name_alone);
+        let item = match &found {
+            Some(Found::Item(item)) => Some(item),
+            _ => None,
+        };
         // A macro may define it.
-        if module
-            .syntax
-            .items
-            .iter()
-            .any(|item| matches!(item, Item::Macro(_)))
-        {
-            return None;
+        if found.is_some() || module.calls_macros() {
+            let is_hidden = item.is_some() && self.is_hidden(&module, name);
+            let hidden = hidden.or_else(|| is_hidden.then(|| format!("`{path}`")))?;
+            let help = match item.and_then(|item| self.public_path(item)) {
+                Some(path) => format!("write `{path}`"),
+                None => format!("write `pub` at `{name}` and its modules"),
+            };
+            return Some((format!("{hidden} is private"), help));
         }
         let names = module.public_names();
         let help = match crate::diagnostics::nearest(name, names.iter().map(String::as_str)) {

@@ -172,6 +172,86 @@ fn what_is_no_hardware_for_the_framework_is_told_at_the_target() {
 }
 
 #[test]
+fn a_hardware_is_public_on_the_whole_way() {
+    let hardware =
+        "pub struct Robot; impl framework::Hardware for Robot {} impl Motors for Robot {}";
+    for (path, more, hidden) in [
+        (
+            "m::Robot",
+            "mod m { pub use super::Robot; }",
+            "module `hardware::m`",
+        ),
+        (
+            "m::Robot",
+            "pub mod m { use super::Robot; }",
+            "`hardware::m::Robot`",
+        ),
+        (
+            "m::Robot",
+            "pub mod m { pub(crate) use super::Robot; }",
+            "`hardware::m::Robot`",
+        ),
+        (
+            "m::Robot",
+            "pub mod m { use super::*; }",
+            "`hardware::m::Robot`",
+        ),
+        (
+            "n::Robot",
+            "mod m { pub use super::Robot; } use m as n;",
+            "module `hardware::n`",
+        ),
+        (
+            "m::n::Robot",
+            "mod n { pub use super::Robot; } pub mod m { use super::*; }",
+            "module `hardware::m::n`",
+        ),
+    ] {
+        let path = format!("hardware::{path}");
+        with_hardware(&path, &format!("{hardware} {more}")).expect(
+            "unknown-hardware",
+            &[
+                &format!("{hidden} is private"),
+                "help: write `hardware::Robot`",
+            ],
+        );
+    }
+    let inside = format!("mod m {{ use super::Motors; {hardware} }}");
+    with_hardware("hardware::m::Robot", &inside).expect(
+        "unknown-hardware",
+        &[
+            "module `hardware::m` is private",
+            "write `pub` at `Robot` and its modules",
+        ],
+    );
+    for (path, more) in [
+        ("m::Robot", "pub mod m { pub use super::Robot; }"),
+        ("m::Robot", "pub mod m { pub use super::*; }"),
+        (
+            "m::Robot",
+            "pub mod m { pub use super::n::*; } mod n { pub use super::*; }",
+        ),
+        (
+            "n::Robot",
+            "mod m { pub use super::Robot; } pub use m as n;",
+        ),
+        (
+            "m::n::Robot",
+            "pub mod n { pub use super::Robot; } pub mod m { pub use super::*; }",
+        ),
+        // These may be another, public one.
+        ("m::Robot", "pub mod m { use super::*; hardware!(); }"),
+        (
+            "m::Robot",
+            "pub mod m { #[cfg(x)] use super::Robot; #[cfg(not(x))] pub use super::Robot; }",
+        ),
+    ] {
+        let path = format!("hardware::{path}");
+        with_hardware(&path, &format!("{hardware} {more}")).robot();
+    }
+}
+
+#[test]
 fn a_hardware_with_parameters_needs_their_arguments() {
     let library = "pub struct Hardware<T>(T); impl framework::Hardware for Hardware<f32> {} impl Motors for Hardware<f32> {}";
     with_hardware("hardware::Hardware", library).expect(
