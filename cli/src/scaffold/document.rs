@@ -86,15 +86,20 @@ pub(super) fn push(list: &mut Array, text: &str) {
     list.set_trailing(trailing);
 }
 
-/// Removes an element of a list; comments of its neighbours stay.
+/// Removes an element of a list with the comment beside it. Comments on lines of their own stay: nobody knows whether
+/// they are the element's, the list's, or other elements for later.
 pub(super) fn remove(list: &mut Array, index: usize) {
     let removed = list.remove(index);
     let is_alone = list.is_empty();
     let (line_before, below) = split(prefix(&removed));
+    let (comments, _) = below.rsplit_once('\n').unwrap_or_default();
     match list.get_mut(index) {
         Some(next) => {
-            let (_, own) = split(prefix(next));
-            let joined = format!("{line_before}{own}");
+            let joined = match split(prefix(next)) {
+                // It stood on the same line, and takes the place.
+                (_, "") => format!("{line_before}{below}"),
+                (_, own) => format!("{line_before}{comments}{own}"),
+            };
             next.decor_mut().set_prefix(joined);
         }
         None => {
@@ -106,10 +111,13 @@ pub(super) fn remove(list: &mut Array, index: usize) {
             let (own, rest) = split(&behind);
             if below.is_empty() && rest.is_empty() {
                 list.set_trailing(own);
-            } else if is_alone && !line_before.contains('#') {
-                list.set_trailing("");
             } else {
-                list.set_trailing(format!("{line_before}{rest}"));
+                let left = format!("{line_before}{comments}{rest}");
+                list.set_trailing(match (left.contains('#'), rest) {
+                    (true, "") => format!("{left}\n"),
+                    (false, _) if is_alone => String::new(),
+                    _ => left,
+                });
             }
         }
     }
