@@ -77,6 +77,7 @@ pub(super) fn check(
         Err(disagreement) => return disagreement,
     };
     let last = segments.last().map_or("", |segment| segment.name.as_str());
+    let has_mark = segments.last().is_some_and(|segment| segment.optional);
     if !segments.iter().any(|segment| segment.optional) {
         return without_mark(&end, written, last);
     }
@@ -88,8 +89,14 @@ pub(super) fn check(
         Comparison::Same => Agreement::Same,
         Comparison::Unknown => Agreement::Unknown,
         Comparison::Different if is_option_of(&end, inner) => Agreement::Option {
-            message: format!("`{last}` is `{}`", end.text),
-            help: format!("write `?` behind `{last}`, too"),
+            message: match has_mark {
+                true => format!("`{last}?` is `{}`", end.text),
+                false => format!("`{last}` is `{}`", end.text),
+            },
+            help: match has_mark {
+                true => format!("write `Option<{}>`: one `?` removes one `Option`", end.text),
+                false => format!("write `?` behind `{last}`, too"),
+            },
         },
         Comparison::Different => Agreement::Type {
             expected: format!("Option<{}>", end.text),

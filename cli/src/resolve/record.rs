@@ -77,6 +77,11 @@ fn condition(scene: &Scene<'_>, own: usize, written: &str) -> Result<Condition, 
             producer: producer.node,
             access,
         }),
+        Agreement::Private { structure, field } => Err(Refused {
+            code: Code::NotPublic,
+            message: format!("field `{field}` of `{structure}` is private"),
+            help: format!("write `pub {field}`"),
+        }),
         _ => Err(Refused {
             code: Code::TypeMismatch,
             message: format!(

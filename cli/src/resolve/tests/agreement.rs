@@ -116,6 +116,17 @@ fn written_type_and_path_agree_by_the_contract() {
     }
 }
 
+#[test]
+fn one_mark_removes_one_option() {
+    let (codes, text) = answer("Option<Option<u8>>", "Input<Option<u8>, \"x?\">");
+    assert_eq!(codes, ["option-mismatch"], "{text}");
+    assert!(text.contains("`x?` is `Option<u8>`"), "{text}");
+    let help = "write `Option<Option<u8>>`: one `?` removes one `Option`";
+    assert!(text.contains(help), "{text}");
+    let (codes, text) = answer("Option<Option<u8>>", "Input<Option<Option<u8>>, \"x?\">");
+    assert!(codes.is_empty(), "{text}");
+}
+
 /// Every line was compiled against nalgebra 0.35.
 #[test]
 fn paths_lead_into_values_of_nalgebra() {

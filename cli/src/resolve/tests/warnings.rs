@@ -182,7 +182,9 @@ fn recorded_while(path: &str) -> Fixture {
     let record = format!("record = {{ while = \"{path}\" }}");
     Fixture::new(&cycler("Control", "real-time", &record, &[], &["a"])).node(
         "a",
-        writes("is_playing: MainOutput<bool>, ball: MainOutput<Option<Ball>>,"),
+        writes(
+            "is_playing: MainOutput<bool>, ball: MainOutput<Option<Ball>>, near: MainOutput<Ball>,",
+        ),
     )
 }
 
@@ -209,6 +211,14 @@ fn what_is_recorded_is_asked_of_an_output_that_is_there_and_a_bool() {
             "ball",
             "type-mismatch",
             ["`ball` is no `bool`", "`ball` is `Option<types::Ball>`"],
+        ),
+        (
+            "near.secret",
+            "not-public",
+            [
+                "field `secret` of `types::Ball` is private",
+                "write `pub secret`",
+            ],
         ),
     ] {
         recorded_while(path).expect(code, &parts);
