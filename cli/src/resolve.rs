@@ -107,7 +107,9 @@ fn check_nodes(manifest: &Manifest, sources: &Sources<'_>, diagnostics: &mut Dia
     let here = || hardware::running_here(manifest, sources);
     let uncertain =
         here().filter(|node| node.is_uncertain() || sources.library.is_conditional(&node.module));
+    let made = here().filter(|node| node.state.is_none());
     uncertain.count()
+        + made.count()
         + declared::unsure(here(), &sources.library)
         + hardware::foreign_bounds(here(), &sources.library)
         + sendable::check_states(here(), sources, diagnostics)

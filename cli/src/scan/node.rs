@@ -25,7 +25,7 @@ pub struct NodeSource {
     pub cycle: Context<CycleField>,
     pub outputs: Context<OutputField>,
     pub signatures: grammar::Signatures,
-    /// The node's struct, if it is written in this file.
+    /// The node's struct; `None` if only a macro of this file can have written it.
     pub state: Option<StateSource>,
 }
 
@@ -42,6 +42,9 @@ pub(super) fn scan(
     let contexts = read_contexts(&module, diagnostics);
     let signatures = signatures?;
     let state = state::find(library, &module, &signatures.node);
+    if state.is_none() && !state::may_be_made(library, &module, &signatures.node) {
+        diagnostics.add(elsewhere(&module, &signatures.node));
+    }
     check_derives(&module, &signatures, state.as_ref(), diagnostics);
     let Contexts {
         creation: Some(creation),
@@ -127,6 +130,19 @@ fn missing_context(module: &Module, kind: ContextKind) -> Diagnostic {
     )
     .at(&module.file, 0..0, "")
     .help(format!("add `#[context] pub struct {name} {{}}`"))
+}
+
+fn elsewhere(module: &Module, node: &syn::Ident) -> Diagnostic {
+    let message = format!("the struct of the node `{node}` does not stand beside its `impl`");
+    Diagnostic::new(Code::InvalidSignature, message)
+        .at(
+            &module.file,
+            range(node.span()),
+            "generated code names it by this module",
+        )
+        .help(format!(
+            "write `pub struct {node}` here, or put what stands elsewhere into a field of one"
+        ))
 }
 
 fn check_derives(

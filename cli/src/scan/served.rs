@@ -21,9 +21,8 @@ use super::library::Library;
 use super::lookup::{Found, ItemId};
 use super::module::{Entry, Module, attributes, is_conditional, only_for_tests};
 use super::types::{Definition, Shape};
-use attributes::writes_nothing;
 
-pub(super) use attributes::derives_nothing_unknown;
+pub(super) use attributes::{derives_nothing_unknown, writes_nothing};
 
 /// The hardware type of a target, and everything that was found about it.
 #[derive(Debug)]

@@ -1,4 +1,4 @@
-//! The struct of a node: what it derives, and which of its fields are not stored.
+//! The struct of a node: where it stands, what it derives, and which of its fields are not stored.
 
 use std::ops::Range;
 use std::rc::Rc;
@@ -6,16 +6,17 @@ use std::rc::Rc;
 use grammar::is_written_for_tests;
 use quote::ToTokens as _;
 use syn::visit::{self, Visit};
-use syn::{Attribute, Item, ItemImpl, ItemStruct, Meta, Token, punctuated::Punctuated};
+use syn::{Attribute, Ident, Item, ItemImpl, ItemStruct, Meta, Token, punctuated::Punctuated};
 
 use super::beyond::stands_in;
 use super::library::Library;
 use super::lookup::Found;
-use super::module::{Module, attributes, is_conditional, only_for_tests};
+use super::module::{Entry, Module, attributes, is_conditional, only_for_tests};
 use super::range;
+use super::served::{derives_nothing_unknown, writes_nothing};
 use super::types::written;
 
-/// A node's struct, if it is written in the node's file.
+/// A node's struct, or enum, as the node's file has it.
 #[derive(Clone, Debug)]
 pub struct StateSource {
     /// Of its name.
@@ -30,29 +31,45 @@ pub struct StateSource {
     pub skipped: Vec<(String, Range<usize>)>,
 }
 
-/// Reads the struct of this name; `None` if the file does not have it.
+/// Reads the struct, or the enum, of this name; `None` if the file does not have it.
 pub(super) fn find(
     library: &Library<'_>,
     module: &Rc<Module>,
-    node: &syn::Ident,
+    node: &Ident,
 ) -> Option<StateSource> {
-    let item = module.syntax.items.iter().find_map(|item| match item {
-        Item::Struct(item) if item.ident == *node && !only_for_tests(&item.attrs) => Some(item),
-        _ => None,
+    let mut items = module.syntax.items.iter();
+    let (name, attributes, item) = items.find_map(|item| {
+        let (name, attributes, item) = match item {
+            Item::Struct(item) => (&item.ident, &item.attrs, Some(item)),
+            Item::Enum(item) => (&item.ident, &item.attrs, None),
+            _ => return None,
+        };
+        let is_it = name == node && !only_for_tests(attributes);
+        is_it.then_some((name, attributes, item))
     })?;
-    let mut is_uncertain = is_conditional(&item.attrs);
+    let mut is_uncertain = is_conditional(attributes);
     let mut missing_derives = Vec::new();
-    for name in ["Serialize", "Deserialize"] {
-        match provides(library, module, item, name) {
+    for one in ["Serialize", "Deserialize"] {
+        match provides(library, module, (name, attributes), one) {
             Provides::Surely => {}
             Provides::Perhaps => is_uncertain = true,
-            Provides::Never => missing_derives.push(name),
+            Provides::Never => missing_derives.push(one),
         }
     }
     // Another struct may stand in its place, or the condition never holds.
     if is_uncertain {
         missing_derives.clear();
     }
+    Some(StateSource {
+        range: range(name.span()),
+        missing_derives,
+        is_uncertain,
+        borrowing: item.map(borrowing).unwrap_or_default(),
+        skipped: item.map(skipped).unwrap_or_default(),
+    })
+}
+
+fn skipped(item: &ItemStruct) -> Vec<(String, Range<usize>)> {
     let skipped = item
         .fields
         .iter()
@@ -65,13 +82,27 @@ pub(super) fn find(
             range(place),
         )
     });
-    Some(StateSource {
-        range: range(item.ident.span()),
-        missing_derives,
-        is_uncertain,
-        borrowing: borrowing(item),
-        skipped: skipped.collect(),
-    })
+    skipped.collect()
+}
+
+/// Whether a macro of the module may define the type of this name, which does not stand in it as it is written.
+pub(super) fn may_be_made(library: &Library<'_>, module: &Rc<Module>, node: &Ident) -> bool {
+    let name = node.to_string();
+    let may_write = |item: &Item| match item {
+        Item::Macro(call) => call.ident.is_none(),
+        item => {
+            let attributes = attributes(item);
+            let plain = |one| writes_nothing(one) || grammar::is_context_attribute(one);
+            !attributes.iter().all(plain) || !derives_nothing_unknown(attributes)
+        }
+    };
+    let is_taken = match module.entries.get(&name) {
+        None => false,
+        // What is brought in may also be a function or a macro of that name.
+        Some(Entry::Import(_)) => library.item_in(module, &name).is_some(),
+        Some(_) => true,
+    };
+    !is_taken && module.syntax.items.iter().any(may_write)
 }
 
 /// Whether `#[derive(…)]` names this trait; unknown attribute macros may provide anything.
@@ -192,8 +223,13 @@ enum Provides {
     Never,
 }
 
-fn provides(library: &Library<'_>, module: &Rc<Module>, item: &ItemStruct, name: &str) -> Provides {
-    if derives(&item.attrs, name) {
+fn provides(
+    library: &Library<'_>,
+    module: &Rc<Module>,
+    (node, above): (&Ident, &[Attribute]),
+    name: &str,
+) -> Provides {
+    if derives(above, name) {
         return Provides::Surely;
     }
     // The macro of an attribute may write anything, and so may what stands behind a condition.
@@ -204,14 +240,14 @@ fn provides(library: &Library<'_>, module: &Rc<Module>, item: &ItemStruct, name:
         !is_written_for_tests(attribute)
             && !known.iter().any(|known| attribute.path().is_ident(known))
     };
-    match by_hand(library, module, item, name) {
-        Provides::Never if item.attrs.iter().any(unknown) => Provides::Perhaps,
+    match by_hand(library, module, node, name) {
+        Provides::Never if above.iter().any(unknown) => Provides::Perhaps,
         found => found,
     }
 }
 
 /// An `impl` of the trait, which may stand anywhere in the crate, or a call of a macro with the node's name.
-fn by_hand(library: &Library<'_>, module: &Rc<Module>, item: &ItemStruct, name: &str) -> Provides {
+fn by_hand(library: &Library<'_>, module: &Rc<Module>, node: &Ident, name: &str) -> Provides {
     let mut found = Provides::Never;
     let mut waiting: Vec<(Rc<Module>, bool)> = vec![(module.clone(), true)];
     let root = library.root(module.library());
@@ -220,7 +256,7 @@ fn by_hand(library: &Library<'_>, module: &Rc<Module>, item: &ItemStruct, name: 
         let mut search = Search {
             library,
             module: &module,
-            node: &item.ident,
+            node,
             name,
             always,
             found: &mut found,

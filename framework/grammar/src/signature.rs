@@ -81,7 +81,7 @@ fn read_signatures(
     let read = |expected: Expected<'_>, method, mistakes: &mut Vec<Mistake>| {
         check(&expected, method, meanings, mistakes)
     };
-    mistakes.extend(private_struct(node, file));
+    mistakes.extend(private_type(node, file));
     mistakes.extend(node.generics_mistake());
     let new = match node.method("new") {
         Some(method) => read(Expected::new(&node.name, file), method, &mut mistakes),
@@ -120,14 +120,19 @@ fn absent(node: &Candidate, function: &str, mistakes: &mut Vec<Mistake>) -> Opti
     None
 }
 
-fn private_struct(node: &Candidate, file: &syn::File) -> Option<Mistake> {
-    let item = structs(file).find(|item| item.ident == node.name)?;
-    if matches!(item.vis, syn::Visibility::Public(_)) {
+fn private_type(node: &Candidate, file: &syn::File) -> Option<Mistake> {
+    let types = file.items.iter().filter_map(|item| match item {
+        Item::Struct(item) => Some((&item.ident, &item.vis, "struct")),
+        Item::Enum(item) => Some((&item.ident, &item.vis, "enum")),
+        _ => None,
+    });
+    let (name, visibility, keyword) = types.into_iter().find(|(name, ..)| **name == node.name)?;
+    if matches!(visibility, syn::Visibility::Public(_)) {
         return None;
     }
-    let message = format!("the node `{}` is not public", node.name);
-    let help = format!("write `pub struct {}`: generated code keeps it", node.name);
-    Some(Mistake::new(Rule::InvalidSignature, item.ident.span(), message).help(help))
+    let message = format!("the node `{name}` is not public");
+    let help = format!("write `pub {keyword} {name}`: generated code keeps it");
+    Some(Mistake::new(Rule::InvalidSignature, name.span(), message).help(help))
 }
 
 fn ambiguous(nodes: &[Candidate]) -> Mistake {

@@ -74,7 +74,7 @@ const WRITING_NOTHING: &[&str] = &[
 const TOOLS: &[&str] = &["clippy", "diagnostic", "rust_analyzer", "rustfmt"];
 
 /// Whether an attribute of an item certainly adds no other item.
-pub(super) fn writes_nothing(attribute: &Attribute) -> bool {
+pub(in crate::scan) fn writes_nothing(attribute: &Attribute) -> bool {
     match &attribute.meta {
         Meta::List(list) if list.path.is_ident("cfg_attr") => {
             let conditional = Punctuated::<Meta, Token![,]>::parse_terminated;
