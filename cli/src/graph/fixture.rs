@@ -349,6 +349,7 @@ fn node(path: &str, type_name: &str, setup: bool) -> Node {
         new_bounds: Vec::new(),
         cycle_bounds: Vec::new(),
         restore_bounds: Vec::new(),
+        markers: Vec::new(),
     }
 }
 

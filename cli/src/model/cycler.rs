@@ -323,7 +323,10 @@ fn union(
     bounds: impl Fn(&Node) -> Vec<&Vec<Interface>>,
 ) -> Hardware {
     let bounds = cycler.nodes.iter().flat_map(bounds).flatten();
-    asked(generic, &bounds.cloned().collect::<Vec<_>>())
+    let markers = cycler.nodes.iter().flat_map(|node| &node.markers);
+    let (bounds, markers): (Vec<_>, Vec<_>) =
+        (bounds.cloned().collect(), markers.cloned().collect());
+    asked(generic, &bounds, &markers)
 }
 
 fn previous(cycler: &Cycler) -> Previous {
@@ -348,8 +351,7 @@ fn calls(schedule: &CyclerSchedule, nodes: &[NodeModel], setup: bool) -> Calls {
         hardware = match (hardware, node.step.hardware.clone()) {
             (Hardware::Asked(mut one), Hardware::Asked(other)) => {
                 one.extend(other);
-                one.sort();
-                one.dedup();
+                frame::sort_bounds(&mut one);
                 Hardware::Asked(one)
             }
             (Hardware::Absent, other) => other,

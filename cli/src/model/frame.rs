@@ -78,8 +78,19 @@ impl InstanceParameters {
 pub enum Hardware {
     /// No type parameter.
     Absent,
-    /// Absolute paths of traits, sorted; perhaps none.
+    /// Absolute paths of traits, sorted, then `Send`, `Sync` and `'static`; perhaps none.
     Asked(Vec<String>),
+}
+
+/// Sorts bounds, each once: traits of the robot first.
+pub fn sort_bounds(bounds: &mut Vec<String>) {
+    bounds.sort_by_cached_key(|bound| (is_marker(bound), bound.starts_with('\''), bound.clone()));
+    bounds.dedup();
+}
+
+/// Whether a bound asks for what every hardware is, and not for a trait of the robot.
+pub fn is_marker(bound: &str) -> bool {
+    matches!(bound, "'static" | "Send" | "Sync")
 }
 
 impl FrameField {

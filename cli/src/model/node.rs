@@ -188,8 +188,12 @@ impl Surroundings<'_> {
             on_failure: node.on_failure,
             creation: Creation {
                 context: creation,
-                hardware: asked(self.creation_is_generic, &node.new_bounds),
-                restore_hardware: asked(self.creation_is_generic, &node.restore_bounds),
+                hardware: asked(self.creation_is_generic, &node.new_bounds, &node.markers),
+                restore_hardware: asked(
+                    self.creation_is_generic,
+                    &node.restore_bounds,
+                    &node.markers,
+                ),
             },
             restores: node.restores,
             step: self.step(node),
@@ -227,7 +231,7 @@ impl Surroundings<'_> {
         }
         Step {
             flow: sentences::flow(self.robot, node),
-            hardware: asked(self.frame_is_generic, &bounds),
+            hardware: asked(self.frame_is_generic, &bounds, &node.markers),
             required,
             context,
             outputs: self.outputs(node),
@@ -449,15 +453,15 @@ fn state(base: &str, access: &Access, shared: bool) -> Value {
 }
 
 /// What is asked of the hardware, sorted and each once.
-pub fn asked(generic: bool, bounds: &[Interface]) -> Hardware {
+pub fn asked(generic: bool, bounds: &[Interface], markers: &[String]) -> Hardware {
     if !generic {
         return frame::Hardware::Absent;
     }
     let mut traits: Vec<String> = bounds
         .iter()
         .map(|interface| interface.path.clone())
+        .chain(markers.iter().cloned())
         .collect();
-    traits.sort();
-    traits.dedup();
+    frame::sort_bounds(&mut traits);
     Hardware::Asked(traits)
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use super::cycler::CyclerModel;
-use super::frame::Hardware;
+use super::frame::{Hardware, is_marker};
 use crate::resolve::robot::{Condition, Interface, Record, Robot};
 
 pub use crate::resolve::robot::{Answer, Method};
@@ -39,7 +39,9 @@ impl Sink {
         match &cycler.hardware {
             Hardware::Absent => true,
             Hardware::Asked(traits) => {
-                let is_served = |asked: &String| self.traits.iter().any(|one| one.path == *asked);
+                let is_served = |asked: &String| {
+                    is_marker(asked) || self.traits.iter().any(|one| one.path == *asked)
+                };
                 traits.iter().all(is_served)
             }
         }

@@ -156,7 +156,7 @@ pub fn describe(robot: &Robot, cyclers: &[CyclerModel]) -> Runtime {
         .flatten()
         .cloned()
         .collect();
-    let hardware = match asked(true, &bounds) {
+    let hardware = match asked(true, &bounds, &[]) {
         Hardware::Asked(traits) => traits,
         Hardware::Absent => Vec::new(),
     };

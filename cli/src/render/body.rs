@@ -10,7 +10,7 @@ use super::database::{database_modules, quote_instance_parameters, quote_shared_
 use super::instance::quote_description;
 use super::layout::{self, doc};
 use super::spelling::{bound, ident, path};
-use crate::model::frame::{FrameField, Hardware};
+use crate::model::frame::{FrameField, Hardware, is_marker};
 use crate::model::{CyclerModel, Runtime};
 
 /// The body of one cycler's instances, and what the manifest says about each.
@@ -89,9 +89,12 @@ pub(super) fn quote_generics(cycler: &CyclerModel, bounded: bool) -> (TokenStrea
         Hardware::Absent => (quote!(), quote!()),
         Hardware::Asked(_) if !bounded => (quote!(<Hardware>), quote!(<Hardware>)),
         Hardware::Asked(traits) => {
-            let traits = traits.iter().map(|one| bound(one));
+            let is_static = traits.iter().any(|one| one == "'static");
+            let lifetime = is_static.then(|| quote!(+ 'static));
+            let traits = traits.iter().filter(|one| !is_marker(one));
+            let traits = traits.map(|one| bound(one));
             (
-                quote!(<Hardware: #(#traits +)* Send + Sync>),
+                quote!(<Hardware: #(#traits +)* Send + Sync #lifetime>),
                 quote!(<Hardware>),
             )
         }

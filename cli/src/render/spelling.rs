@@ -30,11 +30,11 @@ pub(super) fn path(text: &str) -> TokenStream {
     quote!(#root #(#names)::*)
 }
 
-/// A trait with its arguments, all of whose paths are absolute.
+/// A trait with its arguments, all of whose paths are absolute, or `'static`.
 pub(super) fn bound(text: &str) -> TokenStream {
-    let mut bound: syn::Path = syn::parse_str(text)
+    let mut bound: syn::TypeParamBound = syn::parse_str(text)
         .unwrap_or_else(|error| panic!("hulkgen resolved no trait ({error}): {text}"));
-    MakeAbsolute.visit_path_mut(&mut bound);
+    MakeAbsolute.visit_type_param_bound_mut(&mut bound);
     quote!(#bound)
 }
 

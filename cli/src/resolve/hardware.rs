@@ -56,6 +56,25 @@ pub(super) fn foreign_bounds<'a>(
     bounds.sum()
 }
 
+/// What a node asks of its hardware that every hardware is, and generated functions have to ask for, too: `Send`,
+/// `Sync` and `'static`, sorted.
+pub(super) fn markers(library: &Library<'_>, source: &NodeSource) -> Vec<String> {
+    let signatures = &source.signatures;
+    let functions = [&signatures.new, &signatures.cycle].into_iter();
+    let mut markers = BTreeSet::new();
+    for function in functions.chain(&signatures.restore) {
+        markers.extend(function.is_static.then(|| "'static".to_owned()));
+        for bound in &function.bounds {
+            if let Bound::Marker(name) = library.hardware_trait(&source.module, bound) {
+                markers.insert(name);
+            }
+        }
+    }
+    // Every type parameter is that anyway.
+    markers.remove("Sized");
+    markers.into_iter().collect()
+}
+
 /// The traits of one function, sorted by path.
 pub(super) fn interfaces(
     library: &Library<'_>,
@@ -66,7 +85,7 @@ pub(super) fn interfaces(
     let mut interfaces = Vec::new();
     for bound in &signature.bounds {
         let found = match library.hardware_trait(&source.module, bound) {
-            Bound::Marker => continue,
+            Bound::Marker(_) => continue,
             Bound::Refused(name) => {
                 let message = format!("`{name}` is nothing that a hardware does");
                 let error = Diagnostic::new(Code::InvalidSignature, message)

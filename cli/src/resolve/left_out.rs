@@ -50,6 +50,7 @@ fn empty(cycler: &mut Cycler) {
             new_bounds: Vec::new(),
             cycle_bounds: Vec::new(),
             restore_bounds: Vec::new(),
+            markers: Vec::new(),
             ..node.clone()
         };
     }

@@ -43,6 +43,7 @@ pub(super) fn bind(
         new_bounds: bounds(Some(&signatures.new)),
         cycle_bounds: bounds(Some(&signatures.cycle)),
         restore_bounds: bounds(signatures.restore.as_ref()),
+        markers: hardware::markers(library, source),
         path: source.path.clone(),
         type_name: signatures.node.to_string(),
         setup: node.entry.setup,

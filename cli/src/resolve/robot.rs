@@ -274,6 +274,9 @@ pub struct Node {
     pub new_bounds: Vec<Interface>,
     pub cycle_bounds: Vec<Interface>,
     pub restore_bounds: Vec<Interface>,
+    /// `Send`, `Sync` and `'static`, as far as any of them asks for it.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub markers: Vec<String>,
 }
 
 /// A field of one of the three contexts.

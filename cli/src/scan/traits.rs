@@ -40,8 +40,8 @@ pub struct HardwareTrait {
 /// What a bound of a node asks for.
 #[derive(Clone, Debug)]
 pub enum Bound {
-    /// What every hardware is.
-    Marker,
+    /// What every hardware is; its name.
+    Marker(String),
     /// What no generated code passes on; its name.
     Refused(String),
     Trait(Box<HardwareTrait>),
@@ -75,7 +75,7 @@ impl Library<'_> {
             return match name.as_str() {
                 // Nothing says that a hardware is.
                 "Unpin" => Bound::Refused(name),
-                _ => Bound::Marker,
+                _ => Bound::Marker(name),
             };
         }
         Bound::Trait(Box::new(self.proper_trait(module, bound)))

@@ -35,6 +35,8 @@ pub struct Signature {
     /// The traits that it asks of the hardware interface (`impl A + B`, generics, `where`), in the order of the file,
     /// each once.
     pub bounds: Vec<syn::Path>,
+    /// Whether it asks for `'static`, too.
+    pub is_static: bool,
     /// What it returns, as written.
     pub returns: syn::Type,
 }

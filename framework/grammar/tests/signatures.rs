@@ -87,6 +87,20 @@ fn traits_are_read_from_every_form() {
         assert_eq!(bounds(&node.cycle), expected, "{cycle}");
         assert_eq!(bounds(&node.new), ["N"]);
     }
+    for (cycle, is_static) in [
+        ("cycle(&mut self, c: CycleContext<'static, impl A>)", false),
+        (
+            "cycle<'a>(&mut self, c: CycleContext<'a, impl A + 'a>)",
+            false,
+        ),
+        ("cycle(&mut self, c: CycleContext<impl A + 'static>)", true),
+        ("cycle<H: 'static>(&mut self, c: CycleContext<H>)", true),
+    ] {
+        let source = format!(
+            "{CONTEXTS} impl Node {{ pub fn new(c: CreationContext<impl N>) -> Result<Self> {{ x }} pub fn {cycle} -> Result<MainOutputs> {{ x }} }}"
+        );
+        assert_eq!(found(&source).cycle.is_static, is_static, "{cycle}");
+    }
     let source = format!("{CONTEXTS} impl Node {{
         pub fn new<T>(c: CreationContext<T>) -> Result<Self> where T: N, T: M + N {{ x }}
         pub fn cycle<H: A>(&mut self, c: CycleContext<H>) -> Result<MainOutputs> where H: B + A, Vec<u8>: Sized {{ x }}

@@ -39,6 +39,7 @@ pub(crate) fn node(path: &str) -> NodeBuilder {
         new_bounds: Vec::new(),
         cycle_bounds: Vec::new(),
         restore_bounds: Vec::new(),
+        markers: Vec::new(),
     };
     NodeBuilder {
         node,

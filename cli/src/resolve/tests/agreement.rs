@@ -376,3 +376,50 @@ fn a_hardware_trait_keeps_its_arguments() {
         assert!(text.contains(bound), "{text}");
     }
 }
+
+#[test]
+fn generated_functions_ask_for_what_every_hardware_is_where_a_node_does() {
+    let node = Node {
+        cycle: "hardware: HardwareInterface,",
+        asks: "hardware::Motors",
+        ..Node::default()
+    };
+    for (asks, function, body) in [
+        (
+            "hardware::Motors",
+            "impl Motors>",
+            "Hardware: Motors + Send + Sync",
+        ),
+        (
+            "hardware::Motors + Sync + std::marker::Send + Sized",
+            "impl Motors + Send + Sync>",
+            "Hardware: Motors + Send + Sync",
+        ),
+        (
+            "hardware::Motors + 'static",
+            "impl Motors + 'static>",
+            "Hardware: Motors + Send + Sync + 'static",
+        ),
+    ] {
+        let robot = Fixture::control(&["a", "b"])
+            .node("a", Node { asks, ..node })
+            .node("b", node)
+            .robot();
+        let schedule =
+            crate::schedule::schedule(&robot, &mut Diagnostics::new()).expect("it has an order");
+        let files = crate::render::render(&crate::model::describe(&robot, &schedule));
+        let text = |path: &str| &files[camino::Utf8Path::new(path)];
+        let nodes = text("generated/src/cyclers/control.rs");
+        let own = format!("fn a(&mut self, frame: &mut Frame<'_, {function}");
+        assert!(nodes.contains(&own), "{nodes}");
+        let other = "fn b(&mut self, frame: &mut Frame<'_, impl Motors>";
+        assert!(nodes.contains(other), "{nodes}");
+        let runtime = text("generated/src/runtime/control.rs");
+        assert!(runtime.contains(body), "{runtime}");
+        assert!(
+            files
+                .keys()
+                .any(|path| path.ends_with("recording/control.rs"))
+        );
+    }
+}

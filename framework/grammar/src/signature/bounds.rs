@@ -17,8 +17,8 @@ pub(super) fn read_bounds(
     method: &ImplItemFn,
     context: &PathSegment,
     mistakes: &mut Vec<Mistake>,
-) -> Vec<Path> {
-    let mut bounds = Bounds(Vec::new());
+) -> Bounds {
+    let mut bounds = Bounds::default();
     let interface = interface_argument(context);
     let parameter = interface.and_then(|interface| parameter_name(method, interface));
     mistakes.extend(agreement_mistake(expected, context, interface));
@@ -36,21 +36,29 @@ pub(super) fn read_bounds(
             mistakes.push(expected.mistake(other.span(), message));
         }
     }
-    bounds.0
+    bounds
 }
 
-struct Bounds(Vec<Path>);
+/// What is asked of the hardware.
+#[derive(Default)]
+pub(super) struct Bounds {
+    pub(super) traits: Vec<Path>,
+    pub(super) is_static: bool,
+}
 
 impl Bounds {
     fn extend(&mut self, bounds: &Punctuated<TypeParamBound, Token![+]>) {
         for bound in bounds {
-            // `?Sized` and lifetimes ask nothing of the platform.
-            let TypeParamBound::Trait(bound) = bound else {
-                continue;
-            };
-            let plain = matches!(bound.modifier, syn::TraitBoundModifier::None);
-            if plain && !self.0.contains(&bound.path) {
-                self.0.push(bound.path.clone());
+            // `?Sized` and lifetimes of the function ask nothing of the platform.
+            match bound {
+                TypeParamBound::Lifetime(lifetime) => self.is_static |= lifetime.ident == "static",
+                TypeParamBound::Trait(bound) => {
+                    let plain = matches!(bound.modifier, syn::TraitBoundModifier::None);
+                    if plain && !self.traits.contains(&bound.path) {
+                        self.traits.push(bound.path.clone());
+                    }
+                }
+                _ => {}
             }
         }
     }

@@ -7,7 +7,7 @@ use syn::{
     Type, Visibility,
 };
 
-use super::bounds::read_bounds;
+use super::bounds::{Bounds, read_bounds};
 use super::{Meaning, Meanings, Signature, asks_for_hardware};
 use crate::context::ContextKind;
 use crate::field::peel;
@@ -121,13 +121,14 @@ pub(super) fn check(
         Ok(context) => read_bounds(expected, method, context, mistakes),
         Err(mistake) => {
             mistakes.push(mistake);
-            Vec::new()
+            Bounds::default()
         }
     };
     let returns = returns.filter(|_| mistakes.len() == before)?;
     Some(Signature {
         span: method.sig.ident.span(),
-        bounds,
+        bounds: bounds.traits,
+        is_static: bounds.is_static,
         returns,
     })
 }
