@@ -134,15 +134,20 @@ fn missing_context(module: &Module, kind: ContextKind) -> Diagnostic {
 
 fn elsewhere(module: &Module, node: &syn::Ident) -> Diagnostic {
     let message = format!("the struct of the node `{node}` does not stand beside its `impl`");
+    let mut items = module.syntax.items.iter();
+    let help = match items.any(|item| matches!(item, Item::Type(item) if item.ident == *node)) {
+        true => format!("write the struct here, and its own name in place of `{node}`"),
+        false => format!(
+            "write `pub struct {node}` here, or put what stands elsewhere into a field of one"
+        ),
+    };
     Diagnostic::new(Code::InvalidSignature, message)
         .at(
             &module.file,
             range(node.span()),
             "generated code names it by this module",
         )
-        .help(format!(
-            "write `pub struct {node}` here, or put what stands elsewhere into a field of one"
-        ))
+        .help(help)
 }
 
 fn check_derives(

@@ -403,7 +403,6 @@ fn the_struct_of_a_node_stands_beside_its_impl() {
         "use super::stat::Node;",
         "pub use super::stat::Node;",
         "use super::stat::*;",
-        "type Node = super::stat::Node;",
         "use super::stat::Node; lazy! { static X: u8 = 1; }",
     ] {
         let parts = [
@@ -412,6 +411,10 @@ fn the_struct_of_a_node_stands_beside_its_impl() {
         ];
         with(own).expect("invalid-signature", &parts);
     }
+    with("type Node = super::stat::Node;").expect(
+        "invalid-signature",
+        &["write the struct here, and its own name in place of `Node`"],
+    );
     let derived = "#[derive(Deserialize, Serialize)]";
     with("enum Node {}").expect("invalid-signature", &["write `pub enum Node`"]);
     with("pub enum Node {}").expect("missing-derive", &["does not derive"]);
