@@ -424,7 +424,8 @@ fn the_struct_of_a_node_stands_beside_its_impl() {
         "include!(\"state.rs\");",
         "#[states] mod states {}",
     ] {
-        assert_eq!(with(own).robot().left_to_rustc, 1, "{own}");
+        // Whether it is there, and whether it is `Send`.
+        assert_eq!(with(own).robot().left_to_rustc, 2, "{own}");
     }
 }
 

@@ -124,8 +124,10 @@ fn absent(node: &Candidate, function: &str, mistakes: &mut Vec<Mistake>) -> Opti
 
 fn private_type(node: &Candidate, file: &syn::File) -> Option<Mistake> {
     let types = file.items.iter().filter_map(|item| match item {
-        Item::Struct(item) => Some((&item.ident, &item.vis, "struct")),
-        Item::Enum(item) => Some((&item.ident, &item.vis, "enum")),
+        Item::Struct(item) if !only_for_tests(&item.attrs) => {
+            Some((&item.ident, &item.vis, "struct"))
+        }
+        Item::Enum(item) if !only_for_tests(&item.attrs) => Some((&item.ident, &item.vis, "enum")),
         _ => None,
     });
     let (name, visibility, keyword) = types.into_iter().find(|(name, ..)| **name == node.name)?;
