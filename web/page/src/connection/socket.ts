@@ -42,8 +42,8 @@ const RETRY_MILLISECONDS = 1000;
 
 /** A robot that says nothing while it is looked at so often in a row is gone, also where its network does not say so. */
 const SILENT_LOOKS = 3;
-/** As often on a link that turned out to be slow: the browser does not show that half of a message is there. */
-const MOST_SILENT_LOOKS = 32;
+/** As often on a link that turned out to be slow: the robot itself gives up what is not taken within 20 s. */
+const MOST_SILENT_LOOKS = 9;
 /** A link that was never silent for longer than `SILENT_LOOKS` while it was looked at so often is quick again. */
 const QUICK_LOOKS = 60;
 const LOOK_MILLISECONDS = 2000;
@@ -56,6 +56,10 @@ export class Socket {
   private silence = 0;
   /** So many are borne. */
   private patience = SILENT_LOOKS;
+  /** Whether the robot has said something on this connection. */
+  private isHeard = false;
+  /** Whether the connection before was given up for its silence. */
+  private wasSilent = false;
   /** Looks since more silence than usual. */
   private quick = 0;
   /** Another question would only lie behind the one that has no answer yet. */
@@ -106,11 +110,15 @@ export class Socket {
     };
     this.socket = socket;
     this.silence = 0;
+    this.isHeard = false;
     this.isAsked = false;
   }
 
-  private lose(): void {
+  private lose(isSilent = false): void {
     this.socket = null;
+    this.wasSilent = isSilent && this.isHeard;
+    // Nobody answers: the link was none that is slow, and whoever is gone is to be missed soon.
+    if (!this.isHeard) this.patience = SILENT_LOOKS;
     for (const pending of this.pending.values()) pending.reject(new Error("the connection to the robot was lost"));
     this.pending.clear();
     this.listener.state("waiting");
@@ -125,10 +133,8 @@ export class Socket {
     // Counted, not timed: browsers let hidden pages look at the clock once a minute.
     const isOpen = socket.readyState === WebSocket.OPEN;
     if (this.silence++ >= (isOpen ? this.patience : SILENT_LOOKS)) {
-      // A large message may have been on its way: to ask for it again and again is worse than to see a loss late.
-      if (isOpen) this.patience = Math.min(2 * this.patience, MOST_SILENT_LOOKS);
       // `onclose` may take minutes where the network is silent.
-      this.lose();
+      this.lose(true);
       socket.close();
     } else if (isOpen && !this.isAsked) {
       this.isAsked = true;
@@ -142,6 +148,7 @@ export class Socket {
 
   private async hear(data: unknown): Promise<void> {
     this.silence = 0;
+    if (!this.isHeard) this.beginToHear();
     if (data instanceof ArrayBuffer) {
       for (const frame of readFrames(data)) tolerate(() => this.listener.frame(frame));
       return;
@@ -151,6 +158,16 @@ export class Socket {
       // Whoever waited for an answer goes on before what came with it is heard: the first update of a subscription.
       await null;
     }
+  }
+
+  /**
+   * Who was silent and answers the first attempt was there: a large message was on its way, of which the browser does
+   * not show the half. To ask for it again and again is worse than to see a loss late.
+   */
+  private beginToHear(): void {
+    this.isHeard = true;
+    if (this.wasSilent) this.patience = Math.min(this.patience + SILENT_LOOKS, MOST_SILENT_LOOKS);
+    this.wasSilent = false;
   }
 
   private take(message: Message): void {

@@ -60,14 +60,61 @@ function again(states) {
   states.splice(0);
 }
 
-test("a robot that says nothing is gone, and more slowly each time that it comes back", async () => {
+/** Attempts that fail: the network says so, or says nothing, also behind a handshake. */
+const FAILURES = {
+  refused: () => made.at(-1).onclose(),
+  silent: (states) => {
+    made.at(-1).readyState = 0;
+    looksUntilLost(states);
+  },
+  mute: (states) => looksUntilLost(states),
+};
+
+test("a robot that is silent and answers at once is borne longer, and never longer than it bears the page", async () => {
   const { socket, states } = connected();
   const all = [];
-  for (let time = 0; time < 6; time++) {
+  for (let time = 0; time < 5; time++) {
     all.push(looksUntilLost(states));
     again(states);
   }
-  assert.deepEqual(all, [4, 7, 13, 25, 33, 33]);
+  assert.deepEqual(all, [4, 7, 10, 10, 10], "looks of 2 s");
+  socket.close();
+});
+
+for (const [name, fail] of Object.entries(FAILURES)) {
+  test(`a robot that was gone is missed as soon each time, where an attempt is ${name}`, async () => {
+    const { socket, states } = connected();
+    const all = [];
+    for (let time = 0; time < 5; time++) {
+      all.push(looksUntilLost(states));
+      retry();
+      fail(states);
+      again(states);
+    }
+    assert.deepEqual(all, [4, 4, 4, 4, 4]);
+    socket.close();
+  });
+}
+
+test("a link that was slow is none any more once an attempt fails", async () => {
+  const { socket, states } = connected();
+  for (let time = 0; time < 2; time++) {
+    looksUntilLost(states);
+    again(states);
+  }
+  assert.equal(looksUntilLost(states), 10);
+  retry();
+  FAILURES.refused();
+  again(states);
+  assert.equal(looksUntilLost(states), 4);
+  socket.close();
+});
+
+test("a connection that the robot ends says nothing of the link", async () => {
+  const { socket, states } = connected();
+  made.at(-1).onclose();
+  again(states);
+  assert.equal(looksUntilLost(states), 4);
   socket.close();
 });
 
