@@ -5,6 +5,8 @@ import type { Robot } from "../store/robot";
 
 /** Shorter than the second after which the robot forgets a wish. */
 const PERIOD_MILLISECONDS = 250;
+/** By then the robot has forgotten the last wish, wherever the answer is. */
+const LATE_MILLISECONDS = 2000;
 
 /** Ahead, to the left, turn: in m, m and rad, or in shares of the largest. */
 export type Step = readonly [number, number, number];
@@ -38,7 +40,8 @@ export class Driver {
   motion: string | null = null;
   private readonly keys = new Set<string>();
   private timer: ReturnType<typeof setInterval> | null = null;
-  private isAsked = false;
+  /** When the step was asked for that has no answer yet. */
+  private asked: number | null = null;
   /** Somebody wanted another step while the robot had not answered. */
   private isDue = false;
 
@@ -86,23 +89,27 @@ export class Driver {
 
   /**
    * One step at a time: the robot takes one in each cycle, so that several which come together after a network that
-   * stalled would be taken after the wish to stand which was sent behind them.
+   * stalled would be taken after the wish to stand which was sent behind them. Over a link that takes longer than the
+   * robot remembers a wish, it walks and stands in turn.
    */
   private async ask(): Promise<void> {
     if (this.keys.size === 0) return;
-    if (this.isAsked) {
+    if (this.asked !== null) {
       this.isDue = true;
+      if (isLate(this.asked)) this.listener.state("the robot does not answer: it stops by itself");
       return;
     }
-    this.isAsked = true;
+    const asked = performance.now();
+    this.asked = asked;
     this.isDue = false;
     const share = this.listener.share();
     const sum = LARGEST.map((largest, at) => share * largest * [...this.keys].reduce((all, key) => all + (KEYS[key]?.step[at] ?? 0), 0));
     const [forward, left, turn] = sum as [number, number, number];
     const said = await this.call(this.walk, { forward, left, turn });
-    this.isAsked = false;
+    this.asked = null;
     if (this.keys.size === 0) return;
     if (said !== null) this.listener.state(driving(said as { [key: string]: number }));
+    else if (isLate(asked)) this.listener.state("");
     if (this.isDue) void this.ask();
   }
 
@@ -117,6 +124,10 @@ export class Driver {
       return null;
     }
   }
+}
+
+function isLate(asked: number): boolean {
+  return performance.now() - asked >= LATE_MILLISECONDS;
 }
 
 function driving(step: { [key: string]: number }): string {

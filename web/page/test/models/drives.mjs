@@ -29,6 +29,21 @@ test("a robot that does not answer is asked for one step, however long and whate
   assert.deepEqual(asked.slice(1).map(({ path, argument }) => [path, argument]), [["walk", { forward: 0.06, left: 0.04, turn: 0 }]], "what is held by now");
 });
 
+test("a robot that does not answer for longer than it remembers is said to stop, until it answers", async (test) => {
+  const { driver, asked, said, paths } = driven(test);
+  driver.hold("w");
+  asked[0].answer({ forward: 0.06 });
+  await new Promise((resolve) => setTimeout(resolve, 1500));
+  assert.deepEqual(said, ["driving: 6.0 cm ahead, 0.0 cm left, 0° a step"]);
+  await new Promise((resolve) => setTimeout(resolve, 1300));
+  assert.equal(said.at(-1), "the robot does not answer: it stops by itself");
+  assert.deepEqual(paths(), ["walk", "walk"], "and nothing is behind the question");
+  asked[1].answer({ forward: 0.05 });
+  await settled();
+  assert.equal(said.at(-1), "driving: 5.0 cm ahead, 0.0 cm left, 0° a step");
+  assert.deepEqual(paths(), ["walk", "walk", "walk"]);
+});
+
 test("nothing is behind the wish to stand, also where a step is answered after it", async (test) => {
   const { driver, asked, said, paths } = driven(test);
   driver.hold("w");
