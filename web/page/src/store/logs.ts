@@ -4,6 +4,8 @@ import { Signal, type Readable } from "./signal";
 
 /** Enough for minutes of a robot that talks, and little for a phone. */
 const KEPT = 2000;
+/** The run before would have said again by then what the page has: whoever has not is another one. */
+const RECOGNITION_MILLISECONDS = 1000;
 
 /** What the page says between messages of the robot. */
 export interface Remark {
@@ -11,6 +13,14 @@ export interface Remark {
 }
 
 export type Line = Log | Remark;
+
+/** A connection of which nobody knows yet whether it is to the run before. */
+interface Stranger {
+  /** The robot's clock when it began. */
+  clock: number;
+  /** What it said that the run before may have said while nobody heard it. */
+  held: Line[];
+}
 
 export function isRemark(line: Line): line is Remark {
   return "remark" in line;
@@ -20,8 +30,7 @@ export class Logs {
   private readonly kept = new Signal<readonly Line[]>([]);
   /** Number of the newest message of this run. */
   private newest = 0;
-  /** While nobody knows whether a connection is to the run before: the robot's clock when it began. */
-  private clock: number | null = null;
+  private stranger: Stranger | null = null;
 
   /** Oldest first. */
   get lines(): Readable<readonly Line[]> {
@@ -30,33 +39,64 @@ export class Logs {
 
   /** A connection begins, at this time of the robot's clock: the robot says again what it keeps, or is another run. */
   begin(time: number): void {
-    this.clock = time;
+    // What was held back of a connection before is said again.
+    this.stranger = { clock: time, held: [] };
   }
 
   add(log: Log): void {
-    if (this.clock !== null) this.recognise(log, this.clock);
-    this.clock = null;
-    if (log.number <= this.newest) return;
-    this.newest = log.number;
-    this.push(log);
+    const { stranger } = this;
+    if (stranger !== null) {
+      const isSameRun = this.isSameRun(log, stranger);
+      if (isSameRun === null) return this.hold(log, stranger);
+      this.settle(stranger, isSameRun);
+    }
+    this.take(log);
   }
 
   /** So many messages did not come through. */
   lost(messages: number): void {
     if (!(messages > 0)) return;
-    this.push({ remark: `… ${messages} ${messages === 1 ? "message" : "messages"} left out` });
+    const remark = { remark: `… ${messages} ${messages === 1 ? "message" : "messages"} left out` };
+    if (this.stranger !== null && this.stranger.held.length > 0) this.stranger.held.push(remark);
+    else this.push(remark);
   }
 
-  private recognise(log: Log, clock: number): void {
+  /** Null: this message does not tell. */
+  private isSameRun(log: Log, { clock, held }: Stranger): boolean | null {
     const messages = this.kept.value.filter((line): line is Log => !isRemark(line));
     const last = messages.at(-1);
-    if (last === undefined) return;
+    if (last === undefined) return true;
+    // The same run says what it has in its order, and with it the newest that the page has. What begins behind that was
+    // said while nobody was there: the clock tells, though those of recordings go back within one run.
+    if (log.number > this.newest) return held.length === 0 && clock >= last.time;
     const same = messages.findLast(({ number }) => number === log.number);
-    // Clocks of recordings go back within one run, so what was said counts first.
-    const isSameRun = same === undefined ? clock >= last.time : same.time === log.time && same.message === log.message;
-    if (isSameRun) return;
-    this.newest = 0;
-    this.push({ remark: "the robot began anew" });
+    return same === undefined ? null : same.time === log.time && same.message === log.message;
+  }
+
+  private hold(log: Log, stranger: Stranger): void {
+    stranger.held.push(log);
+    if (stranger.held.length > 1) return;
+    window.setTimeout(() => {
+      if (this.stranger === stranger) this.settle(stranger, false);
+    }, RECOGNITION_MILLISECONDS);
+  }
+
+  private settle({ held }: Stranger, isSameRun: boolean): void {
+    this.stranger = null;
+    if (!isSameRun) {
+      this.newest = 0;
+      this.push({ remark: "the robot began anew" });
+    }
+    for (const line of held) {
+      if (isRemark(line)) this.push(line);
+      else this.take(line);
+    }
+  }
+
+  private take(log: Log): void {
+    if (log.number <= this.newest) return;
+    this.newest = log.number;
+    this.push(log);
   }
 
   private push(line: Line): void {

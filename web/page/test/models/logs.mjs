@@ -1,7 +1,7 @@
 // What the robot says, with a robot that is only played.
 import assert from "node:assert/strict";
 import test from "node:test";
-import { all, labelled, ofClass, opened, settled, signal } from "../dom.mjs";
+import { all, labelled, ofClass, opened, settled, signal, tick } from "../dom.mjs";
 import { load } from "../load.mjs";
 
 const { Logs } = await load("store/logs.ts");
@@ -46,6 +46,56 @@ test("of what was said in time nobody was there for, the clock tells the run", (
   for (const all of [same, other]) all.add(log(50, "later"));
   assert.deepEqual(said(same).slice(3), ["later"]);
   assert.deepEqual(said(other).slice(3), ["the robot began anew", "later"]);
+});
+
+/** More messages of one run than are kept, all within 3 s: of its first thousand the page has none. */
+function talkedMuch() {
+  const all = new Logs();
+  all.begin(0);
+  for (let number = 1; number <= 3000; number++) all.add({ ...log(number), time: number * 1e6 });
+  all.begin(60e9);
+  return all;
+}
+
+const saidAnew = (all) => said(all).slice(said(all).indexOf("the robot began anew") + 1);
+
+test("a run that is ahead and has said less than is kept is told from the one before, and nothing of it is lost", () => {
+  const all = talkedMuch();
+  for (let number = 1; number <= 500; number++) all.add({ ...log(number, `new ${number}`), time: number * 1e6 });
+  tick();
+  all.add({ ...log(501, "new 501"), time: 61e9 });
+  assert.equal(saidAnew(all).length, 501);
+  assert.deepEqual([saidAnew(all)[0], saidAnew(all).at(-1)], ["new 1", "new 501"]);
+  tick();
+  assert.equal(said(all).filter((text) => text === "the robot began anew").length, 1);
+});
+
+test("a run that comes to numbers of the one before is known by what it says there", () => {
+  const all = talkedMuch();
+  for (let number = 900; number <= 1100; number++) {
+    if (number === 950) all.lost(3);
+    all.add({ ...log(number, `new ${number}`), time: number * 1e6 });
+  }
+  assert.equal(saidAnew(all).length, 202, "without waiting");
+  assert.equal(saidAnew(all)[50], "… 3 messages left out");
+});
+
+test("what the same run says again from before what the page keeps is left alone", () => {
+  const all = talkedMuch();
+  const before = said(all);
+  for (let number = 900; number <= 3001; number++) all.add({ ...log(number), time: number * 1e6 });
+  tick();
+  assert.deepEqual(said(all), [...before.slice(1), "message 3001"]);
+});
+
+test("what a connection said that was lost before anybody knew it is not shown twice", () => {
+  const all = talkedMuch();
+  for (let time = 0; time < 2; time++) {
+    for (const number of [1, 2]) all.add({ ...log(number, `new ${number}`), time: number * 1e6 });
+    if (time === 0) all.begin(62e9);
+  }
+  tick();
+  assert.deepEqual(saidAnew(all), ["new 1", "new 2"]);
 });
 
 function shown(lines) {
