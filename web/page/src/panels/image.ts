@@ -119,10 +119,14 @@ export class ImagePanel implements Panel {
     void this.choose();
   }
 
-  /** Asks anew where another encoding is right: a robot that was built anew may have made another type of it. */
-  private async choose(): Promise<void> {
+  /**
+   * Asks anew where another encoding is right: a robot that was built anew may have made another type of it. Items of
+   * lists, values of maps are in no list of paths; what they are, the robot says where it refuses a JPEG of them.
+   */
+  private async choose(isNoImage = false): Promise<void> {
     const turn = ++this.turn;
-    const encoding = await this.encoding();
+    const entry = this.quality === "raw" ? undefined : await this.context.robot.paths.find(this.path).catch(() => undefined);
+    const encoding = this.encoding(entry === undefined ? !isNoImage : isImage(entry));
     const isSame = JSON.stringify(encoding) === JSON.stringify(this.chosen);
     if (turn !== this.turn || this.path === "" || isSame) return;
     this.stop();
@@ -131,17 +135,18 @@ export class ImagePanel implements Panel {
       { path: this.path, rate: this.rate, encoding },
       {
         sample: (sample) => void this.take(sample),
-        refused: (reason) => complain(this.failure, reason),
+        refused: (reason) => {
+          const isWrong = entry === undefined && encoding !== "binary" && reason?.includes("is no image") === true;
+          if (isWrong && turn === this.turn) void this.choose(true);
+          else complain(this.failure, reason);
+        },
       },
     );
   }
 
   /** What the robot does not call an image may still have the bytes of one. */
-  private async encoding(): Promise<Encoding> {
-    if (this.quality === "raw") return "binary";
-    const entry = await this.context.robot.paths.find(this.path).catch(() => undefined);
-    // Why the robot does not give what it does not know, it says itself.
-    if (entry !== undefined && !isImage(entry)) return "binary";
+  private encoding(hasJpeg: boolean): Encoding {
+    if (this.quality === "raw" || !hasJpeg) return "binary";
     return { jpeg: { quality: Number.parseInt(this.quality.slice("quality ".length), 10) } };
   }
 

@@ -17,7 +17,7 @@ async function shown(kind, settings = {}) {
     watch: (wish, watcher) => {
       wishes.push(wish.encoding);
       watchers.push(watcher);
-      if (world.refusal !== undefined) watcher.refused(world.refusal);
+      if (world.refusal !== undefined && wish.encoding !== "binary") watcher.refused(world.refusal);
       return () => wishes.splice(wishes.indexOf(wish.encoding), 1);
     },
   };
@@ -65,6 +65,37 @@ test("a robot that comes back is asked as what its program makes of the path", a
   await welcome("yuyv");
   assert.deepEqual(wishes, [JPEG]);
   panel.close();
+});
+
+test("an image that is in no list of paths is asked for as bytes once its JPEG is refused for its type", async () => {
+  const { panel, wishes, watchers, welcome } = await shown(undefined);
+  const [failure] = ofClass(panel.content, "failure");
+  const refusal = `\`${PATH}\` is no image: types that are say so with \`#[reflect(image = …)]\``;
+  watchers[0].refused(refusal);
+  await settled();
+  assert.deepEqual(wishes, ["binary"]);
+  assert(failure.hidden);
+  watchers[1].refused("there is no such path");
+  await settled();
+  assert.deepEqual([wishes, failure.textContent], [["binary"], "there is no such path"]);
+  // Another program may make one of it.
+  await welcome(undefined);
+  assert.deepEqual(wishes, [JPEG]);
+  watchers[2].refused("this client takes 8 images already");
+  await settled();
+  assert.deepEqual([wishes, failure.textContent], [[JPEG], "this client takes 8 images already"]);
+  panel.close();
+});
+
+test("a JPEG that was refused before is not asked for in turn with its bytes", async () => {
+  const { panel, wishes, watchers, world } = await shown("yuyv");
+  world.kind = undefined;
+  world.refusal = "`x` is no image";
+  panel.accept("VisionTop.main_outputs.crops.0");
+  await settled();
+  assert.deepEqual([wishes, watchers.length], [["binary"], 3]);
+  panel.close();
+  assert.deepEqual(wishes, []);
 });
 
 test("a panel that is closed while the robot is asked wants nothing", async () => {
