@@ -1,5 +1,5 @@
 // Owns what one panel has put in place of an output: at most one value, which is released when the panel goes.
-import { expect } from "../connection/socket";
+import { expect, Refused } from "../connection/socket";
 import type { Json } from "../protocol";
 import type { Robot } from "./robot";
 import { Signal, type Readable } from "./signal";
@@ -42,7 +42,12 @@ export class Injection {
   private async giveBack(): Promise<void> {
     const path = this.injected.value;
     if (path === null) return;
-    expect(await this.robot.ask({ release: { path } }), "done");
+    try {
+      expect(await this.robot.ask({ release: { path } }), "done");
+    } catch (error) {
+      // Somebody else has released it: there is nothing to give back.
+      if (!(error instanceof Refused)) throw error;
+    }
     this.injected.set(null);
   }
 }

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import test from "node:test";
 import { load } from "../load.mjs";
 
-const { Injection, Paths, Signal, Subscriptions, watchInjected } = await load("store/injection.ts", "store/injected.ts", "store/paths.ts", "store/signal.ts", "store/subscriptions.ts");
+const { Injection, Paths, Refused, Signal, Subscriptions, watchInjected } = await load("store/injection.ts", "connection/socket.ts", "store/injected.ts", "store/paths.ts", "store/signal.ts", "store/subscriptions.ts");
 
 function played() {
   const asked = [];
@@ -51,6 +51,37 @@ test("another output takes the place of the one before", async () => {
   await Promise.all([first, second]);
   assert.deepEqual(names(), ["inject A.main_outputs.x", "release A.main_outputs.x", "inject A.main_outputs.y"]);
   assert.equal(injection.path.value, "A.main_outputs.y");
+});
+
+test("what somebody else has released can be left, and another output injected", async () => {
+  for (const next of ["release", "inject"]) {
+    const { injection, asked, names } = played();
+    const first = injection.inject("A.main_outputs.x", 1);
+    await settled();
+    asked[0].answer();
+    await first;
+    const second = next === "release" ? injection.release() : injection.inject("A.main_outputs.y", 2);
+    await settled();
+    asked[1].refuse(new Refused({ message: "nobody has replaced `A.main_outputs.x`" }));
+    await settled();
+    asked[2]?.answer();
+    await second;
+    assert.deepEqual(names().slice(2), next === "release" ? [] : ["inject A.main_outputs.y"]);
+    assert.equal(injection.path.value, next === "release" ? null : "A.main_outputs.y");
+  }
+});
+
+test("a release that did not reach the robot can be wished again", async () => {
+  const { injection, asked } = played();
+  const injected = injection.inject("A.main_outputs.x", 1);
+  await settled();
+  asked[0].answer();
+  await injected;
+  const released = injection.release();
+  await settled();
+  asked[1].refuse(new Error("there is no connection to the robot"));
+  await assert.rejects(released, /no connection/);
+  assert.equal(injection.path.value, "A.main_outputs.x");
 });
 
 test("whoever injects an output, all who look at a part of it are told", async () => {
