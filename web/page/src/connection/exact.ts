@@ -37,7 +37,7 @@ function written(value: unknown, indentation: number, line: string): string {
 }
 
 /** What a robot says of itself, where all digits matter; everything else in a message is counted, and numbers are enough. */
-const VALUES = /^\.(update\.value|answer\.ok\.(value\.value|parameters\.value|called|unstored\.changes\.\d+\.(value|stored)))$/;
+const VALUES = /^\.(log\.fields|update\.value|answer\.ok\.(value\.value|parameters\.value|called|unstored\.changes\.\d+\.(value|stored)))$/;
 
 /** A message of the robot, or several. */
 export function readMessages(text: string): unknown[] {

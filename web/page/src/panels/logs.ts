@@ -1,4 +1,5 @@
 // A panel with what the robot says: newest last, filtered by severity and words.
+import { writeJson } from "../connection/exact";
 import type { Level, Log } from "../protocol";
 import { isRemark, type Line } from "../store/logs";
 import { button, complain, eachFrame, make, select } from "../view/dom";
@@ -87,13 +88,13 @@ function levelMade({ robot }: Context, failure: HTMLElement): { elements: HTMLEl
 }
 
 function textOf(log: Log): string {
-  return `${log.message} ${log.instance ?? ""} ${log.node ?? ""} ${JSON.stringify(log.fields ?? {})}`.toLowerCase();
+  return `${log.message} ${log.instance ?? ""} ${log.node ?? ""} ${writeJson(log.fields ?? {})}`.toLowerCase();
 }
 
 function row({ robot }: Context, log: Line): HTMLElement {
   if (isRemark(log)) return make("div", { class: "entry remark" }, make("span", {}, log.remark));
   const from = [log.instance, log.node].filter((part) => part != null).join(" ");
-  const fields = Object.entries(log.fields ?? {}).map(([name, value]) => `${name}=${typeof value === "string" ? value : JSON.stringify(value)}`);
+  const fields = Object.entries(log.fields ?? {}).map(([name, value]) => `${name}=${typeof value === "string" ? value : writeJson(value)}`);
   const { instance, cycle } = log;
   const jump =
     instance == null || cycle == null

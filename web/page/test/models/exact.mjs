@@ -37,6 +37,8 @@ test("values have all digits, and what is counted stays a number", () => {
   assert.equal(answer.answer.ok.value.value, BigInt(SEED));
   const parameters = `{"answer":{"id":1,"ok":{"parameters":{"value":{"seed":${SEED}},"version":7,"leaves":[]}}}}`;
   assert.equal(readMessages(parameters)[0].answer.ok.parameters.value.seed, BigInt(SEED));
+  const [{ log }] = readMessages(`{"log":{"number":1,"time":${SEED},"fields":{"seed":${SEED},"all":[${SEED}]}}}`);
+  assert.deepEqual([typeof log.time, log.fields], ["number", { seed: BigInt(SEED), all: [BigInt(SEED)] }]);
 });
 
 test("values as bytes have all digits, too, and are shown with them", () => {

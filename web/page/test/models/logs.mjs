@@ -114,6 +114,17 @@ test("a remark is shown whatever is filtered", async () => {
   panel.close();
 });
 
+test("fields have all digits, and are found by them", async () => {
+  const fields = { seed: 11400714819323198485n, all: [1, 11400714819323198485n], side: "Left" };
+  const { panel } = shown([log(1, "begun", { fields })]);
+  labelled(panel.content, "filter").value = "23198485";
+  labelled(panel.content, "filter").tell("input");
+  await settled();
+  const [entry] = ofClass(panel.content, "entry");
+  assert(entry?.textContent.endsWith("begun seed=11400714819323198485 all=[1,11400714819323198485] side=Left"), entry?.textContent);
+  panel.close();
+});
+
 test("the level that a robot makes is a wish: any can be chosen at any time", async () => {
   const { panel, robot, asked } = shown([]);
   const list = labelled(panel.content, "what the robot keeps");
