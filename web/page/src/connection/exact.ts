@@ -3,16 +3,43 @@ import type { Json } from "../protocol";
 
 /** Something that may be an integer beyond 2^53: a look that costs nothing. */
 const LONG = /(?<![\d.])(?:9\d{15}|\d{17,})(?![\d.eE])/;
-const TOKENS = /"(?:[^"\\]|\\.)*"|-?\d+(?:\.\d+)?(?:[eE][+-]?\d+)?/g;
+/** Where a string begins, or a number. */
+const TOKENS = /"|-?\d+(?:\.\d+)?(?:[eE][+-]?\d+)?/g;
 
 /** What the text says; throws a `SyntaxError` where it is no JSON. */
 export function readJson(text: string): Json {
   if (!LONG.test(text)) return JSON.parse(text) as Json;
-  // Strings in their place while the browser reads the rest: a name that no string of the text begins with.
-  let name = "integer ";
-  while (text.includes(name)) name = `${name}_`;
-  const marked = text.replace(TOKENS, (token) => (/^-?[1-9]\d{15,}$/.test(token) && !Number.isSafeInteger(Number(token)) ? `"${name}${token}"` : token));
-  return JSON.parse(marked, (_, part: unknown) => (typeof part === "string" && part.startsWith(name) ? BigInt(part.slice(name.length)) : part)) as Json;
+  // Strings in their place while the browser reads the rest: a name that no string of the text begins with, however it
+  // is escaped.
+  const name = `integer ${Math.random()} `;
+  return JSON.parse(marked(text, name), (_, part: unknown) => (typeof part === "string" && part.startsWith(name) ? BigInt(part.slice(name.length)) : part)) as Json;
+}
+
+function marked(text: string, name: string): string {
+  const parts: string[] = [];
+  let done = 0;
+  const tokens = new RegExp(TOKENS);
+  for (let found = tokens.exec(text); found !== null; found = tokens.exec(text)) {
+    const [token] = found;
+    if (token === '"') {
+      // One expression for whole strings would overflow the browser's stack where they have megabytes.
+      tokens.lastIndex = behindString(text, found.index);
+    } else if (/^-?[1-9]\d{15,}$/.test(token) && !Number.isSafeInteger(Number(token))) {
+      parts.push(text.slice(done, found.index), `"${name}${token}"`);
+      done = tokens.lastIndex;
+    }
+  }
+  return [...parts, text.slice(done)].join("");
+}
+
+/** `begin`: where its quotation mark is. */
+function behindString(text: string, begin: number): number {
+  for (let end = text.indexOf('"', begin + 1); end >= 0; end = text.indexOf('"', end + 1)) {
+    let escapes = 0;
+    while (text[end - 1 - escapes] === "\\") escapes++;
+    if (escapes % 2 === 0) return end + 1;
+  }
+  return text.length;
 }
 
 /** As `JSON.stringify`; bytes are written as numbers. `indentation`: of each level; 0: everything in one line. */

@@ -21,6 +21,19 @@ test("texts are not taken for numbers", () => {
   for (const broken of [`{${SEED}}`, `${SEED} 1`, `0${SEED}`, `[${SEED}`]) assert.throws(() => readJson(broken), SyntaxError, broken);
 });
 
+test("a text beside a long integer may have megabytes, and escapes", () => {
+  for (const part of ["x".repeat(20 << 20), '\\"'.repeat(8 << 20), "\\\\".repeat(8 << 20)]) {
+    const [integer, read] = readJson(`[${SEED},"${part}"]`);
+    assert.equal(integer, BigInt(SEED));
+    assert(JSON.stringify(read) === `"${part}"`);
+  }
+});
+
+test("no text is taken for an integer, however it is escaped", () => {
+  assert.deepEqual(readJson(`["\\u0069nteger 12", "\\u0069nteger abc", ${SEED}]`), ["integer 12", "integer abc", BigInt(SEED)]);
+  assert.deepEqual(readJson(`["\\\\", ${SEED}, "\\"", "\\\\\\" ${SEED}", -${SEED}]`), ["\\", BigInt(SEED), '"', `\\" ${SEED}`, -BigInt(SEED)]);
+});
+
 test("what is written for people is as the browser writes it", () => {
   for (const value of [{ a: [1, { b: "ü\n" }], c: [], d: {}, e: null, f: true }, [], "x", 1.5]) {
     assert.equal(writeJson(value, 2), JSON.stringify(value, null, 2));

@@ -142,6 +142,16 @@ test("a link that is quick again is missed as quickly as before", async () => {
   socket.close();
 });
 
+test("who waits for an answer gets it, also beside one that is nested too deeply for all digits", async () => {
+  const { socket } = connected();
+  const asked = socket.ask({ parameters: { path: "" } });
+  const { id } = made[0].sent.at(-1);
+  const deep = `${"[".repeat(50_000)}11400714819323198485${"]".repeat(50_000)}`;
+  made[0].onmessage({ data: `[{"log":${deep}},{"answer":{"id":${id},"ok":{"done":{}}}}]` });
+  assert.deepEqual(await Promise.race([asked, settled()]), { done: {} });
+  socket.close();
+});
+
 test("the next question waits for the answer to the one before", async () => {
   const { socket } = connected();
   const questions = () => made[0].sent.filter(({ ask }) => "paths" in ask);
