@@ -41,6 +41,8 @@ export class Tuning {
   private readonly turns = new Turns();
   /** The last write from here: another connection may be to another run, which counts versions anew. */
   private written: { run: Welcome | null; version: number } = { run: null, version: 0 };
+  /** What the robot said last of the types, and on which connection. */
+  private types: { run: Welcome | null; entries: readonly Entry[] } = { run: null, entries: [] };
   private loads = 0;
   private shownLoad = 0;
 
@@ -56,7 +58,7 @@ export class Tuning {
     const [reading, unstored, entries] = await Promise.all([
       this.robot.ask({ parameters: { path: "" } }).then((good) => expect(good, "parameters")),
       this.robot.ask({ unstored: {} }).then((good) => expect(good, "unstored")),
-      this.robot.paths.everything("parameters").catch((): readonly Entry[] => []),
+      this.entries(),
     ]);
     // Of before the last write, or behind the answer to a later question: what is newer is there, or asked for.
     const isOld = this.written.run === this.robot.welcome.value && reading.version < this.written.version;
@@ -66,6 +68,18 @@ export class Tuning {
     const said = this.forgetWithout(tuned);
     this.tuned.set(tuned);
     return said;
+  }
+
+  /** Where the robot does not answer for once, types are as before: without them what was typed would mean something else. */
+  private async entries(): Promise<readonly Entry[]> {
+    const run = this.robot.welcome.value;
+    try {
+      const entries = await this.robot.paths.everything("parameters");
+      this.types = { run, entries };
+      return entries;
+    } catch {
+      return this.types.run === run ? this.types.entries : [];
+    }
   }
 
   /** Notes what was typed; the value that the robot has takes the note away. */

@@ -159,6 +159,24 @@ test("what was typed for a parameter that went away is told and not sent", async
   assert.deepEqual(pending(), [["a", "77"]]);
 });
 
+test("types stay where the question for them fails once, and are not those of another run", async () => {
+  const { robot, tuning } = await tuned({ a: "x" });
+  const entry = { path: "parameters.a", type: "Option<String>" };
+  const shown = async () => {
+    await tuning.load();
+    const [parameter] = tuning.tuned.value.parameters;
+    return [parameter.entry, shapeOf(parameter).read("").value];
+  };
+  robot.paths.everything = async () => [entry];
+  assert.deepEqual(await shown(), [entry, null]);
+  robot.paths.everything = async () => {
+    throw new Refused({ message: "not now" });
+  };
+  assert.deepEqual(await shown(), [entry, null], "an empty field is `None` as before");
+  robot.welcome = { value: {} };
+  assert.deepEqual(await shown(), [undefined, ""]);
+});
+
 test("integers have all their digits when they are written and taken back", async () => {
   const seed = 11400714819323198485n;
   const { robot, tuning, type, value } = await tuned({ seed });
