@@ -182,7 +182,7 @@ class Simulator implements Panel {
 
   private grasp(event: PointerEvent): void {
     const { truth } = this;
-    if (event.button !== 0) return;
+    if (event.button !== 0) return this.chart.pan(event);
     const thing = truth === null ? null : this.under([event.offsetX, event.offsetY], truth);
     if (thing === null) return this.chart.pan(event);
     this.canvas.setPointerCapture(event.pointerId);

@@ -72,6 +72,20 @@ test("a drag that the browser takes away puts nothing down, and is over", async 
   panel.close();
 });
 
+test("other buttons move the world, also where something is under them", async () => {
+  const { panel, deeds, tell } = await held();
+  tell("pointerdown", 1, 0, { button: 1 });
+  tell("pointermove", 2, 0);
+  tell("pointerup", 2, 0);
+  tell("pointerdown", 2, 0);
+  tell("pointermove", 2, 1);
+  tell("pointerup", 2, 1);
+  assert.equal(deeds.length, 1);
+  const [x, y] = deeds[0].ball;
+  assert(Math.hypot(x - 1, y - 1) < 0.1, `the ball was shown at 2 m: ${x} ${y}`);
+  panel.close();
+});
+
 test("the same penalty is given twice", async () => {
   const { panel, deeds } = played();
   const penalties = labelled(panel.content, "the referee takes");
