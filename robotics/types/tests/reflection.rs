@@ -25,7 +25,7 @@ use types::field_markings::FieldMarkings;
 use types::game::{
     CompetitionPhase, CompetitionType, GameControllerMessage, GameControllerPacket,
     GameControllerState, GamePhase, GameState, KickingTeam, Penalty, Player, PlayerState,
-    PrimaryState, SetPlay, TeamColor, TeamState,
+    PrimaryState, SetPlay, TeamColor, TeamState, WhoseBall,
 };
 use types::head::{HeadAngles, HeadCommand, HeadRequest};
 use types::image::YuyvImage;
@@ -113,6 +113,7 @@ const KINDS: &[Kind] = kinds![
     Player,
     GameControllerState,
     KickingTeam,
+    WhoseBall,
     PrimaryState,
     HeadAngles,
     HeadCommand,
