@@ -386,64 +386,6 @@ fn a_private_context_is_an_error() {
 }
 
 #[test]
-fn the_struct_of_a_node_stands_beside_its_impl() {
-    let fixture = Fixture::control(&["a"]).node("a", acting());
-    let text = node_text_of(&fixture, "a");
-    let (head, rest) = text.split_once("#[derive").expect("it derives");
-    let (_, rest) = rest.split_once("}").expect("a struct has an end");
-    let with = |own: &str| {
-        let text = format!("{head}{own}{rest}");
-        let library = "pub mod a; pub mod stat;";
-        let stat = "#[derive(Deserialize, Serialize)] pub struct Node {}";
-        let fixture = fixture.clone().file("crates/nodes/src/a.rs", &text);
-        let fixture = fixture.file("crates/nodes/src/lib.rs", library);
-        fixture.file("crates/nodes/src/stat.rs", stat)
-    };
-    for own in [
-        "use super::stat::Node;",
-        "pub use super::stat::Node;",
-        "use super::stat::*;",
-        "use super::stat::Node; lazy! { static X: u8 = 1; }",
-    ] {
-        let parts = [
-            "the struct of the node `Node` does not stand beside its `impl`",
-            "help: write `pub struct Node` here",
-        ];
-        with(own).expect("invalid-signature", &parts);
-    }
-    with("type Node = super::stat::Node;").expect(
-        "invalid-signature",
-        &["write the struct here, and its own name in place of `Node`"],
-    );
-    let derived = "#[derive(Deserialize, Serialize)]";
-    with("enum Node {}").expect("invalid-signature", &["write `pub enum Node`"]);
-    with("pub enum Node {}").expect("missing-derive", &["does not derive"]);
-    with(&format!("{derived} pub enum Node {{}}")).robot();
-    for own in [
-        "state!(Node);",
-        "include!(\"state.rs\");",
-        "#[states] mod states {}",
-    ] {
-        // Whether it is there, and whether it is `Send`.
-        assert_eq!(with(own).robot().left_to_rustc, 2, "{own}");
-    }
-}
-
-#[test]
-fn a_node_that_cannot_be_stored_is_an_error() {
-    let fixture = Fixture::control(&["a"]).node("a", acting());
-    let text = node_text_of(&fixture, "a")
-        .replace("#[derive(Deserialize, Serialize)]", "#[derive(Serialize)]");
-    fixture.file("crates/nodes/src/a.rs", &text).expect(
-        "missing-derive",
-        &[
-            "does not derive `Deserialize`",
-            "write `#[derive(Deserialize)]` above it",
-        ],
-    );
-}
-
-#[test]
 fn a_trait_reads_if_a_method_returns_something() {
     for (asks, path, reading) in [
         ("hardware::Camera", "hardware::Camera", Some(true)),
