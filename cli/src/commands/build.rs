@@ -64,8 +64,7 @@ pub(super) fn run(
         request.set(cross::ENCODED, flags.into());
     }
     // What is left out of the program is not sent to the robot either; panics keep file and line.
-    let strip = profile.replace('-', "_").to_uppercase();
-    request.set(&format!("CARGO_PROFILE_{strip}_STRIP"), "symbols".into());
+    request.strip();
     let said = request.said(session, session.terminal.colors_notes())?;
     session.diagnostics = said.diagnostics(session, &understood)?;
     session.note_diagnostics();

@@ -38,9 +38,11 @@ pub(super) struct Said {
 /// What cargo is asked for.
 pub(super) struct Request<'a> {
     arguments: Vec<OsString>,
+    /// For rustc where it compiles the program itself, behind everything else.
+    of_program: &'static [&'static str],
     /// The program that is wanted.
     program: Option<&'a str>,
-    /// What stands in for cargo: `cargo-zigbuild zigbuild …` for `cargo build …`.
+    /// What stands in for cargo.
     stand_in: Option<Utf8PathBuf>,
     /// Variables of its environment.
     variables: Vec<(String, OsString)>,
@@ -63,6 +65,7 @@ impl<'a> Request<'a> {
         );
         Self {
             arguments,
+            of_program: &[],
             program: Some(&target.name),
             stand_in: None,
             variables: Vec::new(),
@@ -75,15 +78,21 @@ impl<'a> Request<'a> {
         arguments.extend(["--lib", "--keep-going"].map(OsString::from));
         Self {
             arguments,
+            of_program: &[],
             program: None,
             stand_in: None,
             variables: Vec::new(),
         }
     }
 
+    /// Leaves symbols out of the program, and nowhere else: a profile that says so compiles every crate anew for it.
+    pub(super) fn strip(&mut self) {
+        self.arguments[0] = "rustc".into();
+        self.of_program = &["--", "-Cstrip=symbols"];
+    }
+
     /// Builds for another machine; the triple may end with a version of glibc.
     pub(super) fn cross(&mut self, tools: &Tools, triple: &str) {
-        self.arguments[0] = "zigbuild".into();
         self.arguments
             .extend(["--target", triple].map(OsString::from));
         self.stand_in = Some(tools.zigbuild.clone());
@@ -120,6 +129,7 @@ impl<'a> Request<'a> {
         let mut child = Command::new(program)
             .args(&self.arguments)
             .arg(form)
+            .args(self.of_program)
             .envs(self.variables.iter().map(|(name, value)| (name, value)))
             .env("CARGO", &cargo)
             .current_dir(folder)
@@ -236,11 +246,20 @@ mod tests {
             zig: "/tools/zig".into(),
         };
         request.cross(&tools, "x86_64-unknown-linux-gnu.2.28");
-        assert_eq!(request.arguments[0], "zigbuild");
         let end = &request.arguments[request.arguments.len() - 2..];
         assert_eq!(end, ["--target", "x86_64-unknown-linux-gnu.2.28"]);
         assert_eq!(request.stand_in, Some(tools.zigbuild));
         assert_eq!(request.variables[0].1, "/tools/zig");
+    }
+
+    #[test]
+    fn symbols_are_left_out_where_the_program_is_compiled_and_nowhere_else() {
+        let robot = fixture::robot();
+        let mut request = Request::build(&robot, &robot.targets[0], "release", None);
+        request.strip();
+        assert_eq!(request.arguments[0], "rustc");
+        assert_eq!(request.of_program, ["--", "-Cstrip=symbols"]);
+        assert_eq!(request.variables, []);
     }
 
     #[test]
