@@ -10,8 +10,9 @@ use std::ops::Range;
 use std::rc::Rc;
 
 use quote::ToTokens as _;
+use syn::punctuated::Punctuated;
 use syn::{
-    Attribute, Fields, GenericArgument, GenericParam, Generics, Item, PathArguments, Type,
+    Attribute, Fields, GenericArgument, GenericParam, Generics, Item, PathArguments, Token, Type,
     TypeParamBound,
 };
 
@@ -51,6 +52,17 @@ enum Marker {
     Send,
     Sync,
 }
+
+/// Whether bounds bring a marker; of several bounds the greatest answer is that of all.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Brought {
+    SurelyNot,
+    /// Left to rustc.
+    Unknown,
+    Surely,
+}
+
+type Bounds = Punctuated<TypeParamBound, Token![+]>;
 
 /// The part to blame, and the struct around it.
 type Blame = (String, Option<String>);
@@ -163,17 +175,11 @@ impl Search<'_> {
     ) -> Option<Blame> {
         match data {
             Type::Ptr(_) => Some((written(data), None)),
-            Type::TraitObject(object) => {
-                let mut bounds = object.bounds.iter();
-                if bounds.all(|bound| self.is_without(module, bound, marker, 0)) {
-                    return Some((written(data), None));
-                }
-                let mut bounds = object.bounds.iter();
-                if !bounds.any(|bound| self.brings(module, bound, marker, 0)) {
-                    self.is_unknown = true;
-                }
-                None
-            }
+            Type::TraitObject(object) => match self.brought(module, &object.bounds, marker, 0) {
+                Brought::Surely => None,
+                Brought::SurelyNot => Some((written(data), None)),
+                Brought::Unknown => self.unknown(),
+            },
             Type::BareFn(_) | Type::Never(_) => None,
             Type::Reference(reference) if reference.mutability.is_none() => {
                 self.blame(module, &reference.elem, Marker::Sync, parameters)
@@ -345,55 +351,56 @@ impl Search<'_> {
         own
     }
 
-    /// Whether a bound of a `dyn` brings the marker, by itself or by what it asks for.
-    fn brings(
+    /// Whether bounds of a `dyn` bring the marker, by themselves or by what they ask for.
+    fn brought(
         &self,
         module: &Rc<Module>,
-        bound: &TypeParamBound,
+        bounds: &Bounds,
         marker: Marker,
         depth: usize,
-    ) -> bool {
-        let TypeParamBound::Trait(bound) = bound else {
-            return false;
-        };
-        match self.library.find(module, &bound.path) {
-            Some(Found::Prelude(name)) => name == marker.name(),
-            Some(Found::Standard(path)) => path.last().is_some_and(|last| last == marker.name()),
-            Some(Found::Item(item)) if depth < DEEPEST => match item.item() {
-                Item::Trait(definition) => {
-                    let mut above = definition.supertraits.iter();
-                    above.any(|bound| self.brings(&item.module, bound, marker, depth + 1))
-                }
-                _ => false,
-            },
-            _ => false,
-        }
+    ) -> Brought {
+        let each = bounds
+            .iter()
+            .map(|bound| self.brought_by(module, bound, marker, depth));
+        // One bound that brings it is enough, whatever the others are.
+        each.max().unwrap_or(Brought::SurelyNot)
     }
 
-    /// Whether a bound of a `dyn` certainly does not bring the marker, by itself or by what it asks for.
-    fn is_without(
+    fn brought_by(
         &self,
         module: &Rc<Module>,
         bound: &TypeParamBound,
         marker: Marker,
         depth: usize,
-    ) -> bool {
+    ) -> Brought {
         let TypeParamBound::Trait(bound) = bound else {
-            return true;
+            return Brought::SurelyNot;
+        };
+        let is_marker = |name: &str| match name == marker.name() {
+            true => Brought::Surely,
+            false => Brought::SurelyNot,
         };
         match self.library.find(module, &bound.path) {
-            Some(Found::Prelude(name)) => name != marker.name(),
-            Some(Found::Standard(path)) => path.last().is_some_and(|last| last != marker.name()),
+            Some(Found::Prelude(name)) => is_marker(&name),
+            Some(Found::Standard(path)) => match path.last() {
+                Some(last) => is_marker(last),
+                None => Brought::Unknown,
+            },
             Some(Found::Item(item)) if depth < DEEPEST => {
                 let Item::Trait(definition) = item.item() else {
-                    return false;
+                    return Brought::Unknown;
                 };
-                let mut above = definition.supertraits.iter();
-                definition.attrs.iter().all(is_harmless)
-                    && definition.generics.where_clause.is_none()
-                    && above.all(|bound| self.is_without(&item.module, bound, marker, depth + 1))
+                let above = &definition.supertraits;
+                let brought = self.brought(&item.module, above, marker, depth + 1);
+                // The macro of an attribute, or `where Self: Send`, may add it.
+                let is_plain = definition.attrs.iter().all(is_harmless)
+                    && definition.generics.where_clause.is_none();
+                match brought {
+                    Brought::SurelyNot if !is_plain => Brought::Unknown,
+                    brought => brought,
+                }
             }
-            _ => false,
+            _ => Brought::Unknown,
         }
     }
 }

@@ -29,6 +29,8 @@ fn what_is_surely_not_send_is_told_at_the_field() {
         ("Option<*const u8>", "`*const u8`"),
         ("Option<Box<dyn Fn()>>", "`dyn Fn ()` is not"),
         ("Vec<(u8, dyn hardware::Plain)>", "`dyn hardware::Plain`"),
+        ("Box<dyn hardware::Marked + Sync>", "Marked + Sync` is not"),
+        ("&'static dyn hardware::Motors", "Motors` is not"),
         ("Option<std::sync::MutexGuard<'static, u8>>", "MutexGuard"),
         ("std::sync::Arc<std::cell::RefCell<u8>>", "RefCell<u8>"),
         ("&'static std::cell::Cell<u8>", "Cell<u8>"),
@@ -54,6 +56,8 @@ const TRAITS: &str = "
     pub trait Motors: Send { fn write(&self, value: u8) -> Result<()>; }
     pub trait Plain { fn x(&self); }
     pub trait Above: Motors + Plain {}
+    pub trait Asks where Self: Send {}
+    pub trait Marked: Plain {}
 ";
 
 #[test]
@@ -67,7 +71,11 @@ fn what_may_be_send_is_left_to_rustc_and_counted() {
         ),
         ("Box<dyn Fn() + Send>", "", 0),
         ("Box<dyn hardware::Above>", "", 0),
+        ("Box<dyn hardware::Marked + Send>", "", 0),
+        ("Box<dyn framework::Elsewhere + Send>", "", 0),
         ("Box<dyn framework::Elsewhere>", "", 1),
+        ("Box<dyn hardware::Plain + framework::Elsewhere>", "", 1),
+        ("Box<dyn hardware::Asks>", "", 1),
         ("fn(std::rc::Rc<u8>)", "", 0),
         ("framework::Elsewhere<std::rc::Rc<u8>>", "", 1),
         ("nalgebra::Isometry2<f32>", "", 0),
