@@ -27,6 +27,7 @@ mod public;
 pub mod sendable;
 pub mod served;
 mod state;
+mod syntax;
 pub mod traits;
 pub mod types;
 mod unlisted;

@@ -15,6 +15,7 @@ use super::conditional::{conditional_path, has_conditional_path, named_path};
 use super::depth::too_deep;
 use super::module::{Entry, Module, Visible, attributes, folder_of, is_conditional};
 use super::range;
+use super::syntax;
 use super::types::Resolved;
 use crate::diagnostics::{Code, Diagnostic, Diagnostics, listed, nearest};
 use crate::workspace::{Member, Workspace};
@@ -329,7 +330,7 @@ impl<'workspace> Library<'workspace> {
             self.problems.borrow_mut().push(problem);
             return None;
         }
-        match syn::parse_file(&text) {
+        match syntax::parse(&text) {
             Ok(syntax) => {
                 let syntax = Rc::new(syntax);
                 self.workspace.keep_parsed(&file, &text, &syntax);

@@ -487,7 +487,7 @@ fn a_field_is_not_conditional_and_an_output_no_keyword() {
         (read.mistake().0, read.mistake().1),
         (Rule::InvalidField, "#[cfg(test)]")
     );
-    for name in ["r#type", "gen"] {
+    for name in ["r#type", "gen", "r#gen"] {
         let field = format!("{name}: MainOutput<f32>");
         let read = Read::field(ContextKind::MainOutputs, &field);
         assert_eq!(
@@ -495,6 +495,8 @@ fn a_field_is_not_conditional_and_an_output_no_keyword() {
             (Rule::InvalidName, name)
         );
     }
+    let read = Read::field(ContextKind::MainOutputs, "r#speed: MainOutput<f32>");
+    assert!(read.mistakes.is_empty(), "`r#speed` is `speed`");
     for field in [
         "r#type: Input<f32, \"x\">",
         "r#type: Parameter<f32, \"x\">",

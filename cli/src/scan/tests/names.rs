@@ -97,6 +97,38 @@ fn names_resolve_as_rustc_would() {
 }
 
 #[test]
+fn a_needless_mark_of_a_raw_name_makes_no_difference() {
+    // As a crate of edition 2024 names what is plain in one of edition 2021, and the other way round.
+    let types = |fixture: Fixture| {
+        fixture
+            .file(
+                "crates/types/src/lib.rs",
+                "pub mod gen { pub struct Wide; } pub mod r#later { pub struct Late; } pub mod r#type { pub struct Of; }
+                 pub struct r#Plain; pub type gen_of<r#T> = Vec<T>; pub use gen as r#new;",
+            )
+            .file("crates/types/src/gen.rs", "")
+    };
+    for (head, written, text) in [
+        ("use types::r#gen::Wide;", "Wide", "types::gen::Wide"),
+        ("use types::r#gen;", "r#gen::Wide", "types::gen::Wide"),
+        (
+            "use types::r#gen as r#wide;",
+            "wide::Wide",
+            "types::gen::Wide",
+        ),
+        ("use types::*;", "r#gen::Wide", "types::gen::Wide"),
+        ("", "types::new::Wide", "types::gen::Wide"),
+        ("", "types::later::r#Late", "types::later::Late"),
+        ("", "types::r#type::Of", "types::r#type::Of"),
+        ("", "types::gen_of<types::Plain>", "Vec<types::Plain>"),
+    ] {
+        let resolved = resolve_in(types, &format!("{head} type Of = {written};"), "Of");
+        assert_eq!(resolved.text, text, "{head} {written}");
+        assert!(resolved.is_known(), "{head} {written}");
+    }
+}
+
+#[test]
 fn private_types_are_seen() {
     for (head, written) in [
         ("struct Own;", "Vec<Own>"),

@@ -2,7 +2,7 @@
 
 use syn::ext::IdentExt;
 use syn::spanned::Spanned;
-use syn::{Type, TypePath};
+use syn::{Ident, Type, TypePath};
 
 use super::{option_argument, peel, written};
 use crate::context::ContextKind;
@@ -49,7 +49,9 @@ pub(super) fn hint_mistake(kind: Kind, field: &syn::Field) -> Option<Mistake> {
 /// A name that no path can have; only an output's name is one that paths begin with.
 pub(super) fn keyword_mistake(kind: Kind, field: &syn::Field) -> Option<Mistake> {
     let name = field.ident.as_ref()?;
-    let is_keyword = *name != name.unraw() || *name == LATEST_KEYWORD;
+    let plain = name.unraw();
+    let is_keyword =
+        plain == LATEST_KEYWORD || syn::parse_str::<Ident>(&plain.to_string()).is_err();
     (kind == Kind::MainOutput && is_keyword).then(|| {
         let message = format!("`{name}` is a keyword, and no path can name it");
         Mistake::new(Rule::InvalidName, name.span(), message)
