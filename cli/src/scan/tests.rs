@@ -442,6 +442,22 @@ fn a_file_that_is_named_in_an_inline_module_lies_where_rustc_looks() {
 }
 
 #[test]
+fn places_behind_a_line_for_the_shell_are_those_of_the_file() {
+    for first in ["#!/usr/bin/env don't\n", "#! [cfg(all())]\n", ""] {
+        let fixture = Fixture::control(&["a"]).node("a", acting());
+        let text = fixture.text("crates/nodes/src/a.rs");
+        let read = "x: Input<u8, \"x\">,\nhardware: HardwareInterface";
+        let text = first.to_owned() + &text.replace("hardware: HardwareInterface", read);
+        let before = text.lines().take_while(|line| !line.starts_with("x:"));
+        let place = format!("crates/nodes/src/a.rs:{}:14", before.count() + 1);
+        fixture
+            .file("crates/nodes/src/a.rs", &text)
+            .answer()
+            .expect_error("unknown-output", &[&place]);
+    }
+}
+
+#[test]
 fn a_function_may_be_called_as_a_module_is() {
     for library in ["pub use a::a;\npub mod a;", "pub mod a;\npub use a::a;"] {
         let robot = Fixture::control(&["a"])
