@@ -145,6 +145,11 @@ impl<'workspace> Library<'workspace> {
 
     fn find_child(&self, parent: &Rc<Module>, name: &str) -> Result<Rc<Module>, NotFound> {
         let Some(entry) = parent.entries.get(name) else {
+            if let Some(module) = self.module_in(parent, name)
+                && !self.is_hidden(parent, name)
+            {
+                return Ok(module);
+            }
             let file = candidates(&parent.folder, name);
             let file = file.into_iter().find(|file| self.workspace.is_file(file));
             let name = name.to_owned();

@@ -442,6 +442,24 @@ fn a_file_that_is_named_in_an_inline_module_lies_where_rustc_looks() {
 }
 
 #[test]
+fn a_node_may_be_brought_in_by_a_glob() {
+    let moved = |library: &str| {
+        let fixture = Fixture::control(&["a"]).node("a", acting());
+        let node = fixture.text("crates/nodes/src/a.rs");
+        fixture
+            .file("crates/nodes/src/lib.rs", library)
+            .file("crates/nodes/src/folder.rs", "pub mod a;")
+            .file("crates/nodes/src/folder/a.rs", &node)
+    };
+    let robot = moved("mod folder; pub use folder::*;").robot();
+    let node = &robot.cyclers[0].nodes[0];
+    assert_eq!(node.path, "nodes::a");
+    assert_eq!(node.file, "crates/nodes/src/folder/a.rs");
+    moved("mod folder; use folder::*;")
+        .expect("unknown-node", &["module `nodes::a` is not declared"]);
+}
+
+#[test]
 fn places_behind_a_line_for_the_shell_are_those_of_the_file() {
     for first in ["#!/usr/bin/env don't\n", "#! [cfg(all())]\n", ""] {
         let fixture = Fixture::control(&["a"]).node("a", acting());
