@@ -5,6 +5,7 @@
 //! counted.
 
 mod bridges;
+mod consumers;
 mod crates;
 mod declared;
 mod failures;
@@ -67,6 +68,7 @@ pub fn resolve(
         cyclers.push(cycler);
     }
     mark_readers(&mut cyclers);
+    consumers::check(manifest, &cyclers, diagnostics);
     let parameters = parameters::parameters(&scene, diagnostics);
     left_to_rustc += parameters.unchecked;
     besides_edges += parameters.unchecked;

@@ -8,7 +8,7 @@ const QUEUED: u64 = ((1 << QUEUED_BITS) - 1) << HELD_BITS;
 /// How many readers a word can count, with one value of `held` kept for the writer.
 pub(super) const READERS: usize = HELD as usize - 1;
 
-/// How many consumers a word can name: each is one bit of `queued`.
+/// How many consumers a word can name: each is one bit of `queued`. `cli/src/resolve/consumers.rs` has the number, too.
 pub(super) const CONSUMERS: usize = QUEUED_BITS as usize;
 
 /// Which cycle a slot holds, which consumers still have to take it, how many readers hold it.

@@ -415,3 +415,28 @@ fn a_path_into_a_type_that_doubles_is_left_to_rustc() {
     let robot = answer.robot.expect(&answer.text);
     assert_eq!(robot.left_to_rustc, 1);
 }
+
+#[test]
+fn no_more_instances_take_every_cycle_than_a_slot_can_mark() {
+    let vision = cycler("Vision", "perception", "", &[], &["eye"]);
+    let read = |count: usize| {
+        let instances: Vec<String> = (0..count).map(|number| number.to_string()).collect();
+        let instances = format!("instances = {instances:?}");
+        let control = cycler("Control", "real-time", &instances, &[], &["hand"]);
+        let fixture = Fixture::new(&format!("{vision}{control}"));
+        let fixture = fixture.node(
+            "eye",
+            writes("ball: MainOutput<f32>, point: MainOutput<f32>,"),
+        );
+        let balls = "balls: PerceptionInput<f32, \"Vision\", \"ball\">";
+        let points = "points: PerceptionInput<f32, \"Vision\", \"point\">";
+        with_field(fixture, "hand", &format!("{balls}, {points}"))
+    };
+    read(20).robot();
+    let parts = [
+        "21 instances take every cycle of `Vision`, and at most 20 can",
+        "hulk.toml:4:8",
+        "write `LatestInput`",
+    ];
+    read(21).expect("invalid-value", &parts);
+}
