@@ -173,7 +173,7 @@ impl Inputs<'_, '_> {
         producer: &Producer<'_>,
     ) -> Diagnostic {
         let output = &producer.data.text;
-        let (code, message, help) = match agreement {
+        let (code, message, help) = match agreement.clone() {
             Agreement::Option { message, help } => (Code::OptionMismatch, message, Some(help)),
             Agreement::Field {
                 message,
@@ -188,7 +188,9 @@ impl Inputs<'_, '_> {
                     (!names.is_empty()).then_some(help),
                 )
             }
-            Agreement::Private { structure, field } => (
+            Agreement::Private {
+                structure, field, ..
+            } => (
                 Code::NotPublic,
                 format!("field `{field}` of `{structure}` is private"),
                 Some(format!("write `pub {field}`")),
@@ -206,7 +208,8 @@ impl Inputs<'_, '_> {
         };
         let reads = format!("`{}` reads it as `{written}`", self.node.source.path);
         let writes = format!("`{}` writes it as `{output}`", producer.source.path);
-        Diagnostic::new(code, message)
+        agreement
+            .begin(Diagnostic::new(code, message))
             .at(self.node.source.file(), range(field.span), reads)
             .at(producer.source.file(), producer.range.clone(), writes)
             .help_if(help)

@@ -1,8 +1,12 @@
 //! Data paths below a value: what lies at their end, and whether a written type agrees with it.
 
+use std::ops::Range;
+
+use camino::Utf8PathBuf;
 use grammar::{DataPath, Segment as GrammarSegment, SegmentName};
 
 use super::robot::{Access, Segment};
+use crate::diagnostics::Diagnostic;
 use crate::scan::Library;
 use crate::scan::compare::{Comparison, compare};
 use crate::scan::components::{Component, component};
@@ -35,7 +39,22 @@ pub(super) enum Agreement {
     Private {
         structure: String,
         field: String,
+        /// Of the field's name.
+        file: Utf8PathBuf,
+        range: Range<usize>,
     },
+}
+
+impl Agreement {
+    /// An error, first at the field that has to be made public, if that is the mistake.
+    pub(super) fn begin(&self, error: Diagnostic) -> Diagnostic {
+        match self {
+            Self::Private { file, range, .. } => {
+                error.at(file, range.clone(), "not visible for the generated crate")
+            }
+            _ => error,
+        }
+    }
 }
 
 impl Access {
@@ -218,9 +237,11 @@ fn enter(
     match structure.fields.iter().find(|one| one.name == *field) {
         Some(found) if is_conditional(&found.attributes) => Err(Agreement::Unknown),
         Some(found) if found.public => Ok(found.data.clone()),
-        Some(_) => Err(Agreement::Private {
+        Some(found) => Err(Agreement::Private {
             structure: structure.path,
             field: field.clone(),
+            file: structure.file,
+            range: found.range.clone(),
         }),
         None if structure.dereferences => Err(Agreement::Unknown),
         None => {

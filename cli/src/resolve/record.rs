@@ -77,7 +77,9 @@ fn condition(scene: &Scene<'_>, own: usize, written: &str) -> Result<Condition, 
             producer: producer.node,
             access,
         }),
-        Agreement::Private { structure, field } => Err(Refused {
+        Agreement::Private {
+            structure, field, ..
+        } => Err(Refused {
             code: Code::NotPublic,
             message: format!("field `{field}` of `{structure}` is private"),
             help: format!("write `pub {field}`"),

@@ -141,7 +141,7 @@ fn agree<U>(
         let below = &declaration.segments[depth - 1..];
         paths::check(library, &leaf.leaf(), below, &declaration.data)
     };
-    let (code, message, help) = match agreement {
+    let (code, message, help) = match agreement.clone() {
         Agreement::Same => match only_whole(library, leaf, declaration) {
             Some((message, help)) => (rules.conflict, message, Some(help)),
             None => return true,
@@ -176,14 +176,17 @@ fn agree<U>(
                 help,
             )
         }
-        Agreement::Private { structure, field } => (
+        Agreement::Private {
+            structure, field, ..
+        } => (
             Code::NotPublic,
             format!("field `{field}` of `{structure}` is private"),
             Some(format!("write `pub {field}`")),
         ),
     };
     let text = |one: &Declaration<'_, U>| format!("`{}` as `{}`", one.path(), one.data.text);
-    let error = Diagnostic::new(code, message)
+    let error = agreement
+        .begin(Diagnostic::new(code, message))
         .at(
             declaration.source.file(),
             declaration.range.clone(),

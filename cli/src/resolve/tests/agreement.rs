@@ -117,6 +117,14 @@ fn written_type_and_path_agree_by_the_contract() {
 }
 
 #[test]
+fn a_hidden_field_is_told_where_it_is_made_public() {
+    let (_, text) = answer("Ball", "Input<u8, \"x.secret\">");
+    let place = "--> crates/types/src/lib.rs:10:64";
+    assert!(text.contains(place), "{text}");
+    assert!(text.contains("write `pub secret`"), "{text}");
+}
+
+#[test]
 fn one_mark_removes_one_option() {
     let (codes, text) = answer("Option<Option<u8>>", "Input<Option<u8>, \"x?\">");
     assert_eq!(codes, ["option-mismatch"], "{text}");
