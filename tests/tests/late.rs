@@ -40,10 +40,15 @@ impl Robot {
     }
 
     /// `check --cargo` with packages compiled where those of the tests are.
+    fn check(&self, form: &str) -> (Option<i32>, String) {
+        self.check_and(form, || {}).0
+    }
+
+    /// The same, and what is done before the next robot is compiled.
     ///
     /// To cargo the packages of all blank robots are the same, whichever folder they lie in: one robot at a time, and what
     /// another one compiled is always old.
-    fn check(&self, form: &str) -> (Option<i32>, String) {
+    fn check_and<T>(&self, form: &str, next: impl FnOnce() -> T) -> ((Option<i32>, String), T) {
         static TURN: Mutex<()> = Mutex::new(());
         let _turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
         touch_sources(&self.folder.path().join("robot"));
@@ -61,7 +66,18 @@ impl Robot {
             );
         let output = command.output().expect("hulkgen was built");
         let text = String::from_utf8(output.stdout).expect("hulkgen prints UTF-8");
-        (output.status.code(), text)
+        ((output.status.code(), text), next())
+    }
+
+    /// What the program that `check --cargo` built says about its parameters.
+    fn ask_program(&self) -> (Option<i32>, Value) {
+        let mut program = Command::new(target_folder().join("simulation"));
+        program
+            .args(["--check-parameters", "--format", "json"])
+            .current_dir(self.folder.path().join("robot"));
+        let output = program.output().expect("it was built");
+        let answer = serde_json::from_slice(&output.stdout).expect("the answer is JSON");
+        (output.status.code(), answer)
     }
 
     /// The only error.
@@ -271,4 +287,43 @@ fn what_only_serde_can_read_is_asked_of_the_robots_program() {
     robot.edit(file, "cruising = 1.0", "# cruising = 1.0");
     let error = robot.error();
     assert_eq!(error["code"], "missing-parameter", "{error:#}");
+}
+
+#[test]
+fn what_the_hardware_refuses_is_told_by_the_robots_program_alone() {
+    let robot = robot_with_opaque_parameter();
+    let file = "parameters/default.toml";
+    robot.edit(file, "wall = 8.0", "wal = 8.0");
+    // The table belongs to the hardware, which reads it at the start: the program knows, `check` does not tell.
+    let ((status, text), (asked, answer)) = robot.check_and("text", || robot.ask_program());
+    assert_eq!(status, Some(0), "{text}");
+    assert!(text.ends_with("all checked\n"), "{text}");
+    assert_eq!(asked, Some(1), "{answer:#}");
+    let mistakes = answer["mistakes"].as_array().expect("a list");
+    assert_eq!(mistakes.len(), 1, "{answer:#}");
+    let parts = ["key", "fault", "line"].map(|part| mistakes[0][part].to_string());
+    let expected = ["\"hardware.simulation.wal\"", "\"unknown\"", "13"];
+    assert_eq!(parts, expected, "{answer:#}");
+
+    // What it says in its own words, of no key and in no file.
+    robot.edit(file, "wal = 8.0", "wall = 8.0");
+    robot.edit(
+        "simulation/src/lib.rs",
+        "context.parameters::<Settings>().map(drop)",
+        "match context.parameters::<Settings>()? {\n\
+                    Settings { wall, .. } if wall < 1.0 => Err(\"no room to drive\".into()),\n\
+                    _ => Ok(()),\n\
+                }",
+    );
+    robot.edit(file, "wall = 8.0", "wall = 0.5");
+    let ((status, text), (asked, answer)) = robot.check_and("text", || robot.ask_program());
+    assert_eq!((status, asked), (Some(0), Some(1)), "{text}{answer:#}");
+    let said = "hardware of `simulation`: no room to drive";
+    assert_eq!(answer["mistakes"][0]["message"], said, "{answer:#}");
+
+    // It hides nothing of what the nodes read.
+    robot.edit(file, "cruising = 1.0", "cruising = -1.0");
+    let error = robot.error();
+    let said = "`speed_choice.cruising`: -1 m/s is no speed to cruise at";
+    assert_eq!(error["message"], said, "{error:#}");
 }
