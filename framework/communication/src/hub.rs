@@ -19,6 +19,7 @@ use crate::logs::Logs;
 use crate::outbox::{Content, Outbox};
 use crate::press::Press;
 use crate::requests::{self, Feeder};
+use crate::run::new_run_id;
 use crate::sources::{Rate, Source};
 use crate::timings;
 use crate::trace::Traces;
@@ -56,6 +57,8 @@ pub(crate) struct Rules {
 /// The robot and its clients.
 pub(crate) struct Hub {
     pub(crate) link: Link,
+    /// By which clients tell this run from others. A server is one run's: of a scenario, each time that it is played.
+    run: String,
     pub(crate) rules: Rules,
     pub(crate) limits: Limits,
     pub(crate) sources: Vec<Source>,
@@ -131,6 +134,7 @@ impl Hub {
             sources.extend(taps.map(|tap| Source::new(index, name, tap)));
         }
         Self {
+            run: new_run_id(),
             reports: link.instances.iter().map(|_| None).collect(),
             press: Press::new(),
             traces: Traces::new(link.instances.len()),
@@ -182,6 +186,7 @@ impl Hub {
             can_write: !self.rules.is_read_only,
             needs_token,
             time: self.link.clock.now().as_nanos(),
+            run: Some(self.run.clone()),
             peers: self.rules.peers.clone(),
         }));
         self.clients.insert(id, client);

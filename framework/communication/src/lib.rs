@@ -10,7 +10,7 @@
 //! | `doorman`, `origin` | who may come in |
 //! | `guest` | how much of a message is held before it is whole |
 //! | `connection`, `outbox` | one client: what it says, and what waits for it |
-//! | `hub`, `requests` | all clients and the robot |
+//! | `hub`, `requests`, `run` | all clients and the robot |
 //! | `sources`, `catalogue`, `parameters`, `timings`, `trace`, `logs` | outputs, paths, parameters, durations, log messages |
 //! | `press`, `jpeg` | images as files, and how much time they may take |
 //! | [`limits`] | how much a client may ask |
@@ -39,6 +39,7 @@ mod page;
 mod parameters;
 mod press;
 mod requests;
+mod run;
 mod sources;
 mod timings;
 mod trace;

@@ -237,6 +237,24 @@ fn additional_outputs_are_computed_for_whoever_listens() {
 }
 
 #[test]
+fn a_replay_is_one_run_whichever_way_its_time_goes() {
+    let run = |client: &Client| client.welcome["run"].as_str().map(str::to_owned);
+    let (replayed, mut client) = Replayed::new();
+    let first = run(&client);
+    assert!(first.is_some());
+    let mut told = Vec::new();
+    for time in [1.5, 0.25] {
+        go(&mut client, json!({ "time": time }));
+        told.push(replayed.client().welcome);
+    }
+    assert!(told[0]["time"].as_u64() > told[1]["time"].as_u64());
+    assert!(told.iter().all(|welcome| welcome["run"] == json!(first)));
+    drop((replayed, client));
+    let (_replayed, client) = Replayed::new();
+    assert_ne!(run(&client), first, "the same recording, shown once more");
+}
+
+#[test]
 fn what_is_told_beside_cycles_has_the_time_that_is_shown() {
     let (_replayed, mut client) = Replayed::new();
     go(&mut client, json!({ "time": 0.5 }));

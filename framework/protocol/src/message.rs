@@ -40,9 +40,21 @@ pub struct Welcome {
     pub needs_token: bool,
     /// The robot's clock now, in nanoseconds.
     pub time: u64,
+    /// Of the robot's run: the same text on each connection as long as it goes on, another one after a restart. Absent: a
+    /// robot of an earlier version, which does not tell.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub run: Option<String>,
     /// Other robots as browsers name them, `HOST:PORT`, which the robot's page may show beside it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub peers: Vec<String>,
+}
+
+impl Welcome {
+    /// Whether both are of one run, of which clock, counts and parameters go on. `None`: robots of an earlier version said
+    /// both, and nobody can tell.
+    pub fn is_same_run(&self, other: &Self) -> Option<bool> {
+        (self.run.is_some() || other.run.is_some()).then(|| self.run == other.run)
+    }
 }
 
 /// A value of a subscription.

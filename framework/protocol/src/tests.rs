@@ -106,6 +106,7 @@ fn messages_are_written_as_documented() {
 /// One of each kind that a robot says, and some that a client does.
 const HONEST: &[&str] = &[
     r#"{"welcome":{"version":1,"robot":"lamp","target":"desk","instances":["A"],"can_write":true,"needs_token":false,"time":5}}"#,
+    r#"{"welcome":{"version":1,"robot":"lamp","target":"desk","instances":[],"can_write":false,"needs_token":true,"time":5,"run":"8c5e","peers":["10.1.24.22:4857"]}}"#,
     r#"{"answer":{"id":7,"ok":{"subscribed":{"subscription":3,"encoding":{"jpeg":{"quality":70}}}}}}"#,
     r#"{"answer":{"id":null,"error":{"message":"no","refusals":[{"path":"a","message":"b"}]}}}"#,
     r#"{"answer":{"id":2,"ok":{"paths":[{"path":"A","kind":"folder","has_children":true,"range":{"maximum":1.5}}]}}}"#,

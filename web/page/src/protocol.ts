@@ -565,6 +565,11 @@ export type Welcome = {
   needs_token: boolean;
   /** The robot's clock now, in nanoseconds. */
   time: number;
+  /**
+   * Of the robot's run: the same text on each connection as long as it goes on, another one after a restart. Absent: a
+   * robot of an earlier version, which does not tell.
+   */
+  run?: string | null;
   /** Other robots as browsers name them, `HOST:PORT`, which the robot's page may show beside it. */
   peers?: Array<string>;
 };

@@ -34,6 +34,26 @@ fn the_robot_says_who_it_is() {
 }
 
 #[test]
+fn every_connection_to_a_run_has_its_id_and_the_next_run_another_one() {
+    let run = |client: Client| {
+        let welcome: protocol::Welcome = serde_json::from_value(client.welcome).expect("it is one");
+        assert_eq!(welcome.run.as_deref().map(str::len), Some(32));
+        welcome
+    };
+    let zoo = Zoo::new();
+    let (first, second) = (run(zoo.client()), run(zoo.client()));
+    assert_eq!(first.is_same_run(&second), Some(true));
+    let next = Zoo::new();
+    assert_eq!(first.is_same_run(&run(next.client())), Some(false));
+    let earlier = protocol::Welcome {
+        run: None,
+        ..second
+    };
+    assert_eq!(first.is_same_run(&earlier), Some(false), "another program");
+    assert_eq!(earlier.is_same_run(&earlier), None);
+}
+
+#[test]
 fn everything_has_a_path() {
     let zoo = Zoo::new();
     let mut client = zoo.client();
