@@ -102,9 +102,7 @@ export class Socket {
     this.listener.state("connecting");
     const socket = new WebSocket(this.address);
     socket.binaryType = "arraybuffer";
-    socket.onmessage = (event) => {
-      if (this.socket === socket) void this.hear(event.data);
-    };
+    socket.onmessage = (event) => void this.hear(socket, event.data);
     socket.onclose = () => {
       if (this.socket === socket) this.lose();
     };
@@ -146,17 +144,22 @@ export class Socket {
     }
   }
 
-  private async hear(data: unknown): Promise<void> {
+  /** Of a connection that is over nothing is heard any more, also not the rest of a message: its successor says what is newer. */
+  private async hear(socket: WebSocket, data: unknown): Promise<void> {
+    if (this.socket !== socket) return;
     this.silence = 0;
     if (!this.isHeard) this.beginToHear();
     if (data instanceof ArrayBuffer) {
-      for (const frame of readFrames(data)) tolerate(() => this.listener.frame(frame));
+      for (const frame of readFrames(data)) {
+        if (this.socket === socket) tolerate(() => this.listener.frame(frame));
+      }
       return;
     }
     for (const message of parse(data)) {
       tolerate(() => this.take(message));
       // Whoever waited for an answer goes on before what came with it is heard: the first update of a subscription.
       await null;
+      if (this.socket !== socket) return;
     }
   }
 

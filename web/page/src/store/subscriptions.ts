@@ -43,6 +43,9 @@ export class Subscriptions {
   private readonly byKey = new Map<string, Subscription>();
   private readonly byNumber = new Map<number, Subscription>();
 
+  /** How many connections there were: an answer of one that is over names nothing on its successor. */
+  private connection = 0;
+
   constructor(private readonly socket: () => Socket | null) {}
 
   /** Values from now on, the newest first if there is one already, until what it returns is called. */
@@ -68,6 +71,7 @@ export class Subscriptions {
 
   /** A new connection knows of nothing. */
   renew(): void {
+    this.connection++;
     this.byNumber.clear();
     for (const subscription of this.byKey.values()) {
       subscription.number = null;
@@ -102,17 +106,19 @@ export class Subscriptions {
   private async subscribe(subscription: Subscription): Promise<void> {
     const socket = this.socket();
     if (socket === null) return;
+    const { connection } = this;
     const { path, rate, encoding } = subscription.wish;
     try {
       const good = await socket.ask({ subscribe: { path, ...(rate === undefined ? {} : { rate }), encoding: encoding ?? "json" } });
       const subscribed = expect(good, "subscribed");
+      if (connection !== this.connection) return;
       subscription.number = subscribed.subscription;
       subscription.layout = encoding === "binary" ? ((subscribed.layout ?? null) as unknown as Described | null) : null;
       this.byNumber.set(subscribed.subscription, subscription);
       refuse(subscription, null);
       if (subscription.watchers.size === 0) this.unsubscribe(subscription);
     } catch (error) {
-      if (socket === this.socket()) refuse(subscription, error instanceof Error ? error.message : String(error));
+      if (connection === this.connection && socket === this.socket()) refuse(subscription, error instanceof Error ? error.message : String(error));
     }
   }
 

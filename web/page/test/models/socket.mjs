@@ -166,3 +166,38 @@ test("the next question waits for the answer to the one before", async () => {
   assert.equal(questions().length, 2);
   socket.close();
 });
+
+/** A message with frames of these subscriptions. */
+function frames(...subscriptions) {
+  const all = subscriptions.map((subscription) => {
+    const [length, head] = [new Uint8Array([24, 0, 0, 0]), new Uint8Array(24)];
+    head.set(new TextEncoder().encode("HKG1"));
+    new DataView(head.buffer).setUint32(4, subscription, true);
+    return [...length, ...head];
+  });
+  return new Uint8Array([...new TextEncoder().encode("HKGS"), ...all.flat()]).buffer;
+}
+
+for (const [kind, data] of [["messages", JSON.stringify([1, 2, 3].map((subscription) => ({ update: { subscription } })))], ["frames", frames(1, 2, 3)]]) {
+  test(`the rest of the ${kind} of a connection that was lost is not heard beside its successor`, async () => {
+    made.splice(0);
+    const heard = [];
+    const hear = (subscription) => {
+      heard.push(subscription);
+      if (subscription !== 1) return;
+      made[0].onclose();
+      retry();
+      made[1].say({ welcome: {} });
+    };
+    const socket = new Socket("ws://robot/socket", {
+      state: () => undefined,
+      welcome: () => heard.push("welcome"),
+      message: ({ update }) => hear(update.subscription),
+      frame: ({ subscription }) => hear(subscription),
+    });
+    made[0].onmessage({ data });
+    await settled();
+    assert.deepEqual(heard, [1, "welcome"]);
+    socket.close();
+  });
+}

@@ -35,6 +35,19 @@ test("what the run before said last is not told to those who watch later", async
   assert.deepEqual(later(), []);
 });
 
+test("an answer of a connection that is over names nothing on the next one", async () => {
+  const answers = [];
+  const subscriptions = new Subscriptions(() => ({ ask: ({ subscribe }) => new Promise((resolve) => answers.push((subscription) => resolve({ subscribed: { subscription, encoding: subscribe.encoding } }))) }));
+  const heard = [];
+  subscriptions.watch({ path: "a" }, { sample: ({ value }) => heard.push(value) });
+  answers[0](7);
+  subscriptions.renew();
+  answers[1](1);
+  await answered();
+  for (const subscription of [7, 1]) subscriptions.update({ subscription, cycle: 1, time: 1, value: `of ${subscription}` });
+  assert.deepEqual(heard, ["of 1"]);
+});
+
 const place = (x, y) => new Uint8Array(Float32Array.of(x, y).buffer);
 
 test("a part that is not there in a cycle is none, and no mistake", async () => {
