@@ -1,7 +1,8 @@
 // A panel with what the robot says: newest last, filtered by severity and words.
 import { writeJson } from "../connection/exact";
-import type { Level, Log } from "../protocol";
+import type { Level, Log, Welcome } from "../protocol";
 import { isRemark, type Line } from "../store/logs";
+import { isSameRun } from "../store/run";
 import { button, complain, eachFrame, make, select } from "../view/dom";
 import { seconds } from "../view/format";
 import { arrange } from "../view/renew";
@@ -82,8 +83,12 @@ function levelMade({ robot }: Context, failure: HTMLElement): { elements: HTMLEl
       })
       .catch((error: unknown) => complain(failure, error));
   });
-  // A robot that was started anew makes what its files say.
-  const stop = robot.welcome.watch(() => (wished.textContent = ""));
+  let run: Welcome | null = null;
+  const stop = robot.welcome.watch((welcome) => {
+    // A robot that was started anew makes what its files say.
+    if (isSameRun(run, welcome) !== true) wished.textContent = "";
+    run = welcome;
+  });
   return { elements: [make("label", { class: "muted" }, "robot makes ", list), wished], stop };
 }
 

@@ -3,7 +3,9 @@ import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 import { button, complain, download, eachFrame, make, select } from "../view/dom";
 import { number, plural } from "../view/format";
+import type { Welcome } from "../protocol";
 import { nameOf } from "../store/paths";
+import { isSameRun } from "../store/run";
 import { Curve, isShared, kept, lookOfOtherRun, looksOf, nameIn, wantedIn, type Look, type Wanted } from "./curve";
 import { numberSetting, type Context, type Panel, type PanelKind } from "./panel";
 import { align, readCurves, robotChoice, robotMark, type Series } from "./series";
@@ -41,6 +43,8 @@ class Plot implements Panel {
   private lines: Line[] = [];
   /** Curves of another run, by name. */
   private others = new Map<string, Series>();
+  /** Whose points there are. */
+  private run: Welcome | null = null;
   private readonly stop: () => void;
 
   constructor(private readonly context: Context) {
@@ -76,10 +80,7 @@ class Plot implements Panel {
       context.robot.moment.changed((moment) => {
         if (moment !== null) this.show([moment.time - this.window / 2, moment.time + this.window / 2]);
       }),
-      context.robot.welcome.watch((welcome) => {
-        if (welcome === null) return;
-        for (const { series } of this.curves) series.isNow(welcome.time / 1e9 + SLACK);
-      }),
+      context.robot.welcome.watch((welcome) => this.goOnWith(welcome)),
     ];
     // The axes are drawn in colours of the page.
     const repaint = (): void => this.rebuild();
@@ -211,6 +212,12 @@ class Plot implements Panel {
       chart.setData(this.shown() as uPlot.AlignedData, false);
       chart.setScale("x", { min, max });
     });
+  }
+
+  private goOnWith(welcome: Welcome | null): void {
+    if (welcome === null) return;
+    for (const { series } of this.curves) series.begin(isSameRun(this.run, welcome), welcome.time / 1e9 + SLACK);
+    this.run = welcome;
   }
 
   private hold(): void {

@@ -1,6 +1,7 @@
 // A panel that moves the time of a recording which a program shows in place of a robot: play, step, backwards, any speed.
 import { expect } from "../connection/socket";
-import type { Json } from "../protocol";
+import type { Json, Welcome } from "../protocol";
+import { isSameRun } from "../store/run";
 import { button, make, select } from "../view/dom";
 import { Failures } from "../view/failures";
 import { plural } from "../view/format";
@@ -48,6 +49,8 @@ class Replay implements Panel {
   private isAsked = false;
   /** Of the recording that is shown. */
   private areEventsKnown = false;
+  /** Whose events they are: a run has one recording. */
+  private known: Welcome | null = null;
 
   constructor(private readonly context: Context) {
     this.play = button("Pause", "play or pause (space)", () => void this.ask({ play: !(this.place?.is_playing ?? false) }), "deed");
@@ -89,7 +92,7 @@ class Replay implements Panel {
     this.timer = window.setInterval(() => void this.look(), PERIOD_MILLISECONDS);
     const stops = [
       context.robot.state.watch(() => {
-        this.areEventsKnown = false;
+        if (isSameRun(this.known, context.robot.welcome.value) !== true) this.areEventsKnown = false;
         void this.look();
       }),
       context.robot.moment.changed((moment) => {
@@ -162,6 +165,7 @@ class Replay implements Panel {
     );
     if (place.events === undefined) return;
     this.areEventsKnown = true;
+    this.known = this.context.robot.welcome.value;
     this.drawEvents(place.events, place);
   }
 

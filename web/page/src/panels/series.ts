@@ -29,9 +29,12 @@ export class Series {
     if (last !== undefined && this.values[this.values.length - 1] !== null) this.add(last + 1e-6, null);
   }
 
-  /** The robot's clock says this now: points after it belong to another run. */
-  isNow(time: number): void {
-    if (this.from(time) === this.times.length) return;
+  /**
+   * A connection begins at this time of the robot's clock. Points of another run lie on another clock; where nobody knows
+   * (null) points that are still to come do.
+   */
+  begin(isSameRun: boolean | null, time: number): void {
+    if (isSameRun ?? this.from(time) === this.times.length) return;
     this.times = [];
     this.values = [];
   }

@@ -1,6 +1,7 @@
 // A panel with how long cycles and nodes take, as a table that follows the robot.
 import { expect } from "../connection/socket";
-import type { Durations, InstanceTimings, NodeTimings, Timings } from "../protocol";
+import type { Durations, InstanceTimings, NodeTimings, Timings, Welcome } from "../protocol";
+import { isSameRun } from "../store/run";
 import { alone, button, download, make, wrapping } from "../view/dom";
 import { Failures } from "../view/failures";
 import { microseconds } from "../view/format";
@@ -15,8 +16,9 @@ const HEAD = ["", "rate", "p50", "p99", "max", "share", "runs", "skip\u00adped",
 
 function open(context: Context): Panel {
   let now: Timings | null = null;
-  /** The answer before. */
+  /** The answer before, of the same run: others count from their own beginning. */
   let before: Timings | null = null;
+  let run: Welcome | null = null;
   const closed = new Set<string>();
   const failures = new Failures();
   const body = make("tbody");
@@ -33,7 +35,9 @@ function open(context: Context): Panel {
     if (context.robot.state.value !== "open" || document.hidden) return;
     try {
       const next = expect(await context.robot.ask({ timings: {} }), "timings");
-      [now, before] = [next, now];
+      const welcome = context.robot.welcome.value;
+      [now, before] = [next, isSameRun(run, welcome) === true ? now : null];
+      run = welcome;
       draw();
       failures.asked(null);
     } catch (error) {

@@ -1,6 +1,8 @@
 // Owns how far the clocks of two robots are apart: each program counts from its own start.
 import { expect } from "../connection/socket";
+import type { Welcome } from "../protocol";
 import type { Robot } from "./robot";
+import { isSameRun } from "./run";
 import { Signal, type Readable } from "./signal";
 
 /** Robots of one world go on by turns: so far apart their clocks are one. In seconds. */
@@ -19,6 +21,8 @@ export class Alignment implements Readable<number | null> {
   private last = 0;
   private turn = 0;
   private watchers = 0;
+  /** Of which runs the clocks were measured: those go on while the connection does not. */
+  private measured: [Welcome | null, Welcome | null] = [null, null];
   /** Whatever holds this and both robots: none of it stays when nobody watches, so that robots that went are released. */
   private stops: (() => void)[] = [];
 
@@ -57,12 +61,14 @@ export class Alignment implements Readable<number | null> {
 
   private async measure(): Promise<void> {
     const turn = ++this.turn;
-    this.shift.set(null);
+    const [here, there] = [this.own.welcome.value, this.other.welcome.value];
+    const isKnown = isSameRun(this.measured[0], here) === true && isSameRun(this.measured[1], there) === true;
+    if (!isKnown) this.shift.set(null);
     let best: Range = [-Infinity, Infinity];
     try {
       for (let question = 0; question < QUESTIONS; question++) {
-        const [here, there] = await Promise.all([lead(this.own), lead(this.other)]);
-        const range: Range = [here[0] - there[1], here[1] - there[0]];
+        const [own, other] = await Promise.all([lead(this.own), lead(this.other)]);
+        const range: Range = [own[0] - other[1], own[1] - other[0]];
         if (range[1] - range[0] < best[1] - best[0]) best = range;
       }
     } catch {
@@ -70,6 +76,7 @@ export class Alignment implements Readable<number | null> {
       return;
     }
     if (turn !== this.turn) return;
+    this.measured = [here, there];
     const isStill = best[0] - SLACK <= this.last && this.last <= best[1] + SLACK;
     if (!isStill) this.last = (best[0] + best[1]) / 2;
     this.shift.set(this.last);

@@ -1,11 +1,13 @@
 // Owns what the robot said: of this run and of those before it, as far as it is kept.
-import type { Log } from "../protocol";
+import type { Log, Welcome } from "../protocol";
+import { isSameRun } from "./run";
 import { Signal, type Readable } from "./signal";
 
 /** Enough for minutes of a robot that talks, and little for a phone. */
 const KEPT = 2000;
 /** The run before would have said again by then what the page has: whoever has not is another one. */
 const RECOGNITION_MILLISECONDS = 1000;
+const ANEW = "the robot began anew";
 
 /** What the page says between messages of the robot. */
 export interface Remark {
@@ -14,7 +16,7 @@ export interface Remark {
 
 export type Line = Log | Remark;
 
-/** A connection of which nobody knows yet whether it is to the run before. */
+/** A connection of which nobody knows yet whether it is to the run before: neither says. */
 interface Stranger {
   /** The robot's clock when it began. */
   clock: number;
@@ -30,6 +32,8 @@ export class Logs {
   private readonly kept = new Signal<readonly Line[]>([]);
   /** Number of the newest message of this run. */
   private newest = 0;
+  /** What the robot said first on the last connection of this run. */
+  private run: Pick<Welcome, "run"> | null = null;
   private stranger: Stranger | null = null;
 
   /** Oldest first. */
@@ -37,18 +41,21 @@ export class Logs {
     return this.kept;
   }
 
-  /** A connection begins, at this time of the robot's clock: the robot says again what it keeps, or is another run. */
-  begin(time: number): void {
+  /** A connection begins: the robot says again what it keeps, or is another run. */
+  begin(welcome: Pick<Welcome, "run" | "time">): void {
+    const isSame = isSameRun(this.run, welcome);
+    this.run = welcome;
     // What was held back of a connection before is said again.
-    this.stranger = { clock: time, held: [] };
+    this.stranger = isSame === null ? { clock: welcome.time, held: [] } : null;
+    if (isSame === false) this.beginAnew();
   }
 
   add(log: Log): void {
     const { stranger } = this;
     if (stranger !== null) {
-      const isSameRun = this.isSameRun(log, stranger);
-      if (isSameRun === null) return this.hold(log, stranger);
-      this.settle(stranger, isSameRun);
+      const isSame = this.guess(log, stranger);
+      if (isSame === null) return this.hold(log, stranger);
+      this.settle(stranger, isSame);
     }
     this.take(log);
   }
@@ -61,8 +68,8 @@ export class Logs {
     else this.push(remark);
   }
 
-  /** Null: this message does not tell. */
-  private isSameRun(log: Log, { clock, held }: Stranger): boolean | null {
+  /** Whether it is the run before. Null: this message does not tell. */
+  private guess(log: Log, { clock, held }: Stranger): boolean | null {
     const messages = this.kept.value.filter((line): line is Log => !isRemark(line));
     const last = messages.at(-1);
     if (last === undefined) return true;
@@ -81,16 +88,19 @@ export class Logs {
     }, RECOGNITION_MILLISECONDS);
   }
 
-  private settle({ held }: Stranger, isSameRun: boolean): void {
+  private settle({ held }: Stranger, isSame: boolean): void {
     this.stranger = null;
-    if (!isSameRun) {
-      this.newest = 0;
-      this.push({ remark: "the robot began anew" });
-    }
+    if (!isSame) this.beginAnew();
     for (const line of held) {
       if (isRemark(line)) this.push(line);
       else this.take(line);
     }
+  }
+
+  private beginAnew(): void {
+    this.newest = 0;
+    const last = this.kept.value.at(-1);
+    if (last !== undefined && !(isRemark(last) && last.remark === ANEW)) this.push({ remark: ANEW });
   }
 
   private take(log: Log): void {

@@ -4,6 +4,7 @@ import type { Ask, Good, Lost, Message, Welcome } from "../protocol";
 import { Alignment } from "./clock";
 import { Logs, type Line } from "./logs";
 import { Paths } from "./paths";
+import { isSameRun } from "./run";
 import { Signal, type Readable } from "./signal";
 import { Subscriptions } from "./subscriptions";
 
@@ -104,7 +105,8 @@ export class Robot {
 
   private begin(welcome: Welcome): void {
     this.isWelcome = true;
-    this.paths.forget();
+    // A slow link has better things to carry than what the same program says once more.
+    if (isSameRun(this.welcomes.value, welcome) !== true) this.paths.forget();
     // Before anybody hears of it and subscribes to more.
     this.subscriptions.renew();
     this.writes.set(welcome.can_write && !welcome.needs_token);
@@ -119,8 +121,8 @@ export class Robot {
     }
   }
 
-  private askForLogs({ time }: Welcome): void {
-    this.said.begin(time);
+  private askForLogs(welcome: Welcome): void {
+    this.said.begin(welcome);
     this.ask({ logs: { level: "trace" } }).catch((error: unknown) => console.warn("no logs:", error));
   }
 

@@ -3,6 +3,7 @@ import { writeJson } from "../connection/exact";
 import { expect, Refused } from "../connection/socket";
 import type { Change, Entry, Json, Leaf, Reading, Unstored, Welcome } from "../protocol";
 import type { Robot } from "./robot";
+import { isSameRun } from "./run";
 import { Signal } from "./signal";
 import { Turns } from "./turns";
 
@@ -39,7 +40,7 @@ export class Tuning {
   private readonly undone: Change[][] = [];
   /** What a write replaces is known once the one before was answered. */
   private readonly turns = new Turns();
-  /** The last write from here: another connection may be to another run, which counts versions anew. */
+  /** The last write from here, and on which connection: another run counts versions anew. */
   private written: { run: Welcome | null; version: number } = { run: null, version: 0 };
   /** What the robot said last of the types, and on which connection. */
   private types: { run: Welcome | null; entries: readonly Entry[] } = { run: null, entries: [] };
@@ -61,7 +62,7 @@ export class Tuning {
       this.entries(),
     ]);
     // Of before the last write, or behind the answer to a later question: what is newer is there, or asked for.
-    const isOld = this.written.run === this.robot.welcome.value && reading.version < this.written.version;
+    const isOld = this.isOfThisRun(this.written.run) && reading.version < this.written.version;
     if (isOld || load < this.shownLoad) return;
     this.shownLoad = load;
     const tuned = describe(reading, unstored, entries);
@@ -78,8 +79,13 @@ export class Tuning {
       this.types = { run, entries };
       return entries;
     } catch {
-      return this.types.run === run ? this.types.entries : [];
+      return this.isOfThisRun(this.types.run) ? this.types.entries : [];
     }
+  }
+
+  /** Where the robot does not tell, another connection may be to another run. */
+  private isOfThisRun(welcome: Welcome | null): boolean {
+    return isSameRun(welcome, this.robot.welcome.value) === true;
   }
 
   /** Notes what was typed; the value that the robot has takes the note away. */

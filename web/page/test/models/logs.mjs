@@ -13,36 +13,36 @@ const said = ({ lines }) => lines.value.map((line) => line.remark ?? line.messag
 /** Numbers 1 to 3 of the first run, whose clock is at 4 s. */
 function talked() {
   const all = new Logs();
-  all.begin(0);
+  all.begin({ time: 0 });
   for (const number of [1, 2, 3]) all.add(log(number));
   return all;
 }
 
 test("last words stay when the robot begins anew", () => {
   const all = talked();
-  all.begin(0.5e9);
+  all.begin({ time: 0.5e9 });
   for (const number of [1, 2]) all.add({ ...log(number, `new ${number}`), time: 0.1e9 * number });
   assert.deepEqual(said(all), ["message 1", "message 2", "message 3", "the robot began anew", "new 1", "new 2"]);
 });
 
 test("what the same run says again after a loss is there once", () => {
   const all = talked();
-  all.begin(9e9);
+  all.begin({ time: 9e9 });
   for (const number of [2, 3, 4]) all.add(log(number));
   assert.deepEqual(said(all), ["message 1", "message 2", "message 3", "message 4"]);
 });
 
 test("a later run is known by what it says, also if its clock is ahead", () => {
   const all = talked();
-  all.begin(60e9);
+  all.begin({ time: 60e9 });
   all.add({ ...log(1, "new"), time: 0.2e9 });
   assert.deepEqual(said(all), ["message 1", "message 2", "message 3", "the robot began anew", "new"]);
 });
 
 test("of what was said in time nobody was there for, the clock tells the run", () => {
   const [same, other] = [talked(), talked()];
-  same.begin(60e9);
-  other.begin(1e9);
+  same.begin({ time: 60e9 });
+  other.begin({ time: 1e9 });
   for (const all of [same, other]) all.add(log(50, "later"));
   assert.deepEqual(said(same).slice(3), ["later"]);
   assert.deepEqual(said(other).slice(3), ["the robot began anew", "later"]);
@@ -51,9 +51,9 @@ test("of what was said in time nobody was there for, the clock tells the run", (
 /** More messages of one run than are kept, all within 3 s: of its first thousand the page has none. */
 function talkedMuch() {
   const all = new Logs();
-  all.begin(0);
+  all.begin({ time: 0 });
   for (let number = 1; number <= 3000; number++) all.add({ ...log(number), time: number * 1e6 });
-  all.begin(60e9);
+  all.begin({ time: 60e9 });
   return all;
 }
 
@@ -92,10 +92,40 @@ test("what a connection said that was lost before anybody knew it is not shown t
   const all = talkedMuch();
   for (let time = 0; time < 2; time++) {
     for (const number of [1, 2]) all.add({ ...log(number, `new ${number}`), time: number * 1e6 });
-    if (time === 0) all.begin(62e9);
+    if (time === 0) all.begin({ time: 62e9 });
   }
   tick();
   assert.deepEqual(saidAnew(all), ["new 1", "new 2"]);
+});
+
+/** Numbers 1 to 3 of run `a`, whose clock is at 4 s. */
+function talkedOf() {
+  const all = new Logs();
+  all.begin({ time: 0, run: "a" });
+  for (const number of [1, 2, 3]) all.add(log(number));
+  return all;
+}
+
+test("a run that says which it is goes on, whatever it says and its clock", () => {
+  const all = talkedOf();
+  // A recording that went back to its begin, where it says once more what it said first.
+  all.begin({ time: 0, run: "a" });
+  for (const number of [3, 4]) all.add(log(number, "again", { time: 1e6 }));
+  assert.deepEqual(said(all), ["message 1", "message 2", "message 3", "again"]);
+});
+
+test("another run is told at once, also one that would pass for the run before, and once", () => {
+  const all = talkedOf();
+  all.begin({ time: 60e9, run: "b" });
+  assert.deepEqual(said(all).slice(3), ["the robot began anew"]);
+  all.begin({ time: 61e9, run: "c" });
+  all.add(log(50, "later"));
+  assert.deepEqual(said(all).slice(3), ["the robot began anew", "later"]);
+  // A robot of an earlier version is another one, and of its next run nobody knows.
+  all.begin({ time: 62e9 });
+  all.begin({ time: 63e9 });
+  all.add(log(51, "earlier version"));
+  assert.deepEqual(said(all).slice(5), ["the robot began anew", "earlier version"]);
 });
 
 function shown(lines) {
@@ -138,7 +168,14 @@ test("the level that a robot makes is a wish: any can be chosen at any time", as
   assert.deepEqual(asked, ["info", "debug"].map((level) => ({ set_log_level: { level } })));
   const hints = () => all(panel.content, ({ textContent }) => /as was chosen here$/.test(textContent)).length > 0;
   assert(hints());
-  robot.welcome.set({ time: 0 });
+  robot.welcome.set({ time: 0, run: "a" });
+  assert(!hints(), "a robot that comes back may make another one");
+  list.value = "debug";
+  list.tell("change");
+  await settled();
+  robot.welcome.set({ time: 0, run: "a" });
+  assert(hints(), "the same run makes what was chosen");
+  robot.welcome.set({ time: 0, run: "b" });
   assert(!hints(), "a robot that comes back may make another one");
   panel.close();
 });

@@ -175,6 +175,13 @@ test("types stay where the question for them fails once, and are not those of an
   assert.deepEqual(await shown(), [entry, null], "an empty field is `None` as before");
   robot.welcome = { value: {} };
   assert.deepEqual(await shown(), [undefined, ""]);
+  const everything = async () => [entry];
+  const nothing = robot.paths.everything;
+  for (const [run, ask, expected] of [["a", everything, entry], ["a", nothing, entry], ["b", nothing, undefined]]) {
+    robot.welcome = { value: { run } };
+    robot.paths.everything = ask;
+    assert.equal((await shown())[0], expected, `types of run ${run}, on another connection`);
+  }
 });
 
 test("integers have all their digits when they are written and taken back", async () => {

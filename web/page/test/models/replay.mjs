@@ -24,6 +24,25 @@ test("a jump to a cycle is made once, not by each panel that is opened later", a
   second.close();
 });
 
+test("what happened in a recording is asked once of a run that says which it is", async () => {
+  const { context, robot, asked } = opened(() => ({ called: PLACE }));
+  const panel = replay.open(context);
+  const asksAgain = async (welcome) => {
+    await settled();
+    asked.splice(0);
+    robot.state.set("waiting");
+    robot.welcome.set(welcome);
+    robot.state.set("open");
+    await settled();
+    return moves(asked).some(({ events }) => events === true);
+  };
+  assert(await asksAgain({ time: 0, run: "a" }));
+  assert(!(await asksAgain({ time: 9, run: "a" })));
+  assert(await asksAgain({ time: 9, run: "b" }));
+  for (let time = 0; time < 2; time++) assert(await asksAgain({ time: 9 }), "an earlier version does not tell");
+  panel.close();
+});
+
 test("another recording has other instances", async () => {
   const world = { instances: PLACE.instances };
   const { context } = opened(() => ({ called: { ...PLACE, ...world } }));

@@ -34,8 +34,8 @@ test("the same moment twice is one point", () => {
 
 test("what is newer than the robot's clock belongs to another run", () => {
   const series = drawn(1, 2, 3);
-  series.isNow(3.5);
+  series.begin(null, 3.5);
   assert.deepEqual(series.times, [1, 2, 3]);
-  series.isNow(1.5);
+  series.begin(null, 1.5);
   assert.deepEqual(series.times, []);
 });

@@ -58,3 +58,23 @@ test("rows stay the same elements while their numbers change, and nodes come and
   assert.deepEqual([rows().length, caret.classList.contains("open")], [before.length, true]);
   panel.close();
 });
+
+test("a rate is of one run: what was counted before a restart is not held against it", async () => {
+  let [time, welcome] = [1, { time: 0, run: "a" }];
+  const { context, robot } = opened(() => answer(time++));
+  const panel = timings.open(context);
+  const rate = async (next) => {
+    if (next !== undefined) robot.welcome.set((welcome = next));
+    tick();
+    await settled();
+    return /^Control(.*? Hz)?/.exec(ofClass(panel.content, "instance")[0].textContent)[1] ?? null;
+  };
+  await rate(welcome);
+  assert.equal(await rate(), "83.0 Hz");
+  assert.equal(await rate({ time: 9, run: "a" }), "83.0 Hz", "another connection to it");
+  // Its clock is ahead of where the one before was seen last.
+  time = 60;
+  assert.equal(await rate({ time: 9, run: "b" }), null);
+  assert.equal(await rate(), "83.0 Hz");
+  panel.close();
+});
