@@ -7,7 +7,7 @@ import { button, complain, make } from "../view/dom";
 import { json } from "../view/format";
 
 /** `shown`: the path that the panel shows, and its newest value to begin with. */
-export function injection(robot: Robot, shown: () => { path: string; value: Decoded }): { element: HTMLElement; close(): void; moved(): void } {
+export function injection(robot: Robot, shown: () => { path: string; value: Decoded }): { element: HTMLElement; close(): void; moved(): void; mark(path: string, isInjected: boolean): void } {
   const injection = new Injection(robot);
   const text = make("textarea", { rows: 4, spellcheck: "false", "aria-label": "value to inject" });
   const failure = make("p", { class: "failure", hidden: true });
@@ -41,12 +41,16 @@ export function injection(robot: Robot, shown: () => { path: string; value: Deco
     robot.state.watch((now) => {
       if (now !== "waiting" || injection.path.value === null) return;
       injection.forget();
-      complain(failure, "the connection was lost: nothing is injected any more");
+      complain(failure, "the connection was lost: the robot ends the injection once it notices, within a minute");
     }),
   ];
   const close = (): void => {
     for (const stop of stops) stop();
     injection.close();
   };
-  return { element, close, moved };
+  /** What the robot shows: somebody else may have released it. */
+  const mark = (path: string, isInjected: boolean): void => {
+    if (injection.mark(path, isInjected)) complain(failure, "somebody else has released it: nothing is injected any more");
+  };
+  return { element, close, moved, mark };
 }

@@ -49,7 +49,11 @@ function open(context: Context): Panel {
     tree.replaceChildren(branch.element);
     complain(failure, null);
     if (path === "") return;
-    stopMark = watchInjected(context.robot, path, (isInjected) => (mark.hidden = !isInjected));
+    const shown = path;
+    stopMark = watchInjected(context.robot, shown, (isInjected) => {
+      mark.hidden = !isInjected;
+      injecting.mark(shown, isInjected);
+    });
     stop = context.robot.subscriptions.watch(
       // As bytes, since an image as JSON would take seconds; the robot tells parameters as JSON alone.
       { path, rate, encoding: /^parameters(\.|$)/.test(path) ? "json" : "binary" },

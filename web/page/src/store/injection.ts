@@ -9,6 +9,9 @@ export class Injection {
   private readonly injected = new Signal<string | null>(null);
   /** A release waits for the answer to what it releases: it may come long after somebody asked for it. */
   private readonly turns = new Turns();
+  /** Whether the robot has shown since then that it is injected. */
+  private isSeen = false;
+  private isEnding = false;
 
   constructor(private readonly robot: Pick<Robot, "ask">) {}
 
@@ -21,8 +24,18 @@ export class Injection {
     return this.turns.take(async () => {
       if (this.injected.value !== path) await this.giveBack();
       expect(await this.robot.ask({ inject: { path, value } }), "done");
+      this.isSeen = false;
       this.injected.set(path);
     });
+  }
+
+  /** What the robot shows of this output. Whether somebody else has released what was injected here: it was there, and is no more. */
+  mark(path: string, isInjected: boolean): boolean {
+    if (path !== this.injected.value || this.isEnding) return false;
+    const isOver = this.isSeen && !isInjected;
+    this.isSeen = isInjected;
+    if (isOver) this.forget();
+    return isOver;
   }
 
   release(): Promise<void> {
@@ -42,11 +55,14 @@ export class Injection {
   private async giveBack(): Promise<void> {
     const path = this.injected.value;
     if (path === null) return;
+    this.isEnding = true;
     try {
       expect(await this.robot.ask({ release: { path } }), "done");
     } catch (error) {
       // Somebody else has released it: there is nothing to give back.
       if (!(error instanceof Refused)) throw error;
+    } finally {
+      this.isEnding = false;
     }
     this.injected.set(null);
   }

@@ -71,6 +71,35 @@ test("what somebody else has released can be left, and another output injected",
   }
 });
 
+test("an injection that somebody else has ended is told once, and one that the robot does not show yet is none of these", async () => {
+  const { injection, asked } = played();
+  const inject = async () => {
+    const injected = injection.inject("A.main_outputs.x", 1);
+    await settled();
+    asked.at(-1).answer();
+    await injected;
+  };
+  const marks = (...all) => all.map((isInjected) => injection.mark("A.main_outputs.x", isInjected));
+  await inject();
+  assert.deepEqual(marks(false, true, true), [false, false, false]);
+  assert.equal(injection.mark("A.main_outputs.y", false), false, "another output");
+  assert.equal(injection.path.value, "A.main_outputs.x");
+  await inject();
+  assert.deepEqual(marks(false, true, false, false), [false, false, true, false]);
+  assert.equal(injection.path.value, null);
+  injection.close();
+  await settled();
+  assert.equal(asked.length, 2, "there is nothing to give back");
+  await inject();
+  assert.deepEqual(marks(true), [false]);
+  const released = injection.release();
+  await settled();
+  assert.deepEqual(marks(true, false), [false, false], "it was released here");
+  asked.at(-1).answer();
+  await released;
+  assert.equal(injection.path.value, null);
+});
+
 test("a release that did not reach the robot can be wished again", async () => {
   const { injection, asked } = played();
   const injected = injection.inject("A.main_outputs.x", 1);
