@@ -85,6 +85,8 @@ export const PRESETS: readonly Preset[] = [
 
 export class Arrangement {
   private readonly current: Signal<Layout>;
+  /** What a whole other layout took the place of; null: none did. */
+  private readonly replaced = new Signal<Layout | null>(null);
 
   constructor() {
     this.current = new Signal(read(localStorage.getItem(KEY)) ?? start());
@@ -92,6 +94,21 @@ export class Arrangement {
 
   get layout(): Readable<Layout> {
     return this.current;
+  }
+
+  get before(): Readable<Layout | null> {
+    return this.replaced;
+  }
+
+  /** A preset or a file in place of what somebody has arranged, who may want that back. */
+  replace(layout: Layout): void {
+    this.replaced.set(this.current.value);
+    this.use(layout);
+  }
+
+  /** The layout that was replaced last; from there the way back leads here. */
+  back(): void {
+    if (this.replaced.value !== null) this.replace(this.replaced.value);
   }
 
   /** Puts a new panel where there is most place. */

@@ -81,17 +81,20 @@ function layouts(robot: Robot, arrangement: Arrangement): HTMLElement {
     void file.files?.[0]?.text().then((text) => {
       const layout = read(text);
       if (layout === null) alert("this file is no layout of this page");
-      else arrangement.use(layout);
+      else arrangement.replace(layout);
       file.value = "";
     });
   });
   const presets = make("div", { class: "offers" });
   whenKnown(robot, (offered) => {
-    presets.replaceChildren(...offered.presets.map(({ name, layout }) => button(name, `begin with ${name}`, () => arrangement.use(layout()), "item")));
+    presets.replaceChildren(...offered.presets.map(({ name, layout }) => button(name, `begin with ${name}`, () => arrangement.replace(layout()), "item")));
   });
+  const back = button("Back", "the layout that was there before this one", () => arrangement.back(), "item");
+  arrangement.before.watch((before) => (back.hidden = before === null));
   return menu("Layout", [
     presets,
     make("hr"),
+    back,
     button("Save as file", "for others, or for another browser", () => download("layout.json", arrangement.text()), "item"),
     button("Open file …", "a layout that was saved", () => file.click(), "item"),
     file,

@@ -60,6 +60,20 @@ test("neighbours share their place, and what they got is kept with everything el
   assert.deepEqual(panels.map(({ robot }) => robot), [undefined, undefined, "10.1.24.2:4857"]);
 });
 
+test("a layout that a preset has replaced comes back as it was left, and so does the preset", () => {
+  const arrangement = arranged();
+  assert.equal(arrangement.before.value, null);
+  arrangement.back();
+  arrangement.configure(idOf(arrangement, "b"), { path: "Control.a" });
+  arrangement.replace(layoutOf([1, place("p"), place("q")]));
+  arrangement.remove(idOf(arrangement, "q"));
+  arrangement.back();
+  assert.deepEqual(kinds(arrangement), ["ab", "c"]);
+  assert.deepEqual(new Arrangement().layout.value.columns[0].panels[1].settings, { path: "Control.a" }, "the browser keeps it");
+  arrangement.back();
+  assert.deepEqual(kinds(arrangement), ["p"]);
+});
+
 test("a file is a layout or none, and sizes that make no sense are those of others", () => {
   const text = arranged().text();
   assert.deepEqual(read(text).columns.map(({ panels }) => panels.length), [2, 1]);
