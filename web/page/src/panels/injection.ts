@@ -25,7 +25,7 @@ export function injection(robot: Robot, shown: () => { path: string; value: Deco
     "div",
     { class: "bar" },
     button("Inject", "every reader gets this value in place of the node's", () => void attempt(inject), "deed"),
-    button("Release", "give the output back to its node", () => void attempt(() => injection.release())),
+    button("Release", "give the output back to its node", () => void attempt(() => injection.release(shown().path))),
     button("Take current", "begin with the newest value", () => (text.value = json(shown().value))),
     state,
   );

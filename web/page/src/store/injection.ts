@@ -38,8 +38,12 @@ export class Injection {
     return isOver;
   }
 
-  release(): Promise<void> {
-    return this.turns.take(() => this.giveBack());
+  /** What was injected here; where nothing was, what anybody has put in place of this output. */
+  release(output?: string): Promise<void> {
+    return this.turns.take(async () => {
+      if (this.injected.value !== null || output === undefined) return this.giveBack();
+      expect(await this.robot.ask({ release: { path: output } }), "done");
+    });
   }
 
   /** The robot released it by itself. */

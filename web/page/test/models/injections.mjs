@@ -71,6 +71,29 @@ test("what somebody else has released can be left, and another output injected",
   }
 });
 
+test("what others have injected can be released, and that nobody has is told; a panel that closes leaves it alone", async () => {
+  const { injection, asked, names } = played();
+  const released = injection.release("A.main_outputs.x");
+  await settled();
+  asked[0].answer();
+  await released;
+  const nothing = injection.release("A.main_outputs.x");
+  await settled();
+  asked[1].refuse(new Refused({ message: "nobody has replaced `A.main_outputs.x`" }));
+  await assert.rejects(nothing, /nobody has replaced/);
+  injection.close();
+  await settled();
+  assert.deepEqual(names(), ["release A.main_outputs.x", "release A.main_outputs.x"]);
+  // One's own comes first, whatever is shown by now.
+  const injected = injection.inject("A.main_outputs.y", 1);
+  await settled();
+  asked[2].answer();
+  await injected;
+  void injection.release("A.main_outputs.x");
+  await settled();
+  assert.equal(names().at(-1), "release A.main_outputs.y");
+});
+
 test("an injection that somebody else has ended is told once, and one that the robot does not show yet is none of these", async () => {
   const { injection, asked } = played();
   const inject = async () => {
