@@ -21,6 +21,8 @@ export interface Look {
 /** Curves of one robot beside those of others: all in its colour, told apart by their strokes. */
 const DASHES = [[], [12, 4], [3, 3], [12, 4, 3, 4], [12, 4, 3, 4, 3, 4]];
 
+const NO_NUMBER = "this is no number: a curve shows numbers and flags, and so may parts of it";
+
 /** Of a robot that this page may not show: it has no place among the others. */
 const STRANGER = "#808080";
 
@@ -103,6 +105,8 @@ export class Curve {
         { path: wanted.path },
         {
           sample: ({ time, value }) => {
+            const wrong = value === null || height(value) !== null ? null : NO_NUMBER;
+            if (wrong !== this.failure) this.fail(wrong);
             if (this.shift === null) return;
             this.series.add(time / 1e9 + this.shift, height(value));
             changed();

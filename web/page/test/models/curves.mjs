@@ -197,6 +197,22 @@ test("a restart of the panel's robot ends what belongs to the run before", async
   near(curve.series.times[0], 1);
 });
 
+test("what is no number is told as long as it is none, and what is not there is no mistake", () => {
+  const own = new Played(0);
+  let told = 0;
+  const curve = new Curve({ path: "a" }, known(0, own), own, () => undefined, () => told++);
+  const failures = [{ Lying: "Up" }, "Upright", [1, 2], 5, null, true, 7n, {}].map((value, at) => {
+    own.tell(at, value);
+    return curve.failure !== null;
+  });
+  assert.deepEqual(failures, [true, true, true, false, false, false, false, true]);
+  assert.match(curve.failure, /^this is no number/);
+  const before = told;
+  own.tell(9, {});
+  assert.equal(told, before, "once");
+  curve.close();
+});
+
 test("values that did not come through leave a gap, and are counted", () => {
   const own = new Played(0);
   let told = 0;
