@@ -87,7 +87,7 @@ class Replay implements Panel {
       void this.ask({ time: Number(this.slider.value) });
     });
     this.slider.addEventListener("change", () => (this.isDragged = false));
-    this.cycle.addEventListener("change", () => void this.ask({ cycle: Number(this.cycle.value), instance: this.instance() ?? this.place?.instances.at(-1)?.instance ?? "" }));
+    this.cycle.addEventListener("change", () => this.jump(this.cycle.value.trim()));
     this.content.addEventListener("keydown", (event) => this.key(event));
     this.timer = window.setInterval(() => void this.look(), PERIOD_MILLISECONDS);
     const stops = [
@@ -114,6 +114,13 @@ class Replay implements Panel {
   private step(by: number): void {
     const instance = this.instance();
     void this.ask({ step: by, ...(instance === undefined ? {} : { instance }) });
+  }
+
+  /** To a cycle as somebody typed it. */
+  private jump(text: string): void {
+    if (text === "") return this.failures.did(null);
+    if (!/^\d+$/.test(text)) return this.failures.did(`\`${text}\` is no number of a cycle`);
+    void this.ask({ cycle: Number(text), instance: this.instance() ?? this.place?.instances.at(-1)?.instance ?? "" });
   }
 
   private key(event: KeyboardEvent): void {

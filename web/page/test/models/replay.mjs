@@ -24,6 +24,27 @@ test("a jump to a cycle is made once, not by each panel that is opened later", a
   second.close();
 });
 
+test("what is no number of a cycle moves nothing and is told, and an empty field wishes nothing", async () => {
+  const { context, asked } = opened(() => ({ called: PLACE }));
+  const panel = replay.open(context);
+  await settled();
+  asked.splice(0);
+  const cycle = labelled(panel.content, "go to this cycle");
+  const [failure] = ofClass(panel.content, "failure");
+  const said = async (text) => {
+    cycle.value = text;
+    cycle.tell("change");
+    await settled();
+    return failure.textContent;
+  };
+  for (const text of ["abc", "-1", "1.5", "1e3"]) assert.equal(await said(text), `\`${text}\` is no number of a cycle`);
+  assert.equal(await said(" "), "");
+  assert.deepEqual(asked, []);
+  assert.equal(await said(" 7 "), "");
+  assert.deepEqual(moves(asked), [{ cycle: 7, instance: "Control" }]);
+  panel.close();
+});
+
 test("what happened in a recording is asked once of a run that says which it is", async () => {
   const { context, robot, asked } = opened(() => ({ called: PLACE }));
   const panel = replay.open(context);
