@@ -1,11 +1,10 @@
 // One parameter: its value in the input that fits its type, its unit and range, and where it comes from.
 import { writeJson } from "../connection/exact";
-import type { Provenance } from "../protocol";
 import { nameOf } from "../store/paths";
 import type { Draft, Parameter } from "../store/tuning";
 import { make } from "../view/dom";
 import { DRAGGED_PATH } from "./panel";
-import { keyOf, rangeOf, shapeOf, stepped, type Shape } from "./parameter_text";
+import { keyOf, originOf, rangeOf, shapeOf, stepped, type Shape } from "./parameter_text";
 
 export interface RowListener {
   note(parameter: Parameter, draft: Draft): void;
@@ -127,20 +126,5 @@ function inputFor(shape: Shape): HTMLInputElement | HTMLSelectElement | HTMLText
       return make("input", { type: "text", spellcheck: "false", placeholder });
     case "json":
       return make("textarea", { rows: 1, spellcheck: "false" });
-  }
-}
-
-function originOf(provenance: Provenance): string {
-  switch (provenance.from) {
-    case "file":
-      return `${provenance.file}:${provenance.line}`;
-    case "environment":
-      return `$${provenance.variable}`;
-    case "setting":
-      return `--set ${provenance.setting}`;
-    case "live":
-      return `live, version ${provenance.version}`;
-    case "nowhere":
-      return "default";
   }
 }

@@ -1,7 +1,11 @@
 // Owns how a parameter is written in a field, and what a text in the field means: by its type, without the field.
 import { readJson, writeJson } from "../connection/exact";
-import type { Json } from "../protocol";
+import type { Json, Provenance } from "../protocol";
 import type { Draft, Parameter } from "../store/tuning";
+import type { Overtaken } from "../store/undone";
+
+/** Of a value within a sentence. */
+const LONGEST = 60;
 
 export interface Shape {
   kind: "flag" | "choice" | "number" | "words" | "json";
@@ -89,4 +93,32 @@ export function stepped(text: string, direction: 1 | -1, value: Json): string | 
   if (typeof value !== "number") return null;
   const digits = /\.(\d+)$/.exec(text)?.[1]?.length ?? 0;
   return String(Number((value + direction * 10 ** -digits).toFixed(digits)));
+}
+
+/** Where a value was given last. */
+export function originOf(provenance: Provenance): string {
+  switch (provenance.from) {
+    case "file":
+      return `${provenance.file}:${provenance.line}`;
+    case "environment":
+      return `$${provenance.variable}`;
+    case "setting":
+      return `--set ${provenance.setting}`;
+    case "live":
+      return `live, version ${provenance.version}`;
+    case "nowhere":
+      return "default";
+  }
+}
+
+/** Why a write is not taken back: what stands there now, and where it comes from. */
+export function overtakenText(overtaken: readonly Overtaken[]): string {
+  const each = overtaken.map(({ path, now, provenance, written, before }) => `${path} is ${brief(now)} now (${originOf(provenance)}), not ${brief(written)} as it was written here; before that it was ${brief(before)}`);
+  return ["not taken back: what was written here is not there any more", ...each].join("\n");
+}
+
+/** A list may be longer than anybody reads. */
+function brief(value: Json): string {
+  const text = writeJson(value);
+  return text.length <= LONGEST ? text : `${text.slice(0, LONGEST)}…`;
 }

@@ -1,10 +1,11 @@
 // A panel to read and change the robot's parameters: several at once, with where they come from, and back into a file.
 import { Tuning, type Draft, type Parameter, type Tuned } from "../store/tuning";
+import type { Overtaken } from "../store/undone";
 import { button, complain, make, select } from "../view/dom";
 import { plural } from "../view/format";
 import { textSetting, type Context, type Panel, type PanelKind } from "./panel";
 import { ParameterRow } from "./parameter_row";
-import { keyOf } from "./parameter_text";
+import { keyOf, overtakenText } from "./parameter_text";
 
 class Parameters implements Panel {
   readonly content: HTMLElement;
@@ -17,6 +18,7 @@ class Parameters implements Panel {
   private readonly said = make("p", { class: "said", hidden: true });
   private readonly search: HTMLInputElement;
   private readonly writing = make("div", { class: "bar writing", hidden: true });
+  private readonly overtaken = make("div", { class: "bar overtaken", hidden: true });
   private readonly storing = make("div", { class: "bar storing", hidden: true });
   private readonly undo: HTMLButtonElement;
   private readonly rows = new Map<string, ParameterRow>();
@@ -36,12 +38,13 @@ class Parameters implements Panel {
       this.undo,
       button("Reload", "take what the files say: changes that were not stored are gone", () => this.attempt(() => this.tuning.reload())),
     ];
-    this.content = make("div", { class: "scroll" }, make("div", { class: "bar" }, this.search), this.writing, this.storing, this.failure, this.unread, this.said, this.list);
+    this.content = make("div", { class: "scroll" }, make("div", { class: "bar" }, this.search), this.writing, this.overtaken, this.storing, this.failure, this.unread, this.said, this.list);
     this.stops = [
       context.robot.parameters.watch(() => void this.load()),
       context.robot.canWrite.watch((can) => this.content.classList.toggle("read-only", !can)),
       this.tuning.tuned.watch((tuned) => this.draw(tuned)),
       this.tuning.pending.watch((pending) => this.drawPending(pending)),
+      this.tuning.overtaken.watch((overtaken) => this.drawOvertaken(overtaken)),
     ];
   }
 
@@ -129,6 +132,15 @@ class Parameters implements Panel {
       wrong.length === 0 ? "" : make("span", { class: "wrong" }, wrong.join(", ")),
       button("Write", "all of them at once, or none", () => this.attempt(() => this.tuning.write()), "deed"),
       button("Discard", "forget them", () => this.tuning.discard()),
+    );
+  }
+
+  private drawOvertaken(overtaken: readonly Overtaken[]): void {
+    this.overtaken.hidden = overtaken.length === 0;
+    this.overtaken.replaceChildren(
+      make("span", { class: "wrong" }, overtakenText(overtaken)),
+      button("Overwrite", "take the write back in spite of that: what was there before it is written", () => this.attempt(() => this.tuning.undo("overwrite")), "deed"),
+      button("Keep", "leave what is there now; what else that write changed is taken back", () => this.attempt(() => this.tuning.undo("keep"))),
     );
   }
 

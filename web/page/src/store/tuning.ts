@@ -1,11 +1,11 @@
 // Owns what a panel of parameters works on: what the robot has, what was changed here and not sent, and what can be undone.
-import { writeJson } from "../connection/exact";
 import { expect, Refused } from "../connection/socket";
 import type { Change, Entry, Json, Leaf, Reading, Unstored, Welcome } from "../protocol";
 import type { Robot } from "./robot";
 import { isSameRun } from "./run";
 import { Signal } from "./signal";
 import { Turns } from "./turns";
+import { isSame, Undone, type Overtaken } from "./undone";
 
 export interface Parameter {
   /** From the root of the parameters. */
@@ -30,14 +30,13 @@ export interface Tuned {
 /** What somebody typed: the value that it is, or the reason why it is none. */
 export type Draft = { text: string; value: Json } | { text: string; wrong: string };
 
-const UNDO = 100;
-
 export class Tuning {
   readonly tuned = new Signal<Tuned | null>(null);
   /** Changed here and not sent, by path. */
   readonly pending = new Signal<ReadonlyMap<string, Draft>>(new Map());
-  /** Values that were replaced from here, newest last. */
-  private readonly undone: Change[][] = [];
+  /** Why the last write from here was not taken back: what others have put in its place. */
+  readonly overtaken = new Signal<readonly Overtaken[]>([]);
+  private readonly undone = new Undone();
   /** What a write replaces is known once the one before was answered. */
   private readonly turns = new Turns();
   /** The last write from here, and on which connection: another run counts versions anew. */
@@ -50,7 +49,7 @@ export class Tuning {
   constructor(private readonly robot: Pick<Robot, "ask" | "paths" | "welcome">) {}
 
   get canUndo(): boolean {
-    return this.undone.length > 0;
+    return this.undone.newest !== undefined;
   }
 
   /** Asks the robot for everything; what it says for people. */
@@ -67,7 +66,10 @@ export class Tuning {
     this.shownLoad = load;
     const tuned = describe(reading, unstored, entries);
     const said = this.forgetWithout(tuned);
+    this.undone.hear(this.robot.welcome.value, tuned.version, tuned.parameters);
     this.tuned.set(tuned);
+    // What is told of it is of now.
+    if (this.overtaken.value.length > 0) this.overtaken.set(this.undone.overtaken(tuned.parameters));
     return said;
   }
 
@@ -111,33 +113,58 @@ export class Tuning {
       // Somebody who presses twice wants it once.
       const changes = wanted.filter(({ path, value }) => !isSame(value, this.valueOf(path)));
       if (changes.length > 0) {
-        const before = changes.map(({ path }) => ({ path, value: this.valueOf(path) }));
+        const replaced = changes.map(({ path, value }) => ({ path, before: this.valueOf(path), written: value }));
         await this.send(changes);
-        this.undone.push(before);
-        if (this.undone.length > UNDO) this.undone.shift();
+        this.undone.add(this.written.run, this.written.version, replaced);
+        this.settleUndo();
       }
       this.settle(wanted);
     });
   }
 
-  /** Gives back what the last write from here replaced. */
-  undo(): Promise<void> {
+  /**
+   * Gives back what the last write from here replaced. Where somebody else has written since, nothing is sent, and `overtaken`
+   * tells: it may be overwritten as it was told, or kept, so that the rest alone is given back. What it says for people.
+   */
+  undo(choice?: "overwrite" | "keep"): Promise<string | void> {
+    const told = this.overtaken.value;
     return this.turns.take(async () => {
-      const changes = this.undone[this.undone.length - 1];
-      if (changes === undefined) return;
-      try {
-        await this.send(changes);
-      } catch (error) {
-        // Values that this robot does not take never will be: the write before may still be undone.
-        const isHopeless = error instanceof Refused && (error.failure.refusals ?? []).length > 0;
-        if (!isHopeless) throw error;
-        this.undone.pop();
-        this.tuned.set(this.tuned.value);
-        throw new Error(`the last write cannot be taken back: ${error.message}`);
+      if (!this.canUndo) return;
+      // What others wrote may not have been heard of yet.
+      const said = await this.load();
+      const overtaken = this.undone.overtaken(this.tuned.value?.parameters ?? []);
+      if (choice === "keep") this.undone.keep(overtaken.map(({ path }) => path));
+      const isTold = overtaken.every(({ path, now }) => told.some((one) => one.path === path && isSame(one.now, now)));
+      if (overtaken.length > 0 && choice !== "keep" && !(choice === "overwrite" && isTold)) {
+        this.overtaken.set(overtaken);
+        return said;
       }
-      this.undone.pop();
-      this.tuned.set(this.tuned.value);
+      await this.giveBack();
+      this.settleUndo();
+      return said;
     });
+  }
+
+  private async giveBack(): Promise<void> {
+    const changes = (this.undone.newest ?? []).map(({ path, before }) => ({ path, value: before }));
+    if (changes.length === 0) return this.undone.forget();
+    try {
+      await this.send(changes);
+    } catch (error) {
+      // Values that this robot does not take never will be: the write before may still be undone.
+      const isHopeless = error instanceof Refused && (error.failure.refusals ?? []).length > 0;
+      if (!isHopeless) throw error;
+      this.undone.forget();
+      this.settleUndo();
+      throw new Error(`the last write cannot be taken back: ${error.message}`);
+    }
+    this.undone.givenBack(this.written.run, this.written.version);
+  }
+
+  /** Another write is the last one now. */
+  private settleUndo(): void {
+    this.overtaken.set([]);
+    this.tuned.set(this.tuned.value);
   }
 
   /** Writes what is in no file into that of a layer; what it says for people. */
@@ -187,10 +214,6 @@ export class Tuning {
   private valueOf(path: string): Json {
     return this.tuned.value?.parameters.find((parameter) => parameter.path === path)?.value ?? null;
   }
-}
-
-function isSame(one: Json, other: Json): boolean {
-  return writeJson(one) === writeJson(other);
 }
 
 function describe(reading: Reading, unstored: Unstored, entries: readonly Entry[]): Tuned {

@@ -2,53 +2,9 @@
 import assert from "node:assert/strict";
 import test from "node:test";
 import { load } from "../load.mjs";
+import { Refused, settled, tuned } from "../tuning.mjs";
 
-const { Refused, Tuning } = await load("store/tuning.ts", "connection/socket.ts");
 const { keyOf, shapeOf, stepped } = await load("panels/parameter_text.ts");
-
-const settled = () => new Promise((resolve) => setTimeout(resolve, 0));
-
-/** A robot with these parameters, and what was asked of it. */
-class Played {
-  welcome = { value: {} };
-  paths = { everything: async () => [] };
-  version = 1;
-  writes = [];
-
-  constructor(values) {
-    this.values = values;
-  }
-
-  async ask(ask) {
-    if ("parameters" in ask) {
-      const leaves = Object.keys(this.values).map((path) => ({ path, provenance: { from: "nowhere" } }));
-      const said = { parameters: { value: { ...this.values }, version: this.version, leaves } };
-      await this.slow;
-      return said;
-    }
-    if ("unstored" in ask) return { unstored: { version: this.version, changes: [], layers: [], creation_only: [] } };
-    return new Promise((resolve, reject) => this.writes.push({ changes: ask.write.changes, take: () => resolve(this.take(ask.write.changes)), refuse: reject }));
-  }
-
-  take(changes) {
-    for (const { path, value } of changes) this.values[path] = value;
-    return { written: { version: ++this.version } };
-  }
-}
-
-async function tuned(values) {
-  const robot = new Played(values);
-  const tuning = new Tuning(robot);
-  await tuning.load();
-  const find = (path) => tuning.tuned.value.parameters.find((one) => one.path === path);
-  return {
-    robot,
-    tuning,
-    type: (path, text) => tuning.note(find(path), shapeOf(find(path)).read(text)),
-    value: (path) => find(path)?.value,
-    pending: () => [...tuning.pending.value].map(([path, { text }]) => [path, text]),
-  };
-}
 
 test("of what cannot be read nothing is sent, also not its beginning", async () => {
   const { robot, tuning, type } = await tuned({ a: 2, b: 5 });

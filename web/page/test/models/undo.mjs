@@ -1,0 +1,116 @@
+// Writes that are taken back while others write, too, with a robot that is only played.
+import assert from "node:assert/strict";
+import test from "node:test";
+import { load } from "../load.mjs";
+import { settled, tuned } from "../tuning.mjs";
+
+const { overtakenText } = await load("panels/parameter_text.ts");
+
+/** A panel that has written these texts, each by itself. `sent`: what it has sent since then. */
+async function written(values, ...texts) {
+  const all = await tuned(values);
+  const { robot, tuning, type } = all;
+  const answered = async (deed) => {
+    const before = robot.writes.length;
+    const done = deed();
+    await settled();
+    if (robot.writes.length > before) robot.writes.at(-1).take();
+    await done;
+    await tuning.load();
+  };
+  for (const one of texts) {
+    for (const [path, text] of Object.entries(one)) type(path, text);
+    await answered(() => tuning.write());
+  }
+  const count = robot.writes.length;
+  const told = () => tuning.overtaken.value.map(({ path, now }) => [path, now]);
+  return { ...all, told, undo: (choice) => answered(() => tuning.undo(choice)), sent: () => robot.writes.slice(count).map(({ changes }) => changes) };
+}
+
+/** What another page does. */
+const other = (robot, path, value) => robot.take([{ path, value }]);
+
+test("what another page has written since is told and not overwritten, until somebody wants it", async () => {
+  const { robot, tuning, undo, told, sent } = await written({ a: 1, b: 1 }, { a: "2" }, { a: "3", b: "2" });
+  other(robot, "a", 7);
+  await undo();
+  assert.deepEqual(sent(), [], "nobody has heard of the other page's write before");
+  assert.deepEqual(told(), [["a", 7]]);
+  assert.equal(overtakenText(tuning.overtaken.value), "not taken back: what was written here is not there any more\na is 7 now (live, version 4), not 3 as it was written here; before that it was 2");
+  await undo();
+  assert.deepEqual(sent(), [], "pressed twice, it is no consent");
+  await undo("overwrite");
+  assert.deepEqual(sent(), [[{ path: "a", value: 2 }, { path: "b", value: 1 }]]);
+  assert.deepEqual(told(), []);
+  await undo();
+  assert.deepEqual([robot.values, tuning.canUndo], [{ a: 1, b: 1 }, false], "and the write before is undone");
+});
+
+test("what somebody else has written may be kept: the rest of the write is taken back", async () => {
+  const { robot, tuning, undo, told, sent } = await written({ a: 1, b: 1, c: 1 }, { a: "2" }, { b: "2", c: "2" });
+  other(robot, "b", 7);
+  await undo();
+  await undo("keep");
+  assert.deepEqual(sent(), [[{ path: "c", value: 1 }]]);
+  other(robot, "a", 8);
+  await undo();
+  assert.deepEqual(told(), [["a", 8]]);
+  await undo("keep");
+  assert.deepEqual([robot.values, sent().length, told(), tuning.canUndo], [{ a: 8, b: 7, c: 1 }, 1, [], false], "nothing is left of it");
+});
+
+test("to overwrite is wanted of the value that was told, and not of one that came since", async () => {
+  const { robot, tuning, undo, told, sent } = await written({ a: 1 }, { a: "2" });
+  other(robot, "a", 7);
+  await undo();
+  other(robot, "a", 8);
+  await undo("overwrite");
+  assert.deepEqual([sent(), told()], [[], [["a", 8]]]);
+  other(robot, "a", 9);
+  await tuning.load();
+  assert.deepEqual(told(), [["a", 9]], "it is told what is there now");
+  other(robot, "a", 2);
+  await tuning.load();
+  assert.deepEqual(told(), [], "nothing is in the way any more");
+  await undo();
+  assert.deepEqual(sent(), [[{ path: "a", value: 1 }]]);
+});
+
+test("another write from here is the one that is taken back next", async () => {
+  const { robot, tuning, type, undo, told } = await written({ a: 1, b: 1 }, { a: "2" });
+  other(robot, "a", 7);
+  await undo();
+  type("b", "2");
+  const done = tuning.write();
+  await settled();
+  robot.writes.at(-1).take();
+  await done;
+  assert.deepEqual(told(), []);
+  await undo();
+  assert.deepEqual([robot.values, told()], [{ a: 7, b: 1 }, []]);
+});
+
+test("a value that the robot holds with fewer digits is the one that was written", async () => {
+  const { robot, tuning, undo, told, sent } = await written({ a: 1, b: 1 });
+  robot.held = Math.fround;
+  for (const text of ["0.1", "0.2"]) {
+    tuning.note(tuning.tuned.value.parameters[0], { text, value: Number(text) });
+    const done = tuning.write();
+    await settled();
+    robot.writes.at(-1).take();
+    await done;
+  }
+  // It is heard of together with what somebody else has written elsewhere.
+  other(robot, "b", 5);
+  await undo();
+  await undo();
+  assert.deepEqual([told(), sent().slice(2).map(([{ value }]) => value)], [[], [0.1, 1]]);
+});
+
+test("of another run what its files say is told", async () => {
+  const { robot, undo, told, sent } = await written({ a: 1 }, { a: "2" });
+  // Its versions are counted anew, and one of them has the same number.
+  Object.assign(robot, { welcome: { value: { run: "b" } }, version: 2, values: { a: 1.5 }, versions: {} });
+  await undo();
+  assert.deepEqual([sent(), told()], [[], [["a", 1.5]]]);
+});
