@@ -131,6 +131,11 @@ class Element_ extends Node_ {
   getContext() {
     return null;
   }
+
+  /** Nothing has been laid out. */
+  querySelector() {
+    return null;
+  }
 }
 
 /** The elements below one for which this holds. */
@@ -154,6 +159,7 @@ export const settled = () => new Promise((resolve) => setTimeout(resolve, 5));
 Object.assign(globalThis, { Node: Node_, Text: Text_, HTMLElement: Element_ });
 for (const name of ["Input", "Select", "Button", "TextArea"]) globalThis[`HTML${name}Element`] = class extends Element_ {};
 globalThis.document = { createElement: (name) => new Element_(name), createTextNode: (text) => new Text_(text), hidden: false, activeElement: null, body: new Element_("body") };
+globalThis.getComputedStyle = () => ({ getPropertyValue: () => "" });
 globalThis.requestAnimationFrame = (deed) => setTimeout(deed);
 globalThis.window = {
   devicePixelRatio: 1,

@@ -7,6 +7,7 @@ import type { Welcome } from "../protocol";
 import { nameOf } from "../store/paths";
 import { isSameRun } from "../store/run";
 import { Curve, isShared, kept, lookOfOtherRun, looksOf, nameIn, wantedIn, type Look, type Wanted } from "./curve";
+import { Held, type Part } from "./held";
 import { numberSetting, type Context, type Panel, type PanelKind } from "./panel";
 import { align, readCurves, robotChoice, robotMark, type Series } from "./series";
 
@@ -36,8 +37,8 @@ class Plot implements Panel {
   private readonly whose: HTMLSelectElement;
   private readonly draw = eachFrame(() => this.update());
   private window: number;
-  /** While paused: what is shown, in seconds. */
-  private held: [number, number] | null = null;
+  private readonly held = new Held();
+  private readonly earlier = make("output", { class: "earlier", hidden: true }, "an earlier run: Go on shows the one that goes on now");
   private drawn: uPlot | null = null;
   /** What the chart has, the curves first. */
   private lines: Line[] = [];
@@ -78,7 +79,10 @@ class Plot implements Panel {
     this.rebuild();
     const stops = [
       context.robot.moment.changed((moment) => {
-        if (moment !== null) this.show([moment.time - this.window / 2, moment.time + this.window / 2]);
+        // What is held of an earlier run stays until somebody goes on: times of this one are none of its own.
+        if (moment === null || this.held.isEarlier) return;
+        this.held.hold([moment.time - this.window / 2, moment.time + this.window / 2], this.series());
+        this.show();
       }),
       context.robot.welcome.watch((welcome) => this.goOnWith(welcome)),
     ];
@@ -157,9 +161,9 @@ class Plot implements Panel {
 
   private rebuild(): void {
     const looks = looksOf(this.curves);
-    this.lines = this.curves.map((curve, at) => ({ label: this.label(curve), look: looks[at] as Look, series: curve.series, isOfOtherRun: false }));
+    this.lines = this.curves.map((curve, at) => ({ label: this.label(curve), look: looks[at] as Look, series: this.held.shown(curve.series), isOfOtherRun: false }));
     this.context.title(this.lines.map(({ label }) => label).join(", "));
-    this.chips.replaceChildren(...this.curves.map((curve, at) => this.chip(curve, looks[at] as Look)), this.input, this.whose, this.missing);
+    this.chips.replaceChildren(...this.curves.map((curve, at) => this.chip(curve, looks[at] as Look)), this.input, this.whose, this.missing, this.earlier);
     this.tell();
     // Curves that the other run has, too.
     this.curves.forEach((curve, at) => {
@@ -196,8 +200,12 @@ class Plot implements Panel {
     return Math.max(0, ...this.curves.map(({ series }) => series.times[series.times.length - 1] ?? 0));
   }
 
-  private range(): [number, number] {
-    return this.held ?? [this.newest() - this.window, this.newest()];
+  private range(): Part {
+    return this.held.part ?? [this.newest() - this.window, this.newest()];
+  }
+
+  private series(): Series[] {
+    return this.curves.map(({ series }) => series);
   }
 
   private shown(): ReturnType<typeof align> {
@@ -205,47 +213,53 @@ class Plot implements Panel {
   }
 
   private update(): void {
-    const chart = this.drawn;
-    if (chart === null || this.held !== null) return;
-    const [min, max] = this.range();
-    chart.batch(() => {
-      chart.setData(this.shown() as uPlot.AlignedData, false);
-      chart.setScale("x", { min, max });
-    });
+    if (this.held.part === null) this.take();
   }
 
   private goOnWith(welcome: Welcome | null): void {
     if (welcome === null) return;
-    for (const { series } of this.curves) series.begin(isSameRun(this.run, welcome), welcome.time / 1e9 + SLACK);
+    const begun = this.series().map((series) => series.begin(isSameRun(this.run, welcome), welcome.time / 1e9 + SLACK));
     this.run = welcome;
+    if (begun.includes(true)) this.held.endRun();
+    this.earlier.hidden = !this.held.isEarlier;
   }
 
   private hold(): void {
-    if (this.held !== null) this.go();
-    else this.show(this.range());
+    if (this.held.part !== null) return this.go();
+    this.held.hold(this.range(), this.series());
+    this.show();
   }
 
   private zoom(chart: uPlot): void {
     const { left, width } = chart.select;
     if (width < 5) return;
-    const range: [number, number] = [chart.posToVal(left, "x"), chart.posToVal(left + width, "x")];
+    const part: Part = [chart.posToVal(left, "x"), chart.posToVal(left + width, "x")];
     chart.setSelect({ left: 0, width: 0, top: 0, height: 0 }, false);
-    this.show(range);
+    this.held.zoom(part, this.series());
+    this.show();
   }
 
-  private show(range: [number, number]): void {
-    this.held = range;
+  /** What is held. */
+  private show(): void {
     this.pause.textContent = "Go on";
-    this.drawn?.batch(() => {
-      this.drawn?.setData(this.shown() as uPlot.AlignedData, false);
-      this.drawn?.setScale("x", { min: range[0], max: range[1] });
-    });
+    this.take();
   }
 
   private go(): void {
-    this.held = null;
+    this.held.go();
     this.pause.textContent = "Pause";
-    this.update();
+    this.earlier.hidden = true;
+    this.take();
+  }
+
+  /** Draws the points that are to be shown by now. */
+  private take(): void {
+    this.curves.forEach(({ series }, at) => ((this.lines[at] as Line).series = this.held.shown(series)));
+    const [min, max] = this.range();
+    this.drawn?.batch(() => {
+      this.drawn?.setData(this.shown() as uPlot.AlignedData, false);
+      this.drawn?.setScale("x", { min, max });
+    });
   }
 
   private export(): void {

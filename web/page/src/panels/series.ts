@@ -31,12 +31,20 @@ export class Series {
 
   /**
    * A connection begins at this time of the robot's clock. Points of another run lie on another clock; where nobody knows
-   * (null) points that are still to come do.
+   * (null) points that are still to come do. Whether it was taken for another run.
    */
-  begin(isSameRun: boolean | null, time: number): void {
-    if (isSameRun ?? this.from(time) === this.times.length) return;
+  begin(isSameRun: boolean | null, time: number): boolean {
+    if (isSameRun ?? this.from(time) === this.times.length) return false;
     this.times = [];
     this.values = [];
+    return true;
+  }
+
+  /** The points that there are now, whatever comes or goes. */
+  copy(): Series {
+    const copy = new Series();
+    [copy.times, copy.values] = [[...this.times], [...this.values]];
+    return copy;
   }
 
   /** The first point that is not before a time. */

@@ -1,0 +1,91 @@
+// A plot with a robot that is only played, and a chart that draws nothing.
+import assert from "node:assert/strict";
+import test from "node:test";
+import { labelled, ofClass, opened, settled } from "../dom.mjs";
+import { load } from "../load.mjs";
+
+const { plot } = await load("panels/plot.ts");
+
+/** A plot of two curves, and what its chart shows of the first one. */
+function drawn(settings = {}) {
+  const watchers = new Map();
+  const subscriptions = {
+    watch: ({ path }, watcher) => {
+      watchers.set(path, watcher);
+      return () => watchers.delete(path);
+    },
+  };
+  const { context, robot } = opened(() => ({ done: {} }), { subscriptions });
+  context.settings = { paths: ["a", "b"], ...settings };
+  robot.welcome.set({ time: 0, run: "one" });
+  const panel = plot.open(context);
+  const tell = (...times) => times.forEach((time) => ["a", "b"].forEach((path) => watchers.get(path)?.sample({ time: time * 1e9, value: 10 * time })));
+  const chart = () => globalThis.charts.at(-1);
+  const pause = panel.tools.find((one) => (one.getAttribute("aria-label") ?? "").startsWith("hold the picture"));
+  const [earlier] = ofClass(panel.content, "earlier");
+  return { panel, robot, watchers, tell, chart, pause, shown: () => [...chart().data[0]], isEarlier: () => !earlier.hidden };
+}
+
+test("a paused plot keeps what it shows when another run begins, says so, and shows the new one once somebody goes on", async () => {
+  const { panel, robot, tell, chart, pause, shown, isEarlier } = drawn();
+  tell(100, 101, 102, 103);
+  await settled();
+  assert.deepEqual(shown(), [100, 101, 102, 103]);
+  pause.click();
+  robot.welcome.set({ time: 0.5e9, run: "two" });
+  tell(1, 2);
+  await settled();
+  assert.deepEqual([shown(), isEarlier()], [[100, 101, 102, 103], true]);
+  chart().drag(101, 110);
+  assert.deepEqual([shown(), chart().scales.x], [[101, 102, 103], { min: 101, max: 110 }], "a part of it can be looked at");
+  robot.moment.set({ time: 1.5, instance: "Control", cycle: 7 });
+  assert.deepEqual([shown(), isEarlier()], [[101, 102, 103], true], "what belongs to the new run is not sought in it");
+  // Whatever draws everything anew.
+  panel.accept("c");
+  assert.deepEqual([shown(), isEarlier()], [[101, 102, 103], true]);
+  pause.click();
+  assert.deepEqual([shown(), isEarlier(), pause.textContent], [[1, 2], false, "Pause"]);
+  panel.close();
+});
+
+test("a plot that goes on shows the new run at once, and a pause is no earlier run's where the same one goes on", async () => {
+  const { panel, robot, tell, pause, shown, isEarlier } = drawn();
+  tell(100, 101);
+  robot.welcome.set({ time: 0.5e9, run: "two" });
+  tell(1, 2);
+  await settled();
+  assert.deepEqual([shown(), isEarlier()], [[1, 2], false]);
+  pause.click();
+  robot.welcome.set({ time: 3e9, run: "two" });
+  assert.deepEqual([shown(), isEarlier()], [[1, 2], false]);
+  robot.welcome.set({ time: 0.5e9, run: null });
+  assert.deepEqual([shown(), isEarlier()], [[1, 2], true], "a robot that does not tell is known by its clock");
+  panel.close();
+});
+
+test("a paused plot keeps what a recording takes back, and what is older than a curve keeps", async () => {
+  const { panel, tell, chart, pause, shown } = drawn({ window: 5 });
+  tell(1, 2, 3, 4);
+  await settled();
+  pause.click();
+  tell(1.5);
+  chart().drag(0, 20);
+  assert.deepEqual(shown(), [1, 2, 3, 4], "the replay went back");
+  tell(...Array.from({ length: 40_000 }, (_, at) => 10 + at / 100));
+  chart().drag(-10, 20);
+  assert.deepEqual(shown(), [1, 2, 3, 4]);
+  pause.click();
+  assert.equal(shown().at(-1), 10 + 39_999 / 100);
+  panel.close();
+});
+
+test("a moment that somebody wants to look at is shown with the points that there are by then", async () => {
+  const { panel, robot, tell, chart, pause, shown } = drawn({ window: 5 });
+  tell(1, 2);
+  await settled();
+  pause.click();
+  tell(3, 4);
+  robot.moment.set({ time: 4, instance: "Control", cycle: 7 });
+  assert.deepEqual([shown(), chart().scales.x], [[2, 3, 4], { min: 1.5, max: 6.5 }]);
+  panel.close();
+});
