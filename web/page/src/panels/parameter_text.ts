@@ -87,12 +87,15 @@ export function rangeOf(range: { minimum?: number | null | undefined; maximum?: 
   return `${range.minimum ?? "−∞"} … ${range.is_half_open === true ? "< " : ""}${range.maximum ?? "∞"}`;
 }
 
-/** One more or less of the last digit that stands there. */
+/** One more or less of the last digit that stands there, which goes on to stand there: 0.99 is followed by 1.00 and 1.01. */
 export function stepped(text: string, direction: 1 | -1, value: Json): string | null {
   if (typeof value === "bigint") return String(value + BigInt(direction));
   if (typeof value !== "number") return null;
-  const digits = /\.(\d+)$/.exec(text)?.[1]?.length ?? 0;
-  return String(Number((value + direction * 10 ** -digits).toFixed(digits)));
+  const [, mantissa, behind, exponent] = /^([+-]?\d*(?:\.(\d*))?)(e[+-]?\d+)?$/i.exec(text.trim()) ?? [];
+  const digits = behind?.length ?? 0;
+  // More than a browser writes, and more than a number has.
+  if (mantissa === undefined || digits > 100) return null;
+  return `${(Number(mantissa) + direction * 10 ** -digits).toFixed(digits)}${exponent ?? ""}`;
 }
 
 /** Where a value was given last. */

@@ -206,3 +206,15 @@ test("a field is made anew where the type, the range or the unit is another, and
   }
   assert.notEqual(keyOf(one), keyOf({ ...one, value: "text" }));
 });
+
+test("a step changes the last digit that stands there, and none before it", () => {
+  const steps = (text, ...directions) => directions.map((direction) => (text = stepped(text, direction, Number(text))));
+  assert.deepEqual(steps("0.98", 1, 1, 1), ["0.99", "1.00", "1.01"]);
+  assert.deepEqual(steps("1.5e-7", 1, -1), ["1.6e-7", "1.5e-7"], "and not 1");
+  assert.deepEqual(steps("2E3", 1), ["3E3"]);
+  assert.deepEqual(steps(" 1.5 ", 1), ["1.6"]);
+  assert.deepEqual(steps("-0.1", 1, 1), ["0.0", "0.1"]);
+  assert.deepEqual(steps("7", -1, 1), ["6", "7"]);
+  assert.equal(stepped("9007199254740991", 1, 9007199254740991), "9007199254740992");
+  for (const text of ["0x10", `0.${"0".repeat(101)}1`]) assert.equal(stepped(text, 1, Number(text)), null, text);
+});
