@@ -7,6 +7,8 @@ import type { Overtaken } from "../store/undone";
 /** Of a value within a sentence. */
 const LONGEST = 60;
 
+const LINE_END = /[\r\n]/;
+
 export interface Shape {
   kind: "flag" | "choice" | "number" | "words" | "json";
   /** Of a choice: the texts to choose from; the empty one is none. */
@@ -33,6 +35,8 @@ export function shapeOf({ value, entry }: Parameter): Shape {
   if (isOptional && type === "bool") return choice(["", "false", "true"], readJson);
   if (typeof value === "boolean") return { kind: "flag", choices: [], isOptional, write: String, read: (text) => ({ text, value: text === "true" }) };
   if (typeof value === "number" || typeof value === "bigint" || (isOptional && /^([iu](8|16|32|64|128|size)|f32|f64)$/.test(type))) return numeric(entry?.range ?? {}, isOptional);
+  // A field of one line would drop the ends of lines, and what it has left would be written.
+  if (typeof value === "string" && !isOptional && LINE_END.test(value)) return { kind: "json", choices: [], isOptional, write: (shown) => writeJson(shown), read: readAny };
   if (typeof value === "string" || (isOptional && type === "String")) return words(isOptional);
   return { kind: "json", choices: [], isOptional, write: (shown) => writeJson(shown), read: readAny };
 }
@@ -64,7 +68,7 @@ function numeric({ minimum, maximum, is_half_open }: NonNullable<NonNullable<Par
 function words(isOptional: boolean): Shape {
   const write = (value: Json): string => {
     if (typeof value !== "string") return "";
-    return isOptional && (value === "" || value.startsWith('"')) ? JSON.stringify(value) : value;
+    return isOptional && (value === "" || value.startsWith('"') || LINE_END.test(value)) ? JSON.stringify(value) : value;
   };
   const read = (text: string): Draft => {
     if (!isOptional) return { text, value: text };

@@ -218,3 +218,14 @@ test("a step changes the last digit that stands there, and none before it", () =
   assert.equal(stepped("9007199254740991", 1, 9007199254740991), "9007199254740992");
   for (const text of ["0x10", `0.${"0".repeat(101)}1`]) assert.equal(stepped(text, 1, Number(text)), null, text);
 });
+
+test("a text of several lines has its lines when it is written", () => {
+  for (const type of ["String", "Option<String>"]) {
+    for (const text of ["one\ntwo", "one\r\ntwo\n"]) {
+      const shape = shapeOf(parameter(text, { type }));
+      assert.doesNotMatch(shape.write(text), /[\r\n]/, "what a field of one line would drop");
+      assert.equal(shape.read(shape.write(text)).value, text);
+    }
+  }
+  assert.equal(shapeOf(parameter("one", { type: "String" })).kind, "words");
+});
