@@ -113,7 +113,7 @@ export class ParameterRow {
 }
 
 function inputFor(shape: Shape): HTMLInputElement | HTMLSelectElement | HTMLTextAreaElement {
-  const placeholder = shape.isOptional ? "none" : null;
+  const placeholder = shape.empty ?? null;
   switch (shape.kind) {
     case "flag":
       return make("input", { type: "checkbox" });

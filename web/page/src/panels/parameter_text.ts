@@ -7,6 +7,11 @@ import type { Overtaken } from "../store/undone";
 /** Of a value within a sentence. */
 const LONGEST = 60;
 
+const INTEGER = /^[iu](8|16|32|64|128|size)$/;
+const FLOAT = /^f(32|64)$/;
+/** JSON has no word for them: the robot says `null`. */
+const NOT_FINITE = "inf or NaN";
+
 const LINE_END = /[\r\n]/;
 
 export interface Shape {
@@ -15,6 +20,8 @@ export interface Shape {
   choices: readonly string[];
   /** Whether there may be none. */
   isOptional: boolean;
+  /** What the robot has where the field is empty. */
+  empty?: string;
   write(value: Json): string;
   read(text: string): Draft;
 }
@@ -22,8 +29,8 @@ export interface Shape {
 /** Where two differ, a field of the one is none for the other: a robot that began anew may have other types and ranges. */
 export function keyOf(parameter: Parameter): string {
   const { type, range, unit, documentation } = parameter.entry ?? {};
-  const { kind, choices } = shapeOf(parameter);
-  return JSON.stringify([kind, choices, type, range, unit, documentation]);
+  const { kind, choices, empty } = shapeOf(parameter);
+  return JSON.stringify([kind, choices, empty, type, range, unit, documentation]);
 }
 
 export function shapeOf({ value, entry }: Parameter): Shape {
@@ -34,7 +41,8 @@ export function shapeOf({ value, entry }: Parameter): Shape {
   if (choices.length > 0) return choice(isOptional ? ["", ...choices] : choices);
   if (isOptional && type === "bool") return choice(["", "false", "true"], readJson);
   if (typeof value === "boolean") return { kind: "flag", choices: [], isOptional, write: String, read: (text) => ({ text, value: text === "true" }) };
-  if (typeof value === "number" || typeof value === "bigint" || (isOptional && /^([iu](8|16|32|64|128|size)|f32|f64)$/.test(type))) return numeric(entry?.range ?? {}, isOptional);
+  const isNumber = typeof value === "number" || typeof value === "bigint" || (isOptional && (INTEGER.test(type) || FLOAT.test(type))) || (value === null && FLOAT.test(type));
+  if (isNumber) return { ...numeric(entry?.range ?? {}, isOptional, INTEGER.test(type)), ...(isOptional ? { empty: "none" } : value === null ? { empty: NOT_FINITE } : {}) };
   // A field of one line would drop the ends of lines, and what it has left would be written.
   if (typeof value === "string" && !isOptional && LINE_END.test(value)) return { kind: "json", choices: [], isOptional, write: (shown) => writeJson(shown), read: readAny };
   if (typeof value === "string" || (isOptional && type === "String")) return words(isOptional);
@@ -51,13 +59,14 @@ function choice(choices: readonly string[], meaning: (text: string) => Json = (t
   };
 }
 
-function numeric({ minimum, maximum, is_half_open }: NonNullable<NonNullable<Parameter["entry"]>["range"]>, isOptional: boolean): Shape {
+function numeric({ minimum, maximum, is_half_open }: NonNullable<NonNullable<Parameter["entry"]>["range"]>, isOptional: boolean, isWhole: boolean): Shape {
   const read = (text: string): Draft => {
     const digits = text.trim();
     if (isOptional && (digits === "" || digits === "null")) return { text, value: null };
     const isInteger = /^[+-]?\d+$/.test(digits) && !Number.isSafeInteger(Number(digits));
     const value = isInteger ? BigInt(digits.replace("+", "")) : Number(digits === "" ? Number.NaN : digits);
     if (!isInteger && !Number.isFinite(value)) return { text, wrong: digits === "" ? "there is no number" : `\`${digits}\` is no number` };
+    if (isWhole && typeof value === "number" && Number.isInteger(value) && !Number.isSafeInteger(value)) return { text, wrong: `of \`${digits}\` not all digits would be sent: write them out, without a point and an exponent` };
     const isInside = value >= (minimum ?? -Infinity) && value <= (maximum ?? Infinity) && !(is_half_open === true && value === maximum);
     return isInside ? { text, value } : { text, wrong: `${digits} is not within ${rangeOf({ minimum, maximum, is_half_open })}` };
   };
@@ -75,7 +84,7 @@ function words(isOptional: boolean): Shape {
     if (text === "") return { text, value: null };
     return text.startsWith('"') ? readAny(text) : { text, value: text };
   };
-  return { kind: "words", choices: [], isOptional, write, read };
+  return { kind: "words", choices: [], isOptional, ...(isOptional ? { empty: "none" } : {}), write, read };
 }
 
 function readAny(text: string): Draft {

@@ -229,3 +229,21 @@ test("a text of several lines has its lines when it is written", () => {
   }
   assert.equal(shapeOf(parameter("one", { type: "String" })).kind, "words");
 });
+
+test("a number that JSON cannot say is told, and no text that looks like one", () => {
+  const one = parameter(null, { range: { minimum: 0 } });
+  const shape = shapeOf(one);
+  assert.deepEqual([shape.kind, shape.empty, shape.write(null)], ["number", "inf or NaN", ""]);
+  assert.deepEqual([read(one, "2"), read(one, "")], [2, "there is no number"]);
+  assert.match(read(one, "-1"), /not within/);
+  assert.equal(shapeOf(parameter(1)).empty, undefined);
+  assert.notEqual(keyOf(one), keyOf({ ...one, value: 1 }), "the field of a number says nothing of it");
+  assert.deepEqual(["Option<f32>", "Option<String>"].map((type) => shapeOf(parameter(null, { type })).empty), ["none", "none"]);
+});
+
+test("an integer is sent with the digits that were typed, or not at all", () => {
+  const one = parameter(1, { type: "u64" });
+  for (const text of ["9007199254740993.0", "1e19", "9.007199254740993e15"]) assert.match(read(one, text), /not all digits/, text);
+  assert.deepEqual(["9007199254740993", "1e3", "9007199254740991"].map((text) => read(one, text)), [9007199254740993n, 1000, 9007199254740991]);
+  assert.equal(read(parameter(1, { type: "f64" }), "1e19"), 1e19);
+});
