@@ -4,7 +4,7 @@ import { nameOf } from "../store/paths";
 import type { Draft, Parameter } from "../store/tuning";
 import { make } from "../view/dom";
 import { DRAGGED_PATH } from "./panel";
-import { keyOf, originOf, rangeOf, shapeOf, stepped, type Shape } from "./parameter_text";
+import { brief, keyOf, originOf, rangeOf, shapeOf, stepped, type Shape } from "./parameter_text";
 
 export interface RowListener {
   note(parameter: Parameter, draft: Draft): void;
@@ -19,7 +19,9 @@ export class ParameterRow {
   private readonly shape: Shape;
   private readonly input: HTMLInputElement | HTMLSelectElement | HTMLTextAreaElement;
   private readonly origin = make("span", { class: "origin muted" });
-  private readonly marks = make("span", { class: "marks" });
+  /** What others have put there while something was typed. */
+  private readonly news = make("span", { class: "news", title: "changed by somebody else while you typed: to write overwrites it, Escape takes it" });
+  private readonly marks = make("span");
 
   constructor(
     private parameter: Parameter,
@@ -38,11 +40,11 @@ export class ParameterRow {
     const label = make("label", { class: "name", title: `${path}\n${about}`, draggable: "true" }, nameOf(path));
     label.addEventListener("dragstart", (drag) => drag.dataTransfer?.setData(DRAGGED_PATH, `parameters.${path}`));
     const unit = make("span", { class: "unit muted" }, [entry?.unit ?? "", rangeOf(entry?.range)].filter((text) => text !== "").join(" "));
-    this.element = make("div", { class: "parameter" }, label, this.input, unit, this.marks, this.origin);
+    this.element = make("div", { class: "parameter" }, label, this.input, unit, make("span", { class: "marks" }, this.news, this.marks), this.origin);
   }
 
   /** What was typed and not sent, or else what the robot has. */
-  show(parameter: Parameter, draft: Draft | undefined): void {
+  show(parameter: Parameter, draft: Draft | undefined, isChangedMeanwhile: boolean): void {
     this.parameter = parameter;
     const origin = originOf(parameter.leaf.provenance);
     this.origin.textContent = origin.slice(origin.lastIndexOf("/") + 1);
@@ -53,10 +55,11 @@ export class ParameterRow {
     this.marks.textContent = marks.join(", ");
     this.marks.title = parameter.isUnstored ? `the files say ${writeJson(parameter.stored)}` : "nodes read it when they are created";
     this.element.classList.toggle("unstored", parameter.isUnstored);
-    this.draw(draft);
+    this.draw(draft, isChangedMeanwhile);
   }
 
-  draw(draft: Draft | undefined): void {
+  draw(draft: Draft | undefined, isChangedMeanwhile: boolean): void {
+    this.news.textContent = isChangedMeanwhile ? `now ${brief(this.parameter.value)} ` : "";
     const isWrong = draft !== undefined && "wrong" in draft;
     this.element.classList.toggle("edited", draft !== undefined);
     this.element.classList.toggle("wrong", isWrong);

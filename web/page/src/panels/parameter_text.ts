@@ -134,7 +134,7 @@ export function overtakenText(overtaken: readonly Overtaken[]): string {
 }
 
 /** A list may be longer than anybody reads. */
-function brief(value: Json): string {
+export function brief(value: Json): string {
   const text = writeJson(value);
   return text.length <= LONGEST ? text : `${text.slice(0, LONGEST)}…`;
 }

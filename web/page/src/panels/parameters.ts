@@ -86,7 +86,7 @@ class Parameters implements Panel {
     const isSame = tuned.parameters.length === this.rows.size && tuned.parameters.every((parameter) => this.rows.get(parameter.path)?.key === keyOf(parameter));
     if (!isSame) this.build(tuned);
     const pending = this.tuning.pending.value;
-    for (const parameter of tuned.parameters) this.rows.get(parameter.path)?.show(parameter, pending.get(parameter.path));
+    for (const parameter of tuned.parameters) this.rows.get(parameter.path)?.show(parameter, pending.get(parameter.path), this.tuning.isChangedMeanwhile(parameter.path));
     this.filter();
     this.drawStoring(tuned);
   }
@@ -123,7 +123,7 @@ class Parameters implements Panel {
   }
 
   private drawPending(pending: ReadonlyMap<string, Draft>): void {
-    for (const [path, row] of this.rows) row.draw(pending.get(path));
+    for (const [path, row] of this.rows) row.draw(pending.get(path), this.tuning.isChangedMeanwhile(path));
     const wrong = [...pending].flatMap(([path, draft]) => ("wrong" in draft ? [`${path}: ${draft.wrong}`] : []));
     this.undo.disabled = !this.tuning.canUndo;
     this.writing.hidden = pending.size === 0;

@@ -34,6 +34,10 @@ export class Tuning {
   readonly tuned = new Signal<Tuned | null>(null);
   /** Changed here and not sent, by path. */
   readonly pending = new Signal<ReadonlyMap<string, Draft>>(new Map());
+  /** What the robot had when somebody began to type, by path. */
+  private readonly begun = new Map<string, Json>();
+  /** The versions that were written from here, and on which connection. */
+  private own: { run: Welcome | null; versions: Set<number> } = { run: null, versions: new Set() };
   /** Why the last write from here was not taken back: what others have put in its place. */
   readonly overtaken = new Signal<readonly Overtaken[]>([]);
   private readonly undone = new Undone();
@@ -94,13 +98,30 @@ export class Tuning {
   note(parameter: Parameter, draft: Draft): void {
     const pending = new Map(this.pending.value);
     if ("value" in draft && isSame(draft.value, parameter.value)) pending.delete(parameter.path);
-    else pending.set(parameter.path, draft);
+    else {
+      if (!pending.has(parameter.path)) this.begun.set(parameter.path, parameter.value);
+      pending.set(parameter.path, draft);
+    }
+    this.setPending(pending);
+  }
+
+  /** Whether somebody else has changed a parameter while something was typed for it here: to write that overwrites it. */
+  isChangedMeanwhile(path: string): boolean {
+    const begun = this.begun.get(path);
+    const parameter = begun === undefined ? undefined : this.tuned.value?.parameters.find((one) => one.path === path);
+    if (begun === undefined || parameter === undefined || isSame(begun, parameter.value)) return false;
+    const { provenance } = parameter.leaf;
+    return !(provenance.from === "live" && this.isOfThisRun(this.own.run) && this.own.versions.has(provenance.version));
+  }
+
+  private setPending(pending: ReadonlyMap<string, Draft>): void {
+    for (const path of [...this.begun.keys()]) if (!pending.has(path)) this.begun.delete(path);
     this.pending.set(pending);
   }
 
   /** Forgets what was typed for a path; absent: everything. */
   discard(path?: string): void {
-    this.pending.set(new Map(path === undefined ? [] : [...this.pending.value].filter(([other]) => other !== path)));
+    this.setPending(new Map(path === undefined ? [] : [...this.pending.value].filter(([other]) => other !== path)));
   }
 
   /** Sends what was noted by now: all of it is taken, or nothing. */
@@ -185,10 +206,12 @@ export class Tuning {
     const run = this.robot.welcome.value;
     const { version } = expect(await this.robot.ask({ write: { changes } }), "written");
     this.written = { run, version };
+    if (!this.isOfThisRun(this.own.run)) this.own = { run, versions: new Set() };
+    this.own.versions.add(version);
     const tuned = this.tuned.value;
     if (tuned === null || tuned.version >= version) return;
     const written = new Map(changes.map(({ path, value }) => [path, value]));
-    const parameters = tuned.parameters.map((one) => (written.has(one.path) ? { ...one, value: written.get(one.path) ?? null } : one));
+    const parameters = tuned.parameters.map((one): Parameter => (written.has(one.path) ? { ...one, value: written.get(one.path) ?? null, leaf: { ...one.leaf, provenance: { from: "live", version } } } : one));
     this.tuned.set({ ...tuned, version, parameters });
   }
 
@@ -199,7 +222,7 @@ export class Tuning {
       const draft = pending.get(path);
       if (draft !== undefined && "value" in draft && isSame(draft.value, value)) pending.delete(path);
     }
-    this.pending.set(pending);
+    this.setPending(pending);
   }
 
   /** Nobody sees what was typed for parameters that are not there any more, so that nobody may send it. */
@@ -207,7 +230,7 @@ export class Tuning {
     const paths = new Set(tuned.parameters.map(({ path }) => path));
     const gone = [...this.pending.value.keys()].filter((path) => !paths.has(path));
     if (gone.length === 0) return;
-    this.pending.set(new Map([...this.pending.value].filter(([path]) => paths.has(path))));
+    this.setPending(new Map([...this.pending.value].filter(([path]) => paths.has(path))));
     return `not there any more, and what was typed is forgotten: ${gone.join(", ")}`;
   }
 

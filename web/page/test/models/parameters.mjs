@@ -1,9 +1,11 @@
 // What is typed for parameters and sent, with a robot that is only played: it answers when the test says so.
 import assert from "node:assert/strict";
 import test from "node:test";
+import { ofClass } from "../dom.mjs";
 import { load } from "../load.mjs";
 import { Refused, settled, tuned } from "../tuning.mjs";
 
+const { ParameterRow } = await load("panels/parameter_row.ts");
 const { keyOf, shapeOf, stepped } = await load("panels/parameter_text.ts");
 
 test("of what cannot be read nothing is sent, also not its beginning", async () => {
@@ -246,4 +248,37 @@ test("an integer is sent with the digits that were typed, or not at all", () => 
   for (const text of ["9007199254740993.0", "1e19", "9.007199254740993e15"]) assert.match(read(one, text), /not all digits/, text);
   assert.deepEqual(["9007199254740993", "1e3", "9007199254740991"].map((text) => read(one, text)), [9007199254740993n, 1000, 9007199254740991]);
   assert.equal(read(parameter(1, { type: "f64" }), "1e19"), 1e19);
+});
+
+test("what somebody else writes while one types is told beside what was typed, and what is written from here is not", async () => {
+  const { robot, tuning, type, find } = await tuned({ a: 1, b: 1 });
+  const row = new ParameterRow(find("a"), {});
+  const news = async () => {
+    await tuning.load();
+    row.show(find("a"), tuning.pending.value.get("a"), tuning.isChangedMeanwhile("a"));
+    return ofClass(row.element, "news")[0].textContent;
+  };
+  const other = (value) => robot.take([{ path: "a", value }]);
+  other(2);
+  assert.equal(await news(), "", "nothing was typed");
+  type("a", "3");
+  robot.take([{ path: "b", value: 7 }]);
+  assert.equal(await news(), "");
+  other(5);
+  assert.equal(await news(), "now 5 ");
+  type("a", "3.5");
+  assert.equal(await news(), "now 5 ", "also while one goes on");
+  const written = tuning.write();
+  await settled();
+  type("a", "4");
+  robot.held = Math.fround;
+  robot.writes[0].take();
+  await written;
+  assert.equal(await news(), "", "3.5 is from here");
+  other(6);
+  assert.equal(await news(), "now 6 ");
+  tuning.discard("a");
+  assert.equal(await news(), "");
+  type("a", "8");
+  assert.equal(await news(), "", "whoever types now has seen it");
 });
