@@ -122,6 +122,16 @@ export class Curve {
     );
   }
 
+  /** The panel's robot has a connection, as `Series.begin` takes it; what did not come through of another run is missed no more. */
+  begin(isSameRun: boolean | null, time: number): boolean {
+    const isOther = this.series.begin(isSameRun, time);
+    if (isOther && this.missing > 0) {
+      this.missing = 0;
+      this.told();
+    }
+    return isOther;
+  }
+
   /** Whether its robot is there, and it is known where its points belong. */
   get isThere(): boolean {
     return this.shift !== null && this.known?.robot.state.value === "open";

@@ -218,7 +218,7 @@ class Plot implements Panel {
 
   private goOnWith(welcome: Welcome | null): void {
     if (welcome === null) return;
-    const begun = this.series().map((series) => series.begin(isSameRun(this.run, welcome), welcome.time / 1e9 + SLACK));
+    const begun = this.curves.map((curve) => curve.begin(isSameRun(this.run, welcome), welcome.time / 1e9 + SLACK));
     this.run = welcome;
     if (begun.includes(true)) this.held.endRun();
     this.earlier.hidden = !this.held.isEarlier;

@@ -224,6 +224,10 @@ test("values that did not come through leave a gap, and are counted", () => {
   assert.deepEqual(curve.series.values, [1, 2, null, 3]);
   assert.equal(curve.missing, 812);
   assert.equal(told, before + 1);
+  curve.begin(true, 4);
+  assert.equal(curve.missing, 812);
+  curve.begin(false, 4);
+  assert.deepEqual([curve.missing, told], [0, before + 2], "another run has gaps of its own");
 });
 
 test("a robot that the page may not show is told, and nobody is asked", () => {
