@@ -9,7 +9,7 @@ import { isSameRun } from "../store/run";
 import { Curve, isShared, kept, lookOfOtherRun, looksOf, nameIn, wantedIn, type Look, type Wanted } from "./curve";
 import { Held, type Part } from "./held";
 import { numberSetting, type Context, type Panel, type PanelKind } from "./panel";
-import { align, readCurves, robotChoice, robotMark, type Series } from "./series";
+import { align, incomparable, readCurves, robotChoice, robotMark, type Series } from "./series";
 
 const WINDOWS = ["5 s", "10 s", "20 s", "60 s", "300 s"];
 const EVERYBODY = "all\u00a0\u00a0\u00a0\u00a0\u00a0\u00a0robots";
@@ -43,7 +43,9 @@ class Plot implements Panel {
   /** What the chart has, the curves first. */
   private lines: Line[] = [];
   /** Curves of another run, by name. */
-  private others = new Map<string, Series>();
+  private others: ReadonlyMap<string, Series> | null = null;
+  /** Why a file was not read. */
+  private unread: string | null = null;
   /** Whose points there are. */
   private run: Welcome | null = null;
   private readonly stop: () => void;
@@ -62,7 +64,9 @@ class Plot implements Panel {
       compare((others) => {
         this.others = others;
         this.rebuild();
-        if (others.size === 0) complain(this.failure, "this file has no curves: save some with CSV");
+      }, (wrong) => {
+        this.unread = wrong;
+        this.tell();
       }),
     ];
     const { robots, known } = context;
@@ -136,6 +140,8 @@ class Plot implements Panel {
   /** What is wrong with curves, and whose robots are not there. */
   private tell(): void {
     const failures = this.curves.flatMap(({ failure, wanted }) => (failure === null ? [] : [`${wanted.path}: ${failure}`]));
+    const others = this.others === null ? null : incomparable(this.others, this.curves.map(({ wanted }) => nameIn(wanted)));
+    failures.push(...[this.unread, others].filter((wrong) => wrong !== null));
     complain(this.failure, failures.length > 0 ? failures.join("\n") : null);
     const missing = this.curves.reduce((sum, curve) => sum + curve.missing, 0);
     this.missing.textContent = missing === 0 ? "" : `gaps: ${plural(missing, "value")} did not come through`;
@@ -167,7 +173,7 @@ class Plot implements Panel {
     this.tell();
     // Curves that the other run has, too.
     this.curves.forEach((curve, at) => {
-      const series = this.others.get(nameIn(curve.wanted));
+      const series = this.others?.get(nameIn(curve.wanted));
       if (series !== undefined) this.lines.push({ label: `${this.label(curve)} of the other run`, look: lookOfOtherRun(looks[at] as Look), series, isOfOtherRun: true });
     });
     this.drawn?.destroy();
@@ -277,13 +283,17 @@ function seriesOf({ label, look, isOfOtherRun }: Line): uPlot.Series {
 }
 
 /** Opens curves that another plot has saved, of another run over the same seconds. */
-function compare(deed: (others: Map<string, Series>) => void): HTMLElement {
+function compare(deed: (others: Map<string, Series> | null) => void, refused: (reason: string | null) => void): HTMLElement {
   const file = make("input", { type: "file", accept: ".csv,text/csv", hidden: true, "aria-label": "curves of another run" });
   file.addEventListener("change", () => {
-    void file.files?.[0]?.text().then((text) => {
-      deed(readCurves(text));
-      file.value = "";
-    });
+    // What was wrong with a file is over with the next one, or with none.
+    refused(null);
+    const [chosen] = file.files ?? [];
+    if (chosen === undefined) return deed(null);
+    chosen.text().then(
+      (text) => deed(readCurves(text)),
+      (error: unknown) => refused(`${chosen.name} cannot be read: ${error instanceof Error ? error.message : String(error)}`),
+    ).finally(() => (file.value = ""));
   });
   return make("span", {}, file, button("Compare", "show curves of another run that were saved with CSV, dashed", () => file.click()));
 }

@@ -84,7 +84,7 @@ export function align(series: readonly Series[], begin: number, end: number): [n
 
 /** The curves of a file that a plot has saved, by path; what is no number is a gap. */
 export function readCurves(text: string): Map<string, Series> {
-  const [head, ...rows] = text.trim().split("\n").map((row) => row.split(","));
+  const [head, ...rows] = text.trim().split(/\r?\n/).map((row) => row.split(","));
   const curves = new Map<string, Series>();
   if (head?.[0] !== "time") return curves;
   for (const path of head.slice(1)) curves.set(path, new Series());
@@ -95,6 +95,13 @@ export function readCurves(text: string): Map<string, Series> {
     });
   }
   return curves;
+}
+
+/** Why nothing of a file can be compared with these curves; null: something can. */
+export function incomparable(others: ReadonlyMap<string, Series>, names: readonly string[]): string | null {
+  if (others.size === 0) return "this file has no curves: save some with CSV";
+  if (names.some((name) => others.has(name))) return null;
+  return `nothing of this file is in this plot: add one of ${[...others.keys()].join(", ")}`;
 }
 
 /** What a curve can show of a value: numbers, and flags as 0 and 1. */

@@ -1,7 +1,7 @@
 // A plot with a robot that is only played, and a chart that draws nothing.
 import assert from "node:assert/strict";
 import test from "node:test";
-import { labelled, ofClass, opened, settled } from "../dom.mjs";
+import { all, ofClass, opened, settled } from "../dom.mjs";
 import { load } from "../load.mjs";
 
 const { plot } = await load("panels/plot.ts");
@@ -87,5 +87,26 @@ test("a moment that somebody wants to look at is shown with the points that ther
   tell(3, 4);
   robot.moment.set({ time: 4, instance: "Control", cycle: 7 });
   assert.deepEqual([shown(), chart().scales.x], [[2, 3, 4], { min: 1.5, max: 6.5 }]);
+  panel.close();
+});
+
+test("what is in the way of a file stays told until another one is chosen, or what it has is added", async () => {
+  const { panel, robot } = drawn();
+  const [file] = panel.tools.flatMap((tool) => all(tool, (one) => one.getAttribute("type") === "file"));
+  const [failure] = ofClass(panel.content, "failure");
+  const choose = async (text) => {
+    file.files = [{ name: "plot.csv", text }];
+    file.tell("change");
+    await settled();
+    // Whatever else is told.
+    robot.state.set("open");
+    return failure.textContent;
+  };
+  assert.match(await choose(async () => "nothing"), /^this file has no curves/);
+  assert.match(await choose(() => Promise.reject(new Error("it is gone"))), /plot\.csv cannot be read: it is gone/);
+  assert.match(await choose(async () => "time,c\n1,2"), /^nothing of this file is in this plot: add one of c$/);
+  panel.accept("c");
+  assert.equal(failure.textContent, "");
+  assert.equal(await choose(async () => "time,a\n1,2"), "");
   panel.close();
 });

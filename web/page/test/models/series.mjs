@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import test from "node:test";
 import { load } from "../load.mjs";
 
-const { Series } = await load("panels/series.ts");
+const { incomparable, readCurves, Series } = await load("panels/series.ts");
 
 function drawn(...times) {
   const series = new Series();
@@ -38,4 +38,16 @@ test("what is newer than the robot's clock belongs to another run", () => {
   assert.deepEqual(series.times, [1, 2, 3]);
   series.begin(null, 1.5);
   assert.deepEqual(series.times, []);
+});
+
+test("a file of curves may have come through a program that ends lines with two characters", () => {
+  const curves = readCurves("time,a,b\r\n1,10,20\r\n2,,30\r\n");
+  assert.deepEqual([...curves].map(([name, { times, values }]) => [name, times, values]), [["a", [1], [10]], ["b", [1, 2], [20, 30]]]);
+});
+
+test("a file of which nothing can be compared says what it has", () => {
+  const curves = readCurves("time,a,b\n1,10,20");
+  assert.equal(incomparable(curves, ["b", "c"]), null);
+  assert.equal(incomparable(curves, ["c"]), "nothing of this file is in this plot: add one of a, b");
+  assert.match(incomparable(readCurves("no,curves"), ["a"]), /^this file has no curves/);
 });
