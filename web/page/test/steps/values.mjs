@@ -55,9 +55,15 @@ export async function parametersComeBack(page, other, address) {
   await changed;
   assert(await refused.isVisible(), "what others do does not take the reason away");
   assert.equal(await input(page).inputValue(), "1e999");
+  await page.locator(".parameter .news", { hasText: `now ${Number(after) + 0.25}` }).waitFor();
   await input(page).press("Escape");
   assert.equal(await input(page).inputValue(), String(Number(after) + 0.25));
   await page.getByRole("button", { name: /^take the last write/ }).click();
+  const overtaken = panel(page, "parameters").locator(".overtaken", { hasText: `${PARAMETER} is ${Number(after) + 0.25} now` });
+  await overtaken.waitFor({ timeout: PATIENCE });
+  assert.equal(await input(other).inputValue(), String(Number(after) + 0.25), "what another page wrote is not overwritten unless somebody wants it");
+  await overtaken.getByRole("button", { name: /^take the write back in spite/ }).click();
+  await overtaken.waitFor({ state: "hidden", timeout: PATIENCE });
   await other.waitForFunction(([path, value]) => document.querySelector(`input[data-path="${path}"]`)?.value === value, [PARAMETER, before], { timeout: PATIENCE });
   step("a parameter comes back from the robot, also to others, and is undone");
 }
