@@ -232,7 +232,7 @@ fn not_replayable(
         .at(&node.file, range(hardware_place(source)), label)
         .help(
             "let it be a trait of the workspace without supertraits, parameters and associated items, and its methods \
-             plain ones without parameters of types",
+             plain ones that declare neither types nor lifetimes: `text: &str`, `line: Line<'_>`",
         );
     diagnostics.add(warning);
 }

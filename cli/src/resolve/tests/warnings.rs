@@ -112,6 +112,41 @@ fn a_trait_that_nothing_can_stand_in_for_is_told() {
 }
 
 #[test]
+fn a_lifetime_that_a_method_declares_is_what_keeps_a_trait_from_replays() {
+    let asking = |method: &str| {
+        let hardware = format!(
+            "pub struct Hardware; pub struct Line<'a>(pub &'a str); pub trait Drive {{ {method} }}"
+        );
+        let node = Node {
+            cycle: "hardware: HardwareInterface,",
+            asks: "hardware::Drive",
+            ..Node::default()
+        };
+        Fixture::control(&["a"])
+            .node("a", node)
+            .file("crates/hardware/src/lib.rs", &hardware)
+    };
+    for declared in [
+        "fn say<'a>(&self, line: Line<'a>);",
+        "fn say<'a>(&self, text: &'a str);",
+    ] {
+        asking(declared).expect(
+            "not-replayable",
+            &["declare neither types nor lifetimes: `text: &str`, `line: Line<'_>`"],
+        );
+    }
+    for (plain, signature) in [
+        ("fn say(&self, line: Line<'_>);", "line: hardware::Line<'_>"),
+        ("fn say(&self, text: &str);", "text: &str"),
+    ] {
+        let robot = asking(plain).robot();
+        let methods = robot.cyclers[0].nodes[0].cycle_bounds[0].methods.clone();
+        let methods = methods.expect("something can stand in");
+        assert!(methods[0].signature.contains(signature), "{methods:?}");
+    }
+}
+
+#[test]
 fn an_actuator_that_may_take_a_default_is_told() {
     let fixture = |output: &str, field: &str| {
         let output = format!("command: MainOutput<{output}>,");
