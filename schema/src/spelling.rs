@@ -11,7 +11,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 /// A name is not spelled as its kind has to be.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("`{text}` is no {kind}: {rule}")]
+#[error("`{text}` is no {kind}: {rule}{}", self.about_letters())]
 pub struct SpellingError {
     /// What was written.
     pub text: String,
@@ -19,6 +19,16 @@ pub struct SpellingError {
     pub kind: &'static str,
     /// How that is spelled.
     pub rule: &'static str,
+}
+
+impl SpellingError {
+    /// What of the rule people overlook whose language has more letters.
+    fn about_letters(&self) -> &'static str {
+        match self.text.is_ascii() || self.kind == KEY {
+            true => "",
+            false => ", with the letters a to z and A to Z alone",
+        }
+    }
 }
 
 /// Reads a text that keeps a rule.
@@ -38,7 +48,7 @@ impl<T: FromStr<Err = SpellingError>> Visitor<'_> for Spelled<T> {
 
 /// A newtype around a string that keeps a rule.
 macro_rules! spelled {
-    ($(#[$documentation:meta])* $name:ident, $kind:literal, $rule:literal, $pattern:literal, $check:expr) => {
+    ($(#[$documentation:meta])* $name:ident, $kind:expr, $rule:literal, $pattern:literal, $check:expr) => {
         $(#[$documentation])*
         #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
         pub struct $name(String);
@@ -129,9 +139,12 @@ spelled! {
     "write `crate::Type`", "^[A-Za-z_][A-Za-z0-9_]*(::[A-Za-z_][A-Za-z0-9_]*)+$", is_path
 }
 
+/// It is nobody's identifier: its letters are free.
+const KEY: &str = "key of a bridge";
+
 spelled! {
     /// A key of Zenoh: `robot/pose`.
-    BridgeKey, "key of a bridge",
+    BridgeKey, KEY,
     "write words joined by `/`, without `*`, `$`, `?`, `#` and white space, and none that begins with `@`",
     r"^[^/*$?#@\s][^/*$?#\s]*(/[^/*$?#@\s][^/*$?#\s]*)*$", is_key
 }

@@ -291,6 +291,21 @@ fn a_missing_manifest_is_an_error() {
 }
 
 #[test]
+fn letters_that_no_file_is_called_by_are_told_as_such() {
+    let manifest = "[robot]\nname = \"grüße\"\n\
+        [[cycler]]\nname = \"Prüfung\"\nkind = \"real-time\"\n\
+        nodes = [\"nodes::a\", \"nodes::größe\"]\n\
+        [[target]]\nname = \"x\"\nhardware = \"nodes::Gehäuse\"\n";
+    let (codes, text) = mistakes(manifest);
+    assert_eq!(codes, ["invalid-name"; 4], "{text}");
+    let deed = "with the letters a to z and A to Z alone";
+    assert_eq!(text.matches(deed).count(), 4, "{text}");
+    assert!(text.contains("hulk.toml:6:22"), "{text}");
+    let (_, text) = mistakes(&manifest.replace("größe", "a-b"));
+    assert_eq!(text.matches(deed).count(), 3, "{text}");
+}
+
+#[test]
 fn every_identity_that_is_no_name_is_told_at_its_own_place() {
     let robot = |list: &str| format!("[robot]\nname = \"x\"\nidentities = {list}\n");
     let (codes, text) = mistakes(&robot("[\"body\", \"a/b\", \"\", \"Ü\"]"));

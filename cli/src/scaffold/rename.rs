@@ -97,8 +97,7 @@ fn producer<'r>(robot: &'r Robot, rename: &Rename<'_>) -> Result<&'r str, Refusa
         let message = format!("no node of cycler `{cycler}` writes `{old}`");
         unknown(&message, old, names, "its outputs are")
     })?;
-    let is_snake = *new == new.to_lowercase() && schema::is_identifier(new);
-    if !is_snake {
+    if !is_name_of_output(new) {
         let message = format!("`{new}` cannot be the name of an output");
         return Err(Refusal::wrong_usage(message)
             .help("write it in snake_case, and let it be no keyword of Rust"));
@@ -108,6 +107,14 @@ fn producer<'r>(robot: &'r Robot, rename: &Rename<'_>) -> Result<&'r str, Refusa
         return Err(Refusal::wrong_usage(message).help("choose another name"));
     }
     Ok(producer)
+}
+
+/// Outputs are fields and no files: they have all the letters of Rust that paths have.
+fn is_name_of_output(name: &str) -> bool {
+    let is_bare = name.chars().all(|one| one.is_alphanumeric() || one == '_');
+    let is_name = schema::is_identifier(name) || !name.is_ascii();
+    let is_name = is_name && is_bare && syn::parse_str::<syn::Ident>(name).is_ok();
+    is_name && name == name.to_lowercase()
 }
 
 fn writes<'c>(cycler: &'c Cycler, output: &str) -> Option<&'c str> {
@@ -355,4 +362,30 @@ fn rename_condition(
     let before = written.strip_suffix(path).unwrap_or_default();
     document::replace(value, &format!("{before}{}{rest}", rename.new));
     true
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_name_of_output;
+
+    #[test]
+    fn an_output_is_called_whatever_a_path_can_name() {
+        for name in ["speed", "größe", "_x1", "скорость"] {
+            assert!(is_name_of_output(name), "{name}");
+        }
+        for name in [
+            "Größe",
+            "gen",
+            "type",
+            "a-b",
+            "2d",
+            "r#type",
+            "",
+            "_",
+            "größe²",
+            "gro\u{308}ße",
+        ] {
+            assert!(!is_name_of_output(name), "{name}");
+        }
+    }
 }

@@ -440,3 +440,28 @@ fn no_more_instances_take_every_cycle_than_a_slot_can_mark() {
     ];
     read(21).expect("invalid-value", &parts);
 }
+
+#[test]
+fn inside_of_a_node_names_have_every_letter() {
+    let node = Node {
+        cycle: "hardware: HardwareInterface, müde: CyclerState<u8, \"müde.seit\">,
+            maß: Parameter<f32, \"größe.maß\">, frage: Procedure<u8, u8, \"prüfe\">,",
+        outputs: "größe: MainOutput<Option<f32>>,",
+        ..ACTS
+    };
+    let fixture = Fixture::control(&["a", "b"])
+        .node("a", node)
+        .file("parameters/default.toml", "[\"größe\"]\n\"maß\" = 1.0\n");
+    let text = fixture.text("crates/nodes/src/a.rs");
+    let text = text.replace("Node", "Fühler");
+    let fixture = fixture.file("crates/nodes/src/a.rs", &text);
+    let reads = "x: RequiredInput<Option<f32>, \"größe?\">, y: CyclerState<&u8, \"müde.seit\">";
+    let robot = with_field(fixture, "b", reads).robot();
+    let schedule =
+        crate::schedule::schedule(&robot, &mut Diagnostics::new()).expect("it has an order");
+    let files = crate::render::render(&crate::model::describe(&robot, &schedule));
+    let text = &files[camino::Utf8Path::new("generated/src/cyclers/control.rs")];
+    for part in ["Fühler", "frame.own.größe", "frame.parameters.größe.maß"] {
+        assert!(text.contains(part), "{part}\n{text}");
+    }
+}
