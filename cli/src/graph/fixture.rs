@@ -82,6 +82,7 @@ fn vision() -> Cycler {
     receiver.cycle_bounds = vec![Interface {
         path: "hardware::CameraInterface".to_owned(),
         reading: Some(true),
+        acting: false,
         methods: None,
     }];
 
@@ -139,6 +140,7 @@ fn control() -> Cycler {
     receiver.cycle_bounds = vec![Interface {
         path: "hardware::SensorInterface".to_owned(),
         reading: Some(true),
+        acting: false,
         methods: None,
     }];
     Cycler {
@@ -254,6 +256,7 @@ fn sender() -> Node {
     sender.cycle_bounds = vec![Interface {
         path: "hardware::ActuatorInterface".to_owned(),
         reading: Some(false),
+        acting: true,
         methods: None,
     }];
     sender

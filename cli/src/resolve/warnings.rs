@@ -99,10 +99,7 @@ fn unread_outputs(
     place: Range<usize>,
     diagnostics: &mut Diagnostics,
 ) {
-    let acts = node
-        .cycle_bounds
-        .iter()
-        .any(|interface| interface.reading != Some(true));
+    let acts = node.cycle_bounds.iter().any(|interface| interface.acting);
     let gives_time = node
         .outputs
         .iter()

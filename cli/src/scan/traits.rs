@@ -22,6 +22,9 @@ pub struct Interface {
     pub path: String,
     /// Whether a method returns anything but nothing; `None` where the trait was not found.
     pub reading: Option<bool>,
+    /// Whether it may let a node act, whatever else it reads: by a method of its own or of a trait that it asks for.
+    #[serde(skip)]
+    pub acting: bool,
     /// What whoever implements it writes; `None` where that cannot be told.
     #[serde(skip)]
     pub methods: Option<Vec<Method>>,
@@ -89,6 +92,7 @@ impl Library<'_> {
             let interface = Interface {
                 path: format!("{path}{}", arguments.text),
                 reading,
+                acting: reading != Some(true),
                 methods: None,
             };
             let private = private.or_else(|| arguments.private.first().cloned());
@@ -109,6 +113,7 @@ impl Library<'_> {
                     Some(path) => known(path, reading, None),
                     None => known(item.path(), reading, Some(item.clone())),
                 };
+                found.interface.acting |= self.is_acting(&item, 0);
                 found.interface.methods = self.quietly(|| self.methods(&item));
                 found
             }
@@ -122,6 +127,7 @@ impl Library<'_> {
         let interface = Interface {
             path: found.text,
             reading: None,
+            acting: true,
             methods: None,
         };
         let private = found.private.into_iter().next();
@@ -212,6 +218,31 @@ impl Library<'_> {
             }
         }
         answer
+    }
+
+    /// Whether a method of the trait or of a trait that it asks for gives nothing back, so that it is there for what it
+    /// does; a trait that cannot be seen may have one.
+    fn is_acting(&self, item: &ItemId, depth: usize) -> bool {
+        let Item::Trait(definition) = item.item() else {
+            return true;
+        };
+        let acts = |one: &TraitItem| match one {
+            TraitItem::Fn(method) => {
+                self.answer(&item.module, &method.sig.output) != Answer::Something
+            }
+            _ => false,
+        };
+        let brings = |bound: &TypeParamBound| {
+            let TypeParamBound::Trait(bound) = bound else {
+                return false;
+            };
+            match self.find(&item.module, &bound.path) {
+                Some(Found::Prelude(_) | Found::Standard(_)) => false,
+                Some(Found::Item(above)) if depth < DEEPEST => self.is_acting(&above, depth + 1),
+                _ => true,
+            }
+        };
+        definition.items.iter().any(acts) || definition.supertraits.iter().any(brings)
     }
 
     fn has_reading_method(&self, module: &Rc<Module>, definition: &ItemTrait) -> bool {

@@ -338,6 +338,7 @@ fn interfaces(traits: &[(&str, bool)]) -> Vec<Interface> {
     let interface = |(path, reading): &(&str, bool)| Interface {
         path: (*path).to_owned(),
         reading: Some(*reading),
+        acting: !*reading,
         methods: Some(Vec::new()),
     };
     traits.iter().map(interface).collect()

@@ -16,6 +16,50 @@ fn outputs_that_nobody_reads_are_told_in_the_manifest() {
 }
 
 #[test]
+fn who_acts_through_a_supertrait_is_there_for_that() {
+    let asking = |definitions: &str| {
+        let hardware = format!(
+            "pub struct Hardware; pub trait Eyes {{ fn look(&self) -> f32; }}
+             pub trait Wheels {{ fn turn(&self, speed: f32) -> Result<()>; }} {definitions}"
+        );
+        let node = Node {
+            cycle: "hardware: HardwareInterface,",
+            asks: "hardware::Body",
+            ..writes("x: MainOutput<u8>,")
+        };
+        Fixture::new(&cycler("Control", "real-time", "", &["a"], &[]))
+            .node("a", node)
+            .file("crates/hardware/src/lib.rs", &hardware)
+            .answer()
+    };
+    for acts in [
+        "pub trait Body: Eyes + Wheels {}",
+        "pub trait Body: Wheels { fn look(&self) -> f32; }",
+        "pub trait Body: Eyes + Limbs {} pub trait Limbs: Wheels {}",
+        "pub trait Body: Eyes { fn turn(&self, speed: f32); }",
+        "pub trait Body: framework::Elsewhere { fn look(&self) -> f32; }",
+    ] {
+        let answer = asking(acts);
+        assert!(
+            !answer.codes.contains(&"unread-outputs"),
+            "{acts}: {}",
+            answer.text
+        );
+    }
+    for reads in [
+        "pub trait Body: Eyes + Send {}",
+        "pub trait Body: Eyes + std::fmt::Debug { fn listen(&self) -> f32; }",
+    ] {
+        let answer = asking(reads);
+        assert!(
+            answer.codes.contains(&"unread-outputs"),
+            "{reads}: {}",
+            answer.text
+        );
+    }
+}
+
+#[test]
 fn a_state_of_one_node_is_told() {
     with_field(
         Fixture::control(&["a"]),
