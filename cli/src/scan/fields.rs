@@ -107,8 +107,11 @@ impl<'a> Plain<'a> {
         })
     }
 
-    fn substitutions(&self) -> Option<Substitutions> {
-        substitutions(self.generics, self.arguments.to_vec())
+    /// What its parameters stand for: what is given, else their defaults.
+    fn substitutions(&self, library: &Library<'_>) -> Option<Substitutions> {
+        let given = self.arguments.to_vec();
+        let all = library.with_defaults(&self.item.module, self.generics, given, 0);
+        substitutions(self.generics, all)
     }
 }
 
@@ -123,7 +126,7 @@ impl Library<'_> {
         let Fields::Named(fields) = &definition.fields else {
             return None;
         };
-        let generics = plain.substitutions()?;
+        let generics = plain.substitutions(self)?;
         let fields = fields
             .named
             .iter()
@@ -155,7 +158,7 @@ impl Library<'_> {
         let Item::Enum(definition) = item.item() else {
             return None;
         };
-        let generics = plain.substitutions()?;
+        let generics = plain.substitutions(self)?;
         let variants = definition.variants.iter().map(|variant| Variant {
             name: variant.ident.unraw().to_string(),
             attributes: variant.attrs.clone(),
@@ -177,7 +180,7 @@ impl Library<'_> {
     /// What a type means that stands where such a struct or enum is defined.
     pub fn resolve_beside(&self, data: &Resolved, written: &syn::Type) -> Option<Resolved> {
         let plain = Plain::of(data)?;
-        let generics = plain.substitutions()?;
+        let generics = plain.substitutions(self)?;
         Some(self.resolve_with(&plain.item.module, written, &generics, 0))
     }
 

@@ -273,7 +273,7 @@ impl Search<'_> {
             return self.unknown();
         }
         self.around.insert(path.clone());
-        let own = self.parameters(module, generics, arguments, parameters);
+        let own = self.parameters(module, item, generics, arguments, parameters);
         let found = match item.item() {
             Item::Type(alias) => self.blame(&item.module, &alias.ty, marker, &own),
             _ => self
@@ -322,10 +322,11 @@ impl Search<'_> {
         None
     }
 
-    /// What the parameters of an alias or a struct stand for; nothing is known of those with a default.
+    /// What the parameters of an alias or a struct stand for: what is given, else their defaults.
     fn parameters(
         &mut self,
         module: &Rc<Module>,
+        item: &ItemId,
         generics: &Generics,
         arguments: &[&Type],
         parameters: &Parameters,
@@ -334,18 +335,21 @@ impl Search<'_> {
             .params
             .iter()
             .filter_map(|parameter| match parameter {
-                GenericParam::Type(parameter) => Some(&parameter.ident),
+                GenericParam::Type(parameter) => Some(parameter),
                 _ => None,
             });
         let mut own = Parameters::new();
-        for (index, name) in types.enumerate() {
+        for (index, parameter) in types.enumerate() {
             for marker in [Marker::Send, Marker::Sync] {
-                let argument = arguments.get(index);
-                let blame = match argument {
-                    Some(data) => self.blame(module, data, marker, parameters),
-                    None => self.unknown(),
+                let blame = match (arguments.get(index), &parameter.default) {
+                    (Some(data), _) => self.blame(module, data, marker, parameters),
+                    // Defaults may double with every step.
+                    (None, Some(default)) if self.around.len() <= DEEPEST / 2 => {
+                        self.blame(&item.module, default, marker, &own)
+                    }
+                    (None, _) => self.unknown(),
                 };
-                own.insert((name.to_string(), marker), blame);
+                own.insert((parameter.ident.to_string(), marker), blame);
             }
         }
         own

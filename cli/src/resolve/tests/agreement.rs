@@ -117,6 +117,56 @@ fn written_type_and_path_agree_by_the_contract() {
 }
 
 #[test]
+fn a_parameter_without_an_argument_is_what_its_default_says() {
+    let head = "use types::*;
+        pub struct Wrap<T = f32, U = Option<T>> { pub value: T, pub maybe: U, pub same: Around }
+        pub struct Around<const N: usize = 2> { pub all: [u8; N] }";
+    for (output, field, code) in [
+        ("Wrap", "Input<f32, \"x.value\">", None),
+        ("Wrap", "Input<u8, \"x.value\">", Some("type-mismatch")),
+        ("Wrap", "Input<f32, \"x.valeu\">", Some("unknown-output")),
+        ("Wrap", "Input<Option<f32>, \"x.maybe?\">", None),
+        ("Wrap<u8>", "Input<u8, \"x.value\">", None),
+        ("Wrap<u8>", "Input<Option<u8>, \"x.maybe?\">", None),
+        (
+            "Wrap<u8>",
+            "Input<Option<f32>, \"x.maybe?\">",
+            Some("type-mismatch"),
+        ),
+        ("Wrap", "Input<[u8; 2], \"x.same.all\">", None),
+        (
+            "Wrap",
+            "Input<[u8; 3], \"x.same.all\">",
+            Some("type-mismatch"),
+        ),
+    ] {
+        let output = format!("x: MainOutput<{output}>,");
+        let node = Node {
+            head,
+            ..writes(&output)
+        };
+        let fixture = Fixture::control(&["a", "b"]).node("a", node);
+        let answer = with_field(fixture, "b", &format!("y: {field}")).answer();
+        let mut codes = answer.codes.clone();
+        codes.retain(|code| *code != "unread-outputs" && *code != "actuator-takes-default");
+        assert_eq!(
+            codes,
+            Vec::from_iter(code),
+            "{output} {field}\n{}",
+            answer.text
+        );
+        if code.is_none() {
+            let robot = answer.robot.expect("nothing is wrong");
+            let nodes = robot.cyclers[0].nodes.iter();
+            let mut reads = nodes
+                .flat_map(|node| &node.cycle)
+                .filter_map(|one| one.binding.read());
+            assert!(reads.all(|read| read.checked), "{output} {field}");
+        }
+    }
+}
+
+#[test]
 fn a_hidden_field_is_told_where_it_is_made_public() {
     let (_, text) = answer("Ball", "Input<u8, \"x.secret\">");
     let place = "--> crates/types/src/lib.rs:10:64";

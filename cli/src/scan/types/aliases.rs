@@ -69,7 +69,7 @@ impl Library<'_> {
     }
 
     /// Arguments, and what the parameters without one are by default.
-    fn with_defaults(
+    pub(in crate::scan) fn with_defaults(
         &self,
         module: &Rc<Module>,
         generics: &Generics,
