@@ -10,12 +10,12 @@ export interface Replaced {
   before: Json;
   /** As it was sent; as the robot has it (a float of 32 bits has fewer digits), once it has told. */
   written: Json;
+  /** What brought it: its version, and on which connection, for another run counts versions anew. */
+  run: Welcome | null;
+  version: number;
 }
 
 interface Write {
-  /** On which connection: another run counts versions anew. */
-  run: Welcome | null;
-  version: number;
   values: Replaced[];
 }
 
@@ -36,8 +36,8 @@ export class Undone {
     return this.writes.at(-1)?.values;
   }
 
-  add(run: Welcome | null, version: number, values: Replaced[]): void {
-    this.writes.push({ run, version, values });
+  add(run: Welcome | null, version: number, values: readonly Pick<Replaced, "path" | "before" | "written">[]): void {
+    this.writes.push({ values: values.map((one) => ({ ...one, run, version })) });
     if (this.writes.length > KEPT) this.writes.shift();
   }
 
@@ -52,25 +52,21 @@ export class Undone {
     if (newest !== undefined) newest.values = newest.values.filter(({ path }) => !paths.includes(path));
   }
 
-  /** The newest write was taken back: what the ones before it wrote stands there again. */
+  /** The newest write was taken back: what the ones before it wrote stands there again. What else they wrote has the versions that it had. */
   givenBack(run: Welcome | null, version: number): void {
     for (const { path, before } of this.writes.pop()?.values ?? []) {
-      const write = this.writes.findLast(({ values }) => values.some((one) => one.path === path));
-      const value = write?.values.find((one) => one.path === path);
-      if (write !== undefined && value !== undefined && isSame(value.written, before)) Object.assign(write, { run, version });
+      const value = this.writes.flatMap(({ values }) => values).findLast((one) => one.path === path);
+      if (value !== undefined && isSame(value.written, before)) Object.assign(value, { run, version });
     }
   }
 
   /** The robot tells its parameters: as it has them is how they were written, as far as nobody wrote since. */
   hear(run: Welcome | null, version: number, parameters: readonly Parameter[]): void {
-    for (const write of this.writes) {
-      if (isSameRun(write.run, run) !== true) continue;
-      for (const value of write.values) {
-        const parameter = parameters.find(({ path }) => path === value.path);
-        const provenance = parameter?.leaf.provenance;
-        const isOwn = version === write.version || (provenance?.from === "live" && provenance.version === write.version);
-        if (parameter !== undefined && isOwn) value.written = parameter.value;
-      }
+    for (const value of this.writes.flatMap(({ values }) => values)) {
+      const parameter = isSameRun(value.run, run) === true ? parameters.find(({ path }) => path === value.path) : undefined;
+      const provenance = parameter?.leaf.provenance;
+      const isOwn = version === value.version || (provenance?.from === "live" && provenance.version === value.version);
+      if (parameter !== undefined && isOwn) value.written = parameter.value;
     }
   }
 

@@ -76,6 +76,17 @@ test("to overwrite is wanted of the value that was told, and not of one that cam
   assert.deepEqual(sent(), [[{ path: "a", value: 1 }]]);
 });
 
+test("what was taken back of a write after it does not make another page's value one from here", async () => {
+  const { robot, undo, told, sent } = await written({ a: 1, b: 1 }, { a: "2", b: "2" }, { a: "3" });
+  other(robot, "b", 7);
+  await undo();
+  assert.deepEqual([sent(), robot.values], [[[{ path: "a", value: 2 }]], { a: 2, b: 7 }]);
+  await undo();
+  assert.deepEqual([sent().length, told()], [1, [["b", 7]]], "nothing is sent");
+  await undo("keep");
+  assert.deepEqual(robot.values, { a: 1, b: 7 });
+});
+
 test("another write from here is the one that is taken back next", async () => {
   const { robot, tuning, type, undo, told } = await written({ a: 1, b: 1 }, { a: "2" });
   other(robot, "a", 7);
