@@ -2,10 +2,11 @@
 import { expect, Refused } from "../connection/socket";
 import type { Change, Entry, Json, Leaf, Reading, Unstored, Welcome } from "../protocol";
 import type { Robot } from "./robot";
+import { isSame, isWithin, part, withPart } from "./parts";
 import { isSameRun } from "./run";
 import { Signal } from "./signal";
 import { Turns } from "./turns";
-import { isSame, Undone, type Overtaken } from "./undone";
+import { Undone, type Overtaken } from "./undone";
 
 export interface Parameter {
   /** From the root of the parameters. */
@@ -22,7 +23,8 @@ export interface Parameter {
 }
 
 export interface Tuned {
-  version: number;
+  /** Of everything. */
+  reading: Reading;
   parameters: readonly Parameter[];
   layers: readonly string[];
 }
@@ -70,10 +72,10 @@ export class Tuning {
     this.shownLoad = load;
     const tuned = describe(reading, unstored, entries);
     const said = this.forgetWithout(tuned);
-    this.undone.hear(this.robot.welcome.value, tuned.version, tuned.parameters);
+    this.undone.hear(this.robot.welcome.value, reading);
     this.tuned.set(tuned);
     // What is told of it is of now.
-    if (this.overtaken.value.length > 0) this.overtaken.set(this.undone.overtaken(tuned.parameters));
+    if (this.overtaken.value.length > 0) this.overtaken.set(this.undone.overtaken(reading));
     return said;
   }
 
@@ -148,12 +150,20 @@ export class Tuning {
    * tells: it may be overwritten as it was told, or kept, so that the rest alone is given back. What it says for people.
    */
   undo(choice?: "overwrite" | "keep"): Promise<string | void> {
-    const told = this.overtaken.value;
+    const [told, asked] = [this.overtaken.value, this.undone.newest];
     return this.turns.take(async () => {
       if (!this.canUndo) return;
       // What others wrote may not have been heard of yet.
       const said = await this.load();
-      const overtaken = this.undone.overtaken(this.tuned.value?.parameters ?? []);
+      const reading = this.tuned.value?.reading ?? { value: null, version: 0, leaves: [] };
+      this.undone.settle(reading);
+      // What was chosen was so for a write of which nothing is left.
+      const isOver = choice !== undefined && this.undone.newest !== asked;
+      if (isOver || !this.canUndo) {
+        this.settleUndo();
+        return said ?? "nothing was sent: everything is as it was before already";
+      }
+      const overtaken = this.undone.overtaken(reading);
       if (choice === "keep") this.undone.keep(overtaken.map(({ path }) => path));
       const isTold = overtaken.every(({ path, now }) => told.some((one) => one.path === path && isSame(one.now, now)));
       if (overtaken.length > 0 && choice !== "keep" && !(choice === "overwrite" && isTold)) {
@@ -167,17 +177,19 @@ export class Tuning {
   }
 
   private async giveBack(): Promise<void> {
-    const changes = (this.undone.newest ?? []).map(({ path, before }) => ({ path, value: before }));
+    const changes = (this.undone.newest?.values ?? []).map(({ path, before }) => ({ path, value: before }));
     if (changes.length === 0) return this.undone.forget();
     try {
       await this.send(changes);
     } catch (error) {
-      // Values that this robot does not take never will be: the write before may still be undone.
-      const isHopeless = error instanceof Refused && (error.failure.refusals ?? []).length > 0;
-      if (!isHopeless) throw error;
-      this.undone.forget();
+      // Values that this robot does not take never will be: the rest of the write, and the write before, may still be undone.
+      const refusals = error instanceof Refused ? (error.failure.refusals ?? []) : [];
+      if (!(error instanceof Refused) || refusals.length === 0) throw error;
+      const newest = this.undone.newest;
+      this.undone.refuse(refusals.map(({ path }) => path));
       this.settleUndo();
-      throw new Error(`the last write cannot be taken back: ${error.message}`);
+      const isLeft = this.undone.newest === newest;
+      throw new Error(`${isLeft ? "this cannot be taken back, and the next Undo gives back the rest of that write" : "the last write cannot be taken back"}: ${error.message}`);
     }
     this.undone.givenBack(this.written.run, this.written.version);
   }
@@ -209,10 +221,12 @@ export class Tuning {
     if (!this.isOfThisRun(this.own.run)) this.own = { run, versions: new Set() };
     this.own.versions.add(version);
     const tuned = this.tuned.value;
-    if (tuned === null || tuned.version >= version) return;
-    const written = new Map(changes.map(({ path, value }) => [path, value]));
-    const parameters = tuned.parameters.map((one): Parameter => (written.has(one.path) ? { ...one, value: written.get(one.path) ?? null, leaf: { ...one.leaf, provenance: { from: "live", version } } } : one));
-    this.tuned.set({ ...tuned, version, parameters });
+    if (tuned === null || tuned.reading.version >= version) return;
+    const isWritten = ({ path }: { path: string }): boolean => changes.some((change) => isWithin(change.path, path));
+    const value = changes.reduce((whole, change) => withPart(whole, change.path, change.value), tuned.reading.value);
+    const newer = (leaf: Leaf): Leaf => (isWritten(leaf) ? { ...leaf, provenance: { from: "live", version } } : leaf);
+    const parameters = tuned.parameters.map((one): Parameter => (isWritten(one) ? { ...one, value: part(value, one.path), leaf: newer(one.leaf) } : one));
+    this.tuned.set({ ...tuned, reading: { value, version, leaves: tuned.reading.leaves.map(newer) }, parameters });
   }
 
   /** What was sent is pending no more; what was typed meanwhile is. */
@@ -254,15 +268,5 @@ function describe(reading: Reading, unstored: Unstored, entries: readonly Entry[
       isCreationOnly: unstored.creation_only.some((path) => leaf.path === path || leaf.path.startsWith(`${path}.`)),
     };
   });
-  return { version: reading.version, parameters, layers: unstored.layers };
-}
-
-/** The part of a value at a path. */
-export function part(value: Json, path: string): Json {
-  let found: Json | undefined = value;
-  for (const name of path === "" ? [] : path.split(".")) {
-    if (typeof found !== "object" || found === null) return null;
-    found = Array.isArray(found) ? found[Number(name)] : found[name];
-  }
-  return found ?? null;
+  return { reading, parameters, layers: unstored.layers };
 }

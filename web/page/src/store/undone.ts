@@ -1,8 +1,7 @@
 // Owns what was written from here and can be taken back: what each write replaced, and whether what it wrote still stands there.
-import { writeJson } from "../connection/exact";
-import type { Json, Provenance, Welcome } from "../protocol";
+import type { Json, Provenance, Reading, Welcome } from "../protocol";
+import { isSame, isWithin, part, provenanceAt } from "./parts";
 import { isSameRun } from "./run";
-import type { Parameter } from "./tuning";
 
 /** A value that was replaced from here. */
 export interface Replaced {
@@ -15,7 +14,7 @@ export interface Replaced {
   version: number;
 }
 
-interface Write {
+export interface Write {
   values: Replaced[];
 }
 
@@ -32,8 +31,8 @@ export class Undone {
   /** Newest last. */
   private readonly writes: Write[] = [];
 
-  get newest(): readonly Replaced[] | undefined {
-    return this.writes.at(-1)?.values;
+  get newest(): Readonly<Write> | undefined {
+    return this.writes.at(-1);
   }
 
   add(run: Welcome | null, version: number, values: readonly Pick<Replaced, "path" | "before" | "written">[]): void {
@@ -41,7 +40,7 @@ export class Undone {
     if (this.writes.length > KEPT) this.writes.shift();
   }
 
-  /** The newest write cannot be taken back, or is not to be. */
+  /** The newest write is not to be taken back. */
   forget(): void {
     this.writes.pop();
   }
@@ -50,6 +49,14 @@ export class Undone {
   keep(paths: readonly string[]): void {
     const newest = this.writes.at(-1);
     if (newest !== undefined) newest.values = newest.values.filter(({ path }) => !paths.includes(path));
+  }
+
+  /** The robot does not take these back, and never will; where it names nothing of the newest write, all of it. */
+  refuse(refused: readonly string[]): void {
+    const paths = (this.newest?.values ?? []).map(({ path }) => path);
+    const own = (other: string): string[] => paths.filter((path) => isWithin(path, other) || (other !== "" && isWithin(other, path)));
+    this.keep(refused.every((other) => own(other).length > 0) ? refused.flatMap(own) : paths);
+    if (this.newest?.values.length === 0) this.forget();
   }
 
   /** The newest write was taken back: what the ones before it wrote stands there again. What else they wrote has the versions that it had. */
@@ -61,24 +68,37 @@ export class Undone {
   }
 
   /** The robot tells its parameters: as it has them is how they were written, as far as nobody wrote since. */
-  hear(run: Welcome | null, version: number, parameters: readonly Parameter[]): void {
+  hear(run: Welcome | null, reading: Reading): void {
     for (const value of this.writes.flatMap(({ values }) => values)) {
-      const parameter = isSameRun(value.run, run) === true ? parameters.find(({ path }) => path === value.path) : undefined;
-      const provenance = parameter?.leaf.provenance;
-      const isOwn = version === value.version || (provenance?.from === "live" && provenance.version === value.version);
-      if (parameter !== undefined && isOwn) value.written = parameter.value;
+      if (isSameRun(value.run, run) === true && isOf(reading, value.path, value.version)) value.written = part(reading.value, value.path);
+    }
+  }
+
+  /** Forgets what is as it was before already, of the newest write, and where nothing of it is left, of the one before. */
+  settle(reading: Reading): void {
+    for (let newest = this.newest; newest !== undefined; newest = this.newest) {
+      this.keep(newest.values.filter((one) => isBack(reading, one)).map(({ path }) => path));
+      if (newest.values.length > 0) return;
+      this.forget();
     }
   }
 
   /** What the newest write put there and is not there any more. */
-  overtaken(parameters: readonly Parameter[]): Overtaken[] {
-    return (this.newest ?? []).flatMap((value): Overtaken[] => {
-      const now = parameters.find(({ path }) => path === value.path);
-      return now === undefined || isSame(now.value, value.written) ? [] : [{ ...value, now: now.value, provenance: now.leaf.provenance }];
+  overtaken(reading: Reading): Overtaken[] {
+    return (this.newest?.values ?? []).flatMap((value): Overtaken[] => {
+      const now = part(reading.value, value.path);
+      const provenance = provenanceAt(reading.leaves, value.path);
+      return provenance === undefined || isSame(now, value.written) || isBack(reading, value) ? [] : [{ ...value, now, provenance }];
     });
   }
 }
 
-export function isSame(one: Json, other: Json): boolean {
-  return writeJson(one) === writeJson(other);
+function isBack({ value, leaves }: Reading, { path, before }: Replaced): boolean {
+  return leaves.some((leaf) => isWithin(path, leaf.path)) && isSame(part(value, path), before);
+}
+
+/** Whether what a robot tells of a path is of a version, and of none behind it. */
+export function isOf({ version, leaves }: Reading, path: string, wanted: number): boolean {
+  const provenance = provenanceAt(leaves, path);
+  return provenance !== undefined && (version === wanted || (provenance.from === "live" && provenance.version === wanted));
 }

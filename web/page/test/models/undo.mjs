@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import test from "node:test";
 import { load } from "../load.mjs";
-import { settled, tuned } from "../tuning.mjs";
+import { Refused, settled, tuned } from "../tuning.mjs";
 
 const { overtakenText } = await load("panels/parameter_text.ts");
 
@@ -124,4 +124,76 @@ test("of another run what its files say is told", async () => {
   Object.assign(robot, { welcome: { value: { run: "b" } }, version: 2, values: { a: 1.5 }, versions: {} });
   await undo();
   assert.deepEqual([sent(), told()], [[], [["a", 1.5]]]);
+});
+
+test("what another page has written below a value that was written whole is told", async () => {
+  const { robot, find, tuning, undo, told, sent } = await written({ x: null }, { x: '{"y":1}' });
+  assert.deepEqual([tuning.tuned.value.parameters.map(({ path }) => path), find("x.y").leaf.provenance], [["x.y"], { from: "live", version: 2 }]);
+  other(robot, "x.y", 2);
+  await undo();
+  assert.deepEqual([sent(), told()], [[], [["x", { y: 2 }]]]);
+  assert.equal(tuning.overtaken.value[0].provenance.version, 3);
+  await undo("overwrite");
+  assert.deepEqual([robot.values, told()], [{ x: null }, []]);
+});
+
+test("what another page has written in place of what a value was in is told", async () => {
+  const { robot, undo, told, sent } = await written({ "x.y": 1 }, { "x.y": "2" });
+  other(robot, "x", null);
+  await undo();
+  assert.deepEqual([sent(), told()], [[], [["x.y", null]]]);
+});
+
+test("nothing is asked of what is as it was before already, and the write before is taken back", async () => {
+  const { robot, tuning, undo, told, sent } = await written({ a: 1, b: 1, c: 1 }, { c: "2" }, { a: "2", b: "2" });
+  other(robot, "a", 1);
+  await undo();
+  assert.deepEqual([sent(), told()], [[[{ path: "b", value: 1 }]], []], "a is 1 again");
+  await undo();
+  assert.deepEqual([robot.values, tuning.canUndo], [{ a: 1, b: 1, c: 1 }, false]);
+});
+
+test("after a restart there is nothing to take back where everything is as it was before", async () => {
+  const { robot, tuning, undo, told, sent } = await written({ a: 1, b: 1 }, { b: "2" }, { a: "2" });
+  Object.assign(robot, { welcome: { value: { run: "b" } }, version: 1, values: { a: 1, b: 2 }, versions: {} });
+  await undo();
+  assert.deepEqual([sent(), told()], [[[{ path: "b", value: 1 }]], []], "the files have b from here: that is what is left");
+  assert.equal(tuning.canUndo, false);
+  const again = await written({ a: 1 }, { a: "2" });
+  Object.assign(again.robot, { version: 3, values: { a: 1 }, versions: {} });
+  assert.match(await again.tuning.undo(), /^nothing was sent/);
+  assert.deepEqual([again.sent(), again.told(), again.tuning.canUndo], [[], [], false]);
+});
+
+test("what was chosen for a write that is back by itself is not so for the one before", async () => {
+  for (const choice of ["overwrite", "keep"]) {
+    const { robot, tuning, undo, told, sent } = await written({ a: 1, b: 1 }, { b: "2" }, { a: "2" });
+    other(robot, "a", 7);
+    await undo();
+    assert.deepEqual(told(), [["a", 7]]);
+    other(robot, "a", 1);
+    await undo(choice);
+    assert.deepEqual([sent(), told(), tuning.canUndo], [[], [], true], choice);
+  }
+});
+
+test("a value that cannot go back does not take the others of its write out of Undo", async () => {
+  const { robot, tuning, undo } = await written({ a: null, b: 1, c: 1 }, { c: "2" }, { a: "2", b: "2" });
+  const attempt = async (...refusals) => {
+    const undone = tuning.undo();
+    await settled();
+    robot.writes.at(-1).refuse(new Refused({ message: "no", refusals }));
+    return undone.then(() => "done", ({ message }) => message);
+  };
+  assert.equal(await attempt({ path: "a", message: "null is no number" }), "this cannot be taken back, and the next Undo gives back the rest of that write: a: null is no number");
+  await undo();
+  assert.deepEqual([robot.values, robot.writes.at(-1).changes], [{ a: 2, b: 1, c: 2 }, [{ path: "b", value: 1 }]]);
+  for (const path of ["", "elsewhere"]) {
+    const { robot, tuning, sent } = await written({ a: 1, b: 1 }, { a: "2", b: "2" });
+    const undone = tuning.undo();
+    await settled();
+    robot.writes.at(-1).refuse(new Refused({ message: "no", refusals: [{ path, message: "no" }] }));
+    await assert.rejects(undone, /^Error: the last write cannot be taken back/);
+    assert.deepEqual([sent().length, tuning.canUndo], [1, false], "it is not known which one it is");
+  }
 });
