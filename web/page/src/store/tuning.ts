@@ -2,11 +2,11 @@
 import { expect, Refused } from "../connection/socket";
 import type { Change, Entry, Json, Leaf, Reading, Unstored, Welcome } from "../protocol";
 import type { Robot } from "./robot";
-import { isSame, isWithin, part, withPart } from "./parts";
+import { isSame, isWithin, part, provenanceAt, withPart } from "./parts";
 import { isSameRun } from "./run";
 import { Signal } from "./signal";
 import { Turns } from "./turns";
-import { Undone, type Overtaken } from "./undone";
+import { isOf, Undone, type Overtaken } from "./undone";
 
 export interface Parameter {
   /** From the root of the parameters. */
@@ -32,14 +32,18 @@ export interface Tuned {
 /** What somebody typed: the value that it is, or the reason why it is none. */
 export type Draft = { text: string; value: Json } | { text: string; wrong: string };
 
+interface Begun {
+  value: Json;
+  /** What was done from here since then, on which connection: what the robot tells of this version is what it made of it. */
+  own?: { run: Welcome | null; version: number; isReload: boolean };
+}
+
 export class Tuning {
   readonly tuned = new Signal<Tuned | null>(null);
   /** Changed here and not sent, by path. */
   readonly pending = new Signal<ReadonlyMap<string, Draft>>(new Map());
-  /** What the robot had when somebody began to type, by path. */
-  private readonly begun = new Map<string, Json>();
-  /** The versions that were written from here, and on which connection. */
-  private own: { run: Welcome | null; versions: Set<number> } = { run: null, versions: new Set() };
+  /** What the robot had when somebody began to type, by path; or has from here since then. */
+  private readonly begun = new Map<string, Begun>();
   /** Why the last write from here was not taken back: what others have put in its place. */
   readonly overtaken = new Signal<readonly Overtaken[]>([]);
   private readonly undone = new Undone();
@@ -73,6 +77,7 @@ export class Tuning {
     const tuned = describe(reading, unstored, entries);
     const said = this.forgetWithout(tuned);
     this.undone.hear(this.robot.welcome.value, reading);
+    this.hearOwn(reading);
     this.tuned.set(tuned);
     // What is told of it is of now.
     if (this.overtaken.value.length > 0) this.overtaken.set(this.undone.overtaken(reading));
@@ -101,7 +106,7 @@ export class Tuning {
     const pending = new Map(this.pending.value);
     if ("value" in draft && isSame(draft.value, parameter.value)) pending.delete(parameter.path);
     else {
-      if (!pending.has(parameter.path)) this.begun.set(parameter.path, parameter.value);
+      if (!pending.has(parameter.path)) this.begun.set(parameter.path, { value: parameter.value });
       pending.set(parameter.path, draft);
     }
     this.setPending(pending);
@@ -110,10 +115,21 @@ export class Tuning {
   /** Whether somebody else has changed a parameter while something was typed for it here: to write that overwrites it. */
   isChangedMeanwhile(path: string): boolean {
     const begun = this.begun.get(path);
-    const parameter = begun === undefined ? undefined : this.tuned.value?.parameters.find((one) => one.path === path);
-    if (begun === undefined || parameter === undefined || isSame(begun, parameter.value)) return false;
-    const { provenance } = parameter.leaf;
-    return !(provenance.from === "live" && this.isOfThisRun(this.own.run) && this.own.versions.has(provenance.version));
+    const parameter = this.tuned.value?.parameters.find((one) => one.path === path);
+    return begun !== undefined && parameter !== undefined && !isSame(begun.value, parameter.value);
+  }
+
+  /**
+   * What was done from here is no news, whatever is typed. Where it comes from does not tell: of what is again as the files
+   * say, the robot says no more that it was changed.
+   */
+  private hearOwn(reading: Reading): void {
+    for (const [path, { own }] of this.begun) {
+      if (own === undefined || !this.isOfThisRun(own.run) || reading.version < own.version) continue;
+      const provenance = provenanceAt(reading.leaves, path);
+      const isNewer = provenance?.from === "live" && provenance.version > own.version;
+      if (own.isReload ? !isNewer : isOf(reading, path, own.version)) this.begun.set(path, { value: part(reading.value, path) });
+    }
   }
 
   private setPending(pending: ReadonlyMap<string, Draft>): void {
@@ -209,7 +225,10 @@ export class Tuning {
 
   /** Takes what the files say; what was not stored is gone. */
   async reload(): Promise<string | void> {
-    expect(await this.robot.ask({ reload: {} }), "written");
+    const run = this.robot.welcome.value;
+    const { version } = expect(await this.robot.ask({ reload: {} }), "written");
+    for (const begun of this.begun.values()) begun.own = { run, version, isReload: true };
+    if (this.tuned.value !== null) this.hearOwn(this.tuned.value.reading);
     return this.load();
   }
 
@@ -218,12 +237,12 @@ export class Tuning {
     const run = this.robot.welcome.value;
     const { version } = expect(await this.robot.ask({ write: { changes } }), "written");
     this.written = { run, version };
-    if (!this.isOfThisRun(this.own.run)) this.own = { run, versions: new Set() };
-    this.own.versions.add(version);
     const tuned = this.tuned.value;
-    if (tuned === null || tuned.reading.version >= version) return;
+    if (tuned === null) return;
     const isWritten = ({ path }: { path: string }): boolean => changes.some((change) => isWithin(change.path, path));
     const value = changes.reduce((whole, change) => withPart(whole, change.path, change.value), tuned.reading.value);
+    for (const path of this.begun.keys()) if (isWritten({ path })) this.begun.set(path, { value: part(value, path), own: { run, version, isReload: false } });
+    if (tuned.reading.version >= version) return this.hearOwn(tuned.reading);
     const newer = (leaf: Leaf): Leaf => (isWritten(leaf) ? { ...leaf, provenance: { from: "live", version } } : leaf);
     const parameters = tuned.parameters.map((one): Parameter => (isWritten(one) ? { ...one, value: part(value, one.path), leaf: newer(one.leaf) } : one));
     this.tuned.set({ ...tuned, reading: { value, version, leaves: tuned.reading.leaves.map(newer) }, parameters });

@@ -282,3 +282,60 @@ test("what somebody else writes while one types is told beside what was typed, a
   type("a", "8");
   assert.equal(await news(), "", "whoever types now has seen it");
 });
+
+/** A parameter of the files' value 1, with this one written from here; what is typed meanwhile stays. */
+async function writtenHere(text, meanwhile) {
+  const all = await tuned({ a: 1 });
+  const answered = async (done) => {
+    await settled();
+    if (meanwhile !== undefined) all.type("a", meanwhile);
+    all.robot.writes.at(-1).take();
+    await done;
+  };
+  const isNews = async () => {
+    await all.tuning.load();
+    return all.tuning.isChangedMeanwhile("a");
+  };
+  if (text === "1") all.robot.take([{ path: "a", value: 4 }]);
+  await all.tuning.load();
+  all.type("a", text);
+  await answered(all.tuning.write());
+  return { ...all, answered, isNews, origin: () => all.find("a").leaf.provenance.from, other: (value) => all.robot.take([{ path: "a", value }]) };
+}
+
+test("what is taken back or reloaded from here while something is typed is no news, though the robot says the files have it", async () => {
+  for (const deed of ["undo", "reload"]) {
+    const { tuning, type, value, answered, isNews, origin, other } = await writtenHere("2");
+    type("a", "3");
+    await (deed === "undo" ? answered(tuning.undo()) : tuning.reload());
+    assert.deepEqual([await isNews(), value("a"), origin()], [false, 1, "file"], deed);
+    other(5);
+    assert.equal(await isNews(), true, deed);
+  }
+});
+
+test("what was typed behind an own write has no news when that is stored, or is what the files say", async () => {
+  for (const text of ["2", "1"]) {
+    const { tuning, pending, isNews, origin } = await writtenHere(text, "9");
+    if (text === "2") await tuning.store("default");
+    assert.deepEqual([await isNews(), origin(), pending()], [false, "file", [["a", "9"]]], text);
+  }
+});
+
+test("what other pages reload, write as the files say or write behind a reload from here is news", async () => {
+  const deeds = [({ robot }) => robot.ask({ reload: {} }), ({ other }) => other(1)];
+  for (const deed of deeds) {
+    const all = await writtenHere("2", "3");
+    await deed(all);
+    assert.equal(await all.isNews(), true);
+  }
+  const { robot, tuning, isNews, other } = await writtenHere("2", "3");
+  const answer = robot.ask.bind(robot);
+  robot.ask = async (ask) => {
+    const answered = await answer(ask);
+    if ("reload" in ask) other(6);
+    return answered;
+  };
+  await tuning.reload();
+  assert.equal(await isNews(), true);
+});
