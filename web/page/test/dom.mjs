@@ -136,6 +136,14 @@ class Element_ extends Node_ {
   querySelector() {
     return null;
   }
+
+  querySelectorAll() {
+    return [];
+  }
+
+  contains(other) {
+    return other === this || this.children.some((one) => one.contains(other));
+  }
 }
 
 /** The elements below one for which this holds. */

@@ -16,7 +16,7 @@ function put(values, path, value) {
 export const settled = () => new Promise((resolve) => setTimeout(resolve, 0));
 
 /** A robot with these parameters, by path, as its files say them, and what was asked of it. */
-class Played {
+export class Played {
   welcome = { value: {} };
   paths = { everything: async () => [] };
   version = 1;

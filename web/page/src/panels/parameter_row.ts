@@ -1,6 +1,7 @@
 // One parameter: its value in the input that fits its type, its unit and range, and where it comes from.
 import { writeJson } from "../connection/exact";
 import { nameOf } from "../store/paths";
+import type { Json } from "../protocol";
 import type { Draft, Parameter } from "../store/tuning";
 import { make } from "../view/dom";
 import { DRAGGED_PATH } from "./panel";
@@ -17,6 +18,8 @@ export class ParameterRow {
   /** A parameter with another one needs another row. */
   readonly key: string;
   private readonly shape: Shape;
+  /** What it was made for. */
+  private readonly first: Json;
   private readonly input: HTMLInputElement | HTMLSelectElement | HTMLTextAreaElement;
   private readonly origin = make("span", { class: "origin muted" });
   /** What others have put there while something was typed. */
@@ -29,6 +32,7 @@ export class ParameterRow {
   ) {
     const { path, entry } = parameter;
     this.key = keyOf(parameter);
+    this.first = parameter.value;
     this.shape = shapeOf(parameter);
     this.input = inputFor(this.shape);
     this.input.setAttribute("aria-label", path);
@@ -69,6 +73,16 @@ export class ParameterRow {
     // `1.50` is not made `1.5` under the hands of whoever types it.
     if (isTyped && this.means(this.text, this.parameter)) return;
     this.text = draft?.text ?? this.shape.write(this.parameter.value);
+  }
+
+  /**
+   * Whether it can show a parameter. A text that gains or loses its ends of lines has another field, but not under the hands
+   * of whoever types: what was typed would mean something else there, or lose its own ends of lines.
+   */
+  fits(parameter: Parameter, isEdited: boolean): boolean {
+    if (this.key === keyOf(parameter)) return true;
+    const isText = typeof this.first === "string" && typeof parameter.value === "string";
+    return isEdited && isText && this.key === keyOf({ ...parameter, value: this.first });
   }
 
   focus(): void {

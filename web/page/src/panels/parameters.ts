@@ -5,7 +5,7 @@ import { button, complain, make, select } from "../view/dom";
 import { plural } from "../view/format";
 import { textSetting, type Context, type Panel, type PanelKind } from "./panel";
 import { ParameterRow } from "./parameter_row";
-import { keyOf, overtakenText } from "./parameter_text";
+import { overtakenText } from "./parameter_text";
 
 class Parameters implements Panel {
   readonly content: HTMLElement;
@@ -38,7 +38,9 @@ class Parameters implements Panel {
       this.undo,
       button("Reload", "take what the files say: changes that were not stored are gone", () => this.attempt(() => this.tuning.reload())),
     ];
-    this.content = make("div", { class: "scroll" }, make("div", { class: "bar" }, this.search), this.writing, this.overtaken, this.storing, this.failure, this.unread, this.said, this.list);
+    // In sight wherever one has scrolled to: one box for all, which would cover each other.
+    const answers = make("div", { class: "answers" }, this.writing, this.overtaken, this.storing, this.failure, this.unread, this.said);
+    this.content = make("div", { class: "scroll" }, make("div", { class: "bar" }, this.search), answers, this.list);
     this.stops = [
       context.robot.parameters.watch(() => void this.load()),
       context.robot.canWrite.watch((can) => this.content.classList.toggle("read-only", !can)),
@@ -83,12 +85,19 @@ class Parameters implements Panel {
   private draw(tuned: Tuned | null): void {
     this.undo.disabled = !this.tuning.canUndo;
     if (tuned === null) return;
-    const isSame = tuned.parameters.length === this.rows.size && tuned.parameters.every((parameter) => this.rows.get(parameter.path)?.key === keyOf(parameter));
-    if (!isSame) this.build(tuned);
+    if (!this.isBuilt(tuned)) this.build(tuned);
     const pending = this.tuning.pending.value;
     for (const parameter of tuned.parameters) this.rows.get(parameter.path)?.show(parameter, pending.get(parameter.path), this.tuning.isChangedMeanwhile(parameter.path));
     this.filter();
     this.drawStoring(tuned);
+  }
+
+  private isBuilt({ parameters }: Tuned): boolean {
+    return parameters.length === this.rows.size && parameters.every((parameter) => this.fits(this.rows.get(parameter.path), parameter));
+  }
+
+  private fits(row: ParameterRow | undefined, parameter: Parameter): row is ParameterRow {
+    return row?.fits(parameter, this.tuning.pending.value.has(parameter.path)) === true;
   }
 
   /** Rows that still fit stay as they are, with groups that are open and with the focus. */
@@ -100,7 +109,7 @@ class Parameters implements Panel {
     this.rows.clear();
     const row = (parameter: Parameter): HTMLElement => {
       const kept = before.get(parameter.path);
-      const row = kept?.key === keyOf(parameter) ? kept : this.row(parameter);
+      const row = this.fits(kept, parameter) ? kept : this.row(parameter);
       this.rows.set(parameter.path, row);
       return row.element;
     };
@@ -123,6 +132,9 @@ class Parameters implements Panel {
   }
 
   private drawPending(pending: ReadonlyMap<string, Draft>): void {
+    // What is not edited any more may have another field.
+    const tuned = this.tuning.tuned.value;
+    if (tuned !== null && this.rows.size > 0 && !this.isBuilt(tuned)) this.draw(tuned);
     for (const [path, row] of this.rows) row.draw(pending.get(path), this.tuning.isChangedMeanwhile(path));
     const wrong = [...pending].flatMap(([path, draft]) => ("wrong" in draft ? [`${path}: ${draft.wrong}`] : []));
     this.undo.disabled = !this.tuning.canUndo;
