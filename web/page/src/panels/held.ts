@@ -4,8 +4,15 @@ import { Series } from "./series";
 /** From one time to another, in seconds. */
 export type Part = [number, number];
 
+/** What of a curve there is. */
+export interface Points {
+  readonly series: Series;
+  /** How many values did not come through. */
+  readonly missing: number;
+}
+
 export class Held {
-  private held: { part: Part; points: Map<Series, Series>; isEarlier: boolean } | null = null;
+  private held: { part: Part; points: Map<Series, Points>; isEarlier: boolean } | null = null;
 
   /** Null: the plot goes on. */
   get part(): Part | null {
@@ -18,12 +25,12 @@ export class Held {
   }
 
   /** Of the points that there are now. */
-  hold(part: Part, curves: readonly Series[]): void {
-    this.held = { part, points: new Map(curves.map((one) => [one, one.copy()])), isEarlier: false };
+  hold(part: Part, curves: readonly Points[]): void {
+    this.held = { part, points: new Map(curves.map(({ series, missing }) => [series, { series: series.copy(), missing }])), isEarlier: false };
   }
 
   /** Another part of what is held; where nothing is, of the points that there are now. */
-  zoom(part: Part, curves: readonly Series[]): void {
+  zoom(part: Part, curves: readonly Points[]): void {
     if (this.held === null) this.hold(part, curves);
     else this.held.part = part;
   }
@@ -38,9 +45,9 @@ export class Held {
     this.held.isEarlier = true;
   }
 
-  /** The points of a curve that are to be drawn; of one that came later, none that lie on another clock. */
-  shown(curve: Series): Series {
+  /** What of a curve is to be shown; of one that came later, nothing that lies on another clock. */
+  shown(curve: Points): Points {
     if (this.held === null) return curve;
-    return this.held.points.get(curve) ?? (this.held.isEarlier ? new Series() : curve);
+    return this.held.points.get(curve.series) ?? (this.held.isEarlier ? { series: new Series(), missing: 0 } : curve);
   }
 }

@@ -85,7 +85,7 @@ class Plot implements Panel {
       context.robot.moment.changed((moment) => {
         // What is held of an earlier run stays until somebody goes on: times of this one are none of its own.
         if (moment === null || this.held.isEarlier) return;
-        this.held.hold([moment.time - this.window / 2, moment.time + this.window / 2], this.series());
+        this.held.hold([moment.time - this.window / 2, moment.time + this.window / 2], this.curves);
         this.show();
       }),
       context.robot.welcome.watch((welcome) => this.goOnWith(welcome)),
@@ -143,7 +143,7 @@ class Plot implements Panel {
     const others = this.others === null ? null : incomparable(this.others, this.curves.map(({ wanted }) => nameIn(wanted)));
     failures.push(...[this.unread, others].filter((wrong) => wrong !== null));
     complain(this.failure, failures.length > 0 ? failures.join("\n") : null);
-    const missing = this.curves.reduce((sum, curve) => sum + curve.missing, 0);
+    const missing = this.curves.reduce((sum, curve) => sum + this.held.shown(curve).missing, 0);
     this.missing.textContent = missing === 0 ? "" : `gaps: ${plural(missing, "value")} did not come through`;
     this.curves.forEach((curve, at) => this.chips.children[at]?.classList.toggle("lost", !curve.isThere));
   }
@@ -167,7 +167,7 @@ class Plot implements Panel {
 
   private rebuild(): void {
     const looks = looksOf(this.curves);
-    this.lines = this.curves.map((curve, at) => ({ label: this.label(curve), look: looks[at] as Look, series: this.held.shown(curve.series), isOfOtherRun: false }));
+    this.lines = this.curves.map((curve, at) => ({ label: this.label(curve), look: looks[at] as Look, series: this.held.shown(curve).series, isOfOtherRun: false }));
     this.context.title(this.lines.map(({ label }) => label).join(", "));
     this.chips.replaceChildren(...this.curves.map((curve, at) => this.chip(curve, looks[at] as Look)), this.input, this.whose, this.missing, this.earlier);
     this.tell();
@@ -210,10 +210,6 @@ class Plot implements Panel {
     return this.held.part ?? [this.newest() - this.window, this.newest()];
   }
 
-  private series(): Series[] {
-    return this.curves.map(({ series }) => series);
-  }
-
   private shown(): ReturnType<typeof align> {
     return align(this.lines.map(({ series }) => series), ...this.range());
   }
@@ -226,13 +222,18 @@ class Plot implements Panel {
     if (welcome === null) return;
     const begun = this.curves.map((curve) => curve.begin(isSameRun(this.run, welcome), welcome.time / 1e9 + SLACK));
     this.run = welcome;
-    if (begun.includes(true)) this.held.endRun();
+    if (begun.includes(true)) {
+      this.held.endRun();
+      // Curves that came while it was held have had points that go on, of another clock from now on.
+      this.take();
+      this.tell();
+    }
     this.earlier.hidden = !this.held.isEarlier;
   }
 
   private hold(): void {
     if (this.held.part !== null) return this.go();
-    this.held.hold(this.range(), this.series());
+    this.held.hold(this.range(), this.curves);
     this.show();
   }
 
@@ -241,7 +242,7 @@ class Plot implements Panel {
     if (width < 5) return;
     const part: Part = [chart.posToVal(left, "x"), chart.posToVal(left + width, "x")];
     chart.setSelect({ left: 0, width: 0, top: 0, height: 0 }, false);
-    this.held.zoom(part, this.series());
+    this.held.zoom(part, this.curves);
     this.show();
   }
 
@@ -249,6 +250,7 @@ class Plot implements Panel {
   private show(): void {
     this.pause.textContent = "Go on";
     this.take();
+    this.tell();
   }
 
   private go(): void {
@@ -256,11 +258,12 @@ class Plot implements Panel {
     this.pause.textContent = "Pause";
     this.earlier.hidden = true;
     this.take();
+    this.tell();
   }
 
   /** Draws the points that are to be shown by now. */
   private take(): void {
-    this.curves.forEach(({ series }, at) => ((this.lines[at] as Line).series = this.held.shown(series)));
+    this.curves.forEach((curve, at) => ((this.lines[at] as Line).series = this.held.shown(curve).series));
     const [min, max] = this.range();
     this.drawn?.batch(() => {
       this.drawn?.setData(this.shown() as uPlot.AlignedData, false);

@@ -110,3 +110,51 @@ test("what is in the way of a file stays told until another one is chosen, or wh
   assert.equal(await choose(async () => "time,a\n1,2"), "");
   panel.close();
 });
+
+/** What CSV saves, in lines. */
+function saved(panel) {
+  const { URL } = globalThis;
+  let text = "";
+  const before = globalThis.Blob;
+  globalThis.Blob = class {
+    constructor(parts) {
+      text = parts.join("");
+    }
+  };
+  Object.assign(globalThis, { URL: { createObjectURL: () => "", revokeObjectURL: () => undefined } });
+  panel.tools.find((one) => one.textContent === "CSV").click();
+  Object.assign(globalThis, { URL, Blob: before });
+  return text.trim().split("\n");
+}
+
+test("the file of a held plot has nothing of another run, also of a curve that was added while it was held", async () => {
+  const { panel, robot, watchers, tell, pause } = drawn();
+  tell(100, 101, 102);
+  await settled();
+  pause.click();
+  panel.accept("c");
+  watchers.get("c").sample({ time: 101e9, value: 7 });
+  panel.resized();
+  assert.deepEqual(saved(panel), ["time,a,b,c", "100,1000,1000,", "101,1010,1010,7", "102,1020,1020,"]);
+  robot.welcome.set({ time: 90e9, run: "two" });
+  watchers.get("c").sample({ time: 101.5e9, value: 8 });
+  assert.deepEqual(saved(panel), ["time,a,b,c", "100,1000,1000,", "101,1010,1010,", "102,1020,1020,"]);
+  panel.close();
+});
+
+test("a held plot tells the gaps of what it shows, until somebody goes on", async () => {
+  const { panel, robot, watchers, tell, pause } = drawn();
+  const gaps = () => all(panel.content, (one) => one.nodeName === "OUTPUT" && /^(gaps|$)/.test(one.textContent))[0].textContent;
+  tell(100, 101);
+  watchers.get("a").lost(3);
+  assert.equal(gaps(), "gaps: 3 values did not come through");
+  pause.click();
+  watchers.get("b").lost(4);
+  assert.equal(gaps(), "gaps: 3 values did not come through", "what is missing behind it");
+  robot.welcome.set({ time: 0.5e9, run: "two" });
+  assert.equal(gaps(), "gaps: 3 values did not come through", "of another run nothing is missing");
+  watchers.get("a").lost(1);
+  pause.click();
+  assert.equal(gaps(), "gaps: 1 value did not come through");
+  panel.close();
+});
