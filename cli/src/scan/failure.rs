@@ -125,16 +125,16 @@ impl Library<'_> {
             {
                 Failure::Converts
             }
-            Definition::Workspace(item) => self.quietly(|| self.judge_own(item, &error.text)),
+            Definition::Workspace(item) => self.quietly(|| self.judge_own(item, error, arguments)),
             _ => Failure::Unknown,
         }
     }
 
     /// An error that the workspace defines.
-    fn judge_own(&self, item: &ItemId, text: &str) -> Failure {
-        let attributes = match item.item() {
-            Item::Struct(item) => &item.attrs,
-            Item::Enum(item) => &item.attrs,
+    fn judge_own(&self, item: &ItemId, error: &Resolved, arguments: &[Resolved]) -> Failure {
+        let (attributes, generics) = match item.item() {
+            Item::Struct(item) => (&item.attrs, &item.generics),
+            Item::Enum(item) => (&item.attrs, &item.generics),
             _ => return Failure::Unknown,
         };
         if attributes.iter().any(|one| one.path().is_ident("cfg")) {
@@ -145,7 +145,10 @@ impl Library<'_> {
         }
         // Of thiserror and others. The framework's error moves between threads, and so does what becomes one.
         if derives(attributes, "Error") || self.plainly_implements(item, "Error") {
-            return match self.is_free(item) && !has_lifetimes(item) {
+            // It keeps nothing that is borrowed; what it keeps may be of a type that is given here.
+            let has_lifetimes = generics.lifetimes().next().is_some();
+            let is_given = generics.type_params().next().is_some() && !arguments.is_empty();
+            return match !has_lifetimes && !is_given && self.is_free(item) {
                 true => Failure::Converts,
                 false => Failure::Unknown,
             };
@@ -157,7 +160,7 @@ impl Library<'_> {
         let converts = ["Error", "Into", "From"];
         let may_convert = || converts.iter().any(|name| self.may_implement(item, name));
         match is_plain && !may_convert() {
-            true => Failure::Never(text.to_owned()),
+            true => Failure::Never(error.text.clone()),
             false => Failure::Unknown,
         }
     }
@@ -192,14 +195,4 @@ fn is_converting(path: &str) -> bool {
     names
         .next()
         .is_some_and(|first| CONVERTING.contains(&first))
-}
-
-/// The framework's error keeps nothing that is borrowed.
-fn has_lifetimes(item: &ItemId) -> bool {
-    let generics = match item.item() {
-        Item::Struct(item) => &item.generics,
-        Item::Enum(item) => &item.generics,
-        _ => return true,
-    };
-    generics.lifetimes().next().is_some()
 }

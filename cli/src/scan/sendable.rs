@@ -136,7 +136,7 @@ impl Library<'_> {
         }
     }
 
-    /// Whether a type of the workspace without parameters surely can be sent and shared.
+    /// Whether a type of the workspace surely can be sent and shared where its parameters are left out.
     pub(super) fn is_free(&self, item: &ItemId) -> bool {
         let parameters = Parameters::new();
         [Marker::Send, Marker::Sync].into_iter().all(|marker| {

@@ -68,6 +68,11 @@ fn an_error_that_surely_is_none_is_told_at_the_function() {
     }
 }
 
+const FAULT: &str = "
+    #[derive(Debug, thiserror::Error)] pub struct Fault<T: std::fmt::Debug = String> { detail: T }
+    pub type Given = Fault<std::rc::Rc<u8>>;
+";
+
 #[test]
 fn an_error_that_may_convert_is_left_to_rustc() {
     for (error, code, unknown) in [
@@ -103,6 +108,15 @@ fn an_error_that_may_convert_is_left_to_rustc() {
             "E<'static>",
             "pub struct E<'a>(&'a str); impl std::error::Error for E<'_> {}",
             1,
+        ),
+        // What it keeps is of the type that is given, or of the default.
+        ("Fault<std::rc::Rc<u8>>", FAULT, 1),
+        ("Given", FAULT, 1),
+        ("Fault", FAULT, 0),
+        (
+            "E<2>",
+            "#[derive(Debug, thiserror::Error)] pub struct E<const N: usize>([u8; N]);",
+            0,
         ),
         ("std::sync::PoisonError<u8>", "", 1),
         ("framework::Timestamp", "", 1),
