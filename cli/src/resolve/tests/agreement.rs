@@ -167,6 +167,34 @@ fn a_parameter_without_an_argument_is_what_its_default_says() {
 }
 
 #[test]
+fn defaults_that_double_are_not_followed_to_their_end() {
+    let doubling = (1..28).map(|index| {
+        let before = index - 1;
+        format!(", P{index} = (P{before}, P{before})")
+    });
+    let doubling: String = doubling.collect();
+    let head = format!(
+        "pub struct Wide<P0 = u8{doubling}> {{ pub first: P0, pub last: Option<P27> }}
+         pub type Same<P0{doubling}> = (P0, P27);"
+    );
+    for output in ["Wide", "Same<u8>"] {
+        let output = format!("x: MainOutput<{output}>,");
+        let node = Node {
+            head: &head,
+            ..writes(&output)
+        };
+        let fixture = Fixture::control(&["a", "b"]).node("a", node);
+        let answer = with_field(fixture, "b", "y: Input<u8, \"x.first\">").answer();
+        let robot = answer.robot.expect("nobody can tell what is wrong");
+        let nodes = robot.cyclers[0].nodes.iter();
+        let mut reads = nodes
+            .flat_map(|node| &node.cycle)
+            .filter_map(|one| one.binding.read());
+        assert!(reads.all(|read| !read.checked), "{output}");
+    }
+}
+
+#[test]
 fn a_hidden_field_is_told_where_it_is_made_public() {
     let (_, text) = answer("Ball", "Input<u8, \"x.secret\">");
     let place = "--> crates/types/src/lib.rs:10:64";

@@ -68,7 +68,7 @@ impl Library<'_> {
         expanded
     }
 
-    /// Arguments, and what the parameters without one are by default.
+    /// Arguments, and what the parameters without one are by default, up to the first of which that cannot be told.
     pub(in crate::scan) fn with_defaults(
         &self,
         module: &Rc<Module>,
@@ -94,8 +94,9 @@ impl Library<'_> {
                 GenericParam::Lifetime(_) => None,
             };
             match default {
-                Some(default) => arguments.push(default),
-                None => break,
+                // One may double the one before it.
+                Some(default) if !default.is_huge() => arguments.push(default),
+                _ => break,
             }
         }
         arguments.extend(lifetimes);
