@@ -5,7 +5,10 @@ mod methods;
 use std::rc::Rc;
 
 use serde::Serialize;
-use syn::{Item, ItemTrait, PathArguments, ReturnType, TraitItem, Type, TypeParamBound};
+use syn::{
+    GenericArgument, Generics, Item, ItemTrait, PathArguments, ReturnType, TraitItem, Type,
+    TypeParamBound, WherePredicate,
+};
 
 use super::library::Library;
 use super::lookup::{Found, ItemId};
@@ -55,6 +58,25 @@ const DEEPEST: usize = 8;
 
 /// Traits without methods that say nothing about hardware.
 const MARKERS: &[&str] = &["Send", "Sized", "Sync", "Unpin"];
+
+/// Modules of `std` whose traits say what a value is, not what it does.
+const HARMLESS: &[&str] = &[
+    "any", "clone", "cmp", "default", "fmt", "hash", "marker", "ops",
+];
+
+/// Traits there, or in scope everywhere, that do.
+const ACTING: &[&str] = &[
+    "AsMut",
+    "AsyncFn",
+    "AsyncFnMut",
+    "AsyncFnOnce",
+    "Deref",
+    "DerefMut",
+    "Extend",
+    "Fn",
+    "FnMut",
+    "FnOnce",
+];
 
 impl Interface {
     /// The trait's own name.
@@ -200,7 +222,7 @@ impl Library<'_> {
             return Some(true);
         }
         let mut answer = Some(false);
-        for bound in &definition.supertraits {
+        for bound in asked_of_self(definition) {
             let TypeParamBound::Trait(bound) = bound else {
                 continue;
             };
@@ -228,7 +250,9 @@ impl Library<'_> {
         };
         let acts = |one: &TraitItem| match one {
             TraitItem::Fn(method) => {
-                self.answer(&item.module, &method.sig.output) != Answer::Something
+                let output = &method.sig.output;
+                self.answer(&item.module, output) != Answer::Something
+                    || may_be_nothing(output, &definition.generics)
             }
             _ => false,
         };
@@ -237,12 +261,13 @@ impl Library<'_> {
                 return false;
             };
             match self.find(&item.module, &bound.path) {
-                Some(Found::Prelude(_) | Found::Standard(_)) => false,
+                Some(Found::Prelude(name)) => ACTING.contains(&name.as_str()),
+                Some(Found::Standard(path)) => !is_harmless(&path),
                 Some(Found::Item(above)) if depth < DEEPEST => self.is_acting(&above, depth + 1),
                 _ => true,
             }
         };
-        definition.items.iter().any(acts) || definition.supertraits.iter().any(brings)
+        definition.items.iter().any(acts) || asked_of_self(definition).any(brings)
     }
 
     fn has_reading_method(&self, module: &Rc<Module>, definition: &ItemTrait) -> bool {
@@ -289,6 +314,58 @@ impl Library<'_> {
     }
 }
 
+/// What a trait asks of whoever implements it: `Body: Wheels` and `Body where Self: Wheels` are the same.
+fn asked_of_self(definition: &ItemTrait) -> impl Iterator<Item = &TypeParamBound> {
+    let clauses = definition.generics.where_clause.iter();
+    let of_self = clauses
+        .flat_map(|clause| &clause.predicates)
+        .filter_map(|predicate| match predicate {
+            WherePredicate::Type(one) => match &one.bounded_ty {
+                Type::Path(path) if path.path.is_ident("Self") => Some(&one.bounds),
+                _ => None,
+            },
+            _ => None,
+        });
+    definition.supertraits.iter().chain(of_self.flatten())
+}
+
+/// Whether a trait below `std` lets nobody act.
+fn is_harmless(path: &[String]) -> bool {
+    let is_of = |list: &[&str], name: Option<&String>| {
+        name.is_some_and(|name| list.contains(&name.as_str()))
+    };
+    is_of(HARMLESS, path.first()) && !is_of(ACTING, path.last())
+}
+
+/// Whether a method gives what others choose, who may choose `()`: `T` of `trait Wheels<T>`, `Self::Answer`.
+fn may_be_nothing(output: &ReturnType, generics: &Generics) -> bool {
+    match output {
+        ReturnType::Default => true,
+        ReturnType::Type(_, data) => is_chosen(data, generics),
+    }
+}
+
+fn is_chosen(data: &Type, generics: &Generics) -> bool {
+    let path = match data {
+        Type::Paren(paren) => return is_chosen(&paren.elem, generics),
+        Type::Path(path) if path.qself.is_some() => return true,
+        Type::Path(path) => &path.path,
+        _ => return false,
+    };
+    let (Some(first), Some(last)) = (path.segments.first(), path.segments.last()) else {
+        return false;
+    };
+    if generics.type_params().any(|one| one.ident == first.ident) {
+        return true;
+    }
+    match &last.arguments {
+        PathArguments::AngleBracketed(list) if last.ident == "Result" => {
+            matches!(list.args.first(), Some(GenericArgument::Type(inner)) if is_chosen(inner, generics))
+        }
+        _ => first.ident == "Self" && path.segments.len() > 1,
+    }
+}
+
 fn is_nothing(data: &Type) -> bool {
     match data {
         Type::Tuple(tuple) => tuple.elems.is_empty(),
@@ -309,7 +386,7 @@ fn is_written_as_result_of_nothing(data: &Type) -> bool {
     };
     match &last.arguments {
         PathArguments::AngleBracketed(arguments) => arguments.args.first().is_some_and(
-            |argument| matches!(argument, syn::GenericArgument::Type(data) if is_nothing(data)),
+            |argument| matches!(argument, GenericArgument::Type(data) if is_nothing(data)),
         ),
         _ => false,
     }

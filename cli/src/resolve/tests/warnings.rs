@@ -38,6 +38,12 @@ fn who_acts_through_a_supertrait_is_there_for_that() {
         "pub trait Body: Eyes + Limbs {} pub trait Limbs: Wheels {}",
         "pub trait Body: Eyes { fn turn(&self, speed: f32); }",
         "pub trait Body: framework::Elsewhere { fn look(&self) -> f32; }",
+        "pub trait Body where Self: Wheels { fn look(&self) -> f32; }",
+        "pub trait Body: std::io::Write { fn look(&self) -> f32; }",
+        "pub trait Body: Fn(f32) { fn look(&self) -> f32; }",
+        "pub trait Body: Eyes + Legs<()> {} pub trait Legs<T> { fn turn(&self, speed: f32) -> T; }",
+        "pub trait Body: Eyes + Legs<()> {} pub trait Legs<T> { fn turn(&self) -> Result<T>; }",
+        "pub trait Body: Eyes + Legs<A = ()> {} pub trait Legs { type A; fn turn(&self) -> Self::A; }",
     ] {
         let answer = asking(acts);
         assert!(
@@ -49,6 +55,8 @@ fn who_acts_through_a_supertrait_is_there_for_that() {
     for reads in [
         "pub trait Body: Eyes + Send {}",
         "pub trait Body: Eyes + std::fmt::Debug { fn listen(&self) -> f32; }",
+        "pub trait Body: Clone + std::any::Any where Self: Eyes + PartialEq, u8: Into<u16> {}",
+        "pub trait Body<T = u8> { fn look(&self) -> Option<T>; fn copy(&self) -> Self; }",
     ] {
         let answer = asking(reads);
         assert!(
