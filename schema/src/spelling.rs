@@ -26,7 +26,7 @@ impl SpellingError {
     fn about_letters(&self) -> &'static str {
         match self.text.is_ascii() || self.kind == KEY {
             true => "",
-            false => ", with the letters a to z and A to Z alone",
+            false => "; of letters only ASCII ones are taken",
         }
     }
 }
