@@ -136,19 +136,25 @@ fn reading_the_hardware_outside_of_setup_is_told() {
     );
 }
 
+/// A node that asks for `Drive` of a crate that also says this.
+fn asks_to_drive(definitions: &str) -> Fixture {
+    let node = Node {
+        cycle: "hardware: HardwareInterface,",
+        asks: "hardware::Drive",
+        ..Node::default()
+    };
+    let hardware = format!("pub struct Hardware; {definitions}");
+    Fixture::control(&["a"])
+        .node("a", node)
+        .file("crates/hardware/src/lib.rs", &hardware)
+}
+
 #[test]
 fn a_trait_that_nothing_can_stand_in_for_is_told() {
     let asking = |definition: &str| {
-        let hardware =
-            format!("pub struct Hardware; pub trait Wheels {{ fn turn(&self); }} {definition}");
-        let node = Node {
-            cycle: "hardware: HardwareInterface,",
-            asks: "hardware::Drive",
-            ..Node::default()
-        };
-        Fixture::control(&["a"])
-            .node("a", node)
-            .file("crates/hardware/src/lib.rs", &hardware)
+        asks_to_drive(&format!(
+            "pub trait Wheels {{ fn turn(&self); }} {definition}"
+        ))
     };
     asking("pub trait Drive: Send { fn drive(&self, speed: f32) -> Result<()>; }").robot();
     for definition in [
@@ -166,17 +172,9 @@ fn a_trait_that_nothing_can_stand_in_for_is_told() {
 #[test]
 fn a_lifetime_that_a_method_declares_is_what_keeps_a_trait_from_replays() {
     let asking = |method: &str| {
-        let hardware = format!(
-            "pub struct Hardware; pub struct Line<'a>(pub &'a str); pub trait Drive {{ {method} }}"
-        );
-        let node = Node {
-            cycle: "hardware: HardwareInterface,",
-            asks: "hardware::Drive",
-            ..Node::default()
-        };
-        Fixture::control(&["a"])
-            .node("a", node)
-            .file("crates/hardware/src/lib.rs", &hardware)
+        asks_to_drive(&format!(
+            "pub struct Line<'a>(pub &'a str); pub trait Drive {{ {method} }}"
+        ))
     };
     for declared in [
         "fn say<'a>(&self, line: Line<'a>);",
