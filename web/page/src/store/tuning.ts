@@ -274,9 +274,8 @@ export class Tuning {
 
 function describe(reading: Reading, unstored: Unstored, entries: readonly Entry[]): Tuned {
   const byPath = new Map(entries.map((entry) => [entry.path, entry]));
-  const changed = new Map(unstored.changes.map((change) => [change.path, change]));
   const parameters = reading.leaves.map((leaf): Parameter => {
-    const change = [...changed.values()].find(({ path }) => path === leaf.path || path.startsWith(`${leaf.path}.`));
+    const change = unstored.changes.find(({ path }) => isWithin(leaf.path, path));
     return {
       path: leaf.path,
       leaf,
@@ -284,7 +283,7 @@ function describe(reading: Reading, unstored: Unstored, entries: readonly Entry[
       entry: byPath.get(`parameters.${leaf.path}`),
       isUnstored: change !== undefined,
       stored: change?.stored ?? null,
-      isCreationOnly: unstored.creation_only.some((path) => leaf.path === path || leaf.path.startsWith(`${path}.`)),
+      isCreationOnly: unstored.creation_only.some((path) => isWithin(path, leaf.path)),
     };
   });
   return { reading, parameters, layers: unstored.layers };
