@@ -1,4 +1,7 @@
-//! Words of `equals` and `is_not` that no value of their type has: `is_not` would hold of everything, `equals` of nothing.
+//! What no value of an output's type has: a path below it, or a word of `equals` and `is_not`. Of what is never there,
+//! `is_not` would hold of everything and `equals` of nothing.
+
+use std::fmt::Display;
 
 use serde_json::Value;
 
@@ -6,10 +9,10 @@ use super::assertion::{Assertion, Condition};
 use crate::cycler::Instance;
 use crate::parameters::{Fault, Origin, ParameterError, nearest};
 use crate::recorded::shape_of;
-use crate::reflect::{Content, Form, Path, Shape, VariantContent};
+use crate::reflect::{Content, Form, Path, Shape, UnknownPath, VariantContent};
 use crate::robot::Robot;
 
-/// An assertion, counted from 0, with a word that its value never is.
+/// An assertion, counted from 0, with a path that never leads to a value, or a word that its value never is.
 #[derive(Debug)]
 pub(crate) struct Misspelt {
     assertion: usize,
@@ -17,7 +20,7 @@ pub(crate) struct Misspelt {
     message: String,
 }
 
-/// The first such word in what is asserted of the robot with this number, counted from 1.
+/// The first such path or word in what is asserted of the robot with this number, counted from 1.
 ///
 /// Of truths nobody knows the type, and of types that serde writes in ways of its own nobody knows the words.
 pub(crate) fn misspelt<P>(
@@ -28,21 +31,24 @@ pub(crate) fn misspelt<P>(
     let numbered = assertions.iter().enumerate();
     let mut own = numbered.filter(|(_, one)| one.robot == number);
     own.find_map(|(index, assertion)| {
-        let (key, wanted) = match assertion.condition() {
-            Condition::Equals(wanted) => ("equals", wanted),
-            Condition::IsNot(unwanted) => ("is_not", unwanted),
-            Condition::IsThere(_) | Condition::Between { .. } => return None,
-        };
-        let shape = shape_of_value(robot, assertion)?;
-        let wrong = wrong_word(&shape, wanted)?;
-        Some(Misspelt {
+        let told = |key, wrong: &dyn Display| Misspelt {
             assertion: index,
             key,
             message: format!(
                 "`{}` of assertion `{}` {wrong}",
                 assertion.value, assertion.what
             ),
-        })
+        };
+        let shape = match shape_of_value(robot, assertion)? {
+            Ok(shape) => shape,
+            Err(unknown) => return Some(told("value", &format_args!("is never there: {unknown}"))),
+        };
+        let (key, wanted) = match assertion.condition() {
+            Condition::Equals(wanted) => ("equals", wanted),
+            Condition::IsNot(unwanted) => ("is_not", unwanted),
+            Condition::IsThere(_) | Condition::Between { .. } => return None,
+        };
+        Some(told(key, &wrong_word(&shape, wanted)?))
     })
 }
 
@@ -63,16 +69,19 @@ impl Misspelt {
     }
 }
 
-/// What is known of the output's type; what there is not is told when it is looked at.
-fn shape_of_value<P>(robot: &Robot<P>, assertion: &Assertion) -> Option<Shape> {
+/// What is known of the type of what is looked at; an output that there is not is told when it is looked at.
+fn shape_of_value<P>(
+    robot: &Robot<P>,
+    assertion: &Assertion,
+) -> Option<Result<Shape, UnknownPath>> {
     let name = assertion.instance()?;
     let mut instances = robot.instances.iter().map(Box::as_ref);
     let instance: &dyn Instance = instances.find(|one| one.description().name == name)?;
     let access = robot.access.iter().find(|one| one.instance == name)?;
     let (shape, below) = shape_of(instance, &access.subscriptions, &assertion.value)?;
     match below {
-        "" => Some(shape),
-        below => shape.at(&below.parse::<Path>().ok()?).ok(),
+        "" => Some(Ok(shape)),
+        below => Some(shape.at(&below.parse::<Path>().ok()?)),
     }
 }
 

@@ -441,3 +441,26 @@ fn what_a_robot_says_while_it_is_created_is_its_own() {
     });
     assert_eq!(heard.collect::<Vec<_>>(), [[1], [2]]);
 }
+
+#[test]
+fn a_path_that_never_leads_to_a_value_is_refused_before_anything_is_played() {
+    let value = |path: &str, rest: &str| {
+        assertion(&format!(
+            "value = 'Legs.main_outputs.{path}'\n{rest}\nfrom = 0.1"
+        ))
+    };
+    for condition in [
+        "is_not = 'Up'",
+        "equals = 'Left'",
+        "is_there = false",
+        "below = 1.0",
+    ] {
+        for path in ["phase.Walk.sied", "phase.Wakl.side", "raw.x"] {
+            let wrong = value(path, condition);
+            assert_eq!(play(&wrong, &[]), (1, Value::Null), "{wrong}");
+        }
+    }
+    // A variant that is not there now may come.
+    let (status, outcome) = play(&value("phase.Walk.side", "is_not = 'Left'"), &[]);
+    assert_eq!(status, 0, "{outcome:#}");
+}
