@@ -7,6 +7,8 @@
 pub mod patch;
 
 mod circle;
+mod disc;
+mod field_mask;
 mod grid;
 mod inspection;
 mod known;
@@ -25,6 +27,7 @@ use types::field_features::{FieldBorder, LineSegment, PenaltyMark};
 use types::image::YuyvImage;
 use types::projection_noise::ProjectionNoise;
 
+use self::field_mask::FieldMask;
 use self::grid::Grid;
 use self::inspection::{Finding, Proposal, propose};
 use self::known::Known;
@@ -189,7 +192,7 @@ impl BallDetection {
         let view = View {
             image: context.image,
             matrix: context.camera_matrix,
-            field_color: context.field_color,
+            field: &FieldMask::new(context.image, context.field_color),
             ball_radius: *context.ball_radius,
             noise: context.projection_noise,
         };

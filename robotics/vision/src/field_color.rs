@@ -21,23 +21,72 @@ pub struct FieldColor {
     pub minimum_luminance: u8,
 }
 
+/// Pixels that are looked at in one step.
+const LANES: usize = 4;
+
 impl FieldColor {
     /// Whether a pixel of this colour shows the field.
     pub fn matches(&self, color: Yuv) -> bool {
-        let [red, green, blue] = channels(color);
+        let [red, green, blue] = channels(numbers(color));
         let sum = red + green + blue;
         color.y >= self.minimum_luminance
             && green >= self.minimum_green * sum
             && red <= self.maximum_red * sum
             && blue <= self.maximum_blue * sum
     }
+
+    /// Of up to 32 pairs of pixels as images have them: a bit for each pixel, the first is the lowest.
+    pub(crate) fn matching(&self, pairs: &[[u8; 4]]) -> u64 {
+        let (steps, rest) = pairs.as_chunks();
+        let mut bits = 0;
+        for (index, step) in steps.iter().enumerate() {
+            bits |= self.matching_step(step) << (2 * LANES * index);
+        }
+        let first = 2 * LANES * steps.len();
+        for (index, &[left, u, right, v]) in rest.iter().enumerate() {
+            for (side, y) in [left, right].into_iter().enumerate() {
+                bits |= u64::from(self.matches(Yuv { y, u, v })) << (first + 2 * index + side);
+            }
+        }
+        bits
+    }
+
+    // Written so that one instruction does the same with all lanes.
+    #[inline(always)]
+    fn matching_step(&self, step: &[[u8; 4]; LANES]) -> u64 {
+        let words = step.map(u32::from_le_bytes);
+        let [left, u, right, v] =
+            [0, 8, 16, 24].map(|shift| words.map(|word| (word >> shift & 0xff) as i32 as f32));
+        let of = |y: [f32; LANES]| -> [u32; LANES] {
+            std::array::from_fn(|lane| u32::from(self.shows([y[lane], u[lane], v[lane]])))
+        };
+        let (left, right) = (of(left), of(right));
+        let bits = (0..LANES).map(|lane| (left[lane] | right[lane] << 1) << (2 * lane));
+        u64::from(bits.fold(0, |all, bits| all | bits))
+    }
+
+    /// As [`Self::matches`], without a way out in between.
+    #[inline(always)]
+    fn shows(&self, yuv: [f32; 3]) -> bool {
+        let [red, green, blue] = channels(yuv);
+        let sum = red + green + blue;
+        (yuv[0] >= f32::from(self.minimum_luminance))
+            & (green >= self.minimum_green * sum)
+            & (red <= self.maximum_red * sum)
+            & (blue <= self.maximum_blue * sum)
+    }
 }
 
-/// Red, green and blue, 0 or more.
-fn channels(color: Yuv) -> [f32; 3] {
-    let luminance = f32::from(color.y);
-    let blue_difference = f32::from(color.u) - 128.0;
-    let red_difference = f32::from(color.v) - 128.0;
+/// Luminance and the two chrominances.
+fn numbers(color: Yuv) -> [f32; 3] {
+    [color.y, color.u, color.v].map(f32::from)
+}
+
+/// Red, green and blue of those, 0 or more.
+#[inline(always)]
+fn channels([luminance, u, v]: [f32; 3]) -> [f32; 3] {
+    let blue_difference = u - 128.0;
+    let red_difference = v - 128.0;
     [
         (luminance + 1.402 * red_difference).max(0.0),
         (luminance - 0.344_14 * blue_difference - 0.714_14 * red_difference).max(0.0),
@@ -47,7 +96,7 @@ fn channels(color: Yuv) -> [f32; 3] {
 
 /// The shares of red, green and blue in their sum; no colour where there is no light.
 pub(crate) fn shares(color: Yuv) -> [f32; 3] {
-    let channels = channels(color);
+    let channels = channels(numbers(color));
     let sum: f32 = channels.iter().sum();
     if sum > 0.0 {
         channels.map(|channel| channel / sum)
@@ -59,6 +108,7 @@ pub(crate) fn shares(color: Yuv) -> [f32; 3] {
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
+    use crate::sampler::Sampler;
 
     pub(crate) const GREEN: [u8; 3] = [38, 128, 52];
 
@@ -89,6 +139,25 @@ pub(crate) mod tests {
             [0, 0, 0],
         ] {
             assert!(!field_color().matches(Yuv::from_rgb(color)), "{color:?}");
+        }
+    }
+
+    #[test]
+    fn many_pixels_at_once_are_as_each_by_itself() {
+        let color = field_color();
+        let mut numbers = Sampler::new();
+        for length in 0..=32 {
+            let mut byte = || numbers.pair(256).0 as u8;
+            let pairs: Vec<[u8; 4]> = (0..length)
+                .map(|_| std::array::from_fn(|_| byte()))
+                .collect();
+            let bits = color.matching(&pairs);
+            let pixels = pairs.iter().flat_map(|&[left, u, right, v]| {
+                [left, right].map(|y| color.matches(Yuv { y, u, v }))
+            });
+            let each = pixels.enumerate().map(|(index, is)| u64::from(is) << index);
+            assert_eq!(bits, each.sum::<u64>(), "{pairs:?}");
+            assert_eq!(length < 16, bits.count_ones() < 3, "{bits:x}");
         }
     }
 }

@@ -7,9 +7,13 @@ use nalgebra::Point2;
 /// Asked some hundred thousand times for an image: without a call, as `f32::round` is one where the processor need not have SSE4.1.
 #[inline]
 pub(crate) fn nearest_pixel(point: Point2<f32>) -> Option<(u32, u32)> {
-    let is_in = |value: f32| value > -0.5;
-    let pixel = |value: f32| (value + 0.5) as u32;
-    (is_in(point.x) && is_in(point.y)).then(|| (pixel(point.x), pixel(point.y)))
+    nearest(point.x).zip(nearest(point.y))
+}
+
+/// Column or row; `None` before the first.
+#[inline]
+pub(crate) fn nearest(place: f32) -> Option<u32> {
+    (place > -0.5).then_some((place + 0.5) as u32)
 }
 
 #[cfg(test)]

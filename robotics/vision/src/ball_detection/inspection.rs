@@ -12,8 +12,6 @@ use super::{BallClassifier, BallDetectionParameters, BallInspectionParameters};
 
 /// Rays on which the rim is looked for.
 const RAYS: usize = 32;
-/// Samples along the diameter of a disc.
-const SAMPLES: i32 = 13;
 /// So often the middle is looked for anew.
 const MOVES: usize = 3;
 
@@ -74,12 +72,16 @@ fn move_to_middle(
     for _ in 0..MOVES {
         let mut sum = Vector2::zeros();
         let mut count = 0.0;
-        for offset in disc(radius * inspection.first_disc) {
-            if view.is_field(center + offset) == Some(false) {
-                sum += offset;
-                count += 1.0;
-            }
-        }
+        view.visit_disc(
+            center,
+            radius * inspection.first_disc,
+            |offset, is_field| {
+                if is_field == Some(false) {
+                    sum += offset;
+                    count += 1.0;
+                }
+            },
+        );
         if count < inspection.least_samples.max(1) as f32 {
             return None;
         }
@@ -91,12 +93,12 @@ fn move_to_middle(
 /// The share of a disc that is field.
 fn field_inside(view: &View<'_>, center: Point2<f32>, radius: f32) -> f32 {
     let (mut field, mut count) = (0.0, 0.0);
-    for offset in disc(radius) {
+    view.visit_disc(center, radius, |_, is_field| {
         count += 1.0;
-        if view.is_field(center + offset) == Some(true) {
+        if is_field == Some(true) {
             field += 1.0;
         }
-    }
+    });
     field / count
 }
 
@@ -168,33 +170,25 @@ pub(super) fn is_printed(
     parameters: &BallDetectionParameters,
     circle: &Circle,
 ) -> bool {
-    let inside = || {
-        disc(circle.radius * parameters.inspection.print_disc).map(|offset| circle.center + offset)
-    };
-    let count = inside().count() as f32;
-    let field = inside()
-        .filter(|point| view.is_field(*point) == Some(true))
-        .count() as f32;
-    let brightest = inside()
-        .filter_map(|point| view.luminance(point))
-        .fold(0.0, f32::max);
+    let radius = circle.radius * parameters.inspection.print_disc;
+    let luminances = view.luminances(circle.center, radius);
+    let brightest = luminances.iter().copied().fold(0.0, f32::max);
     let bright = |luminance: f32| luminance > brightest * parameters.dark_limit;
-    let (dark_sum, dark, bright_sum, light) =
-        inside().filter_map(|point| view.luminance(point)).fold(
-            (0.0, 0.0, 0.0, 0.0),
-            |(dark_sum, dark, bright_sum, light), luminance| {
-                if bright(luminance) {
-                    (dark_sum, dark, bright_sum + luminance, light + 1.0)
-                } else {
-                    (dark_sum + luminance, dark + 1.0, bright_sum, light)
-                }
-            },
-        );
+    let (dark_sum, dark, bright_sum, light) = luminances.iter().fold(
+        (0.0, 0.0, 0.0, 0.0),
+        |(dark_sum, dark, bright_sum, light), luminance| {
+            if bright(*luminance) {
+                (dark_sum, dark, bright_sum + luminance, light + 1.0)
+            } else {
+                (dark_sum + luminance, dark + 1.0, bright_sum, light)
+            }
+        },
+    );
     if dark == 0.0 || light == 0.0 {
         return false;
     }
     let contrast = bright_sum / light - dark_sum / dark;
-    field / count <= parameters.most_field_inside
+    field_inside(view, circle.center, radius) <= parameters.most_field_inside
         && contrast >= parameters.least_contrast
         && (parameters.least_dark..parameters.most_dark).contains(&(dark / (dark + light)))
 }
@@ -206,18 +200,3 @@ static DIRECTIONS: LazyLock<[Vector2<f32>; RAYS]> = LazyLock::new(|| {
         Vector2::new(cosine, sine)
     })
 });
-
-/// Offsets that cover a disc with a radius of half the samples evenly.
-static DISC: LazyLock<Vec<Vector2<f32>>> = LazyLock::new(|| {
-    let half = SAMPLES / 2;
-    (-half..=half)
-        .flat_map(|y| (-half..=half).map(move |x| Vector2::new(x as f32, y as f32)))
-        .filter(|offset| offset.norm_squared() <= (half * half) as f32)
-        .collect()
-});
-
-/// Offsets that cover a disc evenly.
-fn disc(radius: f32) -> impl Iterator<Item = Vector2<f32>> {
-    let scale = radius / (SAMPLES / 2) as f32;
-    DISC.iter().map(move |offset| offset * scale)
-}

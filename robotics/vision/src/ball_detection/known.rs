@@ -58,6 +58,7 @@ mod tests {
     use types::image::YuyvImage;
 
     use super::*;
+    use crate::ball_detection::field_mask::FieldMask;
     use crate::field_color::tests::field_color;
     use crate::painting::{PROJECTION_NOISE, border_at, camera_matrix};
 
@@ -76,10 +77,11 @@ mod tests {
         to: f32,
     ) -> Option<(u32, u32)> {
         let matrix = camera_matrix(0.4);
+        let (image, color) = (YuyvImage::default(), field_color());
         let view = View {
-            image: &YuyvImage::default(),
+            image: &image,
             matrix: &matrix,
-            field_color: &field_color(),
+            field: &FieldMask::new(&image, &color),
             ball_radius: 0.05,
             noise: &PROJECTION_NOISE,
         };

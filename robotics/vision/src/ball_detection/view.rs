@@ -1,11 +1,12 @@
 //! The image with the knowledge of what is field and how large a ball would be where.
 
-use nalgebra::Point2;
+use nalgebra::{Point2, Vector2};
 use types::camera::CameraMatrix;
 use types::image::YuyvImage;
 use types::projection_noise::ProjectionNoise;
 
-use crate::field_color::FieldColor;
+use super::disc;
+use super::field_mask::FieldMask;
 use crate::nearest_pixel::nearest_pixel;
 
 /// An image, and what is known about it before anything is looked for.
@@ -13,7 +14,7 @@ use crate::nearest_pixel::nearest_pixel;
 pub(super) struct View<'a> {
     pub(super) image: &'a YuyvImage,
     pub(super) matrix: &'a CameraMatrix,
-    pub(super) field_color: &'a FieldColor,
+    pub(super) field: &'a FieldMask<'a>,
     /// In m.
     pub(super) ball_radius: f32,
     pub(super) noise: &'a ProjectionNoise,
@@ -23,15 +24,30 @@ impl View<'_> {
     /// Whether the nearest pixel shows the field; `None` outside of the image.
     pub(super) fn is_field(&self, point: Point2<f32>) -> Option<bool> {
         let (x, y) = nearest_pixel(point)?;
-        self.image
-            .yuv(x, y)
-            .map(|color| self.field_color.matches(color))
+        self.field.is_field(x, y)
     }
 
-    /// Luminance of the nearest pixel; `None` outside of the image.
-    pub(super) fn luminance(&self, point: Point2<f32>) -> Option<f32> {
-        let (x, y) = nearest_pixel(point)?;
-        self.image.luminance(x, y).map(f32::from)
+    /// Visits the samples of a disc: where they are from its middle, in px, and whether the pixel shows the field; `None` outside of the image.
+    #[inline]
+    pub(super) fn visit_disc(
+        &self,
+        center: Point2<f32>,
+        radius: f32,
+        mut visit: impl FnMut(Vector2<f32>, Option<bool>),
+    ) {
+        disc::visit(center, radius, |offset, pixel| {
+            visit(offset, pixel.and_then(|(x, y)| self.field.is_field(x, y)));
+        });
+    }
+
+    /// The luminances of what of a disc is in the image.
+    pub(super) fn luminances(&self, center: Point2<f32>, radius: f32) -> Vec<f32> {
+        let mut luminances = Vec::new();
+        disc::visit(center, radius, |_, pixel| {
+            let luminance = pixel.and_then(|(x, y)| self.image.luminance(x, y));
+            luminances.extend(luminance.map(f32::from));
+        });
+        luminances
     }
 
     /// Radius in px of a ball on the floor whose centre is seen there; `None` above the horizon.
