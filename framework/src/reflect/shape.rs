@@ -202,13 +202,33 @@ impl Shape {
     /// named, it is opaque.
     pub fn at(&self, path: &Path) -> Result<Self, UnknownPath> {
         let mut part = self.clone();
+        // What the next segment is looked for in: less than the part where it is a variant.
+        let mut open = None;
         for (position, segment) in path.segments().iter().enumerate() {
-            part = match part.child(segment) {
-                Some(child) => child,
-                None => return Err(UnknownPath::new(path, position, part.children())),
+            let from = open.as_ref().unwrap_or(&part);
+            let Some(child) = from.child(segment) else {
+                return Err(UnknownPath::new(path, position, from.children()));
             };
+            open = from.named_variant(segment);
+            part = child;
         }
         Ok(part)
+    }
+
+    /// The fields of the variant that has this name, which are parts of the enum itself.
+    fn named_variant(&self, segment: &Segment) -> Option<Self> {
+        match &self.content {
+            Content::Enum(variants) => {
+                let mut fields = variants
+                    .iter()
+                    .filter(|variant| matches!(variant.content, VariantContent::Fields(_)));
+                let named = fields.find(|variant| Some(variant.name) == segment.name())?;
+                named.inside(self)
+            }
+            Content::Option(inner) => inner.named_variant(segment),
+            Content::Recursive(expand) => expand().named_variant(segment),
+            _ => None,
+        }
     }
 
     fn child(&self, segment: &Segment) -> Option<Self> {

@@ -81,7 +81,30 @@ fn shape_of_value<P>(
     let (shape, below) = shape_of(instance, &access.subscriptions, &assertion.value)?;
     match below {
         "" => Some(Ok(shape)),
-        below => Some(shape.at(&below.parse::<Path>().ok()?)),
+        below => shape_below(&shape, &below.parse().ok()?),
+    }
+}
+
+/// Nothing where values may have more than their type tells.
+fn shape_below(shape: &Shape, path: &Path) -> Option<Result<Shape, UnknownPath>> {
+    let found = shape.at(path);
+    match &found {
+        Err(unknown) if ends_in_the_open(shape, unknown) => None,
+        _ => Some(found),
+    }
+}
+
+/// Whether values may have more, where the path leaves the type, than the type tells.
+fn ends_in_the_open(shape: &Shape, unknown: &UnknownPath) -> bool {
+    let last = shape.at(&unknown.path.prefix(unknown.position));
+    last.is_ok_and(|last| may_have_more(&last))
+}
+
+fn may_have_more(shape: &Shape) -> bool {
+    match &shape.content {
+        Content::Option(inner) => may_have_more(inner),
+        Content::Recursive(expand) => may_have_more(&expand()),
+        _ => shape.form == Form::Open || shape.is_opaque(),
     }
 }
 

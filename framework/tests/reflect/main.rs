@@ -578,9 +578,15 @@ fn a_shape_knows_paths_that_no_value_has_yet() {
             "motion.Unstiff",
             "no `Unstiff`: `motion` has `Kick`, `Look`, `Walk`",
         ),
+        (
+            "motion.Walk.radius",
+            "no `radius`: `motion.Walk` has `step`, `turn`",
+        ),
     ] {
         assert_eq!(shape.at(&path(text)).expect_err(text).to_string(), told);
     }
+    let walk = shape.at(&path("motion.Walk")).expect("is a variant");
+    assert_eq!(walk.type_name, Motion::shape().type_name);
 }
 
 #[test]

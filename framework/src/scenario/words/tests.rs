@@ -103,3 +103,30 @@ fn words_that_no_variant_has_are_told_with_the_nearest() {
         assert_eq!(told.as_deref(), Some(expected), "{toml}");
     }
 }
+
+#[derive(Deserialize, Reflect, Serialize)]
+struct Open {
+    side: Side,
+    #[serde(flatten)]
+    others: std::collections::BTreeMap<String, u32>,
+}
+
+#[test]
+fn paths_that_the_type_does_not_have_are_wrong_unless_it_may_have_more() {
+    let told = |shape: &Shape, path: &str| {
+        let path = path.parse().expect("is a path");
+        shape_below(shape, &path).map(|found| found.err().map(|unknown| unknown.to_string()))
+    };
+    let motion = Option::<Motion>::shape();
+    assert_eq!(told(&motion, "walk.side"), Some(None));
+    let wrong = told(&motion, "walk.sied").flatten();
+    assert_eq!(
+        wrong.as_deref(),
+        Some("no `sied`: `walk` has `side`")
+    );
+    assert_eq!(told(&Open::shape(), "side"), Some(None));
+    assert_eq!(told(&Open::shape(), "sied"), None);
+    assert_eq!(told(&Vec::<Option<Open>>::shape(), "0.sied"), None);
+    let opaque = Shape::leaf::<Side>(crate::reflect::Leaf::Opaque);
+    assert_eq!(told(&opaque, "side"), None);
+}
