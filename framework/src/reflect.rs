@@ -14,6 +14,7 @@ mod hashed;
 mod image;
 mod leaves;
 mod limits;
+mod lookup;
 mod nalgebra;
 mod pointers;
 mod resolved;

@@ -73,7 +73,7 @@ pub(crate) fn list(hub: &Hub, below: &str, depth: usize) -> Result<Vec<Entry>, S
             .ok_or_else(|| unknown(below, rest, place))?;
         let path: Path = rest.parse().map_err(|error| format!("{error}"))?;
         let part = shape
-            .at(&path)
+            .inside(&path)
             .map_err(|unknown| format!("`{below}`: {unknown}"))?;
         listing.below_shape(below, place.kind, &part, Told::default(), depth);
     }
@@ -457,18 +457,4 @@ fn short(type_name: &str) -> String {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::short;
-
-    #[test]
-    fn types_are_named_without_their_modules() {
-        for (long, expected) in [
-            ("f32", "f32"),
-            ("alloc::vec::Vec<types::ball::Ball>", "Vec<Ball>"),
-            ("core::option::Option<[f32; 3]>", "Option<[f32; 3]>"),
-            ("(a::B, &c::D)", "(B, &D)"),
-        ] {
-            assert_eq!(short(long), expected);
-        }
-    }
-}
+mod tests;

@@ -4,10 +4,10 @@ use std::cell::RefCell;
 
 use serde::Serialize;
 
-use super::{Children, Limits, Path, Pixels, Reflect, Segment, UnknownPath};
+use super::{Limits, Pixels, Reflect};
 
 /// The name of no type: variants differ there.
-const UNTOLD: &str = "";
+pub(super) const UNTOLD: &str = "";
 
 /// A type as its serde form shows it.
 #[derive(Clone, Debug, Serialize)]
@@ -196,133 +196,12 @@ impl Shape {
     pub fn is_opaque(&self) -> bool {
         matches!(self.content, Content::Leaf(Leaf::Opaque))
     }
-
-    /// The shape at a path, as far as a type can tell: every variant counts as active, every option as present, every
-    /// list as long enough and every map as having the key. Where variants differ in what they have there, and none is
-    /// named, it is opaque.
-    pub fn at(&self, path: &Path) -> Result<Self, UnknownPath> {
-        let mut part = self.clone();
-        // What the next segment is looked for in: less than the part where it is a variant.
-        let mut open = None;
-        for (position, segment) in path.segments().iter().enumerate() {
-            let from = open.as_ref().unwrap_or(&part);
-            let Some(child) = from.child(segment) else {
-                return Err(UnknownPath::new(path, position, from.children()));
-            };
-            open = from.named_variant(segment);
-            part = child;
-        }
-        Ok(part)
-    }
-
-    /// The fields of the variant that has this name, which are parts of the enum itself.
-    fn named_variant(&self, segment: &Segment) -> Option<Self> {
-        match &self.content {
-            Content::Enum(variants) => {
-                let mut fields = variants
-                    .iter()
-                    .filter(|variant| matches!(variant.content, VariantContent::Fields(_)));
-                let named = fields.find(|variant| Some(variant.name) == segment.name())?;
-                named.inside(self)
-            }
-            Content::Option(inner) => inner.named_variant(segment),
-            Content::Recursive(expand) => expand().named_variant(segment),
-            _ => None,
-        }
-    }
-
-    fn child(&self, segment: &Segment) -> Option<Self> {
-        match &self.content {
-            Content::Leaf(_) if self.type_name == UNTOLD => Some(self.clone()),
-            Content::Leaf(_) | Content::Set(_) => None,
-            Content::Option(inner) => inner.child(segment),
-            Content::List {
-                item,
-                length,
-                names,
-            } => {
-                let index = segment.position(names)?;
-                length
-                    .is_none_or(|length| index < length)
-                    .then(|| (**item).clone())
-            }
-            Content::Map(value) => Some((**value).clone()),
-            Content::Struct(fields) => {
-                let name = segment.name()?;
-                fields
-                    .iter()
-                    .find(|field| field.name == name)
-                    .map(|field| field.shape.clone())
-            }
-            Content::Tuple(items) => items.get(segment.index()?).cloned(),
-            Content::Enum(variants) => self.child_of_variants(variants, segment),
-            Content::Recursive(expand) => expand().child(segment),
-        }
-    }
-
-    fn child_of_variants(&self, variants: &[VariantShape], segment: &Segment) -> Option<Self> {
-        let named = variants
-            .iter()
-            .find(|variant| Some(variant.name) == segment.name());
-        match named.map(|variant| &variant.content) {
-            Some(VariantContent::Unit) => None,
-            Some(VariantContent::Value(shape)) => Some(shape.clone()),
-            Some(VariantContent::Fields(_)) => Some(self.clone()),
-            None => {
-                let mut found = variants
-                    .iter()
-                    .filter_map(|variant| variant.inside(self)?.child(segment));
-                let first = found.next()?;
-                if found.all(|other| other.type_name == first.type_name) {
-                    return Some(first);
-                }
-                Some(Self {
-                    type_name: UNTOLD,
-                    docs: "",
-                    content: Content::Leaf(Leaf::Opaque),
-                    form: Form::Plain,
-                    pixels: None,
-                })
-            }
-        }
-    }
-
-    fn children(&self) -> Children {
-        match &self.content {
-            Content::Leaf(_) | Content::Set(_) | Content::Map(_) => Children::default(),
-            Content::Option(inner) => inner.children(),
-            Content::List { length, names, .. } => Children {
-                indices: length.unwrap_or_default(),
-                ..Children::named(names.iter().copied())
-            },
-            Content::Struct(fields) => Children::named(fields.iter().map(|field| field.name)),
-            Content::Tuple(items) => Children::indexed(items.len()),
-            Content::Enum(variants) => {
-                let parts = variants.iter().filter(|variant| !variant.is_unit());
-                Children::named(parts.map(|variant| variant.name))
-            }
-            Content::Recursive(expand) => expand().children(),
-        }
-    }
 }
 
 impl VariantShape {
     /// Whether nothing is below it.
-    fn is_unit(&self) -> bool {
+    pub(super) fn is_unit(&self) -> bool {
         matches!(self.content, VariantContent::Unit)
-    }
-
-    /// What is found in an enum while the variant is active, without naming the variant.
-    fn inside(&self, whole: &Shape) -> Option<Shape> {
-        match &self.content {
-            VariantContent::Unit => None,
-            VariantContent::Value(shape) => Some(shape.clone()),
-            VariantContent::Fields(content) => Some(Shape {
-                content: content.clone(),
-                form: Form::Plain,
-                ..*whole
-            }),
-        }
     }
 }
 

@@ -13,7 +13,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use framework::Reflect;
-use framework::reflect::{Path, Reason, ResolvedPath, Segment, at, at_mut};
+use framework::reflect::{Content, Path, Reason, ResolvedPath, Segment, at, at_mut};
 use framework::time::Timestamp;
 use nalgebra::{
     Isometry2, Isometry3, Matrix2x3, Point2, Rotation2, Rotation3, Translation3, Unit, UnitComplex,
@@ -587,6 +587,80 @@ fn a_shape_knows_paths_that_no_value_has_yet() {
     }
     let walk = shape.at(&path("motion.Walk")).expect("is a variant");
     assert_eq!(walk.type_name, Motion::shape().type_name);
+}
+
+/// Names of variants are names of what is in others.
+#[derive(Clone, Debug, Deserialize, PartialEq, Reflect, Serialize)]
+enum Outer {
+    Idle,
+    Walk { fast: bool },
+    Kick(u32),
+    Other(Inner),
+    Moving(Motion),
+}
+
+#[derive(Clone, Debug, Deserialize, PartialEq, Reflect, Serialize)]
+enum Inner {
+    Idle { since: f32 },
+    Walk { step: Ball },
+    Kick { radius: f32 },
+    Twice(Box<Outer>),
+}
+
+/// Values of every variant, so deep.
+fn outers(depth: usize) -> Vec<Outer> {
+    let deeper = (depth > 0).then(|| outers(depth - 1)).unwrap_or_default();
+    let deeper = deeper
+        .into_iter()
+        .map(|outer| Inner::Twice(Box::new(outer)));
+    let flat = [
+        Inner::Idle { since: 0.5 },
+        Inner::Walk { step: ball() },
+        Inner::Kick { radius: 0.5 },
+    ];
+    let walk = Motion::Walk {
+        step: Vector2::new(1.0, 2.0),
+        turn: 0.5,
+    };
+    let inner = flat.into_iter().chain(deeper).map(Outer::Other);
+    let outer = [
+        Outer::Idle,
+        Outer::Walk { fast: true },
+        Outer::Kick(3),
+        Outer::Moving(Motion::Kick(ball())),
+        Outer::Moving(walk),
+    ];
+    inner.chain(outer).collect()
+}
+
+#[test]
+fn a_shape_has_every_path_that_some_value_has_and_no_other() {
+    let (values, shape) = (outers(4), Outer::shape());
+    let names = [
+        "Walk", "fast", "Kick", "Other", "Moving", "Idle", "since", "step", "radius", "Twice",
+    ];
+    let longer = |paths: &[String]| -> Vec<String> {
+        let below = |path: &String| names.map(|name| format!("{path}.{name}"));
+        paths.iter().flat_map(below).collect()
+    };
+    let one = names.map(str::to_owned);
+    let two = longer(&one);
+    let three = longer(&two);
+    let mut found = 0;
+    for text in one.iter().chain(&two).chain(&three) {
+        let is_there = |value: &Outer| at(value, &path(text)).is_ok();
+        let is_somewhere = values.iter().any(is_there);
+        found += usize::from(is_somewhere);
+        // A value finds itself below the name of its own variant as often as somebody likes.
+        let mut words = text.split('.').zip(text.split('.').skip(1));
+        if !words.any(|(upper, name)| upper == name) {
+            assert_eq!(shape.at(&path(text)).is_ok(), is_somewhere, "{text}");
+        }
+    }
+    assert!((50..1000).contains(&found), "{found}");
+    let inside = |text: &str| shape.inside(&path(text)).expect("is there").content;
+    assert!(matches!(inside("Moving"), Content::Enum(_)));
+    assert!(matches!(inside("Moving.Walk"), Content::Struct(fields) if fields.len() == 2));
 }
 
 #[test]

@@ -111,6 +111,20 @@ struct Open {
     others: std::collections::BTreeMap<String, u32>,
 }
 
+#[derive(Deserialize, Reflect, Serialize)]
+enum Kept {
+    Open(Open),
+    Not,
+}
+
+/// Lies in itself.
+#[derive(Deserialize, Reflect, Serialize)]
+enum Sum {
+    Number(f32),
+    Negative(Box<Sum>),
+    Both(Box<Sum>, Box<Sum>),
+}
+
 #[test]
 fn paths_that_the_type_does_not_have_are_wrong_unless_it_may_have_more() {
     let told = |shape: &Shape, path: &str| {
@@ -120,13 +134,13 @@ fn paths_that_the_type_does_not_have_are_wrong_unless_it_may_have_more() {
     let motion = Option::<Motion>::shape();
     assert_eq!(told(&motion, "walk.side"), Some(None));
     let wrong = told(&motion, "walk.sied").flatten();
-    assert_eq!(
-        wrong.as_deref(),
-        Some("no `sied`: `walk` has `side`")
-    );
+    assert_eq!(wrong.as_deref(), Some("no `sied`: `walk` has `side`"));
     assert_eq!(told(&Open::shape(), "side"), Some(None));
     assert_eq!(told(&Open::shape(), "sied"), None);
     assert_eq!(told(&Vec::<Option<Open>>::shape(), "0.sied"), None);
+    assert_eq!(told(&Option::<Kept>::shape(), "sied"), None);
+    assert_eq!(told(&Sum::shape(), "Both.0.Negative"), Some(None));
+    assert!(told(&Sum::shape(), "Both.0.sied").flatten().is_some());
     let opaque = Shape::leaf::<Side>(crate::reflect::Leaf::Opaque);
     assert_eq!(told(&opaque, "side"), None);
 }
