@@ -143,6 +143,7 @@ impl Children {
     pub fn and(mut self, other: Self) -> Self {
         self.names.extend(other.names);
         self.names.sort_unstable();
+        self.names.dedup();
         self.indices = self.indices.max(other.indices);
         self
     }

@@ -2,6 +2,8 @@
 
 mod meant;
 
+use std::collections::BTreeSet;
+
 use framework::OutputKind;
 use framework::procedure::CallAny;
 use framework::reflect::{Content, Limits, Path, Shape, VariantContent};
@@ -72,10 +74,16 @@ pub(crate) fn list(hub: &Hub, below: &str, depth: usize) -> Result<Vec<Entry>, S
             .as_ref()
             .ok_or_else(|| unknown(below, rest, place))?;
         let path: Path = rest.parse().map_err(|error| format!("{error}"))?;
-        let part = shape
+        let parts = shape
             .inside(&path)
             .map_err(|unknown| format!("`{below}`: {unknown}"))?;
-        listing.below_shape(below, place.kind, &part, Told::default(), depth);
+        for part in &parts {
+            listing.below_shape(below, place.kind, part, Told::default(), depth);
+        }
+        let mut listed = BTreeSet::new();
+        listing
+            .entries
+            .retain(|entry| listed.insert(entry.path.clone()));
     }
     if listing.is_full() {
         let most = listing.most;
@@ -318,8 +326,11 @@ impl Listing {
         let inside = Told { docs: "", ..told };
         match &shape.content {
             Content::Leaf(_) | Content::Set(_) | Content::Map(_) => {}
-            Content::Option(inner) => self.below_shape(path, kind, inner, told, depth),
-            Content::Recursive(expand) => self.below_shape(path, kind, &expand(), told, depth),
+            Content::Option(_) | Content::Recursive(_) => {
+                if let Some(opened) = shape.opened() {
+                    self.below_shape(path, kind, &opened, told, depth);
+                }
+            }
             Content::Struct(fields) => {
                 for field in fields {
                     let told = Told {

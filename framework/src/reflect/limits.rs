@@ -69,8 +69,12 @@ impl Search {
     fn look(&mut self, shape: &Shape, value: &Value, limits: Option<Limits>) {
         match (&shape.content, value) {
             (Content::Leaf(leaf), _) => self.judge(*leaf, value, limits),
-            (Content::Option(_), Value::Null) => {}
-            (Content::Option(inner), _) => self.look(inner, value, limits),
+            (Content::Option(_) | Content::Recursive(_), Value::Null) => {}
+            (Content::Option(_) | Content::Recursive(_), _) => {
+                if let Some(opened) = shape.opened() {
+                    self.look(&opened, value, limits);
+                }
+            }
             (Content::List { item, .. } | Content::Set(item), Value::Array(items)) => {
                 for (index, value) in items.iter().enumerate() {
                     self.below(&index.to_string(), item, value, limits);
@@ -94,7 +98,6 @@ impl Search {
                 }
             }
             (Content::Enum(variants), _) => self.look_into_variant(shape, variants, value, limits),
-            (Content::Recursive(expand), _) => self.look(&expand(), value, limits),
             _ => {}
         }
     }

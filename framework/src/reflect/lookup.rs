@@ -1,7 +1,7 @@
 //! Finds what a path leads to in values of a type, without one: everything that it may, as variants differ.
 //!
-//! Invariant: what a value has at a path is among what is found; [`Reflect::child`](super::Reflect::child) of an enum looks for
-//! the active variant's name, and else in that variant.
+//! Invariant: what a value has at a path is among what is found. [`Reflect::child`](super::Reflect::child) of an enum looks for
+//! the active variant's name, and else in that variant; one with fields finds itself below its name, as often as it is named.
 
 use super::shape::UNTOLD;
 use super::{Children, Content, Form, Leaf, Path, Segment, Shape, UnknownPath};
@@ -17,7 +17,7 @@ struct Place {
 /// What is searched for one segment.
 struct Search<'a> {
     segment: &'a Segment,
-    /// Enums, and types that lie in themselves, which are being looked into: a segment later they may come again.
+    /// Enums, and types that lie in themselves (`true`), that were looked into.
     entered: Vec<(&'static str, bool)>,
     found: Vec<Place>,
 }
@@ -31,10 +31,34 @@ impl Shape {
         Ok(only(places.into_iter().map(|place| place.part)))
     }
 
-    /// As [`Self::at`]; of a variant with fields that the path names, its fields: what the next segment is looked for in.
-    pub fn inside(&self, path: &Path) -> Result<Self, UnknownPath> {
+    /// Everything that the next segment of a path may be looked for in: of a variant with fields that the path names, these.
+    pub fn inside(&self, path: &Path) -> Result<Vec<Self>, UnknownPath> {
         let places = self.places(path)?;
-        Ok(only(places.into_iter().map(Place::into_inside)))
+        Ok(places.into_iter().map(Place::into_inside).collect())
+    }
+
+    /// Whether values may have more at a path than the type tells.
+    pub(crate) fn may_have_more_at(&self, path: &Path) -> bool {
+        let places = self.places(path).unwrap_or_default();
+        places
+            .iter()
+            .any(|place| place.part.may_have_more(&mut Vec::new()))
+    }
+
+    fn may_have_more(&self, expanded: &mut Vec<&'static str>) -> bool {
+        match &self.content {
+            _ if self.form == Form::Open || self.is_opaque() => true,
+            Content::Option(inner) => inner.may_have_more(expanded),
+            Content::Enum(variants) => variants.iter().any(|variant| match &variant.content {
+                VariantContent::Value(inner) => inner.may_have_more(expanded),
+                VariantContent::Unit | VariantContent::Fields(_) => false,
+            }),
+            Content::Recursive(expand) if !expanded.contains(&self.type_name) => {
+                expanded.push(self.type_name);
+                expand().may_have_more(expanded)
+            }
+            _ => false,
+        }
     }
 
     fn places(&self, path: &Path) -> Result<Vec<Place>, UnknownPath> {
@@ -49,7 +73,7 @@ impl Shape {
                 found: Vec::new(),
             };
             for place in &places {
-                search.look(place.inside());
+                search.look_at(place);
             }
             if search.found.is_empty() {
                 let children = places.iter().map(|place| place.inside().children());
@@ -62,9 +86,10 @@ impl Shape {
     }
 
     fn children(&self) -> Children {
-        match &self.content {
-            Content::Leaf(_) | Content::Set(_) | Content::Map(_) => Children::default(),
-            Content::Option(inner) => inner.children(),
+        let Some(opened) = self.opened() else {
+            return Children::default();
+        };
+        match &opened.content {
             Content::List { length, names, .. } => Children {
                 indices: length.unwrap_or_default(),
                 ..Children::named(names.iter().copied())
@@ -75,7 +100,7 @@ impl Shape {
                 let parts = variants.iter().filter(|variant| !variant.is_unit());
                 Children::named(parts.map(|variant| variant.name))
             }
-            Content::Recursive(expand) => expand().children(),
+            _ => Children::default(),
         }
     }
 }
@@ -90,17 +115,19 @@ impl Place {
     fn into_inside(self) -> Shape {
         self.variant.map_or(self.part, |(_, fields)| fields)
     }
-
-    fn is_as(&self, other: &Self) -> bool {
-        let key = |place: &Self| {
-            let variant = place.variant.as_ref().map(|(name, _)| *name);
-            (place.part.type_name, place.part.is_opaque(), variant)
-        };
-        key(self) == key(other)
-    }
 }
 
 impl Search<'_> {
+    fn look_at(&mut self, place: &Place) {
+        match &place.variant {
+            // The variant finds itself.
+            Some((name, fields)) if self.segment.name() == Some(name) => {
+                self.add(&place.part, Some((name, fields)));
+            }
+            _ => self.look(place.inside()),
+        }
+    }
+
     fn look(&mut self, shape: &Shape) {
         match &shape.content {
             Content::Leaf(_) | Content::Set(_) => {}
@@ -113,31 +140,36 @@ impl Search<'_> {
                 let index = self.segment.position(names);
                 let is_there = |index| length.is_none_or(|length| index < length);
                 if index.is_some_and(is_there) {
-                    self.find(item);
+                    self.add(item, None);
                 }
             }
-            Content::Map(value) => self.find(value),
+            Content::Map(value) => self.add(value, None),
             Content::Struct(fields) => {
                 let mut fields = fields.iter();
                 let named = fields.find(|field| Some(field.name) == self.segment.name());
                 if let Some(field) = named {
-                    self.find(&field.shape);
+                    self.add(&field.shape, None);
                 }
             }
             Content::Tuple(items) => {
                 let index = self.segment.index();
                 if let Some(item) = index.and_then(|index| items.get(index)) {
-                    self.find(item);
+                    self.add(item, None);
                 }
             }
-            Content::Enum(variants) => self.enter(shape.type_name, false, |search| {
-                for variant in variants {
-                    search.look_at_variant(shape, variant);
+            Content::Enum(variants) => {
+                if self.enter(shape.type_name, false) {
+                    for variant in variants {
+                        self.look_at_variant(shape, variant);
+                    }
                 }
-            }),
-            Content::Recursive(expand) => self.enter(shape.type_name, true, |search| {
-                search.look(&expand());
-            }),
+            }
+            Content::Recursive(expand) => {
+                let is_known = self.entered.contains(&(shape.type_name, false));
+                if !is_known && self.enter(shape.type_name, true) {
+                    self.look(&expand());
+                }
+            }
         }
     }
 
@@ -145,41 +177,39 @@ impl Search<'_> {
         let is_named = Some(variant.name) == self.segment.name();
         match (&variant.content, is_named) {
             (VariantContent::Unit, _) => {}
-            (VariantContent::Value(shape), true) => self.find(shape),
+            (VariantContent::Value(shape), true) => self.add(shape, None),
             (VariantContent::Value(shape), false) => self.look(shape),
-            (VariantContent::Fields(content), true) => self.add(Place {
-                part: whole.clone(),
-                variant: Some((variant.name, fields_of(whole, content))),
-            }),
+            (VariantContent::Fields(content), true) => {
+                self.add(whole, Some((variant.name, &fields_of(whole, content))));
+            }
             (VariantContent::Fields(content), false) => self.look(&fields_of(whole, content)),
         }
     }
 
-    fn enter(
-        &mut self,
-        type_name: &'static str,
-        lies_in_itself: bool,
-        look: impl FnOnce(&mut Self),
-    ) {
-        let key = (type_name, lies_in_itself);
-        if !self.entered.contains(&key) {
+    // What was looked into before has nothing more for this segment.
+    fn enter(&mut self, type_name: &'static str, is_expanded: bool) -> bool {
+        let key = (type_name, is_expanded);
+        let is_new = !self.entered.contains(&key);
+        if is_new {
             self.entered.push(key);
-            look(self);
-            self.entered.pop();
         }
-    }
-
-    fn find(&mut self, part: &Shape) {
-        self.add(Place {
-            part: part.clone(),
-            variant: None,
-        });
+        is_new
     }
 
     // Each once: else what lies in itself would become more with each segment.
-    fn add(&mut self, place: Place) {
-        if !self.found.iter().any(|found| found.is_as(&place)) {
-            self.found.push(place);
+    fn add(&mut self, part: &Shape, variant: Option<(&'static str, &Shape)>) {
+        let name = |variant: Option<(&'static str, &Shape)>| variant.map(|(name, _)| name);
+        let is_there = self.found.iter().any(|place| {
+            let there = place.variant.as_ref().map(|(name, _)| *name);
+            there == name(variant)
+                && place.part.type_name == part.type_name
+                && place.part.is_opaque() == part.is_opaque()
+        });
+        if !is_there {
+            self.found.push(Place {
+                part: part.clone(),
+                variant: variant.map(|(name, fields)| (name, fields.clone())),
+            });
         }
     }
 }

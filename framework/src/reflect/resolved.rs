@@ -70,9 +70,9 @@ impl ResolvedPath {
 }
 
 fn resolve(shape: &Shape, segment: &Segment) -> Segment {
+    let opened = shape.opened();
+    let shape = opened.as_deref().unwrap_or(shape);
     let resolved = match &shape.content {
-        Content::Option(inner) => return resolve(inner, segment),
-        Content::Recursive(expand) => return resolve(&expand(), segment),
         Content::Struct(fields) if shape.form.is_plain() => {
             let position = fields
                 .iter()

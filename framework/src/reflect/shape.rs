@@ -1,5 +1,6 @@
 //! What values of a type look like, without a value: for lists of paths, schemas and editors.
 
+use std::borrow::Cow;
 use std::cell::RefCell;
 
 use serde::Serialize;
@@ -190,6 +191,32 @@ impl Shape {
     /// The shape of `T`, which has no parts.
     pub fn leaf<T>(leaf: Leaf) -> Self {
         Self::new::<T>(Content::Leaf(leaf))
+    }
+
+    /// What there is inside of all options and types that lie in themselves; `None` of an option of itself.
+    pub fn opened(&self) -> Option<Cow<'_, Self>> {
+        let mut shape = Cow::Borrowed(self);
+        let mut expanded = Vec::new();
+        loop {
+            shape = match shape {
+                Cow::Borrowed(Self {
+                    content: Content::Option(inner),
+                    ..
+                }) => Cow::Borrowed(inner),
+                Cow::Owned(Self {
+                    content: Content::Option(inner),
+                    ..
+                }) => Cow::Owned(*inner),
+                other => match other.content {
+                    Content::Recursive(_) if expanded.contains(&other.type_name) => return None,
+                    Content::Recursive(expand) => {
+                        expanded.push(other.type_name);
+                        Cow::Owned(expand())
+                    }
+                    _ => return Some(other),
+                },
+            };
+        }
     }
 
     /// Whether the type does not tell what its values look like.

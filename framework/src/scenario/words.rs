@@ -9,7 +9,7 @@ use super::assertion::{Assertion, Condition};
 use crate::cycler::Instance;
 use crate::parameters::{Fault, Origin, ParameterError, nearest};
 use crate::recorded::shape_of;
-use crate::reflect::{Content, Form, Path, Shape, UnknownPath, VariantContent, VariantShape};
+use crate::reflect::{Content, Form, Path, Shape, UnknownPath, VariantContent};
 use crate::robot::Robot;
 
 /// An assertion, counted from 0, with a path that never leads to a value, or a word that its value never is.
@@ -89,38 +89,16 @@ fn shape_of_value<P>(
 fn shape_below(shape: &Shape, path: &Path) -> Option<Result<Shape, UnknownPath>> {
     let found = shape.at(path);
     match &found {
-        Err(unknown) if ends_in_the_open(shape, unknown) => None,
+        Err(unknown) if shape.may_have_more_at(&path.prefix(unknown.position)) => None,
         _ => Some(found),
-    }
-}
-
-/// Whether values may have more, where the path leaves the type, than the type tells.
-fn ends_in_the_open(shape: &Shape, unknown: &UnknownPath) -> bool {
-    let last = shape.at(&unknown.path.prefix(unknown.position));
-    last.is_ok_and(|last| may_have_more(&last, false))
-}
-
-fn may_have_more(shape: &Shape, is_again: bool) -> bool {
-    let may_in_variant = |variant: &VariantShape| match &variant.content {
-        VariantContent::Value(inner) => may_have_more(inner, is_again),
-        VariantContent::Unit | VariantContent::Fields(_) => false,
-    };
-    match &shape.content {
-        _ if shape.form == Form::Open || shape.is_opaque() => true,
-        Content::Option(inner) => may_have_more(inner, is_again),
-        Content::Enum(variants) => variants.iter().any(may_in_variant),
-        // Within itself it has been asked already.
-        Content::Recursive(expand) => !is_again && may_have_more(&expand(), true),
-        _ => false,
     }
 }
 
 /// What is wrong with the first word in a value that its type does not have.
 fn wrong_word(shape: &Shape, wanted: &Value) -> Option<String> {
     match (&shape.content, wanted) {
-        (Content::Recursive(expand), _) => wrong_word(&expand(), wanted),
-        (Content::Option(_), Value::Null) => None,
-        (Content::Option(inner), _) => wrong_word(inner, wanted),
+        (Content::Option(_) | Content::Recursive(_), Value::Null) => None,
+        (Content::Option(_) | Content::Recursive(_), _) => wrong_word(&*shape.opened()?, wanted),
         (Content::List { item, .. } | Content::Set(item), Value::Array(values)) => {
             values.iter().find_map(|value| wrong_word(item, value))
         }

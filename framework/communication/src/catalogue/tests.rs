@@ -46,7 +46,7 @@ fn listed(path: &str, shape: &Shape, depth: usize) -> Vec<String> {
 #[test]
 fn lists_level_by_level_have_what_the_whole_list_has_and_all_of_it_is_there() {
     let shape = Option::<Phase>::shape();
-    let all = listed("phase", &shape, 9);
+    let mut all = listed("phase", &shape, 9);
     let mut found: Vec<String> = Vec::new();
     let mut next = vec!["phase".to_owned()];
     while let Some(path) = next.pop() {
@@ -57,12 +57,12 @@ fn lists_level_by_level_have_what_the_whole_list_has_and_all_of_it_is_there() {
             .expect("it is a path");
         let inside = shape.inside(&below).expect("it is listed, so it is there");
         assert!(shape.at(&below).is_ok(), "{path}");
-        next.extend(listed(&path, &inside, 1));
+        next.extend(inside.iter().flat_map(|shape| listed(&path, shape, 1)));
         found.push(path);
+        assert!(found.len() < 100, "{found:?}");
     }
     found.retain(|path| path != "phase");
     found.sort();
-    let mut all = all;
     all.sort();
     assert_eq!(found, all);
     assert!(found.contains(&"phase.Walk.side.is_left".to_owned()));

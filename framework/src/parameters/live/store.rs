@@ -144,12 +144,8 @@ fn whole(message: impl ToString) -> Refusals {
 
 /// Whether layers merge it key by key.
 fn is_table(shape: &Shape) -> bool {
-    match &shape.content {
-        Content::Struct(_) | Content::Map(_) => true,
-        Content::Option(inner) => is_table(inner),
-        Content::Recursive(expand) => is_table(&expand()),
-        _ => false,
-    }
+    let opened = shape.opened();
+    opened.is_some_and(|opened| matches!(opened.content, Content::Struct(_) | Content::Map(_)))
 }
 
 /// Up to the first part on the way that layers replace whole.
