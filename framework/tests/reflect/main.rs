@@ -609,7 +609,10 @@ enum Inner {
 
 /// Values of every variant, so deep.
 fn outers(depth: usize) -> Vec<Outer> {
-    let deeper = (depth > 0).then(|| outers(depth - 1)).unwrap_or_default();
+    let deeper = match depth {
+        0 => Vec::new(),
+        depth => outers(depth - 1),
+    };
     let deeper = deeper
         .into_iter()
         .map(|outer| Inner::Twice(Box::new(outer)));
