@@ -5,6 +5,7 @@ use std::fmt;
 use serde::Serialize;
 use serde_json::Value;
 
+use super::lookup::fields_of;
 use super::{Content, Form, Leaf, Shape, VariantContent, VariantShape};
 
 /// An interval of numbers; a bound that is not there does not limit.
@@ -127,11 +128,7 @@ impl Search {
         let inside = match &variant.content {
             VariantContent::Unit => return,
             VariantContent::Value(inside) => inside.clone(),
-            VariantContent::Fields(fields) => Shape {
-                content: fields.clone(),
-                form: Form::Plain,
-                ..*shape
-            },
+            VariantContent::Fields(fields) => fields_of(shape, fields),
         };
         match shape.form {
             Form::Tagged { .. } => self.look(&inside, content, limits),

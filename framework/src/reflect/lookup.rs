@@ -215,7 +215,7 @@ impl Search<'_> {
 }
 
 /// What is found in an enum while the variant with that content is active.
-fn fields_of(whole: &Shape, content: &Content) -> Shape {
+pub(super) fn fields_of(whole: &Shape, content: &Content) -> Shape {
     Shape {
         content: content.clone(),
         form: Form::Plain,
