@@ -39,10 +39,7 @@ pub(super) type Removed = Vec<(String, Origin)>;
 
 /// The tree of one file.
 pub(super) fn parse(path: &str, text: &str) -> Result<Tree, ParameterError> {
-    let lines = Lines {
-        path: path.into(),
-        text,
-    };
+    let lines = Lines::new(path, text);
     let table = DeTable::parse(text).map_err(|error| {
         let start = error.span().map_or(0, |span| span.start);
         ParameterError::new(lines.origin(start), "", error.message())
@@ -274,19 +271,22 @@ fn below(path: &str, key: &str) -> String {
 }
 
 /// Finds the line of a place in one file.
-struct Lines<'text> {
+struct Lines {
     path: Arc<str>,
-    text: &'text str,
+    /// Where lines end, in order: the text has thousands of values, each of which asks for its line.
+    ends: Vec<usize>,
 }
 
-impl Lines<'_> {
+impl Lines {
+    fn new(path: &str, text: &str) -> Self {
+        Self {
+            path: path.into(),
+            ends: text.match_indices('\n').map(|(end, _)| end).collect(),
+        }
+    }
+
     fn origin(&self, start: usize) -> Origin {
-        let before = self
-            .text
-            .as_bytes()
-            .get(..start)
-            .unwrap_or(self.text.as_bytes());
-        let line = 1 + before.iter().filter(|byte| **byte == b'\n').count();
+        let line = 1 + self.ends.partition_point(|end| *end < start);
         Origin::File {
             path: self.path.clone(),
             line,
