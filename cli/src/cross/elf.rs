@@ -204,15 +204,15 @@ pub(super) mod tests {
 
     #[test]
     fn whatever_the_bytes_are_reading_ends() {
-        let whole = own();
-        for length in (0..2000).chain([whole.len() / 2, whole.len() - 1]) {
-            let _ = Elf::read(&whole[..length]);
+        let mut bytes = own();
+        for length in (0..2000).chain([bytes.len() / 2, bytes.len() - 1]) {
+            let _ = Elf::read(&bytes[..length]);
         }
         // The headers, byte by byte.
         for at in 0..1200 {
-            let mut wrong = whole.clone();
-            wrong[at] ^= 0xff;
-            let _ = Elf::read(&wrong);
+            bytes[at] ^= 0xff;
+            let _ = Elf::read(&bytes);
+            bytes[at] ^= 0xff;
         }
         assert!(Elf::read(b"#!/bin/sh\n").is_err());
     }
