@@ -343,3 +343,20 @@ impl Lines {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_end_of_a_line_belongs_to_it() {
+        let text = "\na = 1\n\nb = 2\r\nc = 3";
+        let lines = Lines::new("default.toml", text);
+        for start in 0..=text.len() {
+            let before = text.bytes().take(start);
+            let line = 1 + before.filter(|byte| *byte == b'\n').count();
+            let place = format!("default.toml:{line}");
+            assert_eq!(lines.origin(start).to_string(), place, "{start}");
+        }
+    }
+}
