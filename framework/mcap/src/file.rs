@@ -1,15 +1,19 @@
 //! An MCAP file that is being written.
 
+mod chunk;
 mod end;
 
-use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
-use std::io::{self, SeekFrom, Write as _};
+use std::io::{self, SeekFrom};
 use std::path::Path;
 
-use crate::format::{MAGIC, Put, RECORD_HEAD, Take, opcode};
+use crate::format::{MAGIC, Put, Take, opcode};
 use crate::ring::Ring;
 use crate::storage::{Storage, is_full};
+
+pub(crate) use chunk::ChunkIndex;
+
+use chunk::OpenChunk;
 
 /// What there is to say before anything was recorded.
 #[derive(Clone, Debug, Default)]
@@ -71,44 +75,17 @@ pub struct Attachment {
     pub data: Vec<u8>,
 }
 
-/// A chunk that lies in the file.
-#[derive(Clone, Debug)]
-pub(crate) struct ChunkIndex {
-    pub(crate) start: u64,
-    /// Of the chunk's record.
-    length: u64,
-    /// Of the records that list its messages.
-    index_length: u64,
-    times: (u64, u64),
-    compressed: u64,
-    uncompressed: u64,
-    /// Where the list of each channel's messages lies, and how many there are.
-    lists: BTreeMap<u16, (u64, u64)>,
-}
-
-impl ChunkIndex {
-    /// With the lists of its messages.
-    pub(crate) fn bytes(&self) -> u64 {
-        self.length + self.index_length
-    }
-}
-
 /// The writing end of a file.
 #[derive(Debug)]
 pub struct Writer {
     file: Box<dyn Storage>,
     position: u64,
     description: Description,
-    chunk: Vec<u8>,
-    times: Option<(u64, u64)>,
-    messages: BTreeMap<u16, Vec<(u64, u64)>>,
-    /// What stands once per chunk and is in this one.
-    known: BTreeSet<(u16, u32)>,
+    chunk: OpenChunk,
     ring: Ring,
     /// Offset and length of metadata, by name.
     metadata: Vec<(u64, u64, String)>,
     attachments: Vec<(u64, u64, usize)>,
-    buffer: Vec<u8>,
 }
 
 impl Writer {
@@ -124,14 +101,10 @@ impl Writer {
             file,
             position: 0,
             description,
-            chunk: Vec::new(),
-            times: None,
-            messages: BTreeMap::new(),
-            known: BTreeSet::new(),
+            chunk: OpenChunk::new(),
             ring: Ring::new(budget),
             metadata: Vec::new(),
             attachments: Vec::new(),
-            buffer: Vec::new(),
         };
         writer.write_head()?;
         Ok(writer)
@@ -195,15 +168,11 @@ impl Writer {
             else {
                 break;
             };
-            if self.once_per_chunk(number) && !self.known.insert((number, sequence)) {
+            if self.once_per_chunk(number) && !self.chunk.is_new(number, sequence) {
                 continue;
             }
-            let place = (time, self.chunk.len() as u64);
-            self.messages.entry(number).or_default().push(place);
-            let (first, last) = self.times.unwrap_or((time, time));
-            self.times = Some((first.min(time), last.max(time)));
             let record = before.len() - rest.0.len();
-            self.chunk.extend_from_slice(&before[..record]);
+            self.chunk.add(&before[..record], number, time);
         }
     }
 
@@ -215,40 +184,17 @@ impl Writer {
 
     /// Bytes of the chunk that is open, not compressed.
     pub fn open_bytes(&self) -> usize {
-        self.chunk.len()
+        self.chunk.bytes()
     }
 
     /// Writes the open chunk; on an error nothing of it counts. It is empty afterwards in either case. Older chunks may have
     /// gone for it: [`kept_chunks`](Self::kept_chunks).
     pub fn close_chunk(&mut self) -> io::Result<()> {
-        let messages = std::mem::take(&mut self.messages);
-        self.known.clear();
-        let Some(times) = self.times.take() else {
+        let Some((index, bytes)) = self.chunk.close(self.position)? else {
             return Ok(());
         };
-        let mut buffer = std::mem::take(&mut self.buffer);
-        buffer.clear();
-        let mut index = put_chunk(&mut buffer, &self.chunk, times);
-        index.start = self.position;
-        index.length = buffer.len() as u64;
-        self.chunk.clear();
-        for (number, mut places) in messages {
-            places.sort_unstable();
-            let offset = self.position + buffer.len() as u64;
-            index.lists.insert(number, (offset, places.len() as u64));
-            buffer.put_record(opcode::MESSAGE_INDEX, |content| {
-                content.put_u16(number);
-                content.put_list(|list| {
-                    for (time, offset) in places {
-                        list.put_u64(time);
-                        list.put_u64(offset);
-                    }
-                });
-            });
-        }
-        index.index_length = buffer.len() as u64 - index.length;
-        let written = self.append_chunk(&buffer);
-        self.buffer = buffer;
+        let written = self.append_chunk(&bytes);
+        self.chunk.begin(bytes);
         written?;
         self.ring.add(&mut *self.file, index);
         Ok(())
@@ -319,57 +265,5 @@ fn put_attachment(out: &mut Vec<u8>, attachment: &Attachment) {
         content.extend_from_slice(&attachment.data);
         let sum = crc32fast::hash(&content[start..]);
         content.put_u32(sum);
-    });
-}
-
-/// One chunk of these messages; what lies where is not known yet.
-fn put_chunk(out: &mut Vec<u8>, messages: &[u8], times: (u64, u64)) -> ChunkIndex {
-    let mut encoder = lz4_flex::frame::FrameEncoder::new(Vec::new());
-    // Writing into memory does not fail.
-    let compressed = encoder
-        .write_all(messages)
-        .ok()
-        .and_then(|()| encoder.finish().ok());
-    let (compression, records) = match &compressed {
-        Some(compressed) => ("lz4", compressed.as_slice()),
-        None => ("", messages),
-    };
-    out.reserve(records.len() + RECORD_HEAD + 64);
-    out.put_record(opcode::CHUNK, |content| {
-        content.put_u64(times.0);
-        content.put_u64(times.1);
-        content.put_u64(messages.len() as u64);
-        content.put_u32(crc32fast::hash(messages));
-        content.put_text(compression);
-        content.put_u64(records.len() as u64);
-        content.extend_from_slice(records);
-    });
-    ChunkIndex {
-        start: 0,
-        length: 0,
-        index_length: 0,
-        times,
-        compressed: records.len() as u64,
-        uncompressed: messages.len() as u64,
-        lists: BTreeMap::new(),
-    }
-}
-
-fn put_chunk_index(out: &mut Vec<u8>, chunk: &ChunkIndex) {
-    out.put_record(opcode::CHUNK_INDEX, |content| {
-        content.put_u64(chunk.times.0);
-        content.put_u64(chunk.times.1);
-        content.put_u64(chunk.start);
-        content.put_u64(chunk.length);
-        content.put_list(|map| {
-            for (channel, (offset, _)) in &chunk.lists {
-                map.put_u16(*channel);
-                map.put_u64(*offset);
-            }
-        });
-        content.put_u64(chunk.index_length);
-        content.put_text("lz4");
-        content.put_u64(chunk.compressed);
-        content.put_u64(chunk.uncompressed);
     });
 }

@@ -9,6 +9,13 @@ pub const RECORD_HEAD: usize = 9;
 /// Bytes of a message before its data: channel, sequence, two times.
 pub const MESSAGE_HEAD: usize = 2 + 4 + 8 + 8;
 
+/// How chunks of ours are compressed, as readers call it.
+pub(crate) const COMPRESSION: &str = "lz4";
+
+/// Bytes of a chunk before its messages: the first and the last time, how many bytes they are and their check sum, how they are
+/// compressed, and how many bytes they are then.
+pub(crate) const CHUNK_HEAD: usize = 8 + 8 + 8 + 4 + (4 + COMPRESSION.len()) + 8;
+
 /// Kinds of records.
 pub mod opcode {
     pub const HEADER: u8 = 0x01;
@@ -134,5 +141,52 @@ impl<'a> Take<'a> {
         let opcode = self.u8()?;
         let length = usize::try_from(self.u64()?).ok()?;
         Some((opcode, self.bytes(length)?))
+    }
+}
+
+/// The first of these messages that have so many bytes together, and the others.
+pub fn split_messages(messages: &[u8], bytes: usize) -> (&[u8], &[u8]) {
+    let mut rest = Take(messages);
+    while rest.record().is_some() {
+        let end = messages.len() - rest.0.len();
+        if end >= bytes {
+            return messages.split_at(end);
+        }
+    }
+    (messages, &[])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn messages_are_split_behind_whole_ones() {
+        let mut messages = Vec::new();
+        for length in [10, 1000, 20] {
+            messages.put_record(opcode::MESSAGE, |content| content.extend(vec![7; length]));
+        }
+        let ends = [19, 1028, 1057];
+        for (bytes, end) in [
+            (0, 0),
+            (19, 0),
+            (20, 1),
+            (1028, 1),
+            (1029, 2),
+            (1057, 2),
+            (9999, 2),
+        ] {
+            let split = messages.split_at(ends[end]);
+            assert_eq!(split_messages(&messages, bytes), split, "{bytes}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_whole_message_stays_with_what_is_before_it() {
+        let mut messages = Vec::new();
+        messages.put_record(opcode::MESSAGE, |content| content.extend([7; 10]));
+        let cut = &messages[..12];
+        assert_eq!(split_messages(cut, 5), (cut, &[][..]));
+        assert_eq!(split_messages(&[], 5), (&[][..], &[][..]));
     }
 }

@@ -3,7 +3,7 @@
 use std::io;
 
 use crate::file::Metadata;
-use crate::format::{MAGIC, RECORD_HEAD, Take, opcode};
+use crate::format::{CHUNK_HEAD, COMPRESSION, MAGIC, RECORD_HEAD, Take, opcode};
 use crate::open::{ChunkPlace, Contents, Source};
 use crate::read::{self, Chunk, ReadError, Way};
 
@@ -12,9 +12,6 @@ const END: u64 = RECORD_HEAD as u64 + 8 + 8 + 4 + MAGIC.len() as u64;
 
 /// No record that is read whole is larger; chunks of ours have 4 MiB.
 const LARGEST: u64 = 1 << 30;
-
-/// Bytes of a chunk before its messages, which are compressed: times, length, check sum, how, and how many bytes that is.
-const CHUNK_HEAD: u64 = 8 + 8 + 8 + 4 + (4 + 3) + 8;
 
 /// The name of the metadata that counts chunks that the ring closed over.
 pub(crate) const RING: &str = "ring";
@@ -162,7 +159,10 @@ fn scan_record(
     let Some(next) = start.checked_add(length).filter(|next| *next <= end) else {
         return Ok(None);
     };
-    let kind = match is_chunk(&source.read_at(start, length.min(CHUNK_HEAD))?, length) {
+    let kind = match is_chunk(
+        &source.read_at(start, length.min(CHUNK_HEAD as u64))?,
+        length,
+    ) {
         true => opcode::CHUNK,
         false if kind == 0 => return Ok(None),
         false => kind,
@@ -205,8 +205,8 @@ fn scan_record(
 fn is_chunk(head: &[u8], length: u64) -> bool {
     let mut rest = Take(head);
     rest.bytes(16 + 8 + 4).is_some()
-        && rest.text() == Some("lz4")
-        && rest.u64() == length.checked_sub(CHUNK_HEAD)
+        && rest.text() == Some(COMPRESSION)
+        && rest.u64() == length.checked_sub(CHUNK_HEAD as u64)
 }
 
 /// Of the first and the last message of a chunk.

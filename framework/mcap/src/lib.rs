@@ -18,7 +18,7 @@ mod storage;
 
 pub use file::{Attachment, Channel, ChannelId, Description, Metadata, Schema, Writer};
 pub use fnv::fnv;
-pub use format::{MESSAGE_HEAD, RECORD_HEAD, opcode};
+pub use format::{MESSAGE_HEAD, RECORD_HEAD, opcode, split_messages};
 pub use layout::Layout;
 pub use open::{ChunkPlace, Contents, RecordingFile};
 pub use read::{Chunk, Message, ReadError, Recording, Way};

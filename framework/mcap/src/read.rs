@@ -5,7 +5,7 @@ use std::io::{self, Read as _};
 use std::path::Path;
 
 use crate::file::{Attachment, Channel, Metadata, Schema};
-use crate::format::{Take, opcode};
+use crate::format::{COMPRESSION, Take, opcode};
 use crate::index;
 use crate::open::{Contents, RecordingFile};
 
@@ -186,7 +186,7 @@ fn messages(rest: &mut Take<'_>) -> Option<Vec<u8>> {
     let records = rest.bytes(length)?;
     let bytes = match compression {
         "" => records.to_vec(),
-        "lz4" => {
+        COMPRESSION => {
             let mut bytes = Vec::new();
             let decoder = lz4_flex::frame::FrameDecoder::new(records);
             decoder

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::io;
 
-use super::{Metadata, Writer, put_channels, put_chunk_index, put_schemas};
+use super::{Metadata, Writer, put_channels, put_schemas};
 use crate::format::{MAGIC, Put, opcode};
 use crate::index::RING;
 use crate::storage::is_full;
@@ -72,9 +72,7 @@ impl Writer {
             self.put_statistics(out);
         });
         group(&mut summary, opcode::CHUNK_INDEX, &mut |out| {
-            self.ring
-                .chunks()
-                .for_each(|chunk| put_chunk_index(out, chunk));
+            self.ring.chunks().for_each(|chunk| chunk.put(out));
         });
         group(&mut summary, opcode::ATTACHMENT_INDEX, &mut |out| {
             self.put_attachment_indexes(out);
