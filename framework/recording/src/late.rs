@@ -56,8 +56,8 @@ pub(crate) struct Parts {
 #[derive(Debug)]
 pub(crate) struct Room(AtomicUsize);
 
-/// With so many a block goes to the writer before the next frame: they are not held for long, and the writer gets no large pieces.
-/// One frame may have more.
+/// With so many a block goes to the writer behind the end of its frame, or before the next one: they are not held for long, and
+/// the writer gets no large pieces. One frame may have more.
 const LADEN: usize = 4;
 
 impl Room {

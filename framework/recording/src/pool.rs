@@ -68,6 +68,16 @@ impl Pool {
         self.full.pop()
     }
 
+    /// Whether blocks wait for the writer while it has one, or cyclers may soon have none.
+    pub(crate) fn is_short(&self) -> bool {
+        self.full() >= 2 || self.empty.is_empty()
+    }
+
+    /// How many wait for the writer.
+    pub(crate) fn full(&self) -> usize {
+        self.full.len()
+    }
+
     pub(crate) fn give_back(&self, mut block: Block) {
         block.clear();
         let given = self.empty.push(block);

@@ -12,10 +12,14 @@ use crate::block::Block;
 use crate::pool::{Place, Pool};
 use crate::rewrite::{Rewrites, rewritten};
 use crate::track::{Counts, Track};
-use hulkgen_mcap::{Description, Metadata, Writer};
+use hulkgen_mcap::{Description, Metadata, Writer, split_messages};
 
 /// How often the writer looks for blocks: their memory must last so long.
 const LOOK: Duration = Duration::from_millis(5);
+
+/// After so many bytes of messages the writer rests, as long as it took for them and no longer than [`LOOK`]. Working on, it
+/// would have its core for whole turns of the system's scheduler, 4 ms, longer than the cycle of a camera that waits for it.
+const PIECE: usize = 512 << 10;
 
 /// Sizes of a recording.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -312,7 +316,11 @@ impl Thread {
         let mut left =
             begun.find_map(|(begun, (_, counts))| begun.take_left(counts.recorded(), longest));
         let mut is_any = left.is_some();
-        while let Some(block) = self.pool.take_full() {
+        // No more than there are: whoever hands over while others are written is looked at again soon.
+        for _ in 0..self.pool.full() {
+            let Some(block) = self.pool.take_full() else {
+                break;
+            };
             is_any = true;
             // What the track handed over before it is here, and what it did since may be.
             if let Some(left) = left.take_if(|left| left.is_before(&block)) {
@@ -339,7 +347,9 @@ impl Thread {
                 &self.rewritten
             }
         };
-        self.writer.add(messages);
+        // Relaxed: whether it is the end in earnest, the loop asks.
+        let is_hurried = || self.pool.is_short() || self.is_ending.load(Ordering::Relaxed);
+        write(&mut self.writer, messages, is_hurried);
         // Of nothing no chunk is made.
         if !messages.is_empty() {
             self.open.push((block.track, frames));
@@ -392,6 +402,19 @@ impl Thread {
             said
         });
         error.or(ended.err())
+    }
+}
+
+/// Adds messages, with rests as long as nobody is in a hurry.
+fn write(writer: &mut Writer, mut messages: &[u8], is_hurried: impl Fn() -> bool) {
+    while !messages.is_empty() {
+        let begun = Instant::now();
+        let (piece, others) = split_messages(messages, PIECE);
+        writer.add(piece);
+        messages = others;
+        if piece.len() >= PIECE && !is_hurried() {
+            std::thread::sleep(begun.elapsed().min(LOOK));
+        }
     }
 }
 

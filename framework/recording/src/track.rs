@@ -231,9 +231,11 @@ impl Track {
             }
             _ => self.dropped(),
         };
+        // The writer takes long for what was left to it: better now, while the cycler waits, than in the next cycle.
+        let is_laden = block.is_laden();
         self.roll_back(block);
-        // The next frame must not refer to what the writer has.
-        if is_alone {
+        // Alone: the next frame must not refer to what the writer has.
+        if is_alone || is_laden {
             self.hand_over();
         }
         ended

@@ -371,6 +371,7 @@ fn a_block_with_many_goes_to_the_writer_before_it_is_full() {
     let path = folder.path().join("run.mcap");
     let settings = Settings {
         late: 100,
+        longest: Duration::from_secs(3600),
         ..settings()
     };
     let (recorder, mut track) = start(&path, settings);
@@ -391,6 +392,10 @@ fn a_block_with_many_goes_to_the_writer_before_it_is_full() {
             })
         });
         assert_eq!(ended, Recorded::Whole);
+        // Not only when there is another frame.
+        if cycle % 4 == 3 {
+            await_none_kept(&value);
+        }
     }
     let begun: Vec<_> = (0..20).filter(|cycle| firsts[*cycle]).collect();
     assert_eq!(begun, [0, 4, 8, 12, 16]);
@@ -426,4 +431,30 @@ fn messages_that_become_nothing_are_left_out_or_lost() {
     assert_eq!((counts.recorded(), counts.lost()), (10, 3));
     let found = messages(&path).into_iter().map(|(_, cycle, ..)| cycle);
     assert_eq!(Vec::from_iter(found), [0, 3, 6, 9]);
+}
+
+#[test]
+fn a_block_that_is_written_in_pieces_is_whole() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("run.mcap");
+    let settings = Settings {
+        block_bytes: 8 << 20,
+        ..settings()
+    };
+    let (recorder, mut track) = start(&path, settings);
+    // One is larger than a piece, five small ones are less.
+    let lengths = [700_000, 100_000, 100_000, 300_000, 10, 20, 900_000, 7];
+    let frames: Vec<Vec<u8>> = lengths.map(|length| vec![length as u8; length]).into();
+    for (cycle, data) in frames.iter().enumerate() {
+        let recorded = track.frame::<Full>(cycle as u64, 0, |frame| {
+            frame.message(FRAMES, cycle as u32, 3, |writing| writing.put(data))
+        });
+        assert_eq!(recorded, Recorded::Whole);
+    }
+    drop(track);
+    // Before it is told that this is the end.
+    std::thread::sleep(Duration::from_millis(100));
+    assert!(recorder.end().is_complete);
+    let found: Vec<_> = messages(&path).into_iter().map(|one| one.3).collect();
+    assert!(found == frames);
 }
