@@ -1,8 +1,8 @@
 //! Paints the plane of the field and what lies behind it, by rays through the pixels.
 //!
 //! A row is painted in blocks: most of them show plain carpet, which costs one division and one
-//! hash a pixel. Blocks near a marking, an edge of the carpet or the ball are painted pixel by
-//! pixel, filtered over the footprint of each pixel so that distant lines do not flicker.
+//! hash a pixel. In others those pixels that are near a marking, an edge of the carpet or the ball
+//! are filtered over their footprint, so that distant lines do not flicker.
 
 use framework::math;
 use nalgebra::{Point2, Vector2, Vector3};
@@ -114,8 +114,34 @@ impl Rays {
             self.paint_carpet(first, &block, column, row);
             return;
         }
-        for column in column..column + BLOCK {
-            row.set(column, self.pixel(field, &self.direction(column), &block));
+        self.paint_details(field, &block, column, row);
+    }
+
+    /// Carpet with whatever lies on it, and what lies behind it.
+    fn paint_details(&self, field: &Field, block: &Block, column: usize, row: &mut Row) {
+        // What every pixel needs is vectorised, and most need no more.
+        let mut points = [Point2::origin(); BLOCK];
+        let mut carpet = [0.0; BLOCK];
+        let mut on_carpet = [0.0; BLOCK];
+        for index in 0..BLOCK {
+            let point = self.meet(&self.direction(column + index));
+            points[index] = point;
+            carpet[index] = self.carpet.luminance + block.blotches * blotch(point.x, point.y);
+            on_carpet[index] = block.on_carpet(point);
+        }
+        for index in 0..BLOCK {
+            let (column, point) = (column + index, points[index]);
+            let is_plain = block.ball.is_none()
+                && on_carpet[index] >= 1.0
+                && field.distance_to_marking(point) > block.size;
+            let color = match is_plain {
+                true => Color {
+                    luminance: carpet[index],
+                    ..self.carpet
+                },
+                false => self.pixel(field, &self.direction(column), block),
+            };
+            row.set(column, color);
         }
     }
 
@@ -134,21 +160,27 @@ impl Rays {
         row.red[columns].fill(self.carpet.red);
     }
 
+    /// Where a ray that falls meets the ground.
+    #[inline(always)]
+    fn meet(&self, direction: &Vector3<f32>) -> Point2<f32> {
+        let scale = -self.origin.z / direction.z;
+        Point2::from(self.origin.xy() + direction.xy() * scale)
+    }
+
     fn footprint(&self, direction: &Vector3<f32>) -> Footprint {
         let scale = -self.origin.z / direction.z;
         let movement =
             |step: &Vector3<f32>| (step.xy() - direction.xy() * (step.z / direction.z)) * scale;
         Footprint {
-            point: Point2::from(self.origin.xy() + direction.xy() * scale),
+            point: self.meet(direction),
             to_right: movement(&self.right),
             down: movement(&self.down),
         }
     }
 
     fn pixel(&self, field: &Field, direction: &Vector3<f32>, block: &Block) -> Color {
-        let scale = -self.origin.z / direction.z;
-        let point = Point2::from(self.origin.xy() + direction.xy() * scale);
-        let on_carpet = (field::depth_in_carpet(point) / block.size + 0.5).clamp(0.0, 1.0);
+        let point = self.meet(direction);
+        let on_carpet = block.on_carpet(point);
         let mut color = self.carpet;
         if on_carpet > 0.0 {
             color = color.brightened(block.blotches * blotch(point.x, point.y));
@@ -187,6 +219,12 @@ impl Block {
             size: footprint.size(),
             ball,
         }
+    }
+
+    /// How much of a pixel around this point shows the carpet.
+    #[inline(always)]
+    fn on_carpet(&self, point: Point2<f32>) -> f32 {
+        (field::depth_in_carpet(point) / self.size + 0.5).clamp(0.0, 1.0)
     }
 }
 
