@@ -148,12 +148,19 @@ fn reduce(
     Ok(())
 }
 
-/// Of the profiles what is about single packages, which are the checkout's.
+/// Of the profiles what is about single packages: most of them are the checkout's, and cargo warns of those that are not there.
 fn forget_packages(root: &mut DocumentMut) {
     let profiles = root.get_mut("profile").and_then(Item::as_table_mut);
-    for (_, profile) in profiles.into_iter().flat_map(Table::iter_mut) {
+    let profiles = profiles.into_iter().flat_map(Table::iter_mut);
+    for (_, profile) in profiles {
+        let Some(profile) = profile.as_table_mut() else {
+            continue;
+        };
         if let Some(packages) = profile.get_mut("package").and_then(Item::as_table_mut) {
             packages.retain(|package, _| package == "*");
+            if packages.is_empty() {
+                profile.remove("package");
+            }
         }
     }
 }
