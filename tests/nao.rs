@@ -6,7 +6,7 @@ use framework::driver::lockstep::{Lockstep, Paused};
 use framework::parameters::Layers;
 use framework::procedure::PendingAny;
 use framework::robot::{Robot, Start};
-use framework::{Clock, Hardware as _, HardwareContext, Instance, Stop, Timestamp};
+use framework::{Clock, Given, Hardware as _, HardwareContext, Instance, Stop, Timestamp};
 use nao_runtime::parameters::Parameters;
 use nao_runtime::runtime;
 use simulated_nao::Hardware;
@@ -151,9 +151,8 @@ pub fn call(
     let (_, caller) = procedures
         .find(|(name, _)| *name == procedure)
         .unwrap_or_else(|| panic!("Control has no procedure `{procedure}`"));
-    let mut request = <dyn erased_serde::Deserializer>::erase(request);
     caller
-        .call_any(&mut request)
+        .call_any(&Given::from(&request))
         .expect("it is a request of this procedure")
 }
 

@@ -63,6 +63,7 @@ mod tests {
     use serde::{Deserialize, Serialize};
 
     use crate::Reflect;
+    use crate::parameters::Given;
     use crate::reflect::{Path, at, binary};
 
     #[derive(Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
@@ -127,9 +128,7 @@ mod tests {
         assert_eq!(bytes, [3, 0, 0, 0, 1, 2, 3]);
         let second = crate::reflect::at_mut(&mut whole, &path("bytes.1")).expect("it is there");
         second
-            .deserialize_from(&mut <dyn erased_serde::Deserializer<'_>>::erase(
-                serde_json::json!(9),
-            ))
+            .deserialize_from(&Given::from(&serde_json::json!(9)))
             .expect("a number");
         assert_eq!(whole.bytes, [1, 9, 3]);
     }

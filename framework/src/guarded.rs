@@ -12,6 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::cycler::Cycle;
 use crate::error::{Error, Result, Stopped};
+use crate::parameters::Given;
 use crate::report::{Allocations, NodeReport, tell};
 use crate::time::Timestamp;
 use crate::timing::{self, Histogram, Tally};
@@ -49,8 +50,8 @@ pub enum Held<O> {
 pub trait State {
     /// Writes the state in any format.
     fn save(&self, serializer: &mut dyn erased_serde::Serializer) -> Result<()>;
-    /// Replaces the state by what was saved, in good condition.
-    fn load(&mut self, deserializer: &mut dyn erased_serde::Deserializer<'_>) -> Result<()>;
+    /// Replaces the state by what was saved as JSON or TOML, in good condition.
+    fn load(&mut self, given: &Given<'_>) -> Result<()>;
 
     /// What its failures left behind, which the state itself does not know. Only nodes fail.
     fn condition(&self) -> Condition {
@@ -381,8 +382,8 @@ impl<N: Serialize + DeserializeOwned> State for Guarded<N> {
         self.node.save(serializer)
     }
 
-    fn load(&mut self, deserializer: &mut dyn erased_serde::Deserializer<'_>) -> Result<()> {
-        self.renew(erased_serde::deserialize(deserializer)?);
+    fn load(&mut self, given: &Given<'_>) -> Result<()> {
+        self.renew(given.read()?);
         self.ledger.good_at = None;
         Ok(())
     }
@@ -408,8 +409,8 @@ impl<T: Serialize + DeserializeOwned> State for T {
         Ok(erased_serde::Serialize::erased_serialize(self, serializer)?)
     }
 
-    fn load(&mut self, deserializer: &mut dyn erased_serde::Deserializer<'_>) -> Result<()> {
-        *self = erased_serde::deserialize(deserializer)?;
+    fn load(&mut self, given: &Given<'_>) -> Result<()> {
+        *self = given.read()?;
         Ok(())
     }
 }

@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::buffer::Writer;
 use crate::error::{Error, Result};
+use crate::parameters::Given;
 use crate::time::Timestamp;
 
 /// The value of one output, if a client replaces it.
@@ -35,7 +36,7 @@ pub trait InjectionTable {
 /// One injection, whatever the type of its output.
 pub trait InjectionCell {
     /// From now on the output has this value; on an error it keeps what it had.
-    fn set(&mut self, value: &mut dyn erased_serde::Deserializer<'_>) -> Result<()>;
+    fn set(&mut self, value: &Given<'_>) -> Result<()>;
     /// From now on the output is the node's again.
     fn release(&mut self);
 }
@@ -43,11 +44,7 @@ pub trait InjectionCell {
 /// How clients replace outputs of one instance; what they write counts from its next `begin` on.
 pub trait Inject: Send {
     /// Replaces an output until it is released.
-    fn inject(
-        &mut self,
-        output: &str,
-        value: &mut dyn erased_serde::Deserializer<'_>,
-    ) -> Result<()>;
+    fn inject(&mut self, output: &str, value: &Given<'_>) -> Result<()>;
     /// Gives an output back to its node.
     fn release(&mut self, output: &str) -> Result<()>;
     /// Gives all outputs back.
@@ -88,8 +85,8 @@ impl<T: Clone> Injection<T> {
 }
 
 impl<T: DeserializeOwned> InjectionCell for Injection<T> {
-    fn set(&mut self, value: &mut dyn erased_serde::Deserializer<'_>) -> Result<()> {
-        self.0 = Some(erased_serde::deserialize(value)?);
+    fn set(&mut self, value: &Given<'_>) -> Result<()> {
+        self.0 = Some(value.read()?);
         Ok(())
     }
 
@@ -139,11 +136,7 @@ impl<I: InjectionTable + Clone> Injector<I> {
 }
 
 impl<I: InjectionTable + Clone + Send + Sync> Inject for Injector<I> {
-    fn inject(
-        &mut self,
-        output: &str,
-        value: &mut dyn erased_serde::Deserializer<'_>,
-    ) -> Result<()> {
+    fn inject(&mut self, output: &str, value: &Given<'_>) -> Result<()> {
         self.change(output, |cell| cell.set(value))
             .map_err(|error| error.context(format!("cannot inject `{output}`")))?;
         self.replaced.insert(output.to_owned());

@@ -96,7 +96,7 @@ pub use history::{HistoricInput, History, Past, Stored};
 pub use injection::{Inject, Injected, Injection, InjectionCell, InjectionTable, Injector};
 pub use launch::Target;
 pub use link::{InstanceLink, Link};
-pub use parameters::LiveParameters;
+pub use parameters::{Given, LiveParameters};
 pub use pool::{Free, Leased, Pool};
 pub use procedure::{Answerer, Call, CallAny, Caller, Pending, PendingAny, Refused, procedure};
 pub use rearm::Rearm;

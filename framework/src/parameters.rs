@@ -9,12 +9,14 @@ mod combinations;
 mod deserialize;
 mod error;
 mod exact;
+mod given;
 mod layers;
 mod live;
 mod nearest;
 mod tree;
 
 pub use error::{Fault, Origin, ParameterError};
+pub use given::Given;
 pub use layers::{Above, Layers, Parameters};
 pub use live::{
     Leaf, Live, LiveParameters, Provenance, Reading, Refusal, Refusals, Stored, Unstored, Version,

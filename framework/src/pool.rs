@@ -28,6 +28,7 @@ use crate::digest::Digest;
 use crate::error::{Error, NoEvent};
 use crate::foxglove::Form;
 use crate::guarded::contain;
+use crate::parameters::Given;
 use crate::reflect::{Children, EncodeError, Reflect, Segment, Shape};
 use crate::report::tell;
 
@@ -308,11 +309,8 @@ impl<T: Reflect + Clone + Send + Sync + 'static> Reflect for Leased<T> {
         (**self).as_serialize()
     }
 
-    fn deserialize_from(
-        &mut self,
-        deserializer: &mut dyn erased_serde::Deserializer<'_>,
-    ) -> Result<(), erased_serde::Error> {
-        self.own().deserialize_from(deserializer)
+    fn deserialize_from(&mut self, given: &Given<'_>) -> crate::Result<()> {
+        self.own().deserialize_from(given)
     }
 
     fn handle(&self) -> Option<Handle> {

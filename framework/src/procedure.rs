@@ -18,6 +18,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use crate::error::Result;
+use crate::parameters::Given;
 use crate::reflect::{Reflect, Shape};
 
 /// Calls that may wait for an instance; more are refused, so that clients cannot fill the memory.
@@ -86,11 +87,8 @@ pub trait CallAny: Send + Sync {
         None
     }
 
-    /// Makes a call with a request in any format; an error if it is no request of this procedure.
-    fn call_any(
-        &self,
-        request: &mut dyn erased_serde::Deserializer<'_>,
-    ) -> Result<Box<dyn PendingAny>>;
+    /// Makes a call; an error if it is no request of this procedure.
+    fn call_any(&self, request: &Given<'_>) -> Result<Box<dyn PendingAny>>;
 }
 
 /// A call that was made, whatever its response.
@@ -244,11 +242,8 @@ where
         Some((Request::shape(), Response::shape()))
     }
 
-    fn call_any(
-        &self,
-        request: &mut dyn erased_serde::Deserializer<'_>,
-    ) -> Result<Box<dyn PendingAny>> {
-        Ok(Box::new(self.call(erased_serde::deserialize(request)?)))
+    fn call_any(&self, request: &Given<'_>) -> Result<Box<dyn PendingAny>> {
+        Ok(Box::new(self.call(request.read()?)))
     }
 }
 

@@ -25,6 +25,7 @@ mod unknown;
 use std::borrow::Cow;
 
 use crate::foxglove::Form as WellKnownForm;
+use crate::parameters::Given;
 use crate::pool::Handle;
 
 pub use binary::EncodeError;
@@ -91,10 +92,7 @@ pub trait Reflect {
     fn as_serialize(&self) -> &dyn erased_serde::Serialize;
 
     /// Replaces the whole value; on an error it stays as it was.
-    fn deserialize_from(
-        &mut self,
-        deserializer: &mut dyn erased_serde::Deserializer<'_>,
-    ) -> Result<(), erased_serde::Error>;
+    fn deserialize_from(&mut self, given: &Given<'_>) -> crate::Result<()>;
 
     /// What a recording may keep in place of a copy; only values of a [pool](crate::pool) have it.
     #[doc(hidden)]
@@ -188,11 +186,8 @@ macro_rules! whole {
             self
         }
 
-        fn deserialize_from(
-            &mut self,
-            deserializer: &mut dyn ::erased_serde::Deserializer<'_>,
-        ) -> Result<(), ::erased_serde::Error> {
-            *self = ::erased_serde::deserialize(deserializer)?;
+        fn deserialize_from(&mut self, given: &crate::parameters::Given<'_>) -> crate::Result<()> {
+            *self = given.read()?;
             Ok(())
         }
     };

@@ -9,6 +9,7 @@ use crate::clock::Clock;
 use crate::driver::Lockstep;
 use crate::error::{Error, Result};
 use crate::hardware::Hardware;
+use crate::parameters::Given;
 use crate::robot::Robot;
 use crate::time::Timestamp;
 
@@ -57,8 +58,7 @@ impl<H: Hardware> Trial<'_, H> {
         robot.instance(self.instance)?;
         let injector = &mut robot.access(self.instance)?.injector;
         for (output, value) in &self.injected {
-            let mut value = <dyn erased_serde::Deserializer<'_>>::erase(value);
-            injector.inject(output, &mut value)?;
+            injector.inject(output, &Given::from(value))?;
         }
         let mut lockstep = Lockstep::new(robot, self.hardware.as_ref());
         let mut is_finished = false;

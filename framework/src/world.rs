@@ -10,6 +10,7 @@ use serde_json::Value;
 use crate::error::{Error, Result};
 use crate::guarded::contain;
 use crate::hardware::Hardware;
+use crate::parameters::Given;
 use crate::procedure::{Answer, CallAny, PendingAny, Refused};
 
 /// A procedure with its name.
@@ -41,11 +42,8 @@ impl CallAny for Truth {
         ("()", "serde_json::value::Value")
     }
 
-    fn call_any(
-        &self,
-        request: &mut dyn erased_serde::Deserializer<'_>,
-    ) -> Result<Box<dyn PendingAny>> {
-        erased_serde::deserialize::<()>(request)?;
+    fn call_any(&self, request: &Given<'_>) -> Result<Box<dyn PendingAny>> {
+        request.read::<()>()?;
         let truth = contain("Hardware::truth", || Ok(self.0.truth()));
         Ok(Box::new(Answered(truth.map_err(refused))))
     }
@@ -56,11 +54,8 @@ impl CallAny for Disturb {
         ("toml::table::Table", "()")
     }
 
-    fn call_any(
-        &self,
-        request: &mut dyn erased_serde::Deserializer<'_>,
-    ) -> Result<Box<dyn PendingAny>> {
-        let deed: toml::Table = erased_serde::deserialize(request)?;
+    fn call_any(&self, request: &Given<'_>) -> Result<Box<dyn PendingAny>> {
+        let deed: toml::Table = request.read()?;
         let done = match deed.is_empty() {
             true => Err(Error::new(
                 "it does not say what happens: add a key that the hardware understands",
@@ -113,9 +108,10 @@ mod tests {
     fn who_does_not_say_what_happens_is_told_so() {
         let answer = |asked: &str| {
             let asked: Value = serde_json::from_str(asked).expect("it is JSON");
-            let mut request = <dyn erased_serde::Deserializer<'_>>::erase(asked);
             let disturb = Disturb(Arc::new(Obedient));
-            let pending = disturb.call_any(&mut request).expect("it is a table");
+            let pending = disturb
+                .call_any(&Given::from(&asked))
+                .expect("it is a table");
             let answer = pending.wait_any(Duration::ZERO).expect("it is there");
             answer.map(drop).map_err(|refused| refused.0.to_string())
         };

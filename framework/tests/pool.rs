@@ -5,7 +5,8 @@ use std::time::Duration;
 use framework::recorded::{Loading, SaveError, Saving};
 use framework::testing::at_millis;
 use framework::{
-    AdditionalOutput, AdditionalSlot, Clear, CountingAllocator, History, Leased, Pool, buffer,
+    AdditionalOutput, AdditionalSlot, Clear, CountingAllocator, Given, History, Leased, Pool,
+    buffer,
 };
 use hulkgen_recording::{
     Channel, ChannelId, Description, Recorded, Recorder, Recording, Settings, Track,
@@ -221,10 +222,8 @@ fn a_recording_takes_no_value_from_a_pool() {
     assert_eq!(record(&mut track, 8, &plain[1]), Recorded::Whole);
     let first = "0".parse().expect("a path");
     let part = framework::reflect::at_mut(&mut changed, &first).expect("there is one");
-    part.deserialize_from(&mut <dyn erased_serde::Deserializer<'_>>::erase(
-        serde_json::Value::from(8),
-    ))
-    .expect("it is a number");
+    part.deserialize_from(&Given::from(&serde_json::Value::from(8)))
+        .expect("it is a number");
     assert_eq!(changed.as_deref(), Some(&vec![8]));
     expected.push(vec![1, 1, 9, 8]);
     drop(track);

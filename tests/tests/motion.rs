@@ -1,6 +1,6 @@
 //! The NAO moves, in lockstep, on legs with masses: what it does is judged by the truth, not by its own belief.
 
-use erased_serde::Deserializer;
+use framework::Given;
 use kinematics::limits;
 use nalgebra::{Isometry2, Point2, Vector2, Vector3};
 use serde_json::json;
@@ -276,7 +276,7 @@ fn whatever_a_client_puts_in_place_of_commands_no_joint_is_harmed() {
             let access = robot.nao.robot.access("Control").expect("it runs");
             access
                 .injector
-                .inject(output, &mut <dyn Deserializer>::erase(commands))
+                .inject(output, &Given::from(&commands))
                 .expect("it is a value of that output");
             // Every command that the body gets is judged.
             robot.live(1.0, |_| {});
@@ -333,7 +333,7 @@ fn whatever_the_sensors_say_no_joint_is_harmed() {
         let access = robot.nao.robot.access("Control").expect("it runs");
         access
             .injector
-            .inject("sensor_data", &mut <dyn Deserializer>::erase(wrong))
+            .inject("sensor_data", &Given::from(&wrong))
             .expect("it is a value of that output");
         // Every command that the body gets is judged.
         robot.walk(0.5, 0.05, 0.02, 0.1);

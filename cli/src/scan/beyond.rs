@@ -19,7 +19,7 @@ const DEEPEST: usize = 32;
 pub(super) const OF_FRAMEWORK: &str = "\
     Access AdditionalOutput AdditionalSlot Answerer Body Call CallAny Caller CaptureTime Clear Clock Condition \
     Consumer CountingAllocator Cycle CycleTime Cycler CyclerState Data Digest Entry Error Event Feed FeedCounts \
-    Finished Free Granted Guarded Hardware HardwareContext HardwareInterface Held Histogram HistoricInput History \
+    Finished Free Given Granted Guarded Hardware HardwareContext HardwareInterface Held Histogram HistoricInput History \
     Horizon InNode InPlace Inject Injected Injection InjectionCell InjectionTable Injector Input Instance \
     InstanceDescription InstanceLink InstanceReport Interleaved Interleaving Item Kind Lane Latest LatestInput \
     Leased Link LiveParameters Lockstep MainOutput NoEvent NodeReport NodeState OnFailure OutputKind OutputVisitor \

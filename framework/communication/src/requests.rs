@@ -6,8 +6,8 @@ mod subscribe;
 use std::time::{Duration, Instant};
 
 pub(crate) use feed::Feeder;
-use framework::OutputKind;
 use framework::reflect::ResolvedPath;
+use framework::{Given, OutputKind};
 use protocol::{Ask, Change, Failure, Good, Level, Request, Value};
 use serde_json::Value as Json;
 
@@ -284,10 +284,9 @@ impl Hub {
     fn inject(&mut self, client: ClientId, path: &str, value: &Json) -> Answered {
         let (instance, output) = self.main_output(path)?;
         if let Some(link) = self.link.instances.get_mut(instance) {
-            let mut value = <dyn erased_serde::Deserializer<'_>>::erase(value);
             link.access
                 .injector
-                .inject(output, &mut value)
+                .inject(output, &Given::from(value))
                 .map_err(|error| Failure::new(error.to_string()))?;
             self.injected.insert((instance, output), client);
             self.mark(instance, output, true);
@@ -327,9 +326,8 @@ impl Hub {
         // Before it is called: who is refused moves nothing.
         self.check_may_wait(client)?;
         let procedure = catalogue::procedure(self, path).map_err(Failure::new)?;
-        let mut argument = <dyn erased_serde::Deserializer<'_>>::erase(argument);
         let pending = procedure
-            .call_any(&mut argument)
+            .call_any(&Given::from(argument))
             .map_err(|error| Failure::new(format!("`{path}`: {error}")))?;
         self.wait(client, request, WaitingFor::Call(pending), Some(timeout))
     }

@@ -137,9 +137,9 @@ fn quote_implementation(
 
                 fn deserialize_from(
                     &mut self,
-                    deserializer: &mut dyn framework_reflect::erased_serde::Deserializer<'_>,
-                ) -> ::core::result::Result<(), framework_reflect::erased_serde::Error> {
-                    *self = framework_reflect::erased_serde::deserialize(deserializer)?;
+                    given: &framework_reflect::Given<'_>,
+                ) -> framework_reflect::Result<()> {
+                    *self = given.read()?;
                     ::core::result::Result::Ok(())
                 }
             }

@@ -12,16 +12,36 @@ use serde::de::{
 use serde::forward_to_deserialize_any;
 
 use super::error::{Fault, Origin, ParameterError};
+use super::given::Misread;
 use super::nearest::nearest;
 use super::tree::{Tree, Value};
 
 /// The type that the tree stands for.
 pub(super) fn deserialize<T: DeserializeOwned>(tree: &Tree) -> Result<T, ParameterError> {
-    T::deserialize(Node(tree)).map_err(|mistake| mistake.at(tree).finish())
+    T::deserialize(Node::of(tree)).map_err(|mistake| mistake.at(tree).finish())
 }
 
+/// A value, and what of it counts.
 #[derive(Clone, Copy)]
-pub(super) struct Node<'tree>(pub(super) &'tree Tree);
+pub(super) struct Node<'tree> {
+    tree: &'tree Tree,
+    /// Of tables only what this layer has.
+    layer: Option<usize>,
+}
+
+impl<'tree> Node<'tree> {
+    pub(super) fn of(tree: &'tree Tree) -> Self {
+        Self { tree, layer: None }
+    }
+
+    fn entries(self, entries: &'tree BTreeMap<String, Tree>) -> Entries<'tree> {
+        Entries {
+            entries: entries.iter(),
+            layer: self.layer,
+            value: None,
+        }
+    }
+}
 
 /// What is wrong, with as much of the place as is known on the way out.
 #[derive(Debug)]
@@ -48,9 +68,22 @@ impl Mistake {
     fn finish(mut self) -> ParameterError {
         self.keys.reverse();
         let origin = self.origin.unwrap_or(Origin::Unknown);
+        let message = match self.fault {
+            Fault::Missing => format!("{}: no layer has it", self.message),
+            Fault::Unknown | Fault::Invalid => self.message,
+        };
         ParameterError {
             fault: self.fault,
-            ..ParameterError::new(origin, self.keys.join("."), self.message)
+            ..ParameterError::new(origin, self.keys.join("."), message)
+        }
+    }
+
+    /// For whoever gave the value: no layer has it.
+    pub(super) fn misread(mut self) -> Misread {
+        self.keys.reverse();
+        Misread {
+            below: self.keys.join("."),
+            message: self.message,
         }
     }
 
@@ -70,7 +103,7 @@ impl de::Error for Mistake {
     }
 
     fn missing_field(field: &'static str) -> Self {
-        let mistake = Self::new("is missing: no layer has it").below(field);
+        let mistake = Self::new("is missing").below(field);
         Self {
             fault: Fault::Missing,
             ..mistake
@@ -101,7 +134,10 @@ impl de::Error for Mistake {
     }
 
     fn invalid_type(found: Unexpected<'_>, expected: &dyn de::Expected) -> Self {
-        Self::new(format!("expected {expected}, found {found}"))
+        Self::new(match found {
+            Unexpected::Unit => format!("expected {expected}, found nothing"),
+            _ => format!("expected {expected}, found {found}"),
+        })
     }
 }
 
@@ -117,14 +153,12 @@ impl<'de> Deserializer<'de> for Node<'_> {
     type Error = Mistake;
 
     fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Mistake> {
-        let result = match &self.0.value {
-            Value::Table(entries) => visitor.visit_map(Entries {
-                entries: entries.iter(),
-                value: None,
-            }),
+        let result = match &self.tree.value {
+            Value::Table(entries) => visitor.visit_map(self.entries(entries)),
             Value::Array(items) => {
                 let mut items = Items {
                     items: items.iter(),
+                    layer: self.layer,
                     index: 0,
                 };
                 let value = visitor.visit_seq(&mut items);
@@ -142,11 +176,11 @@ impl<'de> Deserializer<'de> for Node<'_> {
             Value::Boolean(boolean) => visitor.visit_bool(*boolean),
             Value::Absent => visitor.visit_unit(),
         };
-        result.map_err(|mistake| mistake.at(self.0))
+        result.map_err(|mistake| mistake.at(self.tree))
     }
 
     fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Mistake> {
-        match &self.0.value {
+        match &self.tree.value {
             Value::Absent => visitor.visit_none(),
             _ => visitor.visit_some(self),
         }
@@ -160,8 +194,16 @@ impl<'de> Deserializer<'de> for Node<'_> {
         visitor.visit_newtype_struct(self)
     }
 
+    /// Tables of TOML would take nothing for an empty one.
+    fn deserialize_map<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Mistake> {
+        match &self.tree.value {
+            Value::Absent => Err(de::Error::invalid_type(Unexpected::Unit, &visitor)),
+            _ => self.deserialize_any(visitor),
+        }
+    }
+
     fn deserialize_unit<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Mistake> {
-        match &self.0.value {
+        match &self.tree.value {
             Value::Table(entries) if entries.is_empty() => visitor.visit_unit(),
             _ => self.deserialize_any(visitor),
         }
@@ -181,22 +223,28 @@ impl<'de> Deserializer<'de> for Node<'_> {
         _variants: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value, Mistake> {
-        let result = match &self.0.value {
+        let result = match &self.tree.value {
             Value::String(variant) => visitor.visit_enum(Variant {
                 name: variant,
                 content: None,
             }),
             // A later layer replaces the whole value, and its variant need not be the one from before.
-            Value::Table(_) => match &self.0.of_last_layer().value {
-                Value::Table(entries) if entries.len() == 1 => visit_variant(entries, visitor),
-                _ => Err(Mistake::new("expected a table with one variant")),
-            },
+            Value::Table(entries) => {
+                let layer = Some(self.tree.layer);
+                let mut entries = Node { layer, ..self }.entries(entries);
+                match (entries.next(), entries.next()) {
+                    (Some((name, tree)), None) => {
+                        visit_variant(name, Node { tree, layer }, visitor)
+                    }
+                    _ => Err(Mistake::new("expected a table with one variant")),
+                }
+            }
             _ => Err(Mistake::new(format!(
                 "expected a variant's name, found {}",
-                self.0.kind()
+                self.tree.kind()
             ))),
         };
-        result.map_err(|mistake| mistake.at(self.0))
+        result.map_err(|mistake| mistake.at(self.tree))
     }
 
     fn deserialize_struct<V: Visitor<'de>>(
@@ -206,11 +254,11 @@ impl<'de> Deserializer<'de> for Node<'_> {
         visitor: V,
     ) -> Result<V::Value, Mistake> {
         let read = self.deserialize_any(visitor);
-        match &self.0.value {
+        match &self.tree.value {
             // Its items were taken for the fields in their order, which hardly anybody means.
             Value::Array(_) if !fields.is_empty() => read.map_err(|_| {
                 let fields = fields.join(", ");
-                Mistake::new(format!("expected a table of {fields}; found an array")).at(self.0)
+                Mistake::new(format!("expected a table of {fields}; found an array")).at(self.tree)
             }),
             _ => read,
         }
@@ -218,7 +266,7 @@ impl<'de> Deserializer<'de> for Node<'_> {
 
     forward_to_deserialize_any! {
         bool i8 i16 i32 i64 i128 u8 u16 u32 u64 u128 f32 f64 char str string bytes byte_buf
-        seq tuple tuple_struct map identifier ignored_any
+        seq tuple tuple_struct identifier ignored_any
     }
 }
 
@@ -232,25 +280,36 @@ fn visit_integer<'de, V: Visitor<'de>>(integer: i128, visitor: V) -> Result<V::V
 }
 
 fn visit_variant<'de, V: Visitor<'de>>(
-    entries: &BTreeMap<String, Tree>,
+    name: &str,
+    content: Node<'_>,
     visitor: V,
 ) -> Result<V::Value, Mistake> {
-    let (name, content) = entries
-        .iter()
-        .next()
-        .ok_or_else(|| Mistake::new("expected a variant"))?;
     let variant = Variant {
         name,
         content: Some(content),
     };
     visitor
         .visit_enum(variant)
-        .map_err(|mistake| mistake.at(content).below(name.as_str()))
+        .map_err(|mistake| mistake.at(content.tree).below(name))
 }
 
 struct Entries<'tree> {
     entries: btree_map::Iter<'tree, String, Tree>,
+    layer: Option<usize>,
     value: Option<(&'tree str, &'tree Tree)>,
+}
+
+impl<'tree> Iterator for Entries<'tree> {
+    type Item = (&'tree str, &'tree Tree);
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let layer = self.layer;
+        let mut counting = self
+            .entries
+            .by_ref()
+            .filter(|(_, tree)| layer.is_none_or(|layer| tree.layer == layer));
+        counting.next().map(|(key, tree)| (key.as_str(), tree))
+    }
 }
 
 impl<'de> MapAccess<'de> for Entries<'_> {
@@ -260,14 +319,13 @@ impl<'de> MapAccess<'de> for Entries<'_> {
         &mut self,
         seed: K,
     ) -> Result<Option<K::Value>, Mistake> {
-        let Some((key, tree)) = self.entries.next() else {
+        let Some((key, tree)) = self.next() else {
             return Ok(None);
         };
         self.value = Some((key, tree));
-        let deserializer: StrDeserializer<'_, Mistake> = key.as_str().into_deserializer();
         let key = seed
-            .deserialize(deserializer)
-            .map_err(|mistake| mistake.at(tree).below(key.as_str()))?;
+            .deserialize(Key(key))
+            .map_err(|mistake| mistake.at(tree).below(key))?;
         Ok(Some(key))
     }
 
@@ -276,7 +334,8 @@ impl<'de> MapAccess<'de> for Entries<'_> {
             .value
             .take()
             .ok_or_else(|| Mistake::new("a value was asked for before its key"))?;
-        seed.deserialize(Node(tree))
+        let layer = self.layer;
+        seed.deserialize(Node { tree, layer })
             .map_err(|mistake| mistake.at(tree).below(key))
     }
 
@@ -285,8 +344,69 @@ impl<'de> MapAccess<'de> for Entries<'_> {
     }
 }
 
+/// Text, which may stand for a number or a truth value.
+struct Key<'tree>(&'tree str);
+
+/// Where the text is none, the visitor says so. Of several ways to write a number one counts, so that keys stay apart.
+macro_rules! numbers {
+    ($($deserialize:ident)*) => {$(
+        fn $deserialize<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Mistake> {
+            match self.0.parse::<i128>() {
+                Ok(number) if number.to_string() == self.0 => visit_integer(number, visitor),
+                _ => visitor.visit_str(self.0),
+            }
+        }
+    )*};
+}
+
+impl<'de> Deserializer<'de> for Key<'_> {
+    type Error = Mistake;
+
+    fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Mistake> {
+        visitor.visit_str(self.0)
+    }
+
+    fn deserialize_bool<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Mistake> {
+        match self.0.parse() {
+            Ok(flag) => visitor.visit_bool(flag),
+            Err(_) => visitor.visit_str(self.0),
+        }
+    }
+
+    numbers! {
+        deserialize_i8 deserialize_i16 deserialize_i32 deserialize_i64 deserialize_i128
+        deserialize_u8 deserialize_u16 deserialize_u32 deserialize_u64 deserialize_u128
+    }
+
+    fn deserialize_newtype_struct<V: Visitor<'de>>(
+        self,
+        _name: &'static str,
+        visitor: V,
+    ) -> Result<V::Value, Mistake> {
+        visitor.visit_newtype_struct(self)
+    }
+
+    fn deserialize_enum<V: Visitor<'de>>(
+        self,
+        _name: &'static str,
+        _variants: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, Mistake> {
+        visitor.visit_enum(Variant {
+            name: self.0,
+            content: None,
+        })
+    }
+
+    forward_to_deserialize_any! {
+        f32 f64 char str string bytes byte_buf option unit unit_struct seq tuple tuple_struct map struct identifier
+        ignored_any
+    }
+}
+
 struct Items<'tree> {
     items: slice::Iter<'tree, Tree>,
+    layer: Option<usize>,
     index: usize,
 }
 
@@ -302,7 +422,8 @@ impl<'de> SeqAccess<'de> for Items<'_> {
         };
         let index = self.index;
         self.index += 1;
-        let item = seed.deserialize(Node(tree));
+        let layer = self.layer;
+        let item = seed.deserialize(Node { tree, layer });
         item.map(Some)
             .map_err(|mistake| mistake.at(tree).below(index.to_string()))
     }
@@ -314,7 +435,7 @@ impl<'de> SeqAccess<'de> for Items<'_> {
 
 struct Variant<'tree> {
     name: &'tree str,
-    content: Option<&'tree Tree>,
+    content: Option<Node<'tree>>,
 }
 
 impl<'de> EnumAccess<'de> for Variant<'_> {
@@ -329,8 +450,7 @@ impl<'de> EnumAccess<'de> for Variant<'_> {
 
 impl Variant<'_> {
     fn content(&self) -> Result<Node<'_>, Mistake> {
-        let content = self.content.map(Node);
-        content.ok_or_else(|| {
+        self.content.ok_or_else(|| {
             Mistake::new(format!(
                 "variant `{}` has a value: {{ {0} = … }}",
                 self.name
@@ -343,8 +463,8 @@ impl<'de> VariantAccess<'de> for Variant<'_> {
     type Error = Mistake;
 
     fn unit_variant(self) -> Result<(), Mistake> {
-        match self.content {
-            None => Ok(()),
+        match self.content.map(|content| &content.tree.value) {
+            None | Some(Value::Absent) => Ok(()),
             Some(_) => Err(Mistake::new(format!(
                 "variant `{}` has no value",
                 self.name
@@ -366,9 +486,9 @@ impl<'de> VariantAccess<'de> for Variant<'_> {
 
     fn struct_variant<V: Visitor<'de>>(
         self,
-        _fields: &'static [&'static str],
+        fields: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value, Mistake> {
-        self.content()?.deserialize_any(visitor)
+        self.content()?.deserialize_struct("", fields, visitor)
     }
 }

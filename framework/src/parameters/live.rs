@@ -18,6 +18,7 @@ use serde_json::Value;
 
 use super::error::Origin;
 use super::exact;
+use super::given::Given;
 use super::layers::{Layers, Parameters};
 use super::tree::{self, Tree};
 use crate::buffer::Writer;
@@ -26,7 +27,7 @@ use crate::data::ParameterData;
 use crate::error::Result;
 use crate::reflect::{Content, Path, Shape};
 use files::Files;
-use values::{Given, Typed, Values, plain};
+use values::{Typed, Values, plain};
 
 pub use provenance::{Leaf, Provenance, Reading};
 pub use refusal::{Refusal, Refusals};
@@ -141,7 +142,7 @@ impl Live {
     pub fn change<T: AsRef<str>>(&self, changes: &[(T, Value)]) -> Result<Version, Refusals> {
         let changes: Vec<_> = changes
             .iter()
-            .map(|(path, value)| (path.as_ref(), Given::Json(value)))
+            .map(|(path, value)| (path.as_ref(), Given::from(value)))
             .collect();
         self.state().change(&self.shape, &changes)
     }
@@ -155,7 +156,7 @@ impl Live {
         let values: Vec<_> = values.collect();
         let changes = values.iter();
         let changes: Vec<_> = changes
-            .map(|(path, value)| (*path, Given::Tree(value)))
+            .map(|(path, value)| (*path, Given::of(value)))
             .collect();
         self.state().change(&self.shape, &changes)
     }
@@ -251,7 +252,7 @@ impl State {
         let mut paths = Vec::new();
         self.values.discard();
         for (path, value) in changes {
-            match self.values.write(path, *value) {
+            match self.values.write(path, value) {
                 Ok(path) => paths.push(path),
                 Err(refusal) => refusals.push(refusal),
             }
@@ -358,7 +359,7 @@ impl State {
         let stored = self.values.load(&loaded)?;
         loaded.check_ranges(shape, self.values.draft())?;
         for (path, value) in &kept {
-            self.values.write(path, Given::Tree(value))?;
+            self.values.write(path, &Given::of(value))?;
         }
         self.values.set_stored(stored);
         if let Some(files) = &mut self.files {

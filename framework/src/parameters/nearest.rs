@@ -2,8 +2,12 @@
 
 /// The nearest of `names` to `wanted`, if it is near enough to be a slip.
 pub fn nearest<'a>(wanted: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let limit = 1 + wanted.chars().count() / 3;
-    let distances = names.into_iter().map(|name| (distance(wanted, name), name));
+    let length = wanted.chars().count();
+    let limit = 1 + length / 3;
+    // The others are further away than that: `wanted` may be megabytes that somebody sent.
+    let is_as_long = |name: &&str| name.chars().count().abs_diff(length) <= limit;
+    let names = names.into_iter().filter(is_as_long);
+    let distances = names.map(|name| (distance(wanted, name), name));
     let (distance, name) = distances.min_by_key(|(distance, _)| *distance)?;
     (distance <= limit).then_some(name)
 }

@@ -195,18 +195,6 @@ impl Tree {
         }
     }
 
-    /// Without what earlier layers had: for values that are replaced whole although they are tables.
-    pub(super) fn of_last_layer(&self) -> Self {
-        let mut tree = self.clone();
-        if let Value::Table(entries) = &mut tree.value {
-            entries.retain(|_, below| below.layer == self.layer);
-            entries
-                .values_mut()
-                .for_each(|below| *below = below.of_last_layer());
-        }
-        tree
-    }
-
     /// This value at a path of keys, all from the same place.
     pub(super) fn below(self, path: &str, separator: &str) -> Self {
         path.rsplit(separator).fold(self, |tree, key| Self {

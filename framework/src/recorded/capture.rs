@@ -238,6 +238,7 @@ mod tests {
     use crate::injection::{
         Inject as _, Injected, Injection, InjectionCell, InjectionTable, Injector,
     };
+    use crate::parameters::Given;
     use crate::pool::Leased;
 
     const OWN: ChannelId = ChannelId(0);
@@ -363,9 +364,10 @@ mod tests {
         let (recorder, mut tracks) = started.expect("it is new");
         let (writer, [mut reader], []) = buffer::<Injected<Injections>, 1, 0>([]);
         let mut injector = Injector::new(writer);
-        let mut inject = |output: &str, mut json: serde_json::Value| {
-            let mut value = <dyn erased_serde::Deserializer<'_>>::erase(json.take());
-            injector.inject(output, &mut value).expect("it fits");
+        let mut inject = |output: &str, json: serde_json::Value| {
+            injector
+                .inject(output, &Given::from(&json))
+                .expect("it fits");
         };
         for cycle in 1..=3_u64 {
             match cycle {

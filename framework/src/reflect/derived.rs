@@ -4,7 +4,9 @@ pub use erased_serde;
 pub use serde::Serialize;
 pub use serde::de::DeserializeOwned;
 
+pub use crate::error::Result;
 pub use crate::foxglove::{Form as WellKnownForm, schema_of, written};
+pub use crate::parameters::Given;
 
 pub use super::binary::{EncodeError, encode_any, encode_tag, encode_unless, skipped_variant};
 pub use super::{

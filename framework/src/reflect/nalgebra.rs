@@ -8,6 +8,7 @@ use serde::de::DeserializeOwned;
 
 use super::binary::EncodeError;
 use super::{Children, Content, FieldShape, Reflect, Segment, Shape, whole};
+use crate::parameters::Given;
 
 const AXES: [&str; 4] = ["x", "y", "z", "w"];
 const QUATERNION: [&str; 4] = ["i", "j", "k", "w"];
@@ -221,11 +222,8 @@ macro_rules! unit {
                 self
             }
 
-            fn deserialize_from(
-                &mut self,
-                deserializer: &mut dyn erased_serde::Deserializer<'_>,
-            ) -> Result<(), erased_serde::Error> {
-                let value: Self = erased_serde::deserialize(deserializer)?;
+            fn deserialize_from(&mut self, given: &Given<'_>) -> crate::Result<()> {
+                let value: Self = given.read()?;
                 let norm: fn(&$inner) -> T = $norm;
                 check_unit(norm(value.as_ref()) - T::one())?;
                 *self = value;
@@ -263,11 +261,8 @@ impl<T: Number + RealField, const D: usize> Reflect for Rotation<T, D> {
         self
     }
 
-    fn deserialize_from(
-        &mut self,
-        deserializer: &mut dyn erased_serde::Deserializer<'_>,
-    ) -> Result<(), erased_serde::Error> {
-        let value: Self = erased_serde::deserialize(deserializer)?;
+    fn deserialize_from(&mut self, given: &Given<'_>) -> crate::Result<()> {
+        let value: Self = given.read()?;
         let matrix = value.matrix();
         check_unit((matrix.transpose() * matrix - SMatrix::<T, D, D>::identity()).norm())?;
         *self = value;
@@ -298,11 +293,11 @@ fn list_children(length: usize, names: &'static [&'static str]) -> Children {
     }
 }
 
-fn check_unit<T: RealField>(deviation: T) -> Result<(), erased_serde::Error> {
+fn check_unit<T: RealField>(deviation: T) -> crate::Result<()> {
     if deviation.abs() <= nalgebra::convert(UNIT_TOLERANCE) {
         return Ok(());
     }
-    Err(serde::de::Error::custom(
+    Err(crate::Error::new(
         "expected a rotation or direction: its length is not one",
     ))
 }

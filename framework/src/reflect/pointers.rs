@@ -8,6 +8,7 @@ use serde::de::DeserializeOwned;
 use super::binary::EncodeError;
 use super::{Children, Content, Reflect, Segment, Shape, whole};
 use crate::foxglove::Form;
+use crate::parameters::Given;
 use crate::pool::Handle;
 
 impl<T: Reflect + Serialize + DeserializeOwned> Reflect for Option<T> {
@@ -92,11 +93,8 @@ impl<T: Reflect> Reflect for Box<T> {
         (**self).as_serialize()
     }
 
-    fn deserialize_from(
-        &mut self,
-        deserializer: &mut dyn erased_serde::Deserializer<'_>,
-    ) -> Result<(), erased_serde::Error> {
-        (**self).deserialize_from(deserializer)
+    fn deserialize_from(&mut self, given: &Given<'_>) -> crate::Result<()> {
+        (**self).deserialize_from(given)
     }
 }
 
@@ -133,10 +131,7 @@ impl<T: Reflect + Clone> Reflect for Arc<T> {
         (**self).as_serialize()
     }
 
-    fn deserialize_from(
-        &mut self,
-        deserializer: &mut dyn erased_serde::Deserializer<'_>,
-    ) -> Result<(), erased_serde::Error> {
-        Self::make_mut(self).deserialize_from(deserializer)
+    fn deserialize_from(&mut self, given: &Given<'_>) -> crate::Result<()> {
+        Self::make_mut(self).deserialize_from(given)
     }
 }

@@ -18,6 +18,7 @@ use crate::error::{Error, Result};
 use crate::guarded::contain;
 use crate::hardware::Hardware;
 use crate::launch::{Listening, Served, start_server};
+use crate::parameters::Given;
 use crate::procedure::{CallAny, PendingAny};
 use crate::recorded::{Counts, Recording};
 use crate::reflect::Shape;
@@ -353,10 +354,7 @@ impl CallAny for Shared {
         self.0.shapes()
     }
 
-    fn call_any(
-        &self,
-        request: &mut dyn erased_serde::Deserializer<'_>,
-    ) -> Result<Box<dyn PendingAny>> {
+    fn call_any(&self, request: &Given<'_>) -> Result<Box<dyn PendingAny>> {
         self.0.call_any(request)
     }
 }
@@ -382,9 +380,8 @@ fn call(procedures: &[(String, Arc<dyn CallAny>)], asked: &Call) -> Result<()> {
     let found = procedures.iter().find(|(path, _)| *path == asked.path);
     let (_, procedure) =
         found.ok_or_else(|| Error::new(format!("there is no procedure `{}`", asked.path)))?;
-    let mut argument = <dyn erased_serde::Deserializer<'_>>::erase(&asked.argument);
     procedure
-        .call_any(&mut argument)
+        .call_any(&Given::from(&asked.argument))
         .map(drop)
         .map_err(|error| error.context(format!("`{}`", asked.path)))
 }

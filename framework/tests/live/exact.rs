@@ -63,7 +63,7 @@ fn a_replay_is_set_as_a_start_is() {
         (
             "lamp",
             "{ radius = 1, brightness = \"much\" }",
-            "--set: `lamp`: expected u8, found string \"much\"",
+            "--set: `lamp.brightness`: expected u8, found string \"much\"",
         ),
     ] {
         assert_eq!(told(with(path, value)), expected);

@@ -205,7 +205,7 @@ fn several_fields_change_at_once_or_not_at_all() {
                 ("lamp.brightness", json!(8)),
                 ("lamp.radius", json!("wide")),
             ],
-            "`lamp.radius`: invalid type: string \"wide\", expected f32",
+            "`lamp.radius`: expected f32, found string \"wide\"",
         ),
         (
             vec![("lamp.brightness", json!(8)), ("lamp.size", json!(1))],

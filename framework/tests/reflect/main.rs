@@ -12,9 +12,9 @@ use std::ops::Range;
 use std::sync::Arc;
 use std::time::Duration;
 
-use framework::Reflect;
 use framework::reflect::{Content, Path, Reason, ResolvedPath, Segment, Shape, at, at_mut};
 use framework::time::Timestamp;
+use framework::{Given, Reflect};
 use nalgebra::{
     Isometry2, Isometry3, Matrix2x3, Point2, Rotation2, Rotation3, Translation3, Unit, UnitComplex,
     UnitQuaternion, Vector2, Vector3, Vector4, Vector5,
@@ -111,8 +111,7 @@ fn read(value: &dyn Reflect, text: &str) -> Value {
 
 fn write(value: &mut dyn Reflect, text: &str, new: Value) -> Result<(), String> {
     let part = at_mut(value, &path(text)).map_err(|error| error.to_string())?;
-    let deserializer = &mut <dyn erased_serde::Deserializer<'_>>::erase(new);
-    part.deserialize_from(deserializer)
+    part.deserialize_from(&Given::from(&new))
         .map_err(|error| error.to_string())
 }
 
@@ -877,6 +876,15 @@ fn is_within_leaf(path: &[String]) -> bool {
 }
 
 proptest! {
+    #[test]
+    fn what_is_given_as_json_is_read_as_json_is(value in odd::odd()) {
+        let json = serde_json::to_value(&value).expect("it has a serde form");
+        let given = Given::from(&json).read::<odd::Odd>();
+        let given = given.map_err(|error| TestCaseError::fail(error.to_string()))?;
+        let read: odd::Odd = serde_json::from_value(json).expect("it was just written");
+        prop_assert_eq!(given, read);
+    }
+
     #[test]
     fn every_part_of_the_serde_form_is_found(value in everything()) {
         let json = serde_json::to_value(&value).expect("it has a serde form");

@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use framework::parameters::Version;
-use framework::{Lockstep, Robot};
+use framework::{Given, Lockstep, Robot};
 use serde_json::{Value, json};
 
 use crate::body::{Parameters, Plan, Setting, robot};
@@ -30,8 +30,8 @@ fn run(
 }
 
 fn inject(robot: &mut Robot<Parameters>, output: &str, value: &Value) -> framework::Result<()> {
-    let mut erased = <dyn erased_serde::Deserializer<'_>>::erase(value);
-    robot.access("Legs")?.injector.inject(output, &mut erased)
+    let access = robot.access("Legs")?;
+    access.injector.inject(output, &Given::from(value))
 }
 
 fn read(robot: &Robot<Parameters>, path: &str) -> Value {
@@ -163,12 +163,10 @@ fn a_procedure_is_answered_refused_or_refused_for_want_of_an_answer() {
             let (name, double) = &access.procedures[0];
             assert_eq!(*name, "double");
             for request in [json!(21), json!(100)] {
-                let mut erased = <dyn erased_serde::Deserializer<'_>>::erase(&request);
-                pending.push(double.call_any(&mut erased).expect("a valid request"));
+                let called = double.call_any(&Given::from(&request));
+                pending.push(called.expect("a valid request"));
             }
-            let request = json!("many");
-            let mut erased = <dyn erased_serde::Deserializer<'_>>::erase(&request);
-            assert!(double.call_any(&mut erased).is_err());
+            assert!(double.call_any(&Given::from(&json!("many"))).is_err());
             assert!(
                 pending[0].wait_any(Duration::ZERO).is_none(),
                 "no cycle has come yet"
@@ -198,9 +196,8 @@ fn a_procedure_is_answered_refused_or_refused_for_want_of_an_answer() {
     let mut pending = None;
     let robot = run(&Setting::default(), |number, robot| match number {
         1 => {
-            let request = json!(1);
-            let mut erased = <dyn erased_serde::Deserializer<'_>>::erase(&request);
-            let called = robot.access[1].procedures[0].1.call_any(&mut erased);
+            let (_, double) = &robot.access[1].procedures[0];
+            let called = double.call_any(&Given::from(&json!(1)));
             pending = Some(called.expect("a valid request"));
         }
         2 => {

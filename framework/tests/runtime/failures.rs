@@ -4,9 +4,10 @@ use std::time::Duration;
 
 use framework::driver::lockstep::Step;
 use framework::{
-    Cycle, CycleTime, Error, Finished, Guarded, Held, Lockstep, OnFailure, Robot, State as _,
-    Timestamp, Waited,
+    Cycle, CycleTime, Error, Finished, Given, Guarded, Held, Lockstep, OnFailure, Robot,
+    State as _, Timestamp, Waited,
 };
+use serde_json::Value;
 
 use crate::body::{Parameters, Plan, Setting, robot};
 use crate::scripted::{Act, Log, Script, ScriptedHardware, millis};
@@ -379,9 +380,8 @@ fn saved(node: &Guarded<u32>) -> [String; 2] {
 
 fn loaded([state, condition]: &[String; 2]) -> Guarded<u32> {
     let mut node = Guarded::new("test::worker", OnFailure::Hold, 0);
-    let mut json = serde_json::Deserializer::from_str(state);
-    node.load(&mut <dyn erased_serde::Deserializer>::erase(&mut json))
-        .expect("it was saved");
+    let state: Value = serde_json::from_str(state).expect("it was saved");
+    node.load(&Given::from(&state)).expect("it was saved");
     node.set_condition(serde_json::from_str(condition).expect("it was saved"));
     node
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use framework::driver::Threads;
-use framework::{Hardware, OnFailure, Robot, Stop};
+use framework::{Given, Hardware, OnFailure, Robot, Stop};
 use serde_json::json;
 
 use crate::body::{Parameters, Plan, Setting, robot};
@@ -151,9 +151,8 @@ fn clients_inject_and_change_parameters_while_the_threads_run() {
                 while legs.cycles.get() < cycles && stop.wait(Duration::from_millis(1)).is_ok() {}
             };
             wait_for(3);
-            let value = json!(4711);
-            let mut erased = <dyn erased_serde::Deserializer<'_>>::erase(&value);
-            let injected = access[1].injector.inject("value", &mut erased);
+            let value = Given::from(&json!(4711));
+            let injected = access[1].injector.inject("value", &value);
             parameters
                 .change(&[("gain", json!(9))])
                 .expect("it is a number");

@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use framework::reflect::binary::encode_text;
 use framework::reflect::{EncodeError, Leaf, Shape};
-use framework::{Clear, Reflect};
+use framework::{Clear, Given, Reflect};
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
@@ -78,11 +78,8 @@ impl Reflect for Identifier {
         self
     }
 
-    fn deserialize_from(
-        &mut self,
-        deserializer: &mut dyn erased_serde::Deserializer<'_>,
-    ) -> Result<(), erased_serde::Error> {
-        *self = erased_serde::deserialize(deserializer)?;
+    fn deserialize_from(&mut self, given: &Given<'_>) -> framework::Result<()> {
+        *self = given.read()?;
         Ok(())
     }
 }

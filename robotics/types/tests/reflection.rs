@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::{fs, io};
 
-use framework::Reflect;
 use framework::reflect::binary::{Layout, decode, encode};
 use framework::reflect::{Content, FieldShape, Leaf, Shape, VariantContent, at, at_mut};
 use framework::testing::skip;
+use framework::{Given, Reflect};
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Value, json};
 use types::audio::{AudioBlock, Tone, Whistle, WhistleEvidence};
@@ -300,8 +300,7 @@ fn write_every_part(name: &str, value: &mut dyn Reflect, whole: &Value) {
             };
             assert_eq!(json_of(part), *expected, "{name}.{path}");
             if let Ok(part) = at_mut(value, &parsed) {
-                let written = part
-                    .deserialize_from(&mut <dyn erased_serde::Deserializer<'_>>::erase(expected));
+                let written = part.deserialize_from(&Given::from(expected));
                 written.unwrap_or_else(|error| panic!("{name}.{path}: {error}"));
             }
         }

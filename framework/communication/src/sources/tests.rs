@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use framework::parameters::Layers;
 use framework::reflect::{Reflect, Shape, binary};
 use framework::{
-    Clock, Hardware as _, HardwareContext, Robot, Start, Stop, Tapped, Threads, Timestamp,
+    Clock, Given, Hardware as _, HardwareContext, Robot, Start, Stop, Tapped, Threads, Timestamp,
 };
 use protocol::Encoding;
 use serde::{Serialize, Serializer};
@@ -89,10 +89,7 @@ impl Reflect for Large {
         self
     }
 
-    fn deserialize_from(
-        &mut self,
-        _: &mut dyn erased_serde::Deserializer<'_>,
-    ) -> Result<(), erased_serde::Error> {
+    fn deserialize_from(&mut self, _: &Given<'_>) -> framework::Result<()> {
         Ok(())
     }
 }

@@ -10,7 +10,7 @@ use crate::reflect::{Path, Reflect, Shape};
 /// What is wrong with one path, or with the value for it, and what would be right.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Refusal {
-    /// As it was given; empty where no single path is meant.
+    /// As it was given, with the way to the part that is wrong; empty where no single path is meant.
     pub path: String,
     pub message: String,
 }

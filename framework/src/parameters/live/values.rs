@@ -7,10 +7,9 @@ use super::{Parameters, Version};
 use crate::buffer::Writer;
 use crate::clock::Clock;
 use crate::data::ParameterData;
-use crate::error::Result;
-use crate::parameters::deserialize::Node;
+use crate::error::{Error, Result};
 use crate::parameters::exact;
-use crate::parameters::tree::Tree;
+use crate::parameters::given::{Given, Misread};
 use crate::recorded::Loading;
 use crate::reflect::{self, Path, Reflect};
 
@@ -27,7 +26,7 @@ pub(super) trait Values: Send {
     fn discard(&mut self);
 
     /// Gives a part of the draft another value.
-    fn write(&mut self, path: &str, value: Given<'_>) -> Result<Path, Refusal>;
+    fn write(&mut self, path: &str, value: &Given<'_>) -> Result<Path, Refusal>;
 
     /// The draft becomes what was loaded; the same, for [`Values::set_stored`].
     fn load(&mut self, loaded: &Parameters) -> Result<Box<dyn std::any::Any>>;
@@ -43,15 +42,6 @@ pub(super) trait Values: Send {
 
     /// The draft becomes current, also for the cyclers.
     fn publish(&mut self, version: Version);
-}
-
-/// What a part shall be.
-#[derive(Clone, Copy)]
-pub(super) enum Given<'value> {
-    /// As a client writes it.
-    Json(&'value Value),
-    /// As the command line and the files do, or as it was.
-    Tree(&'value Tree),
 }
 
 pub(super) struct Typed<P> {
@@ -91,30 +81,18 @@ impl<P: ParameterData> Values for Typed<P> {
         self.draft = None;
     }
 
-    fn write(&mut self, path: &str, value: Given<'_>) -> Result<Path, Refusal> {
+    fn write(&mut self, path: &str, value: &Given<'_>) -> Result<Path, Refusal> {
         let parsed = Refusal::parse(path)?;
         let draft = self.draft.get_or_insert_with(|| self.current.clone());
         let part = reflect::at_mut(draft, &parsed)
             .map_err(|unknown| Refusal::new(path, unknown.to_string()))?;
-        let written = match value {
-            Given::Json(value) => {
-                part.deserialize_from(&mut <dyn erased_serde::Deserializer<'_>>::erase(value))
-            }
-            Given::Tree(tree) => {
-                part.deserialize_from(&mut <dyn erased_serde::Deserializer<'_>>::erase(Node(tree)))
-            }
-        };
-        written.map_err(|error| Refusal::new(path, error.to_string()))?;
+        part.deserialize_from(value)
+            .map_err(|error| misread(path, &error))?;
         let held = exact::of(part).map_err(|error| Refusal::new(path, error.to_string()))?;
-        let too_large = match value {
-            Given::Json(value) => exact::too_large(&Tree::from_json(value), &held),
-            Given::Tree(tree) => exact::too_large(tree, &held),
-        };
-        match too_large {
+        match exact::too_large(value.tree(), &held) {
             Some((below, number)) => {
-                let path = [path, below.as_str()];
-                let path: Vec<_> = path.into_iter().filter(|part| !part.is_empty()).collect();
-                Err(Refusal::new(&path.join("."), exact::is_too_large(number)))
+                let message = exact::is_too_large(number);
+                Err(Refusal::new(&joined(path, &below), message))
             }
             None => Ok(parsed),
         }
@@ -145,9 +123,7 @@ impl<P: ParameterData> Values for Typed<P> {
             let path = &nearest(&mut self.stored, &loaded, path);
             let value = exact::of(reflect::at(&loaded, path)?)?;
             let part = reflect::at_mut(&mut self.stored, path)?;
-            let deserializer = &mut <dyn erased_serde::Deserializer<'_>>::erase(Node(&value));
-            part.deserialize_from(deserializer)?;
-            Ok(())
+            part.deserialize_from(&Given::of(&value))
         });
         // One that fails is no reason against the others.
         adopted.fold(Ok(()), Result::and)
@@ -161,6 +137,19 @@ impl<P: ParameterData> Values for Typed<P> {
         writing.clone_from(&self.current);
         self.writer.complete(version.0, self.clock.now());
     }
+}
+
+fn misread(path: &str, error: &Error) -> Refusal {
+    match error.find::<Misread>() {
+        Some(Misread { below, message }) => Refusal::new(&joined(path, below), message),
+        None => Refusal::new(path, error.to_string()),
+    }
+}
+
+fn joined(path: &str, below: &str) -> String {
+    let parts = [path, below].into_iter();
+    let parts: Vec<_> = parts.filter(|part| !part.is_empty()).collect();
+    parts.join(".")
 }
 
 /// The longest beginning of a path at which both have something that can be replaced: in the end all.

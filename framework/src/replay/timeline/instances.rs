@@ -10,6 +10,7 @@ use crate::error::{Error, Result};
 use crate::guarded::OnFailure;
 use crate::injection::Inject;
 use crate::link::InstanceLink;
+use crate::parameters::Given;
 use crate::procedure::CallAny;
 use crate::recorded::Stored;
 use crate::replay::{Player, Players};
@@ -129,7 +130,7 @@ fn description() -> InstanceDescription {
 }
 
 impl Inject for Recorded {
-    fn inject(&mut self, _: &str, _: &mut dyn erased_serde::Deserializer<'_>) -> Result<()> {
+    fn inject(&mut self, _: &str, _: &Given<'_>) -> Result<()> {
         Err(Error::new(
             "this is a recording: nothing of it can be replaced",
         ))

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use framework::parameters::Layers;
 use framework::testing::created;
-use framework::{Clock, Instance, Lockstep, Paused, Robot, Stop, Timestamp};
+use framework::{Clock, Given, Instance, Lockstep, Paused, Robot, Stop, Timestamp};
 use serde_json::{Value, json};
 use zoo_hardware::Hardware;
 use zoo_runtime::parameters::Parameters;
@@ -145,10 +145,9 @@ fn what_a_client_injects_stands_until_it_is_released() {
         ("Control", "joints", &json!([0.1, 0.2, 0.3])),
     ] {
         let access = zoo.robot.access(instance).expect("it is an instance");
-        let mut value = <dyn erased_serde::Deserializer>::erase(value);
         access
             .injector
-            .inject(output, &mut value)
+            .inject(output, &Given::from(value))
             .expect("the value fits");
     }
     zoo.run(0.6, |_| {});
@@ -176,9 +175,8 @@ fn what_a_client_injected_is_not_held_when_the_node_fails() {
             }
         });
         let access = zoo.robot.access("Hearing").expect("it is an instance");
-        let mut value = <dyn erased_serde::Deserializer>::erase(&injected);
         match said.len() {
-            20 => access.injector.inject("whistle", &mut value),
+            20 => access.injector.inject("whistle", &Given::from(&injected)),
             24 => access.injector.release("whistle").or(Ok(())),
             _ => Ok(()),
         }
@@ -249,8 +247,8 @@ fn a_procedure_is_answered_refused_or_left() {
             .iter()
             .find(|(known, _)| *known == name)
             .expect("it is one");
-        let mut request = <dyn erased_serde::Deserializer>::erase(request);
-        caller.call_any(&mut request).expect("the request fits")
+        let called = caller.call_any(&Given::from(&request));
+        called.expect("the request fits")
     };
     let (walk, stop) = (
         call("walk", json!({ "speed": 0.25 })),
@@ -298,10 +296,9 @@ fn states_can_be_saved_loaded_and_restored() {
     let control = control(&mut other);
     control.states(&mut |_, state| {
         let (_, buffer) = states.next().expect("the same states as before");
-        let mut json = serde_json::Deserializer::from_slice(buffer);
-        state
-            .load(&mut <dyn erased_serde::Deserializer>::erase(&mut json))
-            .expect("states deserialise");
+        let saved: Value = serde_json::from_slice(buffer).expect("it was saved so");
+        let loaded = state.load(&Given::from(&saved));
+        loaded.expect("states deserialise");
     });
     control.restore().expect("the gait rebuilds its table");
     assert_eq!(save(&mut other), saved);

@@ -34,7 +34,9 @@ use framework::parameters::Layers;
 use framework::recorded::{About, Recording, RecordingReport, Settings};
 use framework::replay::{Players, Ran, Verification, value_channels, verify};
 use framework::testing::created;
-use framework::{Clock, InstanceDescription, Lockstep, Record, Robot, Stop, Threads, Timestamp};
+use framework::{
+    Clock, Given, InstanceDescription, Lockstep, Record, Robot, Stop, Threads, Timestamp,
+};
 use hulkgen_recording::Recording as File;
 use serde_json::json;
 use zoo_hardware::Hardware;
@@ -150,14 +152,11 @@ fn disturb(robot: &mut Robot<Parameters>, step: u64) {
                 .find(|(name, _)| *name == "walk")
                 .expect("gait answers it");
             let request = json!({ "speed": 0.25 });
-            drop(walk.call_any(&mut <dyn erased_serde::Deserializer<'_>>::erase(request)));
+            drop(walk.call_any(&Given::from(&request)));
         }
         7 => access
             .injector
-            .inject(
-                "speed",
-                &mut <dyn erased_serde::Deserializer<'_>>::erase(json!(3.0)),
-            )
+            .inject("speed", &Given::from(&json!(3.0)))
             .expect("it is a number"),
         9 => access.injector.release("speed").expect("it is injected"),
         11 => {

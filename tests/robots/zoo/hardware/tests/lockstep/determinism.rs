@@ -5,7 +5,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use framework::{Digest, Instance, Lockstep, Timestamp};
+use framework::{Digest, Given, Instance, Lockstep, Timestamp};
 use serde_json::json;
 
 use crate::Zoo;
@@ -86,8 +86,7 @@ fn an_injected_output_shows_in_the_bits() {
     let mut zoo = Zoo::new();
     let access = zoo.robot.access("Control").expect("it is an instance");
     let spot = json!({ "x": 7.0, "brightness": 1.0 });
-    let mut spot = <dyn erased_serde::Deserializer>::erase(&spot);
-    let injected = access.injector.inject("target", &mut spot);
+    let injected = access.injector.inject("target", &Given::from(&spot));
     injected.expect("the value fits");
     assert_ne!(Run::of(Zoo::new(), None), Run::of(zoo, None));
 }

@@ -10,9 +10,10 @@ use framework::reflect::Reflect;
 use framework::report::InstanceReport;
 use framework::tap::{Reports, Tap};
 use framework::{
-    Cycle, Finished, Instance, InstanceDescription, Restarted, Result, State, Subscriptions,
+    Cycle, Finished, Given, Instance, InstanceDescription, Restarted, Result, State, Subscriptions,
     Timestamp, Waited,
 };
+use serde_json::Value;
 
 use super::{Tape, on, record_in_lockstep};
 
@@ -101,9 +102,8 @@ impl Observer for Forgetting {
         if instance.cycle().number == CYCLE {
             instance.states(&mut |name, state| {
                 if name == self.state {
-                    let mut json = serde_json::Deserializer::from_str(self.becomes);
-                    let loaded =
-                        state.load(&mut <dyn erased_serde::Deserializer<'_>>::erase(&mut json));
+                    let becomes: Value = serde_json::from_str(self.becomes).expect("JSON");
+                    let loaded = state.load(&Given::from(&becomes));
                     loaded.expect("it is such a state");
                 }
             });

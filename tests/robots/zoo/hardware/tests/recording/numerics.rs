@@ -3,7 +3,7 @@
 use framework::driver::Observer;
 use framework::recorded::{About, Recording, Settings};
 use framework::replay::{How, TOLERANCE, Verification, verify_how};
-use framework::{Clock, Instance, Lockstep, State, Timestamp};
+use framework::{Clock, Given, Instance, Lockstep, State, Timestamp};
 use hulkgen_recording::Recording as File;
 use serde_json::{Value, json};
 use zoo_runtime::recording;
@@ -28,7 +28,7 @@ impl Observer for Nudging {
             if name == "cycler_state" && cycle >= FIRST {
                 let mut value = as_json(state);
                 (self.nudge)(&mut value, cycle);
-                let loaded = state.load(&mut <dyn erased_serde::Deserializer<'_>>::erase(value));
+                let loaded = state.load(&Given::from(&value));
                 loaded.expect("it is such a state");
             }
         });
