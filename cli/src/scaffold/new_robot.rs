@@ -149,6 +149,7 @@ fn reduce(
 }
 
 /// Of the profiles what is about single packages: most of them are the checkout's, and cargo warns of those that are not there.
+/// The framework is among a team's dependencies, and its assertions are wanted.
 fn forget_packages(root: &mut DocumentMut) {
     let profiles = root.get_mut("profile").and_then(Item::as_table_mut);
     let profiles = profiles.into_iter().flat_map(Table::iter_mut);
@@ -158,6 +159,10 @@ fn forget_packages(root: &mut DocumentMut) {
         };
         if let Some(packages) = profile.get_mut("package").and_then(Item::as_table_mut) {
             packages.retain(|package, _| package == "*");
+            if let Some(all) = packages.get_mut("*").and_then(Item::as_table_like_mut) {
+                all.remove("debug-assertions");
+                all.remove("overflow-checks");
+            }
             if packages.is_empty() {
                 profile.remove("package");
             }
