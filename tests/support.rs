@@ -3,12 +3,14 @@
 pub mod api;
 pub mod fuzzed;
 pub mod nao;
+pub mod sharing;
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
 pub use framework::testing::skip;
 use hulkgen::workspace::Workspace;
+pub use sharing::compile_unoptimised;
 
 /// The root of the repository.
 pub fn root() -> PathBuf {
@@ -23,30 +25,6 @@ pub fn target_folder() -> PathBuf {
     let test = std::env::current_exe().expect("this test has a path");
     let folder = test.parent().and_then(Path::parent);
     folder.expect("target/<profile>/deps/<test>").to_owned()
-}
-
-/// Lets cargo compile a new robot and the framework without optimisation, and what it has of the registry as the repository does,
-/// so that most of that is compiled already.
-pub fn compile_unoptimised(robot: &Path) {
-    let text = fs::read_to_string(root().join("Cargo.toml")).expect("the root has it");
-    let manifest: toml::Table = text.parse().expect("cargo reads it, too");
-    let mut profile = manifest["profile"]["dev"].clone();
-    let profile = profile.as_table_mut().expect("a table");
-    let unoptimised = toml::Table::from_iter([("opt-level".to_owned(), 0.into())]);
-    profile.extend(unoptimised.clone());
-    let packages = profile["package"].as_table_mut().expect("a table");
-    let own = manifest["workspace"]["dependencies"].as_table();
-    let own = own
-        .expect("a table")
-        .keys()
-        .filter(|name| name.starts_with("hulkgen-"));
-    packages.extend(own.map(|name| (name.clone(), unoptimised.clone().into())));
-    let profiles = toml::Table::from_iter([("dev".to_owned(), profile.clone().into())]);
-    let config = toml::Table::from_iter([("profile".to_owned(), profiles.into())]);
-    let folder = robot.join(".cargo");
-    fs::create_dir_all(&folder)
-        .and_then(|()| fs::write(folder.join("config.toml"), config.to_string()))
-        .expect("the folder is the test's");
 }
 
 /// A source file by its path relative to the root.

@@ -159,10 +159,16 @@ fn a_deleted_crate_is_restored_byte_by_byte() {
     assert_eq!(before, files(&generated));
 }
 
+/// What git leaves in a file that two have changed.
+fn in_conflict(text: &str) -> String {
+    format!("<<<<<<< ours\n{text}=======\n>>>>>>> theirs\n")
+}
+
 #[test]
 fn conflict_marks_in_any_file_are_repaired() {
     let copy = copy_of_the_workspace();
-    let generated = copy.path().join("generated");
+    let zoo = copy.path().join("tests/robots/zoo");
+    let generated = zoo.join("generated");
     let before = files(&generated);
     assert!(
         before
@@ -170,11 +176,10 @@ fn conflict_marks_in_any_file_are_repaired() {
             .any(|(path, _)| path == Path::new("Cargo.toml"))
     );
     for (path, text) in &before {
-        let conflict = format!("<<<<<<< ours\n{text}=======\n>>>>>>> theirs\n");
-        fs::write(generated.join(path), conflict).expect("it was just copied");
-        let check = hulkgen(copy.path(), &["generate", "--check"]);
+        fs::write(generated.join(path), in_conflict(text)).expect("it was just copied");
+        let check = hulkgen(&zoo, &["generate", "--check"]);
         assert_eq!(check.status.code(), Some(3), "{} is drift", path.display());
-        assert_success(&hulkgen(copy.path(), &["generate"]));
+        assert_success(&hulkgen(&zoo, &["generate"]));
         assert_eq!(
             before,
             files(&generated),
@@ -182,6 +187,26 @@ fn conflict_marks_in_any_file_are_repaired() {
             path.display()
         );
     }
+}
+
+#[test]
+fn conflict_marks_in_all_files_are_repaired() {
+    let copy = copy_of_the_workspace();
+    let generated = copy.path().join("generated");
+    let before = files(&generated);
+    for (path, text) in &before {
+        fs::write(generated.join(path), in_conflict(text)).expect("it was just copied");
+    }
+    let check = hulkgen(copy.path(), &["generate", "--check"]);
+    assert_eq!(check.status.code(), Some(3));
+    let told = String::from_utf8_lossy(&check.stderr).into_owned()
+        + &String::from_utf8_lossy(&check.stdout);
+    for (path, _) in &before {
+        let path = Path::new("generated").join(path);
+        assert!(told.contains(&*path.to_string_lossy()), "{told}");
+    }
+    assert_success(&hulkgen(copy.path(), &["generate"]));
+    assert_eq!(before, files(&generated));
 }
 
 #[test]

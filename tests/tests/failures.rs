@@ -16,6 +16,7 @@ use hulkgen::pipeline;
 use hulkgen::resolve::robot::Robot;
 use hulkgen::workspace::{Changes, Workspace};
 use serde_json::{Value, json};
+use support::sharing::unoptimised;
 use support::{root, sources, target_folder};
 
 const POLICIES: [&str; 4] = ["stop", "restart", "skip", "hold"];
@@ -87,8 +88,7 @@ fn with_policy(policy: &str) -> String {
     manifest.to_string()
 }
 
-/// The repository's workspace with other members: what is compiled of the registry is compiled already. Four robots are
-/// compiled sooner than optimised.
+/// The repository's workspace with other members. Four robots are compiled sooner than optimised.
 fn workspace_manifest() -> String {
     let text = fs::read_to_string(root().join("Cargo.toml")).expect("the root has it");
     let mut manifest: toml::Table = text.parse().expect("cargo reads it, too");
@@ -114,12 +114,8 @@ fn workspace_manifest() -> String {
         };
     }
     dependencies.remove("zoo_runtime");
-    let profile = manifest["profile"]["dev"].as_table_mut().expect("a table");
-    let unoptimised = toml::Table::from_iter([("opt-level".to_owned(), 0.into())]);
-    profile.extend(unoptimised.clone());
-    let packages = profile["package"].as_table_mut().expect("a table");
-    packages.insert("hulkgen-framework".to_owned(), unoptimised.into());
-    packages.remove("hulkgen");
+    let profiles = manifest["profile"].as_table_mut().expect("a table");
+    profiles.insert("dev".to_owned(), unoptimised().into());
     manifest.to_string()
 }
 

@@ -17,6 +17,7 @@ use hulkgen::render::GeneratedFiles;
 use hulkgen::workspace::{Changes, Workspace};
 use serde_json::Value;
 use support::root;
+use support::sharing::hand_over_registry;
 
 use crate::mutants::{self, KINDS, Mutant};
 use crate::reading::{with_idle_bodies, without_bodies};
@@ -105,11 +106,18 @@ impl Copy {
             }
         }
         let workspace = Workspace::at_root(Utf8Path::from_path(&folder).expect("UTF-8"));
-        Self {
+        let copy = Self {
             folder,
             workspace,
             _lock: lock,
-        }
+        };
+        hand_over_registry(&copy.target()).expect("the folder is ours");
+        copy
+    }
+
+    /// To cargo its packages are those of the repository: what is compiled here must not take their place.
+    fn target(&self) -> PathBuf {
+        self.folder.with_file_name("target")
     }
 
     /// What hulkgen writes after these changes, if `check` accepts them.
@@ -131,12 +139,18 @@ impl Copy {
 
     /// What rustc finds in the generated crate and in what it needs.
     fn check(&self) -> Vec<Error> {
+        let messages = self.compile();
+        let errors = messages.iter();
+        errors.filter_map(|message| self.error(message)).collect()
+    }
+
+    /// What cargo says.
+    fn compile(&self) -> Vec<Value> {
         let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
         let output = Command::new(cargo)
             .args(["check", "--offline", "--message-format=json"])
             .args(["--package", "nao_runtime", "--keep-going", "--target-dir"])
-            // To cargo its packages are those of the repository: what is compiled here must not take their place.
-            .arg(self.folder.with_file_name("target"))
+            .arg(self.target())
             .current_dir(&self.folder)
             .output()
             .expect("cargo runs these tests, so it is there");
@@ -144,19 +158,21 @@ impl Copy {
             .stdout
             .split(|byte| *byte == b'\n')
             .filter(|line| !line.is_empty());
-        let errors: Vec<_> = lines.filter_map(|line| self.error(line)).collect();
-        assert!(
-            output.status.success() == errors.is_empty(),
+        let messages: Vec<Value> = lines
+            .map(|line| serde_json::from_slice(line).expect("cargo writes JSON"))
+            .collect();
+        assert_ne!(
+            output.status.success(),
+            messages.iter().any(|message| self.error(message).is_some()),
             "cargo failed otherwise: {}",
             String::from_utf8_lossy(&output.stderr)
         );
-        errors
+        messages
     }
 
-    /// The error that a line of cargo's output tells.
-    fn error(&self, line: &[u8]) -> Option<Error> {
-        let line: Value = serde_json::from_slice(line).expect("cargo writes JSON");
-        let message = &line["message"];
+    /// The error that a message of cargo's tells.
+    fn error(&self, message: &Value) -> Option<Error> {
+        let message = &message["message"];
         if message["level"]
             .as_str()
             .is_none_or(|level| !level.starts_with("error"))
@@ -276,8 +292,18 @@ fn what_check_accepts_leaves_no_error_in_the_generated_crate() {
         .accepted(&Changes::new())
         .expect("the robot is accepted");
     copy.write_generated(&unchanged);
-    let errors = copy.check();
+    let messages = copy.compile();
+    let errors: Vec<_> = messages
+        .iter()
+        .filter_map(|message| copy.error(message))
+        .collect();
     assert!(errors.is_empty(), "the robot itself compiles: {errors:#?}");
+    // Build scripts and macros at least: tests are compiled with them.
+    let is_fresh = |message: &Value| message["fresh"] == true;
+    assert!(
+        messages.iter().any(is_fresh),
+        "everything was compiled anew"
+    );
     println!("the robot in {:.1?}", started.elapsed());
 
     // A mistake of hulkgen would be seen.
