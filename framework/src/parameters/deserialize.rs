@@ -12,7 +12,7 @@ use serde::de::{
 use serde::forward_to_deserialize_any;
 
 use super::error::{Fault, Origin, ParameterError};
-use super::given::Misread;
+use super::live::Refusal;
 use super::nearest::nearest;
 use super::tree::{Tree, Value};
 
@@ -79,10 +79,10 @@ impl Mistake {
     }
 
     /// For whoever gave the value: no layer has it.
-    pub(super) fn misread(mut self) -> Misread {
+    pub(super) fn refusal(mut self) -> Refusal {
         self.keys.reverse();
-        Misread {
-            below: self.keys.join("."),
+        Refusal {
+            path: self.keys.join("."),
             message: self.message,
         }
     }

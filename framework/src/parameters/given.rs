@@ -1,7 +1,6 @@
 //! Values that somebody outside of the robot gives it: a client, a scenario, a test.
 
 use std::borrow::Cow;
-use std::fmt;
 
 use serde::de::DeserializeOwned;
 
@@ -16,14 +15,6 @@ use crate::error::{Error, Result};
 #[derive(Clone, Debug)]
 pub struct Given<'tree>(Cow<'tree, Tree>);
 
-/// What is wrong with a value that was given.
-#[derive(Debug)]
-pub(super) struct Misread {
-    /// The way to the part that is wrong; empty where that is the whole.
-    pub(super) below: String,
-    pub(super) message: String,
-}
-
 impl<'tree> Given<'tree> {
     pub(super) fn of(tree: &'tree Tree) -> Self {
         Self(Cow::Borrowed(tree))
@@ -33,9 +24,9 @@ impl<'tree> Given<'tree> {
         &self.0
     }
 
-    /// The type that it stands for; an error names the part that is wrong.
+    /// The type that it stands for; an error has a [`Refusal`](super::Refusal) of the part that is wrong.
     pub fn read<T: DeserializeOwned>(&self) -> Result<T> {
-        T::deserialize(Node::of(&self.0)).map_err(|mistake| Error::from(mistake.misread()))
+        T::deserialize(Node::of(&self.0)).map_err(|mistake| Error::from(mistake.refusal()))
     }
 }
 
@@ -51,18 +42,6 @@ impl From<&toml::Value> for Given<'_> {
         Self(Cow::Owned(Tree::from_value(toml, &Origin::Unknown)))
     }
 }
-
-impl fmt::Display for Misread {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { below, message } = self;
-        match below.as_str() {
-            "" => formatter.write_str(message),
-            _ => write!(formatter, "`{below}`: {message}"),
-        }
-    }
-}
-
-impl std::error::Error for Misread {}
 
 #[cfg(test)]
 mod tests {

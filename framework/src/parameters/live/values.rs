@@ -8,8 +8,7 @@ use crate::buffer::Writer;
 use crate::clock::Clock;
 use crate::data::ParameterData;
 use crate::error::{Error, Result};
-use crate::parameters::exact;
-use crate::parameters::given::{Given, Misread};
+use crate::parameters::{Given, exact};
 use crate::recorded::Loading;
 use crate::reflect::{self, Path, Reflect};
 
@@ -87,7 +86,7 @@ impl<P: ParameterData> Values for Typed<P> {
         let part = reflect::at_mut(draft, &parsed)
             .map_err(|unknown| Refusal::new(path, unknown.to_string()))?;
         part.deserialize_from(value)
-            .map_err(|error| misread(path, &error))?;
+            .map_err(|error| refused(path, &error))?;
         let held = exact::of(part).map_err(|error| Refusal::new(path, error.to_string()))?;
         match exact::too_large(value.tree(), &held) {
             Some((below, number)) => {
@@ -139,9 +138,10 @@ impl<P: ParameterData> Values for Typed<P> {
     }
 }
 
-fn misread(path: &str, error: &Error) -> Refusal {
-    match error.find::<Misread>() {
-        Some(Misread { below, message }) => Refusal::new(&joined(path, below), message),
+/// Of a part of what stands at this path.
+fn refused(path: &str, error: &Error) -> Refusal {
+    match error.find::<Refusal>() {
+        Some(below) => Refusal::new(&joined(path, &below.path), &below.message),
         None => Refusal::new(path, error.to_string()),
     }
 }
