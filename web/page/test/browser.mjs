@@ -5,7 +5,7 @@ import { cpSync, existsSync, mkdtempSync, rmSync, writeFileSync } from "node:fs"
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { chromium } from "playwright-core";
-import { ask, begin, isConnected } from "./page.mjs";
+import { ask, begin, isConnected, whatIsSeen } from "./page.mjs";
 import { PATIENCE, Stage, step } from "./robot.mjs";
 import { aRecordingIsReplayed, foreignScriptsDoNotRun, layoutsStay, nonsenseDoesNoHarm, otherRobotsHaveNoFootball, restartsAreSurvived, somethingHappens, tokensAreAskedFor } from "./steps/life.mjs";
 import { additionalOutputsFlow, cyclesAreLookedAt, keysAndLooksAreThere, logsAreFiltered, panelsAreMoved, parametersAreStored, plotsAreHeld, tablesAreWhole, theGraphIsRead } from "./steps/panels.mjs";
@@ -129,6 +129,10 @@ try {
   await foreignScriptsDoNotRun(page);
   await stage.stop();
   await severalRobotsAreShown(browser, program, options, folder, picture);
+} catch (error) {
+  for (const page of browser.contexts().flatMap((context) => context.pages())) console.error(await whatIsSeen(page));
+  console.error(`the robot ${stage.howItIs()}`);
+  throw error;
 } finally {
   await browser.close();
   await stage.stop();

@@ -72,6 +72,20 @@ export async function reads(locator, pattern, what) {
     });
 }
 
+/** In words, for whoever was not there: the state of the connection and the beginning of what each panel says. */
+export async function whatIsSeen(page) {
+  const look = page.evaluate(() => {
+    const begin = (element, length) => (element?.innerText ?? "").replace(/\s+/g, " ").slice(0, length);
+    const panels = [...document.querySelectorAll(".panel")].map((panel) => {
+      const parts = [...panel.querySelectorAll(".about, .failure:not([hidden])")].map((part) => begin(part, 400));
+      return [`  ${panel.dataset.kind}: ${begin(panel, 200)}`, ...parts.map((part) => `    ${part}`)].join("\n");
+    });
+    return [document.querySelector("header > .state")?.dataset.state, begin(document.querySelector("header"), 200), ...panels].join("\n");
+  });
+  const silence = new Promise((resolve) => setTimeout(resolve, 5000, "it does not answer"));
+  return `${page.url()} ${await Promise.race([look, silence]).catch((error) => error.message)}`;
+}
+
 /** Asks the robot itself, beside the page. */
 export function ask(page, request) {
   return page.evaluate(

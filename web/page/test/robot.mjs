@@ -63,6 +63,13 @@ export class Stage {
     }
   }
 
+  /** And the end of what it said. */
+  howItIs() {
+    if (this.robot === undefined) return "was stopped";
+    const { exitCode, signalCode, said } = this.robot;
+    return `${exitCode === null && signalCode === null ? "runs" : `ended with ${exitCode ?? signalCode}`}:\n${said.slice(-3000)}`;
+  }
+
   async stop() {
     this.robot?.kill("SIGINT");
     await this.robot?.ended;
