@@ -2,14 +2,13 @@
 //!
 //! Only the server's thread comes here, so that nothing in it waits for anybody.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
 use axum::extract::ws::Message as Frame;
 use framework::link::Link;
 use framework::parameters::Version;
 use framework::procedure::PendingAny;
-use framework::report::InstanceReport;
 use protocol::{Answer, Failure, Good, Level, Message, Outcome, Refusal, Welcome};
 
 use crate::closely::Closely;
@@ -21,7 +20,7 @@ use crate::press::Press;
 use crate::requests::{self, Feeder};
 use crate::run::new_run_id;
 use crate::sources::{Rate, Source};
-use crate::timings;
+use crate::timings::{self, Told};
 use crate::trace::Traces;
 
 /// Files of parameters are looked at so often.
@@ -30,7 +29,7 @@ const FILES_EVERY: Duration = Duration::from_millis(500);
 /// A request that is done with the next cycle waits for it so long.
 pub(crate) const PATIENCE: Duration = Duration::from_secs(2);
 
-/// Instances tell what they did within this time, or did not run meanwhile.
+/// Instances tell what they did within this time, or have finished no cycle meanwhile.
 const REPORTING: Duration = Duration::from_millis(500);
 
 /// Names one connection.
@@ -71,8 +70,7 @@ pub(crate) struct Hub {
     pub(crate) logs: Logs,
     /// Paths of all nodes.
     pub(crate) nodes: Vec<&'static str>,
-    /// The last report of each instance.
-    reports: Vec<Option<Box<InstanceReport>>>,
+    told: Told,
     traces: Traces,
     press: Press,
     files_looked_at: Instant,
@@ -121,8 +119,8 @@ pub(crate) enum WaitingFor {
     /// The next cycle of an output, by its place among the sources.
     Read(usize),
     Call(Box<dyn PendingAny>),
-    /// Instances that have not reported yet.
-    Timings(BTreeSet<usize>),
+    /// Reports of all instances, by the number under which they were asked for.
+    Timings(u64),
 }
 
 impl Hub {
@@ -135,7 +133,7 @@ impl Hub {
         }
         Self {
             run: new_run_id(),
-            reports: link.instances.iter().map(|_| None).collect(),
+            told: Told::new(link.instances.len()),
             press: Press::new(),
             traces: Traces::new(link.instances.len()),
             logs: Logs::new(link.clock.clone()),
@@ -294,11 +292,7 @@ impl Hub {
         for source in self.sources.iter_mut().filter(|source| source.is_open()) {
             source.hand_out(&mut self.clients, &mut self.press, &self.limits);
         }
-        for (instance, report) in self.link.instances.iter().zip(&mut self.reports) {
-            if let Some(new) = instance.reports.take() {
-                *report = Some(new);
-            }
-        }
+        self.told.fetch(&self.link.instances);
         self.look_at_logs();
         self.look_after_waiting();
         self.closely.stop_when_over();
@@ -323,10 +317,7 @@ impl Hub {
     /// Asks all instances what they did.
     pub(crate) fn ask_for_reports(&mut self) -> WaitingFor {
         self.closely.look();
-        for (instance, report) in self.link.instances.iter().zip(&mut self.reports) {
-            instance.reports.ask(report.take());
-        }
-        WaitingFor::Timings((0..self.link.instances.len()).collect())
+        WaitingFor::Timings(self.told.ask(&self.link.instances))
     }
 
     /// The last seconds as a trace.
@@ -409,10 +400,10 @@ impl Hub {
                     Some(Err(Failure::new(message.to_owned())))
                 }),
             },
-            WaitingFor::Timings(missing) => {
-                missing.retain(|instance| self.reports.get(*instance).is_some_and(Option::is_none));
-                (missing.is_empty() || is_over)
-                    .then(|| Some(Ok(Good::Timings(timings::describe(self, &self.reports)))))
+            WaitingFor::Timings(asked) => {
+                let is_whole = self.told.have_answered(*asked, &self.link.instances);
+                let described = || timings::describe(self, &self.told, *asked);
+                (is_whole || is_over).then(|| Some(Ok(Good::Timings(described()))))
             }
         }
     }

@@ -2,6 +2,7 @@
 
 use std::time::Duration;
 
+use framework::link::InstanceLink;
 use framework::recorded::Counts;
 use framework::report::{InstanceReport, NodeReport, QueueReport};
 use framework::timing::Histogram;
@@ -12,12 +13,80 @@ use protocol::{
 
 use crate::hub::Hub;
 
-/// What all instances did; of one that did not report there are counts alone.
-pub(crate) fn describe(hub: &Hub, reports: &[Option<Box<InstanceReport>>]) -> Timings {
-    let instances = hub.link.instances.iter();
-    let described = instances.zip(reports).map(|(instance, report)| {
+/// What instances told of themselves, for all requests that wait for it.
+pub(crate) struct Told {
+    instances: Vec<Instance>,
+    /// How many requests there were.
+    requests: u64,
+}
+
+#[derive(Default)]
+struct Instance {
+    last: Option<Box<InstanceReport>>,
+    /// What it may write the next one on. The last one is kept meanwhile: other requests may be answered with it.
+    blank: Option<Box<InstanceReport>>,
+    /// Requests up to this one were made before the last report was written.
+    answers: u64,
+}
+
+impl Told {
+    pub(crate) fn new(instances: usize) -> Self {
+        Self {
+            instances: (0..instances).map(|_| Instance::default()).collect(),
+            requests: 0,
+        }
+    }
+
+    /// Takes what instances told meanwhile.
+    pub(crate) fn fetch(&mut self, links: &[InstanceLink]) {
+        for (instance, link) in self.instances.iter_mut().zip(links) {
+            if let Some(new) = link.reports.take() {
+                // The instance does not allocate: so it gets one that has room for all that it tells.
+                let blank = instance.last.take().unwrap_or_else(|| new.clone());
+                instance.last = Some(new);
+                instance.blank = Some(blank);
+                instance.answers = self.requests;
+            }
+        }
+    }
+
+    /// Asks all instances; the number of the request.
+    pub(crate) fn ask(&mut self, links: &[InstanceLink]) -> u64 {
+        // What was told until now is no answer.
+        self.fetch(links);
+        self.requests += 1;
+        for (instance, link) in self.instances.iter_mut().zip(links) {
+            link.reports.ask(instance.blank.take());
+        }
+        self.requests
+    }
+
+    /// Whether all instances have answered a request.
+    pub(crate) fn have_answered(&self, request: u64, links: &[InstanceLink]) -> bool {
+        let mut answers = self.answers(request, links);
+        answers.all(|(_, answer)| answer.is_some())
+    }
+
+    /// What each tells; an instance that has finished no cycle since it told something has nothing to add.
+    fn answers<'a>(
+        &'a self,
+        request: u64,
+        links: &'a [InstanceLink],
+    ) -> impl Iterator<Item = (&'a InstanceLink, Option<&'a InstanceReport>)> {
+        links.iter().zip(&self.instances).map(move |(link, told)| {
+            let is_current = |last: &&InstanceReport| {
+                told.answers >= request || last.counts.cycles == link.counters.read().cycles
+            };
+            (link, told.last.as_deref().filter(is_current))
+        })
+    }
+}
+
+/// What all instances did; of one that has not answered there are counts alone.
+pub(crate) fn describe(hub: &Hub, told: &Told, request: u64) -> Timings {
+    let answers = told.answers(request, &hub.link.instances);
+    let described = answers.map(|(instance, report)| {
         let counts = instance.counters.read();
-        let report = report.as_deref();
         let nodes = report.map(|report| &report.nodes[..]).unwrap_or_default();
         let queues = report.map(|report| &report.queues[..]).unwrap_or_default();
         InstanceTimings {

@@ -8,4 +8,5 @@ mod limits;
 mod remote;
 mod requests;
 mod subscriptions;
+mod timings;
 mod zoo;

@@ -326,25 +326,6 @@ fn procedures_answer_refuse_and_take_their_time() {
     assert_eq!(rearmed["called"], Value::Null);
 }
 
-#[test]
-fn timings_tell_what_nodes_did() {
-    let zoo = Zoo::new();
-    let mut client = zoo.client();
-    client.ok(json!({ "read": { "path": CYCLES } }));
-    let timings = client.ok(json!({ "timings": {} }));
-    let control = &timings["timings"]["instances"][3];
-    assert_eq!(control["name"], "Control");
-    assert!(control["cycles"].as_u64() > Some(0));
-    let nodes = control["nodes"].as_array().expect("a list");
-    assert!(
-        nodes
-            .iter()
-            .any(|node| node["node"] == "zoo_nodes::control::gait")
-    );
-    assert_eq!(control["deadline"], json!(12_000.0));
-}
-
-/// The next log message.
 /// What a trace calls a thread, and the events of that thread.
 fn events<'trace>(trace: &'trace Value, phase: &str) -> Vec<&'trace Value> {
     let events = trace["traceEvents"].as_array().expect("a list");

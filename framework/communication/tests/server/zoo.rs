@@ -40,7 +40,7 @@ pub(crate) struct Client {
 }
 
 /// Parameters of the repository, as files that may be changed.
-fn copy_of_parameters() -> TempDir {
+pub(crate) fn copy_of_parameters() -> TempDir {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let from = concat!(
         env!("CARGO_MANIFEST_DIR"),
