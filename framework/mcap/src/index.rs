@@ -85,9 +85,21 @@ fn indexed(source: &impl Source, records: &[u8], end: u64) -> Option<Contents> {
                 });
             }
             opcode::ATTACHMENT_INDEX | opcode::METADATA_INDEX => {
-                let record = content_at(index.u64()?, index.u64()?)?;
-                let (kind, content) = Take(&record).record()?;
-                contents.add(kind, content)?;
+                let offset = index.u64()?;
+                let record = content_at(offset, index.u64()?)?;
+                let wanted = match kind {
+                    opcode::ATTACHMENT_INDEX => opcode::ATTACHMENT,
+                    _ => opcode::METADATA,
+                };
+                let found = Take(&record).record();
+                let found = found.filter(|(kind, _)| *kind == wanted);
+                // What it had is lost, the rest can be understood without it.
+                if found
+                    .and_then(|(kind, content)| contents.add(kind, content))
+                    .is_none()
+                {
+                    contents.unreadable.push(offset);
+                }
             }
             kind => contents.add(kind, content)?,
         }
@@ -108,20 +120,22 @@ pub(crate) fn scan(
         return Err(ReadError::Other);
     }
     let mut contents = Contents::default();
-    // The record before, if it is a chunk that is damaged.
+    // The record before, if it is damaged.
     let mut doubtful = None;
     loop {
         let understood = scan_record(source, (position, length), &mut contents, chunk)?;
         let Some((kind, next)) = understood else {
-            // Then the length of that chunk is not right either, or it is the one that breaks off.
+            // Then the length of that one is not right either, or it is the one that breaks off.
             if let Some(offset) = doubtful {
-                contents.damaged.pop();
+                contents.damaged.retain(|known| *known != offset);
+                contents.unreadable.retain(|known| *known != offset);
                 position = offset;
             }
             contents.way = Way::Cut { behind: position };
             break;
         };
-        doubtful = (contents.damaged.last() == Some(&position)).then_some(position);
+        let last = [contents.damaged.last(), contents.unreadable.last()];
+        doubtful = last.contains(&Some(&position)).then_some(position);
         position = next;
         if kind == opcode::DATA_END {
             let magic = MAGIC.len() as u64;
@@ -195,6 +209,12 @@ fn scan_record(
             }
             Some(())
         }
+        // As of chunks.
+        opcode::METADATA | opcode::ATTACHMENT if contents.add(kind, &content).is_none() => {
+            contents.unreadable.push(position);
+            Some(())
+        }
+        opcode::METADATA | opcode::ATTACHMENT => Some(()),
         kind => contents.add(kind, &content),
     };
     Ok(understood.map(|()| (kind, next)))

@@ -31,6 +31,8 @@ pub struct Contents {
     pub gone: u64,
     /// Offsets of chunks that are not what was written, where every record was looked at; [`RecordingFile::chunk`] finds others.
     pub damaged: Vec<u64>,
+    /// Offsets of metadata and attachments that are not what was written, and not among those above.
+    pub unreadable: Vec<u64>,
     pub way: Way,
     /// Whether the file's own index told it; else every record was looked at.
     pub is_indexed: bool,
@@ -104,7 +106,8 @@ impl Contents {
 
     /// Whether the run ended and everything was recorded.
     pub fn is_complete(&self) -> bool {
-        self.way == Way::Whole && self.damaged.is_empty() && is_said_complete(self.metadata("end"))
+        let is_as_written = self.damaged.is_empty() && self.unreadable.is_empty();
+        self.way == Way::Whole && is_as_written && is_said_complete(self.metadata("end"))
     }
 }
 

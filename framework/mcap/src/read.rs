@@ -25,6 +25,8 @@ pub struct Recording {
     pub gone: u64,
     /// Offsets of chunks that are not what was written; those behind them are read.
     pub damaged: Vec<u64>,
+    /// Offsets of metadata and attachments that are not what was written, and not among those above.
+    pub unreadable: Vec<u64>,
     pub way: Way,
 }
 
@@ -106,6 +108,7 @@ impl Recording {
             chunks,
             gone: contents.gone,
             damaged: contents.damaged,
+            unreadable: contents.unreadable,
             way: contents.way,
         }
     }
@@ -117,7 +120,8 @@ impl Recording {
 
     /// Whether the run ended and everything was recorded.
     pub fn is_complete(&self) -> bool {
-        self.way == Way::Whole && self.damaged.is_empty() && is_said_complete(self.metadata("end"))
+        let is_as_written = self.damaged.is_empty() && self.unreadable.is_empty();
+        self.way == Way::Whole && is_as_written && is_said_complete(self.metadata("end"))
     }
 }
 

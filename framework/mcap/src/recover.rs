@@ -19,6 +19,8 @@ pub struct Recovered {
     pub lost: u64,
     /// Offsets of chunks of the old file that are damaged, and not in the new one.
     pub damaged: Vec<u64>,
+    /// Offsets of metadata and attachments of the old file that cannot be read, and are not in the new one.
+    pub unreadable: Vec<u64>,
 }
 
 /// Writes a whole file, which must not exist, with all chunks of this one that are not damaged. Where that fails there is
@@ -76,6 +78,7 @@ fn copy(file: &RecordingFile, mut writer: Writer, length: u64) -> Result<Recover
             Way::Cut { behind } => length.saturating_sub(behind),
         },
         damaged: contents.damaged.clone(),
+        unreadable: contents.unreadable.clone(),
     };
     for place in &contents.chunks {
         match file.chunk(place) {
@@ -92,6 +95,7 @@ fn copy(file: &RecordingFile, mut writer: Writer, length: u64) -> Result<Recover
     // What the old file says of its end holds for the new one only where nothing is lost.
     if recovered.lost == 0
         && recovered.damaged.is_empty()
+        && recovered.unreadable.is_empty()
         && let Some(end) = contents.metadata(END)
     {
         writer.write_metadata(end)?;

@@ -1,5 +1,9 @@
 //! Files that are read one chunk at a time.
 
+use std::ops::Range;
+
+use hulkgen_mcap::opcode::{ATTACHMENT, DATA_END, METADATA};
+use hulkgen_mcap::recover;
 use hulkgen_recording::{ReadError, Recording, RecordingFile, Settings, Way};
 
 use crate::description::settings;
@@ -145,6 +149,60 @@ fn whatever_bit_is_wrong_the_chunks_beside_it_are_there() {
             assert!(is_told || read.chunks.len() == places.len(), "byte {byte}");
         }
     }
+}
+
+/// Kinds and places of the records in front of a file's summary.
+fn records(bytes: &[u8]) -> impl Iterator<Item = (u8, Range<usize>)> {
+    let mut start = 8;
+    std::iter::from_fn(move || {
+        let kind = bytes[start];
+        let (length, _) = bytes[start + 1..].split_first_chunk()?;
+        let place = start..start + 9 + u64::from_le_bytes(*length) as usize;
+        start = place.end;
+        (kind != DATA_END).then_some((kind, place))
+    })
+}
+
+#[test]
+fn whatever_bit_of_metadata_or_an_attachment_is_wrong_all_chunks_are_there() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name);
+    record(&path("run.mcap"), 1500, 20, settings());
+    let bytes = std::fs::read(path("run.mcap")).expect("it was written");
+    let whole = Recording::read(&bytes).expect("it can be read");
+    let places: Vec<_> = records(&bytes)
+        .filter(|(kind, _)| [METADATA, ATTACHMENT].contains(kind))
+        .collect();
+    let kinds = |kind| places.iter().filter(|(one, _)| *one == kind).count();
+    assert!(kinds(METADATA) > 1 && kinds(ATTACHMENT) > 0, "{places:?}");
+    let mut untold = 0;
+    for (kind, place) in &places {
+        // Their last bytes: of text, or of a check sum.
+        for (byte, bit) in [(place.end - 1, 7), (place.end - 2, 7), (place.start + 9, 5)] {
+            let mut damaged = bytes.clone();
+            damaged[byte] ^= 1 << bit;
+            std::fs::write(path("damaged.mcap"), &damaged).expect("there is room");
+            let indexed = Recording::open(&path("damaged.mcap")).expect("it can be read");
+            let scanned = Recording::read(&damaged).expect("it can be read");
+            for read in [indexed, scanned] {
+                assert_eq!(sound(&read), sound(&whole), "byte {byte}");
+                assert_eq!((&read.way, &*read.damaged), (&Way::Whole, &[][..]));
+                let is_told = read.unreadable == [place.start as u64];
+                assert_eq!(is_told, !read.is_complete(), "byte {byte}");
+                untold += u32::from(!is_told);
+                assert!(is_told || *kind == METADATA, "attachments have check sums");
+            }
+        }
+    }
+    assert!(untold < places.len() as u32, "{untold}");
+    // What is left of the last one that was tried.
+    let file = RecordingFile::open(&path("damaged.mcap")).expect("it can be read");
+    let recovered = recover(&file, &path("recovered.mcap")).expect("there is room");
+    assert_eq!(recovered.chunks as usize, whole.chunks.len());
+    assert_eq!(recovered.unreadable, file.contents().unreadable);
+    let again = Recording::open(&path("recovered.mcap")).expect("it can be read");
+    assert_eq!((again.way.clone(), again.unreadable.len()), (Way::Whole, 0));
+    assert!(!again.is_complete());
 }
 
 #[test]
