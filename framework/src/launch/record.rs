@@ -1,6 +1,7 @@
 //! The recording of a run.
 
 use std::fs;
+use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::{SystemTime, UNIX_EPOCH};
@@ -19,7 +20,11 @@ const NAME: &str = "recording";
 /// The variable in which `hulkgen deploy` hands over what it sent: where a robot runs is no checkout.
 const REVISION: &str = "HULKGEN_REVISION";
 
-/// Starts it, if one is wanted.
+/// Starts it, if one is wanted. Where the disk has no place even for its beginning the robot goes on without one, unless
+/// somebody named its file: an earlier half may have filled the disk.
+///
+/// # Errors
+/// If it cannot be started for another reason.
 pub(super) fn start<P: ParameterData>(
     target: &Target,
     options: &Options,
@@ -31,9 +36,32 @@ pub(super) fn start<P: ParameterData>(
         Record::Off => return Ok(None),
         Record::Simulated if !is_simulated => return Ok(None),
         Record::Simulated | Record::On => free_place(&options.run_folder, NAME),
-        Record::Into(path) => path.clone(),
+        Record::Into(path) => {
+            return start_into(path, target, options, robot, identities).map(Some);
+        }
     };
-    start_into(&path, target, options, robot, identities).map(Some)
+    match start_into(&path, target, options, robot, identities) {
+        Err(error) if has_no_place(&error) => {
+            // What it has of a beginning is of use to nobody, nor is a folder with nothing else in it.
+            let _ = fs::remove_file(&path);
+            let _ = fs::remove_dir(&options.run_folder);
+            tell(format_args!(
+                "{error}; this run is not recorded: remove folders of earlier runs beside {}, or name another one with --run-folder",
+                options.run_folder.display()
+            ));
+            Ok(None)
+        }
+        started => started.map(Some),
+    }
+}
+
+/// Whether no byte can be written where a recording would be.
+fn has_no_place(error: &Error) -> bool {
+    let kind = error.find::<io::Error>().map(io::Error::kind);
+    matches!(
+        kind,
+        Some(ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::ReadOnlyFilesystem)
+    )
 }
 
 /// Starts it there.

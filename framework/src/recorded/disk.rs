@@ -3,6 +3,8 @@
 use std::fs::File;
 use std::io::{self, ErrorKind, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use hulkgen_recording::{Description, Recorder, Rewrites, Settings, Storage, Track, Writer};
 
@@ -17,13 +19,17 @@ pub(super) fn start(
     rewrites: Rewrites,
 ) -> io::Result<(Recorder, Vec<Track>)> {
     let file = File::options().write(true).create_new(true).open(path)?;
+    let is_begun = Arc::new(AtomicBool::new(false));
     let disk = Disk {
         storage: file,
         path: path.to_owned(),
         tell: |path, error| tell(format_args!("{}", text(path, error))),
+        is_begun: is_begun.clone(),
         is_told: false,
     };
     let writer = Writer::onto(Box::new(disk), description, settings.budget)?;
+    // Relaxed: the thread that writes is begun behind it.
+    is_begun.store(true, Ordering::Relaxed);
     Recorder::start_writing(path, writer, tracks, settings, rewrites)
 }
 
@@ -47,6 +53,8 @@ struct Disk<S> {
     storage: S,
     path: PathBuf,
     tell: fn(&Path, &io::Error),
+    /// Until then whoever starts the recording gets the error.
+    is_begun: Arc<AtomicBool>,
     is_told: bool,
 }
 
@@ -55,6 +63,7 @@ impl<S> Disk<S> {
         if let Err(error) = &result
             && error.kind() != ErrorKind::Interrupted
             && !self.is_told
+            && self.is_begun.load(Ordering::Relaxed)
         {
             self.is_told = true;
             (self.tell)(&self.path, error);
@@ -100,7 +109,7 @@ impl<S: Storage> Storage for Disk<S> {
 
 #[cfg(test)]
 mod tests {
-    use std::sync::atomic::{AtomicUsize, Ordering};
+    use std::sync::atomic::AtomicUsize;
 
     use super::*;
 
@@ -150,8 +159,12 @@ mod tests {
                 assert_eq!(error.kind(), ErrorKind::StorageFull);
                 TOLD.fetch_add(1, Ordering::Relaxed);
             },
+            is_begun: Arc::default(),
             is_told: false,
         };
+        disk.write_all(b"head").expect_err("there is no room");
+        assert_eq!(TOLD.load(Ordering::Relaxed), 0, "it is not begun");
+        disk.is_begun.store(true, Ordering::Relaxed);
         disk.set_len(0).expect("it does nothing");
         assert_eq!(TOLD.load(Ordering::Relaxed), 0);
         for _ in 0..3 {

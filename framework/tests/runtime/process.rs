@@ -95,6 +95,12 @@ fn a_process_of_this_test_is_the_run_it_was_told_to_be() {
             let setting = failing(OnFailure::Skip, &[Act::Fail, Act::Panic]);
             launch(&["--for", "1200ms"], &setting)
         }
+        Ok("recorded") => {
+            let folder = std::env::temp_dir().join("runs/half");
+            let folder = folder.to_str().expect("its name is text");
+            let words = ["--for", "100ms", "--record", "on", "--run-folder", folder];
+            launch(&words, &Setting::default())
+        }
         Ok("hung up") => {
             thread::spawn(|| {
                 thread::sleep(Duration::from_millis(100));
@@ -271,6 +277,50 @@ fn a_robot_whose_standard_error_cannot_be_written_runs_to_its_end() {
         .expect("Linux has it");
     let (status, _) = end_of("long enough for a line of status", full.into());
     assert_eq!(status.code(), Some(0), "{status}");
+}
+
+/// Leaves the disk one page, for the parameters that a run of this test has there.
+#[cfg(target_os = "linux")]
+fn fill(path: &Path) {
+    let mut file = File::create(path).expect("it needs no page");
+    let page = [0; 4096];
+    while file.write_all(&page).is_ok() {}
+    let pages = file.metadata().expect("it is there").len() / 4096;
+    file.set_len((pages - 1) * 4096).expect("it gets shorter");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_robot_whose_disk_is_full_before_it_starts_runs_without_a_recording() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut mount = Command::new("mount");
+    mount.args(["-t", "tmpfs", "-o", "size=1m", "none"]);
+    let mounted = mount.arg(folder.path()).output();
+    if !mounted.is_ok_and(|output| output.status.success()) {
+        framework::testing::skip(
+            "a_robot_whose_disk_is_full_before_it_starts_runs_without_a_recording",
+            "run as root, or in a container that may mount a tmpfs",
+        );
+        return;
+    }
+    let run =
+        |folder: &Path| end_within(Duration::from_secs(8), "recorded", folder, Stdio::piped());
+    let (first, told) = run(folder.path());
+    let half = folder.path().join("runs/half");
+    let is_recorded = half.join("recording.mcap").is_file();
+    std::fs::remove_dir_all(folder.path().join("runs")).expect("it is ours");
+    fill(&folder.path().join("others"));
+    let (second, untold) = run(folder.path());
+    let is_left = folder.path().join("runs/half").exists();
+    drop(Command::new("umount").arg(folder.path()).output());
+    assert!(first.success() && is_recorded, "{told}");
+    assert!(second.success(), "{untold}");
+    assert!(
+        untold.contains("No space left on device (os error 28); this run is not recorded: remove"),
+        "{untold}"
+    );
+    assert!(!untold.contains("the robot goes on"), "{untold}");
+    assert!(!is_left, "half a beginning of a recording is left");
 }
 
 #[test]
