@@ -169,7 +169,7 @@ pub(super) fn run<P: ParameterData>(
     let result = Recording::open(file)
         .map_err(|error| Error::new(error.to_string()))
         .and_then(|recording| {
-            if options.answers() {
+            if options.replay.is_question() || !options.settings.is_empty() {
                 replayed::<P>(target, &recording, options, output)
             } else {
                 served::<P>(target, &recording, options, serve)
@@ -246,9 +246,14 @@ fn replayed<P: ParameterData>(
             "the chunk at byte {offset} is damaged (its check sum is wrong): what it had is lost"
         ));
     }
+    for offset in &recording.unreadable {
+        tell(format_args!(
+            "the record at byte {offset} (metadata, or an attachment) is damaged: what it had is lost"
+        ));
+    }
     if !recording.is_complete() {
         tell(format_args!(
-            "the recording is INCOMPLETE: frames were dropped, a chunk is damaged, or it was cut off"
+            "the recording is INCOMPLETE: frames were dropped, something in it is damaged, or it was cut off"
         ));
     }
     Ok(is_good)

@@ -145,6 +145,8 @@ impl Verification {
         json!({
             "version": 1,
             "good": self.is_good(),
+            "complete": self.is_complete,
+            "damaged": self.damaged,
             "instances": self.instances.iter().map(|one| json!({
                 "instance": one.instance,
                 "record": one.record,

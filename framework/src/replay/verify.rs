@@ -44,6 +44,10 @@ pub struct Verification {
     pub compared_within: Option<f64>,
     /// By instance, if not all of it: which nodes were run.
     pub recomputed: Vec<(String, Vec<String>)>,
+    /// Offsets of chunks that are damaged: nobody knows what they had.
+    pub damaged: Vec<u64>,
+    /// Whether the run ended and everything of it was recorded.
+    pub is_complete: bool,
 }
 
 /// What came of one instance.
@@ -124,9 +128,11 @@ impl Verification {
         applies.filter(|tolerance| *tolerance > 0.0)
     }
 
-    /// Whether every instance of which the file has frames, or should have, was verified, and no cycle diverged.
+    /// Whether every instance of which the file has frames, or should have, was verified, no cycle diverged, and no chunk is
+    /// damaged. What was not recorded, or is behind the place where the file breaks off, is not judged.
     pub fn is_good(&self) -> bool {
         self.unknown.is_empty()
+            && self.damaged.is_empty()
             && self.instances.iter().all(InstanceVerified::is_good)
             && self.instances.iter().any(|one| one.verified > 0)
     }
@@ -161,6 +167,8 @@ pub fn verify_how(
         ),
         graph: other_graph(recording, how),
         tolerance: how.tolerance,
+        damaged: recording.damaged.clone(),
+        is_complete: recording.is_complete(),
         ..Verification::default()
     };
     verification.compared_within = verification.tolerance();

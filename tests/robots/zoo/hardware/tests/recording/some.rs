@@ -70,6 +70,31 @@ fn only_what_an_output_asks_for_is_recorded() {
 }
 
 #[test]
+fn what_a_damaged_chunk_had_is_not_taken_for_verified() {
+    let tape = Tape::new();
+    record_in_lockstep(&tape.path, SMALL, on, &as_it_is);
+    let file = RecordingFile::open(&tape.path).expect("it can be read");
+    let chunks = &file.contents().chunks;
+    assert!(chunks.len() > 2, "the others can be verified");
+    let place = chunks[1].offset;
+    let mut bytes = std::fs::read(&tape.path).expect("it was written");
+    bytes[place as usize + 100] ^= 1;
+    let damaged = File::read(&bytes).expect("the others can be read");
+    let verification = verify(&damaged, recording::INSTANCES).expect("it is of this robot");
+    assert!(
+        verification.instances.iter().all(|one| one.is_good()),
+        "{verification}"
+    );
+    assert!(!verification.is_good() && !verification.is_complete);
+    let said = verification.to_json();
+    assert_eq!(
+        (&said["good"], &said["complete"]),
+        (&false.into(), &false.into())
+    );
+    assert_eq!(said["damaged"], serde_json::json!([place]));
+}
+
+#[test]
 fn what_an_output_asked_for_is_in_the_file_while_it_asks_for_nothing_more() {
     let tape = Tape::new();
     let mut zoo = Zoo::new(Clock::stepped());
