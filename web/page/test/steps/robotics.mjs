@@ -7,21 +7,28 @@ async function call(page, path, argument) {
   return (await ask(page, { call: { path, argument } })).called;
 }
 
+const putOnItsFeet = (page) => call(page, "framework.procedures.disturb", { kidnap: [-2.0, -1.0, 0.5] });
+
+/** On a busy machine it may fall over, and is not driven then: somebody puts it on its feet, again and again. */
+async function drives(page, state, pattern) {
+  const again = setInterval(() => putOnItsFeet(page).catch(() => undefined), 10_000);
+  await reads(state, pattern, "what the robot says of its steps").finally(() => clearInterval(again));
+}
+
 export async function theRobotIsDriven(page) {
-  // On a busy machine it may have fallen over: somebody puts it on its feet.
-  await call(page, "framework.procedures.disturb", { kidnap: [-2.0, -1.0, 0.5] });
+  await putOnItsFeet(page);
   await begin(page, "Motion");
   await until(page, panel(page, "pose").locator("canvas"), hasStrokes, "a body");
   const drive = panel(page, "drive");
   const state = drive.locator("output");
   await drive.locator(".drive").focus();
   await page.keyboard.down("w");
-  await reads(state, /^driving: [1-9]/, "what the robot says of its steps");
+  await drives(page, state, /^driving: [1-9]/);
   await page.keyboard.up("w");
   await reads(state, /^Stand/, "the motion after the key was let go");
   // A person who looks elsewhere drives no more.
   await page.keyboard.down("a");
-  await reads(state, /^driving/, "what the robot says of its steps");
+  await drives(page, state, /^driving/);
   await page.evaluate(() => window.dispatchEvent(new Event("blur")));
   await reads(state, /^(standing|Stand)/, "the motion after the window was left");
   await page.keyboard.up("a");
