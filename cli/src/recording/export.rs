@@ -13,6 +13,7 @@ use serde_json::{Value, json};
 
 use super::values::{Found, Selection, Shown, cat};
 use crate::outcome::Refusal;
+use table::Columns;
 
 /// What is made of the values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -97,15 +98,20 @@ fn write(
         (exported.files, exported.values) = (count, count);
         return Ok((exported, shown));
     }
+    let columns = match kind {
+        Export::Csv => Some(columns(file, selection)?),
+        Export::Json | Export::Png => None,
+    };
     let out = fs::File::create_new(into).map_err(failed)?;
     let mut out = BufWriter::new(out);
     exported.files = 1;
-    let mut table = table::Table::default();
+    let head = columns.as_ref().map(Columns::head).unwrap_or_default();
+    out.write_all(head.as_bytes()).map_err(failed)?;
     let mut values = 0;
     let shown = cat(file, selection, &mut |found| {
-        let text = match kind {
-            Export::Csv => table.row(&found),
-            Export::Json | Export::Png => format!("{}\n", found.to_json()),
+        let text = match &columns {
+            Some(columns) => columns.row(&found),
+            None => format!("{}\n", found.to_json()),
         };
         out.write_all(text.as_bytes()).map_err(failed)?;
         values += 1;
@@ -114,6 +120,27 @@ fn write(
     exported.values = values;
     out.flush().map_err(failed)?;
     Ok((exported, shown))
+}
+
+/// What a table of these values needs: the first of two passes over the file, which holds no values.
+fn columns(file: &RecordingFile, selection: &Selection) -> Result<Columns, Refusal> {
+    let mut columns = Columns::default();
+    let mut output = None;
+    // The second pass tells what is damaged or silent.
+    let _ = cat(file, selection, &mut |found| {
+        columns.observe(&found.value);
+        let first = output.get_or_insert_with(|| found.path.clone());
+        match *first == found.path {
+            true => Ok(true),
+            false => Err(several(first, &found.path)),
+        }
+    })?;
+    Ok(columns)
+}
+
+fn several(one: &str, other: &str) -> Refusal {
+    Refusal::wrong_usage("a table has the values of one output")
+        .help(format!("name one: there are `{one}` and `{other}`"))
 }
 
 fn no_image(found: &Found) -> Refusal {

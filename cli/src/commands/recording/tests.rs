@@ -77,3 +77,39 @@ fn cat_and_export_tell_values() {
         assert_reviewed(name, &text);
     }
 }
+
+#[test]
+fn a_table_has_a_column_for_every_item_that_a_list_ever_has() {
+    let (_keep, folder) = folder();
+    let path = folder.join("a.mcap");
+    record(&path, true);
+    let mut walk = some();
+    // As many numbers as the cycle says.
+    walk.paths = vec!["Control.states.control::walk".to_owned()];
+    let into = folder.join("walk.csv");
+    recording::export(&path, &walk, Export::Csv, &into).expect("it is new");
+    let text = std::fs::read_to_string(&into).expect("it was written");
+    let rows: Vec<_> = text.lines().collect();
+    assert_eq!(rows[0], "cycle,time,0,1,2,3");
+    assert_eq!(rows[1], "2,0.020000000,7,7,,");
+    assert_eq!(rows[3], "4,0.040000000,7,7,7,7");
+}
+
+#[test]
+fn a_table_of_several_outputs_is_refused_with_two_of_them() {
+    let (_keep, folder) = folder();
+    let path = folder.join("a.mcap");
+    record(&path, true);
+    let mut several = some();
+    several.paths = vec!["Control.main_outputs".to_owned()];
+    let into = folder.join("several.csv");
+    let refused = recording::export(&path, &several, Export::Csv, &into);
+    let help = refused.expect_err("there are two").help.unwrap_or_default();
+    for output in [
+        "`Control.main_outputs.ball`",
+        "`Control.main_outputs.image`",
+    ] {
+        assert!(help.contains(output), "{help}");
+    }
+    assert!(!into.exists());
+}
