@@ -57,14 +57,17 @@ pub struct Replay {
 /// Make a cycle of a recording a test of a node, in the node's crate
 ///
 /// The test calls the node with what it took in that cycle and compares its outputs, its state, its answer to a call and what
-/// it told the hardware, bit for bit; all values stand in a data file beside it.
+/// it told the hardware, bit for bit; all values stand in a data file beside it. Files that are there and say something else
+/// stay, unless --replace is given.
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "\
-Exit status: 0 written, 1 the cycle or the node cannot be captured, errors in the robot or a failed build, 2 wrong usage.
+Exit status: 0 written, 1 the cycle or the node cannot be captured, errors in the robot or a failed build, 2 wrong usage,
+             or a file is there that says something else.
 
 Examples:
   hulkgen capture runs/1700000000-42/recording.mcap --at 731 --node ball_filter
-  hulkgen capture recording.mcap --at 40 --node vision::ball_detection --instance VisionTop")]
+  hulkgen capture recording.mcap --at 40 --node vision::ball_detection --instance VisionTop
+  hulkgen capture recording.mcap --at 40 --node ball_filter --replace      # anew, for another hulkgen")]
 pub struct Capture {
     /// The recording
     pub file: Utf8PathBuf,
@@ -77,6 +80,9 @@ pub struct Capture {
     /// The instance, where the node runs in several
     #[arg(long, value_name = "NAME")]
     pub instance: Option<String>,
+    /// Write over the test and its values where they are there and say something else
+    #[arg(long)]
+    pub replace: bool,
     /// The target [default: the first of hulk.toml]
     #[arg(long)]
     pub target: Option<String>,

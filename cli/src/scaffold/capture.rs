@@ -121,8 +121,8 @@ pub fn capture(
     let member = own_member(workspace, robot, library)?;
     let instance = snapshot["instance"].as_str().unwrap_or_default();
     let cycle = snapshot["cycle"].as_u64().unwrap_or_default();
-    let last = node.path.rsplit("::").next().unwrap_or_default();
-    let name = format!("{last}_{}_{cycle}", schema::snake_case(instance));
+    let last = last(&node.path);
+    let name = name(capture, instance, cycle);
     let mut writing = Writing::new(capture, instance);
     let resolved = resolved(robot, node);
     let restored = resolved
@@ -174,6 +174,25 @@ pub fn capture(
             Some(format!("{data}\n")),
         ),
     ]))
+}
+
+/// What sets the test apart from those of all other nodes of the crate, instances and cycles.
+fn name(Capture { cycler, node, .. }: Capture<'_>, instance: &str, cycle: u64) -> String {
+    let (library, module) = node.path.split_once("::").unwrap_or(("", &node.path));
+    let others = cycler.nodes.iter().filter(|other| other.path != node.path);
+    let is_of_crate = |path: &str| path.split("::").next() == Some(library);
+    // Of other cyclers' nodes its instance sets it apart.
+    let mut likes = others.filter(|other| last(&other.path) == last(module));
+    let node = match likes.any(|other| is_of_crate(&other.path)) {
+        true => module.replace("::", "_"),
+        false => last(module).to_owned(),
+    };
+    format!("{node}_{}_{cycle}", schema::snake_case(instance))
+}
+
+/// The node's own module.
+fn last(path: &str) -> &str {
+    path.rsplit("::").next().unwrap_or_default()
 }
 
 /// The file that the test reads.
@@ -247,4 +266,45 @@ fn returned(node: &Node) -> (Vec<String>, bool) {
     let lines: Vec<_> = lines.collect();
     let are_there = !lines.is_empty();
     (lines, are_there)
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::Value;
+
+    use super::{Capture, name};
+    use crate::graph::{self, fixture};
+
+    #[test]
+    fn modules_stand_in_the_name_where_two_nodes_of_the_crate_would_have_the_same() {
+        let mut graph = graph::describe(&fixture::robot(), &fixture::schedule());
+        let control = &mut graph.cyclers[1];
+        let paths = [
+            "crate_a::left::filter",
+            "crate_a::right::filter",
+            "crate_b::deep::filter",
+            "crate_a::walk",
+        ];
+        for (node, path) in control.nodes.iter_mut().zip(paths) {
+            node.path = path.to_owned();
+        }
+        let snapshot = Value::Null;
+        let names = control.nodes.iter().map(|node| {
+            let capture = Capture {
+                cycler: control,
+                node,
+                snapshot: &snapshot,
+            };
+            name(capture, "Control", 7)
+        });
+        assert_eq!(
+            names.collect::<Vec<_>>(),
+            [
+                "left_filter_control_7",
+                "right_filter_control_7",
+                "filter_control_7",
+                "walk_control_7"
+            ]
+        );
+    }
 }

@@ -223,7 +223,7 @@ fn load(text: &str) -> Result<Value, String> {
         }
         version => Err(format!(
             "the captured file has version {version}, and {SNAPSHOT_VERSION} is read here: \
-             capture the cycle again with the `hulkgen` of this framework"
+             capture the cycle again with the `hulkgen` of this framework and `--replace`"
         )),
     }
 }
@@ -329,7 +329,7 @@ fn timestamp(nanoseconds: &Value) -> Timestamp {
 
 fn read<T: DeserializeOwned>(value: &Value, what: &str) -> T {
     T::deserialize(value).unwrap_or_else(|error| {
-        panic!("`{what}` was captured with another type ({error}): capture the cycle again")
+        panic!("`{what}` was captured with another type ({error}): capture the cycle again, with `--replace`")
     })
 }
 
