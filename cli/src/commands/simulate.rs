@@ -2,7 +2,7 @@
 
 use std::ffi::OsString;
 
-use camino::Utf8Path;
+use camino::{Utf8Path, Utf8PathBuf};
 
 use super::Failure;
 use super::run::{Wanted, absolute, build, end_of_robot};
@@ -24,11 +24,24 @@ pub(super) fn run(session: &mut Session<'_>, simulate: &Simulate) -> Result<Outc
     let Some(executable) = build(session, &wanted)? else {
         return Ok(Outcome::Bad);
     };
+    let root = session.workspace.root();
+    let outcome = play_all(&simulate.scenarios, |scenario| {
+        end_of_robot(&executable, &arguments(simulate, scenario)?, root)
+    })?;
+    Ok(outcome)
+}
+
+/// One after the other, as long as it can help to play the next.
+fn play_all(
+    scenarios: &[Utf8PathBuf],
+    mut play: impl FnMut(&Utf8Path) -> Result<Ended, Refusal>,
+) -> Result<Outcome, Refusal> {
     let mut outcome = Outcome::Good;
-    for scenario in &simulate.scenarios {
-        let arguments = arguments(simulate, scenario)?;
-        match end_of_robot(&executable, &arguments, session.workspace.root())? {
+    for scenario in scenarios {
+        match play(scenario)? {
             Ended::ByItself(Some(0)) => {}
+            // The program gets the same options for each of them.
+            Ended::ByItself(Some(2)) => return Ok(Outcome::WrongUsage),
             // Ctrl-C is meant for all of them.
             Ended::ByInterrupt => return Ok(Outcome::Interrupted),
             Ended::ByItself(_) => outcome = Outcome::Bad,
@@ -70,8 +83,27 @@ mod tests {
     use camino::Utf8Path;
     use clap::Parser as _;
 
-    use super::arguments;
+    use super::{arguments, play_all};
     use crate::arguments::{Arguments, Command};
+    use crate::interrupt::Ended;
+    use crate::outcome::Outcome;
+
+    #[test]
+    fn wrong_usage_is_told_once_and_a_scenario_that_fails_stops_no_other() {
+        for (statuses, expected, played) in [
+            ([0, 0], Outcome::Good, 2),
+            ([1, 0], Outcome::Bad, 2),
+            ([2, 0], Outcome::WrongUsage, 1),
+            ([1, 2], Outcome::WrongUsage, 2),
+        ] {
+            let mut next = statuses.into_iter();
+            let outcome = play_all(&["a.toml".into(), "b.toml".into()], |_| {
+                Ok(Ended::ByItself(next.next()))
+            });
+            assert_eq!(outcome, Ok(expected), "{statuses:?}");
+            assert_eq!(next.len(), 2 - played, "{statuses:?}");
+        }
+    }
 
     #[test]
     fn the_program_plays_the_file_wherever_it_runs() {
