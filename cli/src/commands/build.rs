@@ -4,13 +4,13 @@ use camino::Utf8PathBuf;
 use serde_json::json;
 
 use super::Failure;
-use super::cargo::{OWN_PROFILE, Request};
+use super::cargo::{ForProcessor, OWN_PROFILE, Request};
 use super::generate;
 use super::run::{absolute, choose_target, profile};
 use super::session::Session;
 use crate::arguments::{self, TextOrJson};
 use crate::cache::user_folder;
-use crate::cross::{self, Elf, Flags, Processor, Tools, Wanted, WrongTriple};
+use crate::cross::{self, Elf, Tools, Wanted, WrongTriple};
 use crate::outcome::{Outcome, Refusal};
 use crate::resolve::robot::Target;
 
@@ -36,17 +36,9 @@ pub(super) fn run(
     if session.diagnostics.has_errors() {
         return Ok(Outcome::Bad);
     }
-    let flags = target.cpu.as_deref().map(|cpu| {
-        let processor = Processor {
-            folder: session.workspace.root(),
-            triple: wanted.as_ref().map(|wanted| wanted.triple.as_str()),
-            cpu,
-        };
-        let own = Flags::of(&processor.compiled_for()?, |name| std::env::var(name).ok());
-        refuse_lacking(&processor, &own)?;
-        Ok::<_, Refusal>(own.encoded(cpu))
-    });
-    let flags = flags.transpose()?;
+    let triple = wanted.as_ref().map(|wanted| wanted.triple.as_str());
+    let root = session.workspace.root();
+    let processor = ForProcessor::of(root, triple, target.cpu.as_deref())?;
     generate::write(session, &understood)?;
     let profile = profile(build.build.profile.as_deref(), target).unwrap_or(OWN_PROFILE);
     let target_dir = build
@@ -60,9 +52,7 @@ pub(super) fn run(
         let tools = Tools::bring(user_folder(), |what| session.terminal.note(what))?;
         request.cross(&tools, triple);
     }
-    if let Some(flags) = flags {
-        request.set(cross::ENCODED, flags.into());
-    }
+    processor.apply(&mut request);
     // What is left out of the program is not sent to the robot either; panics keep file and line.
     request.strip();
     let said = request.said(session, session.terminal.colors_notes())?;
@@ -106,19 +96,6 @@ fn wanted_of(triple: &str) -> Result<Wanted, Refusal> {
     Wanted::parse(triple).map_err(|wrong| Refusal::bad(wrong.to_string()).help(WrongTriple::HELP))
 }
 
-/// Nothing is built with flags of the environment that let the program use what the processor lacks.
-fn refuse_lacking(processor: &Processor<'_>, own: &Flags) -> Result<(), Refusal> {
-    let features = processor.lacks(&own.words)?;
-    if features.is_empty() {
-        return Ok(());
-    }
-    let (names, cpu, variable) = (features.join(", "), processor.cpu, &own.variable);
-    let message = format!("{variable} lets the program use {names}, which `{cpu}` lacks");
-    Err(Refusal::bad(message).help(format!(
-        "take it out of {variable}, or name a newer processor as the target's `cpu`"
-    )))
-}
-
 impl Program<'_> {
     fn text(&self) -> String {
         let glibc = self.elf.glibc.map(|version| version.to_string());
@@ -156,27 +133,6 @@ impl Program<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn flags_that_the_processor_cannot_keep_are_refused() {
-        let processor = Processor {
-            folder: camino::Utf8Path::new("."),
-            triple: Some("x86_64-unknown-linux-gnu"),
-            cpu: "silvermont",
-        };
-        let refused = |flag: &str| {
-            let own = Flags {
-                variable: "RUSTFLAGS".to_owned(),
-                words: vec![flag.to_owned()],
-            };
-            refuse_lacking(&processor, &own)
-        };
-        assert_eq!(refused("-Cdebuginfo=0"), Ok(()));
-        assert_eq!(refuse_lacking(&processor, &Flags::default()), Ok(()));
-        let refusal = refused("-Ctarget-feature=+avx2").expect_err("the robot has no AVX");
-        let message = "RUSTFLAGS lets the program use avx, avx2, which `silvermont` lacks";
-        assert_eq!(refusal.message, message);
-    }
 
     #[test]
     fn a_triple_without_a_version_where_one_should_be_is_refused() {

@@ -1,10 +1,14 @@
 //! Compiling the robot with cargo: where its program is, and what rustc found.
 
+mod processor;
+
 use std::ffi::OsString;
 use std::io::{BufRead, BufReader};
 use std::process::{Command, Stdio};
 
 use camino::{Utf8Path, Utf8PathBuf};
+
+pub(super) use processor::ForProcessor;
 
 use super::generate;
 use super::session::Session;

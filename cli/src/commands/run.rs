@@ -6,7 +6,7 @@ use camino::{Utf8Path, Utf8PathBuf};
 
 pub(super) use program::{absolute, become_robot, end_of_robot};
 
-use super::cargo::{OWN_PROFILE, Request};
+use super::cargo::{ForProcessor, OWN_PROFILE, Request};
 use super::session::Session;
 use super::{Failure, generate};
 use crate::arguments;
@@ -41,6 +41,7 @@ pub(super) struct Built {
     pub(super) target: String,
     /// `None`: the one of hulkgen itself.
     pub(super) profile: Option<String>,
+    processor: ForProcessor,
     understood: Understood,
 }
 
@@ -51,7 +52,9 @@ impl Built {
         let target = choose_target(robot, Some(&self.target))?;
         let profile = self.profile.as_deref().unwrap_or(OWN_PROFILE);
         let target_dir = target_dir(&self.executable).map(|folder| folder.as_str().into());
-        Ok(Request::build(robot, target, profile, target_dir))
+        let mut request = Request::build(robot, target, profile, target_dir);
+        self.processor.apply(&mut request);
+        Ok(request)
     }
 }
 
@@ -80,6 +83,8 @@ pub(super) fn build_with(
     if session.diagnostics.has_errors() {
         return Ok(None);
     }
+    let root = session.workspace.root();
+    let processor = ForProcessor::of(root, None, target.cpu.as_deref())?;
     generate::write(session, &understood)?;
     let (name, profile) = (
         target.name.clone(),
@@ -88,7 +93,8 @@ pub(super) fn build_with(
     let own = profile.map(str::to_owned);
     let profile = profile.unwrap_or(OWN_PROFILE);
     let target_dir = wanted.build.target_dir.as_deref().map(program::absolute);
-    let request = Request::build(&understood.robot, target, profile, target_dir.transpose()?);
+    let mut request = Request::build(&understood.robot, target, profile, target_dir.transpose()?);
+    processor.apply(&mut request);
     let said = request.said(session, session.terminal.colors_notes())?;
     session.diagnostics = said.diagnostics(session, &understood)?;
     session.note_diagnostics();
@@ -102,6 +108,7 @@ pub(super) fn build_with(
         executable,
         target: name,
         profile: own,
+        processor,
         understood,
     }))
 }

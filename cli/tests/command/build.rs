@@ -1,4 +1,4 @@
-//! `build`: what rustc is told of the target's processor.
+//! What rustc is told of the target's processor, by whichever command builds the program.
 
 use crate::robot::{Ended, Robot};
 use crate::{fake_cargo, make_executable};
@@ -12,6 +12,10 @@ esac
 "#;
 
 fn built(variables: &[(&str, &str)]) -> Ended {
+    built_by("build", variables)
+}
+
+fn built_by(command: &str, variables: &[(&str, &str)]) -> Ended {
     let robot = Robot::tiny();
     let name = "name = \"real\"\n";
     robot.edit("hulk.toml", name, &format!("{name}cpu = \"small\"\n"));
@@ -21,7 +25,7 @@ fn built(variables: &[(&str, &str)]) -> Ended {
         &robot,
         r#"echo "told: $CARGO_ENCODED_RUSTFLAGS" | tr '\037' '|' >&2; exit 101"#,
     );
-    let mut command = robot.command("build real");
+    let mut command = robot.command(&format!("{command} real"));
     command
         .env_remove("RUSTFLAGS")
         .env_remove("CARGO_ENCODED_RUSTFLAGS")
@@ -62,4 +66,15 @@ fn flags_of_every_variable_are_refused_if_the_processor_cannot_keep_them() {
         assert!(said.contains(&message), "{said}");
         assert!(!said.contains("told:"), "nothing is built: {said}");
     }
+}
+
+#[test]
+fn run_builds_the_same_program() {
+    for variables in [&[][..], &[("RUSTFLAGS", "-Cdebuginfo=0")]] {
+        let [built, run] = ["build", "run"].map(|command| built_by(command, variables).stderr);
+        assert!(built.contains("-Ctarget-cpu=small\n"), "{built}");
+        assert_eq!(run, built);
+    }
+    let said = built_by("run", &[("RUSTFLAGS", "-Ctarget-feature=+wide")]).stderr;
+    assert!(said.contains("which `small` lacks"), "{said}");
 }

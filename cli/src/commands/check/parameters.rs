@@ -7,7 +7,7 @@ use std::process::{Command, Stdio};
 use camino::Utf8Path;
 
 use crate::commands::Failure;
-use crate::commands::cargo::{OWN_PROFILE, Request};
+use crate::commands::cargo::{ForProcessor, OWN_PROFILE, Request};
 use crate::commands::session::Session;
 use crate::diagnostics::Diagnostics;
 use crate::late::parameters::Answer;
@@ -25,7 +25,12 @@ pub(super) fn ask_program(
     target: &Target,
 ) -> Result<bool, Failure> {
     let profile = target.profile.as_deref().unwrap_or(OWN_PROFILE);
-    let request = Request::build(&understood.robot, target, profile, None);
+    let mut request = Request::build(&understood.robot, target, profile, None);
+    if target.triple.is_none() {
+        // `run` and `build` write the same program.
+        let root = session.workspace.root();
+        ForProcessor::of(root, None, target.cpu.as_deref())?.apply(&mut request);
+    }
     let said = request.said(session, false)?;
     if !said.success {
         // What is left when everything was checked before: the linker.
