@@ -276,9 +276,9 @@ pub struct Run {
     /// Record an output in a channel of its own, as JSON; may be repeated, for example `Control.main_outputs.ball`
     #[arg(long, value_name = "PATH")]
     pub record_output: Vec<String>,
-    /// What the recording keeps, for example `512MiB` [default: the manifest's `recording_budget`]
+    /// What the recording keeps, for example `512MiB` or `2GB` [default: the manifest's `recording_budget`]
     #[arg(long, value_name = "SIZE")]
-    pub recording_budget: Option<String>,
+    pub recording_budget: Option<schema::Size>,
     #[command(flatten)]
     pub build: Build,
     /// Options of the hardware

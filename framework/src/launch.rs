@@ -14,6 +14,7 @@ mod replay;
 mod scenario;
 mod serving;
 mod signals;
+mod size;
 mod status;
 mod tool;
 

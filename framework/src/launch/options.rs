@@ -7,6 +7,7 @@ use std::time::Duration;
 use lexopt::{Arg, Parser, ValueExt};
 
 use super::replay::Replaying;
+use super::size::{size, written};
 use super::{Listening, Target};
 use crate::error::{Error, Result};
 use crate::time;
@@ -144,7 +145,7 @@ Usage: {name} [OPTIONS] [-- HARDWARE OPTIONS]
   --record-output PATH
                       record this output in a channel of its own, as JSON; may be repeated
   --recording-budget SIZE
-                      what the recording keeps, e.g. 512MiB, instead of {budget} MiB
+                      what the recording keeps, e.g. 512MiB or 2GB, instead of {budget}
   --replay FILE       show a recording to clients as if the robot ran, as long as --for says
   --replay FILE --verify
                       run the cycles of a recording again and compare, bit for bit
@@ -165,7 +166,7 @@ Usage: {name} [OPTIONS] [-- HARDWARE OPTIONS]
         robot = target.robot,
         name = target.name,
         parameters = target.parameters,
-        budget = target.recording_budget >> 20,
+        budget = written(target.recording_budget),
     )
 }
 
@@ -260,18 +261,6 @@ fn record(written: OsString) -> Record {
         Some("off") => Record::Off,
         _ => Record::Into(written.into()),
     }
-}
-
-/// Bytes with their unit: `512MiB`, `2GiB`.
-fn size(text: &str) -> Result<u64> {
-    let units = [("KiB", 1 << 10), ("MiB", 1 << 20), ("GiB", 1 << 30)];
-    let found = units.iter().find_map(|(unit, bytes)| {
-        let number = text.strip_suffix(unit)?.trim().parse::<u64>().ok()?;
-        number.checked_mul(*bytes)
-    });
-    found
-        .filter(|bytes| *bytes > 0)
-        .ok_or_else(|| Error::new(format!("`{text}` is no size: expected e.g. 512MiB or 2GiB")))
 }
 
 fn setting(text: &str) -> Result<(String, String)> {

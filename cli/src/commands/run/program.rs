@@ -71,7 +71,7 @@ pub(super) fn arguments(run: &Run) -> Result<Vec<OsString>, Refusal> {
         add("--location", location);
     }
     if let Some(budget) = &run.recording_budget {
-        add("--recording-budget", budget);
+        add("--recording-budget", &budget.to_string());
     }
     for output in &run.record_output {
         add("--record-output", output);
@@ -151,5 +151,24 @@ mod tests {
             passed_on("hulkgen run --record off --recording-budget 1GiB"),
             "--record off --recording-budget 1GiB"
         );
+    }
+}
+
+    #[test]
+    fn sizes_are_those_of_the_manifest_and_checked_before_anything_is_built() {
+        for (written, passed) in [
+            ("2GB", "2GB"),
+            ("1.5GiB", "1536MiB"),
+            ("1TiB", "1TiB"),
+            ("500MB", "500MB"),
+        ] {
+            assert_eq!(
+                passed_on(&format!("hulkgen run --recording-budget {written}")),
+                format!("--recording-budget {passed}")
+            );
+        }
+        let line = ["hulkgen", "run", "--recording-budget", "2"];
+        let error = Arguments::try_parse_from(line).expect_err("it has no unit");
+        assert!(error.to_string().contains("from `B` to `TiB`"), "{error}");
     }
 }
