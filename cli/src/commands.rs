@@ -62,7 +62,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
         Command::Recording(recording)
             if !matches!(recording.command, RecordingCommand::Pull(_)) =>
         {
-            recording::run(&terminal, recording).map_err(Failure::Refused)
+            recording::run(&arguments.global, &terminal, recording).map_err(Failure::Refused)
         }
         Command::Topic(topic) => running::topic(&terminal, topic).map_err(Failure::Refused),
         Command::Param(param) => running::param(&terminal, param).map_err(Failure::Refused),

@@ -37,6 +37,9 @@ pub use watch::Glance;
 /// Name of the manifest at the workspace root.
 pub const MANIFEST: &str = "hulk.toml";
 
+/// The folder at a workspace's root in which each run has its own.
+pub const RUNS: &str = "runs";
+
 /// The byte order mark, which some editors write.
 const MARK: char = '\u{feff}';
 

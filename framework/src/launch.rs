@@ -20,7 +20,7 @@ mod tool;
 
 use std::ffi::OsString;
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
@@ -433,11 +433,12 @@ fn known_identities(target: &Target, reported: Vec<(String, String)>) -> Vec<(St
     target.identities.iter().filter_map(of_name).collect()
 }
 
-fn default_run_folder() -> PathBuf {
+/// One that no other run has.
+fn run_folder(runs: &Path) -> PathBuf {
     let since_epoch = SystemTime::now()
         .duration_since(UNIX_EPOCH)
         .unwrap_or(Duration::ZERO);
-    PathBuf::from("runs").join(format!("{}-{}", since_epoch.as_secs(), std::process::id()))
+    runs.join(format!("{}-{}", since_epoch.as_secs(), std::process::id()))
 }
 
 fn status_of(written: std::io::Result<()>) -> u8 {

@@ -7,7 +7,7 @@ use super::{Reached, TextOrJson};
 
 /// Look into recordings: what they are, their values, files that break off
 ///
-/// Needs neither the robot nor its types: a recording tells how its values are laid out. `pull` alone asks the manifest.
+/// Needs neither the robot nor its types: a recording tells how its values are laid out. `pull` alone asks the manifest; `list` looks where the robot is.
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "\
 Exit status: 0 answered, 1 the file cannot be read or written, 2 wrong usage, or it has no such values.
@@ -36,9 +36,8 @@ pub enum RecordingCommand {
     },
     /// Print the recordings below a folder
     List {
-        /// Where runs are
-        #[arg(default_value = "runs")]
-        folder: Utf8PathBuf,
+        /// Where runs are [default: the robot's `runs`]
+        folder: Option<Utf8PathBuf>,
         /// Form of the answer
         #[arg(long, value_enum, default_value = "text")]
         format: TextOrJson,
@@ -90,7 +89,7 @@ pub struct Pull {
     /// A robot of `[target.deploy]`, or a destination for ssh
     #[arg(value_name = "HOST")]
     pub host: String,
-    /// The folder they come into [default: runs/HOST]
+    /// The folder they come into [default: the robot's `runs/HOST`]
     #[arg(long, value_name = "FOLDER")]
     pub into: Option<Utf8PathBuf>,
     /// Only the run that was written last

@@ -5,18 +5,25 @@
 #[cfg(test)]
 mod tests;
 
+use camino::{Utf8Path, Utf8PathBuf};
 use serde_json::{Value, json};
 
 use super::plural;
+use super::session::Session;
 use super::terminal::Terminal;
-use crate::arguments::{ExportKind, Recording, RecordingCommand, Selection, TextOrJson};
+use crate::arguments::{ExportKind, Global, Recording, RecordingCommand, Selection, TextOrJson};
 use crate::outcome::{Outcome, Refusal};
 use crate::recording::{self, Export, Info, Run, Span};
+use crate::workspace::RUNS;
 
 /// Parts of the frames of an instance that a text names; JSON has all.
 const PARTS: usize = 8;
 
-pub(super) fn run(terminal: &Terminal, recording: &Recording) -> Result<Outcome, Refusal> {
+pub(super) fn run(
+    global: &Global,
+    terminal: &Terminal,
+    recording: &Recording,
+) -> Result<Outcome, Refusal> {
     match &recording.command {
         RecordingCommand::Info { file, format } => {
             let info = recording::info(file)?;
@@ -26,11 +33,8 @@ pub(super) fn run(terminal: &Terminal, recording: &Recording) -> Result<Outcome,
             })?;
         }
         RecordingCommand::List { folder, format } => {
-            let runs = recording::list(folder)?;
-            terminal.data(&match format {
-                TextOrJson::Text => list_text(&runs),
-                TextOrJson::Json => line(&json!({ "version": 1, "recordings": runs })),
-            })?;
+            let folder = folder.clone().map_or_else(|| runs(global, terminal), Ok)?;
+            terminal.data(&list(&folder, *format)?)?;
         }
         RecordingCommand::Cat {
             file,
@@ -93,6 +97,23 @@ pub(super) fn run(terminal: &Terminal, recording: &Recording) -> Result<Outcome,
         }
     }
     Ok(Outcome::Good)
+}
+
+/// Those of the robot around; where there is none, of the current folder.
+fn runs(global: &Global, terminal: &Terminal) -> Result<Utf8PathBuf, Refusal> {
+    match Session::open(global, terminal) {
+        Ok(session) => Ok(session.runs()),
+        Err(refusal) if global.manifest.is_some() => Err(refusal),
+        Err(_) => Ok(RUNS.into()),
+    }
+}
+
+fn list(folder: &Utf8Path, format: TextOrJson) -> Result<String, Refusal> {
+    let runs = recording::list(folder)?;
+    Ok(match format {
+        TextOrJson::Text => list_text(&runs),
+        TextOrJson::Json => line(&json!({ "version": 1, "recordings": runs })),
+    })
 }
 
 /// One for each chunk that is lost.

@@ -8,7 +8,7 @@ use crate::cache::Cache;
 use crate::diagnostics::{self, Diagnostics, Reported};
 use crate::outcome::Refusal;
 use crate::pipeline::{self, Understood};
-use crate::workspace::{MANIFEST, Workspace};
+use crate::workspace::{MANIFEST, RUNS, Workspace};
 
 pub(super) struct Session<'a> {
     pub(super) workspace: Workspace,
@@ -42,6 +42,15 @@ impl<'a> Session<'a> {
             terminal,
             cache: Cache::none(),
         })
+    }
+
+    /// The folder of the robot's runs, by a path that leads there from the current folder.
+    pub(super) fn runs(&self) -> Utf8PathBuf {
+        let root = self.workspace.root();
+        match std::env::current_dir() {
+            Ok(current) if current == root => RUNS.into(),
+            _ => root.join(RUNS),
+        }
     }
 
     /// From now on answers are kept, and taken from earlier runs.

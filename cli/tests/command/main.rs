@@ -4,6 +4,7 @@ mod build;
 mod cache;
 mod interrupt;
 mod robot;
+mod runs;
 
 use std::process::Stdio;
 

@@ -188,31 +188,34 @@ impl Field {
 
     /// How it ended, what it answered, and what it said.
     pub(crate) fn hulkgen(&self, arguments: &str) -> (i32, String, String) {
-        self.hulkgen_built_in(arguments, None)
+        ended(self.command(arguments))
+    }
+
+    /// As [`Self::hulkgen`], called in another folder of the field.
+    pub(crate) fn hulkgen_in(&self, folder: &str, arguments: &str) -> (i32, String, String) {
+        let mut command = self.command(arguments);
+        command.current_dir(self.path(folder));
+        ended(command)
     }
 
     /// As [`Self::hulkgen`], with the folder in which cargo was told to build.
-    pub(crate) fn hulkgen_built_in(
-        &self,
-        arguments: &str,
-        folder: Option<&Path>,
-    ) -> (i32, String, String) {
-        let output = Command::new(env!("CARGO_BIN_EXE_hulkgen"))
+    pub(crate) fn hulkgen_built_in(&self, arguments: &str, folder: &Path) -> (i32, String, String) {
+        let mut command = self.command(arguments);
+        command.env("CARGO_TARGET_DIR", folder);
+        ended(command)
+    }
+
+    /// In the robot's folder.
+    fn command(&self, arguments: &str) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_hulkgen"));
+        command
             .env_remove("CARGO_TARGET_DIR")
-            .envs(folder.map(|folder| ("CARGO_TARGET_DIR", folder)))
             .args(arguments.split_whitespace())
             .arg("--ssh-config")
             .arg(self.path("ssh_config"))
             .current_dir(self.path("robot"))
-            .stdin(Stdio::null())
-            .output()
-            .expect("hulkgen starts");
-        let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-        (
-            output.status.code().unwrap_or(-1),
-            text(&output.stdout),
-            text(&output.stderr),
-        )
+            .stdin(Stdio::null());
+        command
     }
 
     /// Deploys the program.
@@ -251,6 +254,17 @@ impl Drop for Field {
         let _ = self.sshd.kill();
         let _ = self.sshd.wait();
     }
+}
+
+/// How it ended, what it answered, and what it said.
+fn ended(mut command: Command) -> (i32, String, String) {
+    let output = command.output().expect("hulkgen starts");
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    (
+        output.status.code().unwrap_or(-1),
+        text(&output.stdout),
+        text(&output.stderr),
+    )
 }
 
 fn forward(mut client: TcpStream, port: u16, limit: u64, cut: &AtomicU64) {

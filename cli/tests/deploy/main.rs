@@ -166,7 +166,7 @@ fn the_program_is_where_cargo_was_told_to_build() {
         return;
     };
     let folder = field.path("elsewhere");
-    let (status, _, said) = field.hulkgen_built_in("deploy a", Some(&folder));
+    let (status, _, said) = field.hulkgen_built_in("deploy a", &folder);
     // Without a profile of its own it is that of hulkgen, which is this test's.
     let profile = if cfg!(debug_assertions) {
         "debug"
@@ -178,7 +178,7 @@ fn the_program_is_where_cargo_was_told_to_build() {
     assert!(said.contains(&expected.display().to_string()), "{said}");
     fs::create_dir_all(folder.join(profile)).expect("the folder is ours");
     fs::copy(field.path("lamp"), expected).expect("the folder is ours");
-    let (status, answer, said) = field.hulkgen_built_in("deploy a", Some(&folder));
+    let (status, answer, said) = field.hulkgen_built_in("deploy a", &folder);
     assert_eq!(status, 0, "{answer}{said}");
 }
 
@@ -404,6 +404,11 @@ fn robots_are_served_side_by_side_and_asked() {
     assert_eq!((status, answer.as_str()), (0, "here/2-2\n"), "{said}");
     assert_eq!(field.read("robot/here/2-2/recording.mcap"), "second");
     assert!(!field.path("robot/here/1-1").exists());
+    let (status, answer, said) = field.hulkgen_in("robot/runs", "recording pull a --newest");
+    let runs = field.path("robot/runs/a/2-2");
+    let whole = format!("{}\n", runs.display());
+    assert_eq!((status, answer), (0, whole), "{said}");
+    assert_eq!(field.read("robot/runs/a/2-2/recording.mcap"), "second");
 }
 
 #[test]

@@ -129,6 +129,7 @@ Usage: {name} [OPTIONS] [-- HARDWARE OPTIONS]
   --set PATH=VALUE    a parameter, above all layers; may be repeated
   --check-parameters  load the parameters for every identity that a file names, and those of the hardware, report mistakes and end
   --run-folder DIR    for files of this run, instead of runs/<start>-<process>
+  --runs DIR          where such a folder is made, instead of runs: `hulkgen run` names it where it is called elsewhere
   --scenario FILE     play it in lockstep in place of running; the exit status says whether it passed
   --seed NUMBER       what a scenario draws its random numbers from; 1 without it
   --repeat COUNT      play a scenario with so many seeds, one after the other
@@ -179,9 +180,10 @@ pub(super) fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Com
     let hardware = arguments.map(text).collect::<Result<_>>()?;
     let mut options = Options {
         hardware,
-        run_folder: super::default_run_folder(),
         ..Options::default()
     };
+    let mut runs = PathBuf::from("runs");
+    let mut run_folder = None;
     let mut parser = Parser::from_args(own);
     while let Some(argument) = parser.next()? {
         match argument {
@@ -206,7 +208,8 @@ pub(super) fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Com
             Arg::Long("read-only") => options.is_read_only = true,
             Arg::Long("peer") => options.peers.push(peer(&parser.value()?.string()?)?),
             Arg::Long("web-root") => options.web_root = Some(parser.value()?.into()),
-            Arg::Long("run-folder") => options.run_folder = parser.value()?.into(),
+            Arg::Long("run-folder") => run_folder = Some(parser.value()?.into()),
+            Arg::Long("runs") => runs = parser.value()?.into(),
             Arg::Long("record") => options.record = record(parser.value()?),
             Arg::Long("record-output") => options.record_outputs.push(parser.value()?.string()?),
             Arg::Long("recording-budget") => {
@@ -223,6 +226,7 @@ pub(super) fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Com
             unexpected => return Err(unexpected.unexpected().into()),
         }
     }
+    options.run_folder = run_folder.unwrap_or_else(|| super::run_folder(&runs));
     options.is_replay = options.replay.is_asked(!options.settings.is_empty())?;
     if let (Some(_), Record::Into(path)) = (&options.scenario, &options.record) {
         let path = path.display();
@@ -436,6 +440,20 @@ mod tests {
         ] {
             assert_eq!(peer(written).expect(written), expected);
         }
+    }
+
+    #[test]
+    fn a_run_has_a_folder_of_its_own_among_the_others() {
+        let folder = |words: &[&str]| parsed(words).map(|options| options.run_folder);
+        for (words, runs) in [
+            (&[][..], "runs"),
+            (&["--runs", "/robot/runs"], "/robot/runs"),
+        ] {
+            let folder = folder(words).expect("it is right usage");
+            assert_eq!(folder.parent(), Some(runs.as_ref()), "{words:?}");
+        }
+        let chosen = folder(&["--run-folder=here", "--runs=there"]);
+        assert_eq!(chosen.expect("it is right usage"), PathBuf::from("here"));
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! `recording pull`: the runs of a robot onto this machine.
 
-use camino::{Utf8Path, Utf8PathBuf};
+use camino::Utf8Path;
 use serde_json::json;
 
 use crate::arguments::{Pull, TextOrJson};
@@ -18,7 +18,7 @@ pub(in crate::commands) fn pull(
     let into = pull
         .into
         .clone()
-        .unwrap_or_else(|| Utf8PathBuf::from("runs").join(&pull.host));
+        .unwrap_or_else(|| session.runs().join(&pull.host));
     let (from, into) = if pull.newest {
         let newest = format!("cd {} && ls -1t | head -n 1", quoted(&runs));
         let newest = remote.shell(&newest).map_err(Refusal::from)?;

@@ -3,7 +3,7 @@
 use std::ffi::OsString;
 use std::io;
 use std::os::unix::process::CommandExt as _;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use camino::Utf8Path;
@@ -11,6 +11,7 @@ use camino::Utf8Path;
 use crate::arguments::{Run, TextOrJson};
 use crate::interrupt::{self, Ended};
 use crate::outcome::Refusal;
+use crate::workspace::RUNS;
 
 /// Replaces this process, so that signals, exit status and terminal are the robot's own, as
 /// `cargo run` does. Runs in the workspace root, where the generated program expects to be. Returns
@@ -36,8 +37,19 @@ pub(in crate::commands) fn end_of_robot(
 
 fn command(executable: &Utf8Path, arguments: &[OsString], root: &Utf8Path) -> Command {
     let mut command = Command::new(executable);
+    if let Ok(current) = std::env::current_dir() {
+        command.args(runs(root, &current));
+    }
     command.args(arguments).current_dir(root);
     command
+}
+
+/// Where runs lie, for somebody in another folder than the robot's: the program tells their paths, which have to lead there.
+fn runs(root: &Utf8Path, current: &Path) -> Vec<OsString> {
+    match current == root {
+        true => Vec::new(),
+        false => vec!["--runs".into(), root.join(RUNS).into()],
+    }
 }
 
 fn cannot_start(executable: &Utf8Path, error: &io::Error) -> Refusal {
@@ -105,7 +117,7 @@ pub(in crate::commands) fn absolute(folder: &Utf8Path) -> Result<OsString, Refus
 mod tests {
     use clap::Parser as _;
 
-    use super::arguments;
+    use super::{arguments, runs};
     use crate::arguments::{Arguments, Command};
 
     fn passed_on(line: &str) -> String {
@@ -152,7 +164,6 @@ mod tests {
             "--record off --recording-budget 1GiB"
         );
     }
-}
 
     #[test]
     fn sizes_are_those_of_the_manifest_and_checked_before_anything_is_built() {
@@ -170,5 +181,14 @@ mod tests {
         let line = ["hulkgen", "run", "--recording-budget", "2"];
         let error = Arguments::try_parse_from(line).expect_err("it has no unit");
         assert!(error.to_string().contains("from `B` to `TiB`"), "{error}");
+    }
+
+    #[test]
+    fn paths_of_runs_lead_there_from_every_folder() {
+        let root = "/robot".into();
+        assert_eq!(runs(root, "/robot".as_ref()), [""; 0]);
+        for elsewhere in ["/robot/nodes", "/"] {
+            assert_eq!(runs(root, elsewhere.as_ref()), ["--runs", "/robot/runs"]);
+        }
     }
 }
