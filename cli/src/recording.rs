@@ -87,6 +87,8 @@ pub struct Recovered {
     pub lost: u64,
     /// Offsets of chunks that are damaged.
     pub damaged: Vec<u64>,
+    /// Offsets of metadata and attachments that are damaged.
+    pub unreadable: Vec<u64>,
 }
 
 /// Writes a whole file with all whole chunks of this one.
@@ -104,5 +106,6 @@ pub fn recover(path: &Utf8Path, into: Option<&Utf8Path>) -> Result<Recovered, Re
         chunks: recovered.chunks,
         lost: recovered.lost,
         damaged: recovered.damaged,
+        unreadable: recovered.unreadable,
     })
 }

@@ -55,16 +55,17 @@ pub(super) fn run(
         RecordingCommand::Recover { file, into, format } => {
             let recovered = recording::recover(file, into.as_deref())?;
             let (into, chunks, lost) = (recovered.into, recovered.chunks, recovered.lost);
-            let damaged = recovered.damaged;
+            let (damaged, unreadable) = (recovered.damaged, recovered.unreadable);
             terminal.data(&match format {
                 TextOrJson::Text => format!(
                     "{into}: {}, {} behind them lost\n{}",
                     plural(chunks as usize, "chunk"),
                     plural(lost as usize, "byte"),
-                    damaged_lines(&damaged)
+                    damaged_lines(&damaged, &unreadable)
                 ),
                 TextOrJson::Json => line(&json!({
                     "version": 1, "file": into, "chunks": chunks, "lost_bytes": lost, "damaged": damaged,
+                    "unreadable": unreadable,
                 })),
             })?;
         }
@@ -117,13 +118,18 @@ fn list(folder: &Utf8Path, format: TextOrJson) -> Result<String, Refusal> {
 }
 
 /// One for each chunk that is lost.
-fn damaged_lines(damaged: &[u64]) -> String {
-    let lines = damaged.iter().map(|offset| {
+fn damaged_lines(chunks: &[u64], others: &[u64]) -> String {
+    let chunks = chunks.iter().map(|offset| {
         format!(
             "the chunk at byte {offset} is damaged (its check sum is wrong): what it had is lost\n"
         )
     });
-    lines.collect()
+    let others = others.iter().map(|offset| {
+        format!(
+            "the record at byte {offset} (metadata, or an attachment) is damaged: what it had is lost\n"
+        )
+    });
+    chunks.chain(others).collect()
 }
 
 fn note_silent(terminal: &Terminal, silent: &[String]) {
@@ -195,7 +201,7 @@ fn info_text(info: &Info) -> String {
     if let Some(behind) = info.cut_behind {
         text += &format!(": it breaks off behind byte {behind} (`hulkgen recording recover`)");
     }
-    for line in damaged_lines(&info.damaged).lines() {
+    for line in damaged_lines(&info.damaged, &info.unreadable).lines() {
         text += &format!("\n           {line}");
     }
     text += &format!(

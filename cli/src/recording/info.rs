@@ -23,6 +23,8 @@ pub struct Info {
     pub cut_behind: Option<u64>,
     /// Offsets of chunks that are not what was written.
     pub damaged: Vec<u64>,
+    /// Offsets of metadata and attachments that are not what was written.
+    pub unreadable: Vec<u64>,
     /// What the recording says of its run: robot, target, revision, identities.
     pub run: BTreeMap<String, String>,
     /// From its first to its last message.
@@ -134,6 +136,7 @@ pub fn info(path: &Utf8Path) -> Result<Info, Refusal> {
             Way::Cut { behind } => Some(behind),
         },
         damaged,
+        unreadable: contents.unreadable.clone(),
         run: run
             .map(|run| run.entries.iter().cloned().collect())
             .unwrap_or_default(),

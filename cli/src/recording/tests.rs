@@ -390,34 +390,6 @@ fn a_file_that_breaks_off_is_made_whole() {
 }
 
 #[test]
-fn a_recovered_file_is_complete_only_where_nothing_was_lost() {
-    let (_keep, folder) = folder();
-    let path = folder.join("a.mcap");
-    record(&path, true);
-    let all = recover(&path, None).expect("the other file is new");
-    assert_eq!(all.lost, 0);
-    assert_eq!(info(&all.into).expect("it is whole").state, "COMPLETE");
-
-    let mut bytes = std::fs::read(&path).expect("it was written");
-    let file = super::open(&path).expect("it can be read");
-    // Behind the head of the chunk: what is compressed.
-    bytes[file.contents().chunks[2].offset as usize + 60] ^= 1;
-    std::fs::write(&path, &bytes).expect("there is room");
-    let into = folder.join("b.mcap");
-    let some = recover(&path, Some(&into)).expect("the other file is new");
-    let damaged = file.contents().chunks[2].offset;
-    let of_damaged = info(&path).expect("the others can be read");
-    assert_eq!((of_damaged.state, of_damaged.chunks), ("INCOMPLETE", 4));
-    assert_eq!(
-        (of_damaged.cut_behind, of_damaged.damaged),
-        (None, vec![damaged])
-    );
-    assert_eq!((some.chunks, some.lost), (4, 0));
-    assert_eq!(some.damaged, [damaged]);
-    assert_eq!(info(&into).expect("it is whole").state, "INCOMPLETE");
-}
-
-#[test]
 fn recordings_are_found_in_the_folders_of_their_runs() {
     let (_keep, folder) = folder();
     for (name, with_end) in [("2", true), ("1", false)] {

@@ -404,6 +404,10 @@ fn robots_are_served_side_by_side_and_asked() {
     assert_eq!((status, answer.as_str()), (0, "here/2-2\n"), "{said}");
     assert_eq!(field.read("robot/here/2-2/recording.mcap"), "second");
     assert!(!field.path("robot/here/1-1").exists());
+    // The run that was written last is one whose folder is older than another one without a recording.
+    field.write("disk/runs/3-3/notes.txt", "nothing was recorded");
+    let (status, answer, said) = field.hulkgen("recording pull a --newest --into here");
+    assert_eq!((status, answer.as_str()), (0, "here/2-2\n"), "{said}");
     let (status, answer, said) = field.hulkgen_in("robot/runs", "recording pull a --newest");
     let runs = field.path("robot/runs/a/2-2");
     let whole = format!("{}\n", runs.display());

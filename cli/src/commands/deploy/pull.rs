@@ -20,9 +20,14 @@ pub(in crate::commands) fn pull(
         .clone()
         .unwrap_or_else(|| session.runs().join(&pull.host));
     let (from, into) = if pull.newest {
-        let newest = format!("cd {} && ls -1t | head -n 1", quoted(&runs));
+        // By the recordings: a folder is as old as its file is, however long that is written.
+        let newest = format!(
+            "cd {} && {{ ls -1td -- */*.mcap 2>/dev/null; ls -1t; }} | head -n 1",
+            quoted(&runs)
+        );
         let newest = remote.shell(&newest).map_err(Refusal::from)?;
         let newest = newest.trim();
+        let newest = newest.split_once('/').map_or(newest, |(folder, _)| folder);
         // A name of one folder, whatever the robot says.
         if newest.is_empty() || Utf8Path::new(newest).file_name() != Some(newest) {
             return Err(Refusal::bad(format!("`{}` has no runs", pull.host)).into());
