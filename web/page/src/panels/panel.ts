@@ -7,7 +7,7 @@ import type { Known } from "../store/robots";
 export interface Context {
   /** The one that the panel shows. */
   readonly robot: Robot;
-  /** All that the page may show; a panel is opened anew where they change. */
+  /** All that the page may show, for panels that say `showsRobots`. */
   readonly robots: readonly Known[];
   /** The panel's one among them. */
   readonly known: Known;
@@ -36,6 +36,8 @@ export interface PanelKind {
   readonly kind: string;
   readonly name: string;
   open(context: Context): Panel;
+  /** Whether it shows other robots beside its own: it is opened anew where there are others than before. */
+  readonly showsRobots?: true;
   /** Whether this robot has what the panel shows; absent: every robot has. */
   offered?(entries: readonly Entry[]): boolean;
 }

@@ -322,4 +322,4 @@ function legendHeight(chart: HTMLElement): number {
   return chart.querySelector<HTMLElement>(".u-legend")?.offsetHeight ?? 0;
 }
 
-export const plot: PanelKind = { kind: "plot", name: "Plot", open: (context) => new Plot(context) };
+export const plot: PanelKind = { kind: "plot", name: "Plot", open: (context) => new Plot(context), showsRobots: true };

@@ -244,5 +244,6 @@ export const fieldMap: PanelKind = {
   kind: "map",
   name: "Field",
   open: (context) => new FieldMap(context),
+  showsRobots: true,
   offered: (entries) => ofType(entries, "Ball") !== undefined || ofType(entries, "Vec<LineSegment>") !== undefined,
 };

@@ -20,14 +20,27 @@ export async function panelsAreMoved(page) {
   await begin(page, "Overview");
   assert.deepEqual(await arrangement(page), [["timings", "logs"], ["parameters"]]);
   const head = (kind) => panel(page, kind).locator("> .head");
+  // Letters that most of them have.
+  await panel(page, "parameters").getByLabel("search a parameter").fill("a");
+  const list = panel(page, "parameters").locator("> .scroll");
+  const scroll = (element) => ((element.scrollTop = 200), element.scrollTop === 200);
+  await until(page, list, scroll, "so many parameters that one scrolls");
+  const stays = async (what) => assert.equal(await list.evaluate((element) => element.scrollTop), 200, `what is scrolled ${what}`);
   await head("logs").dragTo(panel(page, "parameters"), { targetPosition: { x: 200, y: 200 } });
   assert.deepEqual(await arrangement(page), [["timings"], ["logs", "parameters"]], "the panel lies where it was dropped");
+  await stays("beside a panel that is dropped");
   await head("logs").focus();
   await page.keyboard.press("Alt+ArrowDown");
   assert.deepEqual(await arrangement(page), [["timings"], ["parameters", "logs"]], "keys move it within its column");
-  await head("logs").focus();
+  await stays("and moved");
+  assert(await head("logs").evaluate((element) => element === document.activeElement), "the panel that was moved keeps the focus");
   await page.keyboard.press("Alt+ArrowLeft");
   assert.deepEqual(await arrangement(page), [["logs", "timings"], ["parameters"]], "and into the next one");
+  await stays("beside a panel that goes");
+  const line = page.locator(".divider").first();
+  await line.focus();
+  await page.keyboard.press("ArrowDown");
+  assert(await line.evaluate((element) => element === document.activeElement), "the line that was moved keeps the focus");
 
   const layout = page.locator("summary", { hasText: "Layout" });
   await layout.click();
