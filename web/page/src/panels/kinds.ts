@@ -1,7 +1,7 @@
 // Owns the list of panels and of layouts that the page offers: for every robot, and for those that play football.
 import { ROBOTICS, ROBOTICS_PRESETS } from "../robotics/kinds";
+import type { Entry } from "../protocol";
 import { PRESETS, withOnly, type Preset } from "../store/layout";
-import type { Robot } from "../store/robot";
 import { cycles } from "./cycles";
 import { graph } from "./graph";
 import { image } from "./image";
@@ -21,9 +21,8 @@ export interface Offered {
   presets: readonly Preset[];
 }
 
-/** What this robot has something to show for. */
-export async function offeredBy(robot: Robot): Promise<Offered> {
-  const entries = await robot.paths.everything().catch(() => []);
+/** What a robot with these paths has something to show for. */
+export function offeredBy(entries: readonly Entry[]): Offered {
   const kinds = KINDS.filter((kind) => kind.offered === undefined || kind.offered(entries));
   const has = (needed: string): boolean => kinds.some((kind) => kind.kind === needed);
   const presets = [...PRESETS, ...ROBOTICS_PRESETS].filter((preset) => preset.needs.every(has));

@@ -1,28 +1,44 @@
 // A panel with the robot's procedures: call them with an argument in JSON and read what their nodes say.
 import { readJson, writeJson } from "../connection/exact";
-import { expect } from "../connection/socket";
-import type { Entry, Json } from "../protocol";
+import { expect, Refused } from "../connection/socket";
+import type { Entry, Json, Welcome } from "../protocol";
+import { isSameRun } from "../store/run";
 import { button, complain, make } from "../view/dom";
+import { arrange } from "../view/renew";
 import type { Context, Panel, PanelKind } from "./panel";
+
+/** A procedure as it is drawn, as long as the robot says the same of it. */
+interface Card {
+  said: string;
+  element: HTMLElement;
+  /** Asks what the argument may be, unless that was answered; `isOther`: by another program. */
+  explain(isOther: boolean): void;
+}
 
 function open(context: Context): Panel {
   const list = make("div", { class: "procedures" });
   const failure = make("p", { class: "failure", hidden: true });
-  const kept = new Map<string, HTMLElement>();
+  const none = make("p", { class: "muted" }, "this robot has no procedures");
+  let cards = new Map<string, Card>();
+  /** Whose procedures are shown; null: nobody's, or they did not come. */
+  let run: Welcome | null = null;
 
   const load = async (): Promise<void> => {
     if (context.robot.state.value !== "open") return;
+    const welcome = context.robot.welcome.value;
+    // Those of a program do not change.
+    const isOther = isSameRun(run, welcome) !== true;
     try {
-      const all = await context.robot.paths.everything();
-      const found = all.filter((entry) => entry.kind === "procedure");
-      list.replaceChildren(...found.map((entry) => {
-        const card = kept.get(entry.path) ?? procedure(context, entry);
-        kept.set(entry.path, card);
-        return card;
-      }));
-      if (found.length === 0) list.append(make("p", { class: "muted" }, "this robot has no procedures"));
+      if (isOther) {
+        const all = await context.robot.paths.everything();
+        cards = new Map(all.filter(({ kind }) => kind === "procedure").map((entry) => [entry.path, cardOf(context, entry, cards.get(entry.path))]));
+        arrange(list, cards.size === 0 ? [none] : [...cards.values()].map(({ element }) => element));
+      }
+      run = welcome;
       complain(failure, null);
+      for (const card of cards.values()) card.explain(isOther);
     } catch (error) {
+      run = null;
       complain(failure, error);
     }
   };
@@ -30,19 +46,25 @@ function open(context: Context): Panel {
   return { content: make("div", { class: "scroll" }, failure, list), close: stop };
 }
 
-function procedure(context: Context, entry: Entry): HTMLElement {
+/** The card that there is, with what was typed there, where the robot still says the same. */
+function cardOf(context: Context, entry: Entry, there: Card | undefined): Card {
+  const said = JSON.stringify(entry);
+  return there?.said === said ? there : procedure(context, entry, said);
+}
+
+function procedure(context: Context, entry: Entry, said: string): Card {
   const argument = make("input", { type: "text", placeholder: "argument in JSON", "aria-label": `argument of ${entry.path}`, spellcheck: "false" });
-  const said = make("pre", { class: "value-text", hidden: true });
+  const answer = make("pre", { class: "value-text", hidden: true });
   const failure = make("p", { class: "failure", hidden: true });
   const call = async (): Promise<void> => {
     complain(failure, null);
-    said.hidden = true;
+    answer.hidden = true;
     try {
       const text = argument.value.trim();
       const value = text === "" ? null : readJson(text);
       const good = await context.robot.ask({ call: { path: entry.path, argument: value } });
-      said.textContent = writeJson(expect(good, "called"), 2);
-      said.hidden = false;
+      answer.textContent = writeJson(expect(good, "called"), 2);
+      answer.hidden = false;
     } catch (error) {
       complain(failure, error);
     }
@@ -51,16 +73,22 @@ function procedure(context: Context, entry: Entry): HTMLElement {
   argument.addEventListener("keydown", (event) => {
     if (event.key === "Enter") void call();
   });
-  void context.robot.ask({ schema: { path: `${entry.path}.request` } }).then(
-    (good) => {
-      const example = JSON.stringify(exampleOf(expect(good, "schema")));
-      argument.placeholder = example === "null" ? "no argument" : `argument in JSON, for example ${example}`;
-    },
-    // Some take anything: they have no schema.
-    () => undefined,
-  );
+  let isExplained = false;
+  const explain = (isOther: boolean): void => {
+    if (isExplained && !isOther) return;
+    context.robot.ask({ schema: { path: `${entry.path}.request` } }).then(
+      (good) => {
+        const example = JSON.stringify(exampleOf(expect(good, "schema")));
+        argument.placeholder = example === "null" ? "no argument" : `argument in JSON, for example ${example}`;
+        isExplained = true;
+      },
+      // Some take anything: they have no schema.
+      (error: unknown) => (isExplained = error instanceof Refused),
+    );
+  };
   const about = [entry.type, entry.documentation].filter((text) => text != null).join(" · ");
-  return make("section", { class: "card" }, make("h3", {}, entry.path), make("p", { class: "muted" }, about), make("div", { class: "bar" }, argument, deed), failure, said);
+  const element = make("section", { class: "card" }, make("h3", {}, entry.path), make("p", { class: "muted" }, about), make("div", { class: "bar" }, argument, deed), failure, answer);
+  return { said, element, explain };
 }
 
 /** A value that a schema lets pass: the simplest of each type. */

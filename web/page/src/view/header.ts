@@ -1,10 +1,13 @@
 // The line above everything: which robot, whether it is there, panels to add, layouts, and the token where one is asked for.
 import { offeredBy, type Offered } from "../panels/kinds";
-import { read, type Arrangement } from "../store/layout";
+import type { Welcome } from "../protocol";
+import { read, type Arrangement, type Layout } from "../store/layout";
 import { robotColor, robotMark } from "../panels/series";
 import type { Robot } from "../store/robot";
 import type { Robots } from "../store/robots";
+import { isSameRun } from "../store/run";
 import { button, complain, download, make, select } from "./dom";
+import { renew } from "./renew";
 
 export function header(robots: Robots, arrangement: Arrangement): HTMLElement {
   const robot = robots.own;
@@ -70,7 +73,7 @@ function beside(robots: Robots): HTMLElement {
 function panels(robot: Robot, arrangement: Arrangement): HTMLElement {
   const items = make("div", { class: "offers" });
   whenKnown(robot, ({ kinds }) => {
-    items.replaceChildren(...kinds.map((kind) => button(kind.name, `add a panel: ${kind.name}`, () => arrangement.add(kind.kind), "item")));
+    renew(items, kinds.map((kind) => keyed(kind.kind, button(kind.name, `add a panel: ${kind.name}`, () => arrangement.add(kind.kind), "item"))));
   });
   return menu("Add", [items]);
 }
@@ -86,8 +89,14 @@ function layouts(robot: Robot, arrangement: Arrangement): HTMLElement {
     });
   });
   const presets = make("div", { class: "offers" });
+  let layouts = new Map<string, () => Layout>();
+  const begin = (name: string): void => {
+    const layout = layouts.get(name);
+    if (layout !== undefined) arrangement.replace(layout());
+  };
   whenKnown(robot, (offered) => {
-    presets.replaceChildren(...offered.presets.map(({ name, layout }) => button(name, `begin with ${name}`, () => arrangement.replace(layout()), "item")));
+    layouts = new Map(offered.presets.map(({ name, layout }) => [name, layout]));
+    renew(presets, [...layouts.keys()].map((name) => keyed(name, button(name, `begin with ${name}`, () => begin(name), "item"))));
   });
   const back = button("Back", "the layout that was there before this one", () => arrangement.back(), "item");
   arrangement.before.watch((before) => (back.hidden = before === null));
@@ -101,11 +110,27 @@ function layouts(robot: Robot, arrangement: Arrangement): HTMLElement {
   ]);
 }
 
-/** Now and whenever another robot is there. */
+/** Now and whenever another program is there. Where it does not say what it has, what was offered stays, and it is asked again with the next connection. */
 function whenKnown(robot: Robot, deed: (offered: Offered) => void): void {
+  /** Whose offers there are; null: nobody's. */
+  let run: Welcome | null = null;
+  let isOffered = false;
+  const offer = async (welcome: Welcome): Promise<void> => {
+    if (isSameRun(run, welcome) === true) return;
+    const entries = await robot.paths.everything().catch(() => null);
+    if (entries !== null || !isOffered) deed(offeredBy(entries ?? []));
+    isOffered = true;
+    run = entries === null ? null : welcome;
+  };
   robot.welcome.watch((welcome) => {
-    if (welcome !== null) void offeredBy(robot).then(deed);
+    if (welcome !== null) void offer(welcome);
   });
+}
+
+/** By which it is found when the list is made anew. */
+function keyed(key: string, element: HTMLElement): HTMLElement {
+  element.setAttribute("data-key", key);
+  return element;
 }
 
 /** How the page looks, as the browser keeps it: the first choice is what the page does by itself. */

@@ -1,14 +1,23 @@
 // The list of the robot's paths: levels are asked for when they are opened, everything when somebody searches.
 import { KINDS } from "../panels/kinds";
 import { DRAGGED_PATH } from "../panels/panel";
-import type { Entry } from "../protocol";
+import type { Entry, Welcome } from "../protocol";
 import type { Arrangement } from "../store/layout";
 import { isImage, isNumber, nameOf } from "../store/paths";
 import type { Robot } from "../store/robot";
+import { isSameRun } from "../store/run";
 import { button, complain, make } from "./dom";
+import { arrange } from "./renew";
 
 /** More matches are no help. */
 const FOUND = 200;
+
+/** An entry of the tree as it is drawn, as long as the robot says the same of it. */
+interface Row {
+  said: string;
+  element: HTMLElement;
+  fill(): Promise<void>;
+}
 
 export class Sidebar {
   readonly element: HTMLElement;
@@ -16,34 +25,52 @@ export class Sidebar {
   private readonly failure = make("p", { class: "failure", hidden: true });
   private readonly search = make("input", { type: "search", placeholder: "search all paths  ( / )", "aria-label": "search all paths" });
   private readonly open = new Set<string>();
+  private readonly rows = new Map<string, Row>();
+  /** The line with what can be done with its value, and its path, which has another line when the list is made anew. */
+  private selected: { path: string; line: HTMLElement } | null = null;
   private searches = 0;
+  /** Whose paths are shown; null: nobody's, or not all of them came. */
+  private run: Welcome | null = null;
 
   constructor(
     private readonly robot: Robot,
     private readonly arrangement: Arrangement,
   ) {
     this.element = make("nav", { class: "sidebar", "aria-label": "paths of the robot" }, make("div", { class: "bar" }, this.search), this.failure, this.list);
-    this.search.addEventListener("input", () => void this.refresh());
+    this.search.addEventListener("input", () => {
+      this.select(null);
+      void this.refresh();
+    });
     document.addEventListener("keydown", (event) => {
       if (event.key !== "/" || event.target instanceof HTMLInputElement || event.target instanceof HTMLTextAreaElement) return;
       event.preventDefault();
       this.search.focus();
     });
     robot.welcome.watch((welcome) => {
-      if (welcome !== null) void this.refresh();
+      // The paths of a program do not change.
+      if (welcome !== null && isSameRun(this.run, welcome) !== true) void this.refresh();
     });
   }
 
   private async refresh(): Promise<void> {
     const turn = ++this.searches;
+    const welcome = this.robot.welcome.value;
     const words = this.search.value.toLowerCase().split(/\s+/).filter((word) => word !== "");
     try {
       const rows = words.length === 0 ? await this.level("") : await this.found(words);
-      if (turn === this.searches) this.list.replaceChildren(...rows);
+      if (turn !== this.searches) return;
+      arrange(this.list, rows);
+      this.run = welcome;
       complain(this.failure, null);
     } catch (error) {
-      complain(this.failure, error);
+      if (turn === this.searches) this.fail(error);
     }
+  }
+
+  /** With the next connection it is asked for again. */
+  private fail(error: unknown): void {
+    this.run = null;
+    complain(this.failure, error);
   }
 
   private async level(path: string): Promise<HTMLElement[]> {
@@ -63,30 +90,36 @@ export class Sidebar {
     return rows;
   }
 
+  /** What another program says the same of is the same element, with its focus and the click that has begun. */
   private async row(entry: Entry): Promise<HTMLElement> {
-    const list = make("ul", { role: "group", hidden: true });
-    const fill = async (): Promise<void> => {
-      list.replaceChildren(...(await this.level(entry.path)));
-    };
+    const said = JSON.stringify(entry);
+    const there = this.rows.get(entry.path);
+    const row = there?.said === said ? there : this.newRow(entry, said);
+    this.rows.set(entry.path, row);
+    if (entry.has_children && this.open.has(entry.path)) await row.fill();
+    return row.element;
+  }
+
+  private newRow(entry: Entry, said: string): Row {
+    const list = make("ul", { role: "group" });
+    const fill = async (): Promise<void> => arrange(list, await this.level(entry.path));
     const caret = button("", `open ${entry.path}`, () => toggle(), "caret");
-    const toggle = (): void => {
-      list.hidden = !list.hidden;
-      caret.classList.toggle("open", !list.hidden);
-      caret.setAttribute("aria-expanded", String(!list.hidden));
-      if (list.hidden) this.open.delete(entry.path);
-      else {
-        this.open.add(entry.path);
-        fill().catch((error: unknown) => complain(this.failure, error));
-      }
+    const show = (): void => {
+      const isOpen = this.open.has(entry.path);
+      list.hidden = !isOpen;
+      caret.classList.toggle("open", isOpen);
+      caret.setAttribute("aria-expanded", String(isOpen));
     };
-    if (!entry.has_children) caret.classList.add("leaf");
-    const row = make("li", { role: "treeitem" }, this.line(entry, nameOf(entry.path), entry.has_children ? caret : null, toggle), list);
-    if (entry.has_children && this.open.has(entry.path)) {
-      list.hidden = false;
-      caret.classList.add("open");
-      await fill();
-    }
-    return row;
+    const toggle = (): void => {
+      if (!this.open.delete(entry.path)) {
+        this.open.add(entry.path);
+        fill().catch((error: unknown) => this.fail(error));
+      }
+      show();
+    };
+    show();
+    const element = make("li", { role: "treeitem" }, this.line(entry, nameOf(entry.path), entry.has_children ? caret : null, toggle), list);
+    return { said, element, fill };
   }
 
   private line(entry: Entry, text: string, caret: HTMLElement | null, toggle?: () => void): HTMLElement {
@@ -95,11 +128,11 @@ export class Sidebar {
     const type = make("span", { class: "muted type" }, [entry.type ?? "", entry.unit ?? ""].filter((part) => part !== "").join(" "));
     const line = make("div", { class: "line", "data-path": entry.path }, caret ?? make("span", { class: "caret leaf" }), name, type);
     name.addEventListener("click", () => {
-      if (!isValue) toggle?.();
-      else for (const one of this.list.querySelectorAll(".line.selected")) if (one !== line) one.classList.remove("selected");
-      if (isValue) line.classList.toggle("selected");
+      if (isValue) this.select(this.selected?.line === line ? null : { path: entry.path, line });
+      else toggle?.();
     });
     if (!isValue) return line;
+    if (this.selected?.path === entry.path) this.select({ path: entry.path, line });
     name.draggable = true;
     name.addEventListener("dragstart", (event) => event.dataTransfer?.setData(DRAGGED_PATH, entry.path));
     const deeds = make("span", { class: "deeds" });
@@ -108,6 +141,12 @@ export class Sidebar {
     deeds.append(this.deed("value", { path: entry.path }));
     line.append(deeds);
     return line;
+  }
+
+  private select(selected: Sidebar["selected"]): void {
+    this.selected?.line.classList.remove("selected");
+    selected?.line.classList.add("selected");
+    this.selected = selected;
   }
 
   private deed(kind: string, settings: Record<string, string | string[]>): HTMLElement {
