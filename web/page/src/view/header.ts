@@ -63,7 +63,11 @@ function beside(robots: Robots): HTMLElement {
       }),
     );
   };
-  robots.known.watch(show);
+  robots.known.watch(() => {
+    // The same addresses may be of other connections when it is opened next.
+    if (!element.open) list = "";
+    show();
+  });
   element.addEventListener("toggle", show);
   // It is read and typed into, not chosen from.
   rows.addEventListener("click", (event) => event.stopPropagation());

@@ -169,3 +169,23 @@ test("panels that every robot has are offered where the first question for paths
   await connect("a");
   assert(names().includes("Field"));
 });
+
+test("of robots that were gone and are there again, the menu shows the connections that there are now", async () => {
+  const { element, known, robot } = headed();
+  const menu = all(element, (one) => one.nodeName === "DETAILS" && one.textContent.startsWith("Robots"))[0];
+  const other = (state) => ({ address: "b:1", at: 1, isOwn: false, robot: { ...played().robot, state: signal(state) } });
+  const own = { address: "a:1", at: 0, isOwn: true, robot };
+  const open = (isOpen) => {
+    menu.open = isOpen;
+    menu.tell("toggle");
+  };
+  const states = () => ofClass(menu, "of-one").map((one) => one.textContent);
+  known.set([own, other("waiting")]);
+  open(true);
+  assert.equal(states()[1], "not there, trying again …");
+  open(false);
+  known.set([own]);
+  known.set([own, other("open")]);
+  open(true);
+  assert.equal(states()[1], "connected");
+});
