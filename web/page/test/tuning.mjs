@@ -1,10 +1,10 @@
 // A robot with parameters that is only played: it answers a write when the test says so.
 import { load } from "./load.mjs";
 
-const { Refused, Tuning, isSame, isWithin, part } = await load("store/tuning.ts", "connection/socket.ts", "store/parts.ts");
+const { Refused, Unheard, Tuning, isSame, isWithin, part } = await load("store/tuning.ts", "connection/socket.ts", "store/parts.ts");
 const { shapeOf } = await load("panels/parameter_text.ts");
 
-export { Refused };
+export { Refused, Unheard };
 
 /** Sets the part at a path, and makes what it is in. */
 function put(values, path, value) {

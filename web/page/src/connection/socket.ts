@@ -23,6 +23,9 @@ export class Refused extends Error {
   }
 }
 
+/** The connection was lost before the answer came: what was asked for may have been done. */
+export class Unheard extends Error {}
+
 type Name<T> = T extends unknown ? keyof T : never;
 type Content<T, N extends Name<T>> = Extract<T, Record<N, unknown>>[N];
 
@@ -117,7 +120,7 @@ export class Socket {
     this.wasSilent = isSilent && this.isHeard;
     // Nobody answers: the link was none that is slow, and whoever is gone is to be missed soon.
     if (!this.isHeard) this.patience = SILENT_LOOKS;
-    for (const pending of this.pending.values()) pending.reject(new Error("the connection to the robot was lost"));
+    for (const pending of this.pending.values()) pending.reject(new Unheard("the connection to the robot was lost"));
     this.pending.clear();
     this.listener.state("waiting");
     window.setTimeout(() => this.connect(), RETRY_MILLISECONDS);

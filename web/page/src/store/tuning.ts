@@ -1,11 +1,12 @@
 // Owns what a panel of parameters works on: what the robot has, what was changed here and not sent, and what can be undone.
-import { expect, Refused } from "../connection/socket";
+import { expect, Refused, Unheard } from "../connection/socket";
 import type { Change, Entry, Json, Leaf, Reading, Unstored, Welcome } from "../protocol";
 import type { Robot } from "./robot";
 import { isSame, isWithin, part, provenanceAt, withPart } from "./parts";
 import { isSameRun } from "./run";
 import { Signal } from "./signal";
 import { Turns } from "./turns";
+import { versionOf, type Unanswered } from "./unanswered";
 import { isOf, Undone, type Overtaken } from "./undone";
 
 export interface Parameter {
@@ -51,6 +52,8 @@ export class Tuning {
   private readonly turns = new Turns();
   /** The last write from here, and on which connection: another run counts versions anew. */
   private written: { run: Welcome | null; version: number } = { run: null, version: 0 };
+  /** The last write, where its answer was lost and the robot has not shown that it took it. */
+  private unanswered: Unanswered | null = null;
   /** What the robot said last of the types, and on which connection. */
   private types: { run: Welcome | null; entries: readonly Entry[] } = { run: null, entries: [] };
   private loads = 0;
@@ -75,13 +78,30 @@ export class Tuning {
     if (isOld || load < this.shownLoad) return;
     this.shownLoad = load;
     const tuned = describe(reading, unstored, entries);
-    const said = this.forgetWithout(tuned);
+    const gone = this.forgetWithout(tuned);
+    const taken = this.takeUnanswered(reading);
     this.undone.hear(this.robot.welcome.value, reading);
     this.hearOwn(reading);
     this.tuned.set(tuned);
+    // What the robot has waits no more to be sent to it.
+    this.settle([...tuned.parameters, ...taken]);
     // What is told of it is of now.
     if (this.overtaken.value.length > 0) this.overtaken.set(this.undone.overtaken(reading));
-    return said;
+    const said = [gone, taken.length > 0 ? "the robot has taken the write whose answer was lost" : undefined].filter((text) => text !== undefined);
+    return said.length > 0 ? said.join("\n") : undefined;
+  }
+
+  /** Where the robot has what was written before the connection was lost, that is a write like others; what was written. */
+  private takeUnanswered(reading: Reading): Change[] {
+    const { unanswered } = this;
+    if (unanswered === null) return [];
+    const isOfThisRun = this.isOfThisRun(unanswered.run);
+    const version = isOfThisRun ? versionOf(unanswered, reading) : null;
+    if (version !== null || !isOfThisRun) this.unanswered = null;
+    if (version === null) return [];
+    this.undone.add(unanswered.run, version, unanswered.values);
+    for (const { path } of unanswered.values) if (this.begun.has(path)) this.begun.set(path, { value: part(reading.value, path) });
+    return unanswered.values.map(({ path, written }) => ({ path, value: written }));
   }
 
   /** Where the robot does not answer for once, types are as before: without them what was typed would mean something else. */
@@ -153,7 +173,11 @@ export class Tuning {
       const changes = wanted.filter(({ path, value }) => !isSame(value, this.valueOf(path)));
       if (changes.length > 0) {
         const replaced = changes.map(({ path, value }) => ({ path, before: this.valueOf(path), written: value }));
-        await this.send(changes);
+        const [run, version] = [this.robot.welcome.value, this.tuned.value?.reading.version ?? 0];
+        await this.send(changes).catch((error: unknown) => {
+          if (error instanceof Unheard) this.unanswered = { run, version, values: replaced };
+          throw error;
+        });
         this.undone.add(this.written.run, this.written.version, replaced);
         this.settleUndo();
       }
@@ -237,6 +261,7 @@ export class Tuning {
     const run = this.robot.welcome.value;
     const { version } = expect(await this.robot.ask({ write: { changes } }), "written");
     this.written = { run, version };
+    this.unanswered = null;
     const tuned = this.tuned.value;
     if (tuned === null) return;
     const isWritten = ({ path }: { path: string }): boolean => changes.some((change) => isWithin(change.path, path));
@@ -248,14 +273,14 @@ export class Tuning {
     this.tuned.set({ ...tuned, reading: { value, version, leaves: tuned.reading.leaves.map(newer) }, parameters });
   }
 
-  /** What was sent is pending no more; what was typed meanwhile is. */
-  private settle(sent: readonly Change[]): void {
+  /** What was sent, and what the robot has, is pending no more; what was typed meanwhile is. */
+  private settle(sent: readonly Pick<Parameter, "path" | "value">[]): void {
     const pending = new Map(this.pending.value);
     for (const { path, value } of sent) {
       const draft = pending.get(path);
       if (draft !== undefined && "value" in draft && isSame(draft.value, value)) pending.delete(path);
     }
-    this.setPending(pending);
+    if (pending.size < this.pending.value.size) this.setPending(pending);
   }
 
   /** Nobody sees what was typed for parameters that are not there any more, so that nobody may send it. */
