@@ -17,9 +17,37 @@ class Parameters implements Panel {
   private readonly unread = make("p", { class: "failure", hidden: true });
   private readonly said = make("p", { class: "said", hidden: true });
   private readonly search: HTMLInputElement;
-  private readonly writing = make("div", { class: "bar writing", hidden: true });
-  private readonly overtaken = make("div", { class: "bar overtaken", hidden: true });
-  private readonly storing = make("div", { class: "bar storing", hidden: true });
+  /** Bars are made once: what is pressed in one of them while the robot says something is not lost. */
+  private readonly unsent = make("span");
+  private readonly wrong = make("span", { class: "wrong", hidden: true });
+  private readonly writing = make(
+    "div",
+    { class: "bar writing", hidden: true },
+    this.unsent,
+    this.wrong,
+    button("Write", "all of them at once, or none", () => this.attempt(() => this.tuning.write()), "deed"),
+    button("Discard", "forget them", () => this.tuning.discard()),
+  );
+  private readonly others = make("span", { class: "wrong" });
+  private readonly overtaken = make(
+    "div",
+    { class: "bar overtaken", hidden: true },
+    this.others,
+    button("Overwrite", "take the write back in spite of that: what was there before it is written", () => this.attempt(() => this.tuning.undo("overwrite")), "deed"),
+    button("Keep", "leave what is there now; what else that write changed is taken back", () => this.attempt(() => this.tuning.undo("keep"))),
+  );
+  private readonly unstored = make("span");
+  private readonly layers = select([], "", "layer", (layer) => {
+    this.layer = layer;
+    this.save();
+  });
+  private readonly storing = make(
+    "div",
+    { class: "bar storing", hidden: true },
+    this.unstored,
+    this.layers,
+    button("Store", "write them into the file of this layer", () => this.attempt(() => this.tuning.store(this.layer)), "deed"),
+  );
   private readonly undo: HTMLButtonElement;
   private readonly rows = new Map<string, ParameterRow>();
   private readonly stops: (() => void)[];
@@ -139,37 +167,23 @@ class Parameters implements Panel {
     const wrong = [...pending].flatMap(([path, draft]) => ("wrong" in draft ? [`${path}: ${draft.wrong}`] : []));
     this.undo.disabled = !this.tuning.canUndo;
     this.writing.hidden = pending.size === 0;
-    this.writing.replaceChildren(
-      make("span", {}, `${plural(pending.size, "change")} not sent`),
-      wrong.length === 0 ? "" : make("span", { class: "wrong" }, wrong.join(", ")),
-      button("Write", "all of them at once, or none", () => this.attempt(() => this.tuning.write()), "deed"),
-      button("Discard", "forget them", () => this.tuning.discard()),
-    );
+    say(this.unsent, `${plural(pending.size, "change")} not sent`);
+    complain(this.wrong, wrong.length === 0 ? null : wrong.join(", "));
   }
 
   private drawOvertaken(overtaken: readonly Overtaken[]): void {
     this.overtaken.hidden = overtaken.length === 0;
-    this.overtaken.replaceChildren(
-      make("span", { class: "wrong" }, overtakenText(overtaken)),
-      button("Overwrite", "take the write back in spite of that: what was there before it is written", () => this.attempt(() => this.tuning.undo("overwrite")), "deed"),
-      button("Keep", "leave what is there now; what else that write changed is taken back", () => this.attempt(() => this.tuning.undo("keep"))),
-    );
+    say(this.others, overtakenText(overtaken));
   }
 
   private drawStoring(tuned: Tuned): void {
     const unstored = tuned.parameters.filter((parameter) => parameter.isUnstored);
     this.storing.hidden = unstored.length === 0;
-    const last = tuned.layers[tuned.layers.length - 1] ?? "";
-    if (!tuned.layers.includes(this.layer)) this.layer = last;
-    const layers = select(tuned.layers, this.layer, "layer", (layer) => {
-      this.layer = layer;
-      this.save();
-    });
-    this.storing.replaceChildren(
-      make("span", {}, `${plural(unstored.length, "parameter")} in no file`),
-      layers,
-      button("Store", "write them into the file of this layer", () => this.attempt(() => this.tuning.store(this.layer)), "deed"),
-    );
+    say(this.unstored, `${plural(unstored.length, "parameter")} in no file`);
+    if (!tuned.layers.includes(this.layer)) this.layer = tuned.layers[tuned.layers.length - 1] ?? "";
+    const offered = [...this.layers.options].map(({ value }) => value);
+    if (offered.join("\n") !== tuned.layers.join("\n")) this.layers.replaceChildren(...tuned.layers.map((layer) => make("option", { value: layer }, layer)));
+    if (this.layers.value !== this.layer) this.layers.value = this.layer;
   }
 
   private filter(): void {
@@ -181,6 +195,11 @@ class Parameters implements Panel {
       if (words.length > 0) one.open = !one.hidden;
     }
   }
+}
+
+/** Also what says the same loses a selection when it is said again. */
+function say(element: HTMLElement, text: string): void {
+  if (element.textContent !== text) element.textContent = text;
 }
 
 /** Parameters below a path: those that stand there, and groups of those further down. */

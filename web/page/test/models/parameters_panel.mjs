@@ -77,3 +77,28 @@ test("what is to be decided and what is answered stands in one box that stays in
   assert.deepEqual(sticky.filter((one) => one.includes("answers")), [".answers"]);
   assert(!sticky.some((one) => names.some((name) => one.includes(`.${name}`))), "two that stick at one place cover each other");
 });
+
+test("bars and the list of layers stay the same elements, with what is chosen, while the robot says something", async () => {
+  const { robot, panel, load, type, other } = await shown("one");
+  const { ask } = robot;
+  let layers = ["default", "head"];
+  robot.ask = async (one) => ("unstored" in one ? { unstored: { version: robot.version, changes: [{ path: "a", stored: "one" }], layers, creation_only: [] } } : ask.call(robot, one));
+  await load();
+  const [list, store] = ["layer", "write them into"].map((label) => labelled(panel.content, label));
+  const bars = () => ["writing", "overtaken", "storing"].flatMap((name) => all(ofClass(panel.content, name)[0], () => true)).filter((one) => one.nodeName === "BUTTON" || one.nodeName === "SELECT");
+  const before = bars();
+  assert.deepEqual([before.length, list.options.map((one) => one.value), list.value], [6, layers, "head"], "the last layer unless another one is chosen");
+  list.value = "default";
+  list.tell("change");
+  const { options } = list;
+  type("hello");
+  await other("two");
+  assert.deepEqual([bars(), list.options, list.value, ofClass(panel.content, "storing")[0].textContent.slice(0, 21)], [before, options, "default", "1 parameter in no fil"]);
+  layers = ["default", "head", "body"];
+  await load();
+  assert.deepEqual([bars(), list.options.map((one) => one.value), list.value], [before, layers, "default"]);
+  layers = ["head", "body"];
+  await load();
+  assert.deepEqual([labelled(panel.content, "write them into"), list.value], [store, "body"]);
+  panel.close();
+});
