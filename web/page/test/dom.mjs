@@ -166,7 +166,7 @@ export const settled = () => new Promise((resolve) => setTimeout(resolve, 5));
 
 Object.assign(globalThis, { Node: Node_, Text: Text_, HTMLElement: Element_ });
 for (const name of ["Input", "Select", "Button", "TextArea"]) globalThis[`HTML${name}Element`] = class extends Element_ {};
-globalThis.document = { createElement: (name) => new Element_(name), createTextNode: (text) => new Text_(text), hidden: false, activeElement: null, body: new Element_("body"), documentElement: new Element_("html"), addEventListener: () => undefined };
+globalThis.document = { createElement: (name) => new Element_(name), createTextNode: (text) => new Text_(text), hidden: false, activeElement: null, body: new Element_("body"), documentElement: new Element_("html"), addEventListener: () => undefined, removeEventListener: () => undefined };
 globalThis.getComputedStyle = () => ({ getPropertyValue: () => "" });
 globalThis.requestAnimationFrame = (deed) => setTimeout(deed);
 globalThis.window = {

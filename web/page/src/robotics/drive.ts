@@ -6,13 +6,15 @@ import { Driver, KEYS } from "./driver";
 import { taking } from "./values";
 
 const ALIASES: Record<string, string> = { arrowup: "w", arrowdown: "s", arrowleft: "q", arrowright: "e" };
+const IDLE = "not driving";
+const LOST = "the connection is lost: the robot stops by itself";
 
 class Drive implements Panel {
   readonly content: HTMLElement;
   private readonly driver: Driver;
   private readonly pads = new Map<string, HTMLElement>();
   private readonly speed = make("input", { type: "range", min: 0.2, max: 1, step: 0.1, value: 0.7, "aria-label": "share of the largest step" });
-  private readonly state = make("output", { class: "muted", "aria-live": "polite" }, "not driving");
+  private readonly state = make("output", { class: "muted", "aria-live": "polite" }, IDLE);
   private readonly failure = make("p", { class: "failure", hidden: true });
   private readonly stops: (() => void)[];
 
@@ -53,7 +55,8 @@ class Drive implements Panel {
       }),
       // What was held when the connection went is not held when it comes back.
       context.robot.state.watch((state) => {
-        if (state !== "open") this.driver.forget("the connection is lost: the robot stops by itself");
+        if (state === "open") this.resume();
+        else if (context.robot.welcome.value !== null) this.driver.forget(LOST);
       }),
     ];
   }
@@ -88,6 +91,10 @@ class Drive implements Panel {
     if (!(key in KEYS) || event.target === this.speed || isPad || event.ctrlKey || event.metaKey || event.altKey) return;
     event.preventDefault();
     if (!event.repeat) this.driver.hold(key);
+  }
+
+  private resume(): void {
+    if (this.state.textContent === LOST) this.state.textContent = IDLE;
   }
 
   private mark(): void {

@@ -1,9 +1,10 @@
 // What a driven robot is asked for, with a robot that is only played: it answers when the test says so.
 import assert from "node:assert/strict";
 import test from "node:test";
+import { all, labelled, opened, settled as later } from "../dom.mjs";
 import { load } from "../load.mjs";
 
-const { Driver } = await load("robotics/driver.ts");
+const { Driver, drive } = await load("robotics/driver.ts", "robotics/drive.ts");
 
 function driven(test) {
   const [asked, said] = [[], []];
@@ -67,4 +68,35 @@ test("steps go on after one that was refused, and with each period while somethi
   driver.letGo();
   driver.letGo();
   assert.deepEqual(paths(), ["walk", "walk", "motion"]);
+});
+
+test("a connection is said to be lost from when it goes until it is back, and not before there was one", async () => {
+  const paths = { everything: async () => [{ path: "Control.procedures.walk", kind: "procedure", request: "Step" }] };
+  const { context, robot } = opened(({ call }) => ({ called: call.argument }), { paths });
+  robot.state.set("connecting");
+  robot.welcome.set(null);
+  const panel = drive.open(context);
+  const said = () => all(panel.content, (one) => one.nodeName === "OUTPUT")[0].textContent;
+  robot.state.set("waiting");
+  assert.equal(said(), "not driving");
+  const connect = async () => {
+    robot.welcome.set({ time: 0 });
+    robot.state.set("open");
+    await later();
+  };
+  await connect();
+  labelled(panel.content, "ahead").tell("pointerdown", { pointerId: 1 });
+  await later();
+  assert.match(said(), /^driving: 4\.2 cm ahead/);
+  for (const state of ["waiting", "connecting"]) {
+    robot.state.set(state);
+    assert.equal(said(), "the connection is lost: the robot stops by itself");
+  }
+  await connect();
+  assert.equal(said(), "not driving");
+  labelled(panel.content, "ahead").tell("pointerdown", { pointerId: 2 });
+  await later();
+  robot.state.set("open");
+  assert.match(said(), /^driving: /, "what it does is not taken back");
+  panel.close();
 });
