@@ -30,7 +30,8 @@ class Camera extends ImagePanel {
   private readonly shown: Set<string>;
   private readonly values: Values;
   private readonly layers = make("div", { class: "bar layers" });
-  private cycle = 0;
+  /** Whose image is shown. */
+  private cycle: Pick<Sample, "cycle" | "time"> = { cycle: 0, time: 0 };
   private entries: readonly Entry[] = [];
   private readonly stopFinding: () => void;
 
@@ -95,7 +96,7 @@ class Camera extends ImagePanel {
   }
 
   protected override drawn(sample: Sample): void {
-    this.cycle = sample.cycle;
+    this.cycle = { cycle: sample.cycle, time: sample.time };
     const { width, height } = this.canvas;
     // As fine as the screen, however few pixels the image has.
     const context = sharp(this.over);

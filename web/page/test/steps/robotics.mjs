@@ -58,6 +58,8 @@ export async function theWorldIsChanged(page) {
     assert(Date.now() - since < PATIENCE, `the ball lies at ${JSON.stringify(ball)}`);
     await page.waitForTimeout(200);
   }
+  // On its feet, where there is something to be seen.
+  await call(page, "framework.procedures.disturb", { kidnap: [2.0, 0.0, 0.0], ball: [3.0, 0.3] });
   await changes(page, panel(page, "camera").locator("output").first(), "the number of the camera's image");
   await until(page, panel(page, "camera").locator(".stage canvas").first(), hasPicture, "the camera's image");
   await until(page, panel(page, "camera").locator("canvas.over"), hasStrokes, "what lies over the image");
