@@ -87,7 +87,9 @@ class Cycles implements Panel {
     if (this.isHeld || document.hidden || robot.state.value !== "open") return;
     try {
       if (!this.areKnown) this.know(inputsOf(expect(await robot.ask({ graph: {} }), "graph")));
-      this.lanes = (await trace(robot, (1.5 * this.window + 200) / 1000)).map(({ instance, spans }) => ({ instance, spans: spans.filter((span) => span.isCycle) }));
+      const lanes = await trace(robot, (1.5 * this.window + 200) / 1000);
+      // Somebody may hold the picture while the robot answers.
+      if (!this.isHeld) this.lanes = lanes.map(({ instance, spans }) => ({ instance, spans: spans.filter((span) => span.isCycle) }));
       complain(this.failure, null);
     } catch (error) {
       this.areKnown = false;

@@ -47,3 +47,32 @@ test("a robot that comes back is asked for its graph, which may be that of anoth
   assert.deepEqual(offered(), ["filter.audio", "filter.visionbottom"]);
   panel.close();
 });
+
+test("a picture that is held while the robot answers stays as it is", async () => {
+  const lanes = (...names) => ({ trace: { traceEvents: names.map((name, tid) => ({ ph: "M", name: "thread_name", tid, args: { name } })) } });
+  let tell = null;
+  const { context } = opened((ask) => {
+    if ("graph" in ask) return graph("VisionTop");
+    return tell === null ? lanes("Control", "VisionTop") : new Promise((resolve) => (tell = resolve));
+  });
+  const panel = cycles.open(context);
+  const canvas = labelled(panel.content, "cycles on a time axis");
+  const becomes = async (holds) => {
+    while (!holds(canvas.style.height)) await settled();
+  };
+  await becomes((height) => height !== undefined);
+  const two = canvas.style.height;
+  tell = () => undefined;
+  tick();
+  await settled();
+  panel.tools[1].click();
+  tell(lanes("Control", "VisionTop", "VisionBottom"));
+  for (let turn = 0; turn < 5; turn++) await settled();
+  assert.equal(canvas.style.height, two);
+  panel.tools[1].click();
+  tick();
+  await settled();
+  tell(lanes("Control", "VisionTop", "VisionBottom"));
+  await becomes((height) => height !== two);
+  panel.close();
+});
