@@ -76,9 +76,12 @@ export function sharp(canvas: HTMLCanvasElement): CanvasRenderingContext2D | nul
   return context;
 }
 
+/** Some browsers read a file only after somebody has said where to put it. */
+const READ_MILLISECONDS = 40_000;
+
 /** Hands a text to the user as a file. */
 export function download(name: string, text: string, type = "application/json"): void {
   const address = URL.createObjectURL(new Blob([text], { type }));
   make("a", { href: address, download: name }).click();
-  URL.revokeObjectURL(address);
+  window.setTimeout(() => URL.revokeObjectURL(address), READ_MILLISECONDS);
 }
