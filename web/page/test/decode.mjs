@@ -6,8 +6,9 @@ import { load } from "./load.mjs";
 const { decode, Malformed } = await load("connection/binary.ts");
 const { readJson, writeJson } = await load("connection/exact.ts");
 
-/** As JSON; numbers of 32 bits are written with fewer digits than they have as 64. */
+/** As JSON, which has no infinities; numbers of 32 bits are written with fewer digits than they have as 64. */
 function same(one, other) {
+  if (typeof one === "number" && !Number.isFinite(one)) return other === null;
   if (typeof one === "number" && typeof other === "number") return one === other || Math.fround(one) === Math.fround(other);
   if (one === null || other === null || typeof one !== "object" || typeof other !== "object") return one === other;
   if (Array.isArray(one) !== Array.isArray(other)) return false;

@@ -157,10 +157,10 @@ class Reader {
     return byte === 1;
   }
 
-  private float(bits: number): number | null {
+  /** Also those that JSON does not have: an infinity is not nothing. */
+  private float(bits: number): number {
     const start = this.take(bits / 8);
-    const value = bits === 32 ? this.view.getFloat32(start, true) : this.view.getFloat64(start, true);
-    return Number.isFinite(value) ? value : null;
+    return bits === 32 ? this.view.getFloat32(start, true) : this.view.getFloat64(start, true);
   }
 
   private integer(bits: number, isSigned: boolean): number | bigint | string {

@@ -4,6 +4,7 @@ import { writeJson } from "../connection/exact";
 /** Six digits are more than a screen shows apart, and do not jump in width. */
 export function number(value: number): string {
   if (Number.isInteger(value)) return String(value);
+  if (!Number.isFinite(value)) return String(value).replace("Infinity", "inf");
   const size = Math.abs(value);
   return size >= 1e6 || size < 1e-4 ? value.toExponential(4) : value.toPrecision(6);
 }
