@@ -35,25 +35,12 @@ function open(context: Context): Panel {
     else branch.show(sample.value);
   });
 
-  const show = (): void => {
+  const subscribe = (): void => {
     stop();
-    stopMark();
-    mark.hidden = true;
-    sample = null;
-    state.textContent = "";
-    text.textContent = "";
-    context.title(path);
+    stop = (): void => undefined;
     context.save({ path, rate, text: isText });
-    injecting.moved();
-    branch = new Branch(path.slice(path.lastIndexOf(".") + 1), path, true);
-    tree.replaceChildren(branch.element);
     complain(failure, null);
     if (path === "") return;
-    const shown = path;
-    stopMark = watchInjected(context.robot, shown, (isInjected) => {
-      mark.hidden = !isInjected;
-      injecting.mark(shown, isInjected);
-    });
     stop = context.robot.subscriptions.watch(
       // As bytes, since an image as JSON would take seconds; the robot tells parameters as JSON alone.
       { path, rate, encoding: /^parameters(\.|$)/.test(path) ? "json" : "binary" },
@@ -65,18 +52,42 @@ function open(context: Context): Panel {
         refused: (reason) => complain(failure, reason),
       },
     );
+  };
+
+  const show = (): void => {
+    stopMark();
+    mark.hidden = true;
+    sample = null;
+    state.textContent = "";
+    text.textContent = "";
+    context.title(path);
+    injecting.moved();
+    branch = new Branch(path.slice(path.lastIndexOf(".") + 1), path, true);
+    tree.replaceChildren(branch.element);
+    stopMark = (): void => undefined;
+    if (path !== "") {
+      const shown = path;
+      stopMark = watchInjected(context.robot, shown, (isInjected) => {
+        mark.hidden = !isInjected;
+        injecting.mark(shown, isInjected);
+      });
+    }
+    subscribe();
     draw();
   };
   input.addEventListener("change", () => accept(input.value.trim()));
   const accept = (next: string): void => {
+    const isOther = next !== path;
     path = next;
     input.value = next;
-    show();
+    if (isOther) show();
+    else subscribe();
   };
   const tools = [
     select(RATES, `${rate} Hz`, "updates per second", (choice) => {
       rate = Number.parseFloat(choice);
-      show();
+      // The same value, more often or less: what is open in it stays open.
+      subscribe();
     }),
     button("Text", "tree or text", () => {
       isText = !isText;

@@ -114,6 +114,7 @@ export async function theGraphIsRead(page) {
   const node = (name) => graph.locator(`.node[title="${name}"]`);
   await node("control::ball_filter").click();
   await graph.locator('.about p', { hasText: /^Control: \d+ runs, \d+ skipped, \d+ failed/ }).waitFor({ timeout: PATIENCE });
+  await changes(page, graph.locator(".about > div.muted"), "what the chosen node takes");
   const has = async (name, what) => assert((await node(name).getAttribute("class")).split(" ").includes(what), `${name} is ${what}`);
   await has("control::ball_filter", "chosen");
   await has("vision::ball_detection", "read");
