@@ -3,6 +3,7 @@ import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 import { button, complain, download, eachFrame, make, select } from "../view/dom";
 import { number, plural } from "../view/format";
+import { arrange } from "../view/renew";
 import type { Welcome } from "../protocol";
 import { nameOf } from "../store/paths";
 import { isSameRun } from "../store/run";
@@ -169,7 +170,8 @@ class Plot implements Panel {
     const looks = looksOf(this.curves);
     this.lines = this.curves.map((curve, at) => ({ label: this.label(curve), look: looks[at] as Look, series: this.held.shown(curve).series, isOfOtherRun: false }));
     this.context.title(this.lines.map(({ label }) => label).join(", "));
-    this.chips.replaceChildren(...this.curves.map((curve, at) => this.chip(curve, looks[at] as Look)), this.input, this.whose, this.missing, this.earlier);
+    // Whoever types the next path goes on to.
+    arrange(this.chips, [...this.curves.map((curve, at) => this.chip(curve, looks[at] as Look)), this.input, this.whose, this.missing, this.earlier]);
     this.tell();
     // Curves that the other run has, too.
     this.curves.forEach((curve, at) => {

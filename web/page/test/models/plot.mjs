@@ -158,3 +158,18 @@ test("a held plot tells the gaps of what it shows, until somebody goes on", asyn
   assert.equal(gaps(), "gaps: 1 value did not come through");
   panel.close();
 });
+
+test("the field for the next path, and the list of robots beside it, are not touched when a curve comes or goes", () => {
+  const { panel } = drawn();
+  const [chips] = ofClass(panel.content, "chips");
+  const input = all(chips, (one) => one.getAttribute("aria-label") === "add a path")[0];
+  const touched = [];
+  for (const one of all(chips, () => true)) one.remove = () => touched.push(one);
+  for (const one of ofClass(chips, "chip")) delete one.remove;
+  input.value = "c";
+  input.tell("change");
+  assert.equal(ofClass(chips, "chip").length, 3);
+  all(ofClass(chips, "chip")[0], (one) => one.nodeName === "BUTTON")[0].click();
+  assert.deepEqual([ofClass(chips, "chip").map((one) => one.getAttribute("title")), touched], [["b", "c"], []]);
+  panel.close();
+});

@@ -124,6 +124,7 @@ async function curvesShareAPlot(page, addresses) {
     await list.selectOption(names.find((name) => name.endsWith(whose)));
     await plot.getByLabel("add a path").fill(path);
     await plot.getByLabel("add a path").press("Enter");
+    assert(await plot.getByLabel("add a path").evaluate((element) => element === document.activeElement), "the next path can be typed at once");
   };
   await draw("robots", path);
   await draw(addresses[1], further);
