@@ -9,99 +9,116 @@ import { Branch } from "./tree";
 
 const RATES = ["1 Hz", "5 Hz", "10 Hz", "30 Hz"];
 
-function open(context: Context): Panel {
-  let path = textSetting(context.settings, "path");
-  let rate = numberSetting(context.settings, "rate", 10);
-  let isText = context.settings["text"] === true;
-  let stop = (): void => undefined;
-  let stopMark = (): void => undefined;
-  let sample: Sample | null = null;
-  let branch = new Branch("", "", true);
-  const input = make("input", { type: "text", value: path, placeholder: "a path, e.g. from the list of paths", "aria-label": "path", spellcheck: "false" });
-  const state = make("output", { class: "muted" });
-  const mark = make("span", { class: "injected-mark", hidden: true, title: "a client has put this value in place of what the node wrote" }, "injected");
-  const failure = make("p", { class: "failure", hidden: true });
-  const tree = make("ul", { class: "tree" });
-  const text = make("pre", { class: "value-text" });
-  const injecting = injection(context.robot, () => ({ path, value: sample?.value ?? null }));
-  const content = make("div", { class: "scroll" }, make("div", { class: "bar" }, input, state, mark), failure, injecting.element, tree, text);
+class ValuePanel implements Panel {
+  readonly content: HTMLElement;
+  readonly tools: HTMLElement[];
+  private path: string;
+  private rate: number;
+  private isText: boolean;
+  private sample: Sample | null = null;
+  private branch = new Branch("", "", true);
+  private readonly input: HTMLInputElement;
+  private readonly state = make("output", { class: "muted" });
+  private readonly mark = make("span", { class: "injected-mark", hidden: true, title: "a client has put this value in place of what the node wrote" }, "injected");
+  private readonly failure = make("p", { class: "failure", hidden: true });
+  private readonly tree = make("ul", { class: "tree" });
+  private readonly text = make("pre", { class: "value-text" });
+  private readonly injecting: ReturnType<typeof injection>;
+  private readonly draw = eachFrame(() => this.paint());
+  private stop = (): void => undefined;
+  private stopMark = (): void => undefined;
 
-  const draw = eachFrame(() => {
-    tree.hidden = isText;
-    text.hidden = !isText;
-    if (sample === null) return;
-    state.textContent = `cycle ${sample.cycle}, ${seconds(sample.time)}`;
-    if (isText) text.textContent = json(sample.value);
-    else branch.show(sample.value);
-  });
+  constructor(private readonly context: Context) {
+    this.path = textSetting(context.settings, "path");
+    this.rate = numberSetting(context.settings, "rate", 10);
+    this.isText = context.settings["text"] === true;
+    this.input = make("input", { type: "text", value: this.path, placeholder: "a path, e.g. from the list of paths", "aria-label": "path", spellcheck: "false" });
+    this.input.addEventListener("change", () => this.accept(this.input.value.trim()));
+    this.injecting = injection(context.robot, () => ({ path: this.path, value: this.sample?.value ?? null }));
+    this.content = make("div", { class: "scroll" }, make("div", { class: "bar" }, this.input, this.state, this.mark), this.failure, this.injecting.element, this.tree, this.text);
+    this.tools = [
+      select(RATES, `${this.rate} Hz`, "updates per second", (choice) => {
+        this.rate = Number.parseFloat(choice);
+        // The same value, more often or less: what is open in it stays open.
+        this.subscribe();
+      }),
+      button("Text", "tree or text", () => {
+        this.isText = !this.isText;
+        this.save();
+        this.draw();
+      }),
+    ];
+    this.show();
+  }
 
-  const subscribe = (): void => {
-    stop();
-    stop = (): void => undefined;
-    context.save({ path, rate, text: isText });
-    complain(failure, null);
+  accept(path: string): void {
+    const isOther = path !== this.path;
+    this.path = path;
+    this.input.value = path;
+    if (isOther) this.show();
+    else this.subscribe();
+  }
+
+  close(): void {
+    this.stop();
+    this.stopMark();
+    this.injecting.close();
+  }
+
+  private save(): void {
+    this.context.save({ path: this.path, rate: this.rate, text: this.isText });
+  }
+
+  /** Another value, of which nothing is known yet. */
+  private show(): void {
+    const { path, context } = this;
+    this.stopMark();
+    this.mark.hidden = true;
+    this.sample = null;
+    this.state.textContent = "";
+    this.text.textContent = "";
+    context.title(path);
+    this.injecting.moved();
+    this.branch = new Branch(path.slice(path.lastIndexOf(".") + 1), path, true);
+    this.tree.replaceChildren(this.branch.element);
+    const mark = (isInjected: boolean): void => {
+      this.mark.hidden = !isInjected;
+      this.injecting.mark(path, isInjected);
+    };
+    this.stopMark = path === "" ? () => undefined : watchInjected(context.robot, path, mark);
+    this.subscribe();
+    this.draw();
+  }
+
+  private subscribe(): void {
+    const { path, rate } = this;
+    this.stop();
+    this.stop = () => undefined;
+    this.save();
+    complain(this.failure, null);
     if (path === "") return;
-    stop = context.robot.subscriptions.watch(
+    this.stop = this.context.robot.subscriptions.watch(
       // As bytes, since an image as JSON would take seconds; the robot tells parameters as JSON alone.
       { path, rate, encoding: /^parameters(\.|$)/.test(path) ? "json" : "binary" },
       {
         sample: (next) => {
-          sample = next;
-          draw();
+          this.sample = next;
+          this.draw();
         },
-        refused: (reason) => complain(failure, reason),
+        refused: (reason) => complain(this.failure, reason),
       },
     );
-  };
+  }
 
-  const show = (): void => {
-    stopMark();
-    mark.hidden = true;
-    sample = null;
-    state.textContent = "";
-    text.textContent = "";
-    context.title(path);
-    injecting.moved();
-    branch = new Branch(path.slice(path.lastIndexOf(".") + 1), path, true);
-    tree.replaceChildren(branch.element);
-    stopMark = (): void => undefined;
-    if (path !== "") {
-      const shown = path;
-      stopMark = watchInjected(context.robot, shown, (isInjected) => {
-        mark.hidden = !isInjected;
-        injecting.mark(shown, isInjected);
-      });
-    }
-    subscribe();
-    draw();
-  };
-  input.addEventListener("change", () => accept(input.value.trim()));
-  const accept = (next: string): void => {
-    const isOther = next !== path;
-    path = next;
-    input.value = next;
-    if (isOther) show();
-    else subscribe();
-  };
-  const tools = [
-    select(RATES, `${rate} Hz`, "updates per second", (choice) => {
-      rate = Number.parseFloat(choice);
-      // The same value, more often or less: what is open in it stays open.
-      subscribe();
-    }),
-    button("Text", "tree or text", () => {
-      isText = !isText;
-      context.save({ path, rate, text: isText });
-      draw();
-    }),
-  ];
-  show();
-  const close = (): void => {
-    stop();
-    stopMark();
-    injecting.close();
-  };
-  return { content, tools, accept, close };
+  private paint(): void {
+    this.tree.hidden = this.isText;
+    this.text.hidden = !this.isText;
+    if (this.sample === null) return;
+    const { cycle, time, value } = this.sample;
+    this.state.textContent = `cycle ${cycle}, ${seconds(time)}`;
+    if (this.isText) this.text.textContent = json(value);
+    else this.branch.show(value);
+  }
 }
 
-export const value: PanelKind = { kind: "value", name: "Value", open };
+export const value: PanelKind = { kind: "value", name: "Value", open: (context) => new ValuePanel(context) };
