@@ -85,13 +85,14 @@ export async function aRecordingIsReplayed(page, stage, picture) {
   const half = await slider.evaluate((element) => (Number(element.min) + Number(element.max)) / 2);
   await slider.fill(half.toFixed(3));
   await reads(state, new RegExp(`^${half.toFixed(3)}`), "the time after a jump");
+  const before = await cycle.textContent();
   await replay.getByRole("button", { name: /^one cycle on/ }).click();
-  await page.waitForTimeout(600);
+  await reads(cycle, new RegExp(`^(?!${before}$)\\d+$`), "the cycle after a step on");
   const at = Number(await cycle.textContent());
   await replay.getByRole("button", { name: /^one cycle back/ }).click();
   await reads(cycle, new RegExp(`^${at - 1}$`), "the cycle after a step back");
   await replay.getByRole("button", { name: /^one cycle on/ }).click();
-  await reads(cycle, new RegExp(`^${at}$`), "the cycle after a step on");
+  await reads(cycle, new RegExp(`^${at}$`), "the cycle after another step on");
   await replay.getByLabel(/^speed/).selectOption("-1 ×");
   // The table is made anew with every answer.
   for (const since = Date.now(); Number(await cycle.textContent()) >= at; await page.waitForTimeout(100)) {
