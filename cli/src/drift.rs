@@ -10,6 +10,7 @@
 mod content;
 mod disk;
 mod transaction;
+mod turn;
 
 use std::fmt::Write as _;
 use std::io;
@@ -22,7 +23,8 @@ use crate::workspace::{Changes, says_generated};
 
 pub use content::Content;
 pub use disk::write_file;
-pub use transaction::{write_all, write_all_asking};
+pub use transaction::{write_all, write_all_asking, write_all_in};
+pub use turn::Turn;
 
 /// Files of a folder of its own that are not hulkgen's.
 const MARKS_OF_OTHERS: [&str; 2] = ["hulk.toml", ".git"];
@@ -59,6 +61,9 @@ pub enum DriftError {
     /// Orphans would be removed from a folder that belongs to somebody else.
     #[error("`{folder}` cannot be the generated folder: {reason}")]
     NotOwned { folder: Utf8PathBuf, reason: String },
+    /// Somebody else has changed a file since it was read.
+    #[error("`{path}` was changed meanwhile")]
+    Meanwhile { path: Utf8PathBuf },
     /// One of several files could not be written, and what was written before could not be taken back.
     #[error("{error}; what was written before could not be taken back: {left}")]
     NotUndone {
@@ -74,9 +79,18 @@ impl Drift {
         folder: &Utf8Path,
         files: &GeneratedFiles,
     ) -> Result<Self, DriftError> {
-        own(root, folder)?;
         // Another hulkgen may be half-way through.
-        let _lock = disk::lock(root)?;
+        Self::compare_in(&Turn::wait_for(root)?, folder, files)
+    }
+
+    /// As [`Self::compare`], in a turn that somebody has already.
+    pub fn compare_in(
+        turn: &Turn,
+        folder: &Utf8Path,
+        files: &GeneratedFiles,
+    ) -> Result<Self, DriftError> {
+        let root = turn.root();
+        own(root, folder)?;
         let there = disk::files(root, folder)?;
         recognize(root, folder, &there, files)?;
         let mut drift = Self::default();

@@ -218,6 +218,16 @@ impl Workspace {
         }
     }
 
+    /// What the files of some changes said when they were read, in the form of changes; `None` where none was there.
+    pub fn as_read(&self, changes: &Changes) -> Changes {
+        let said = |file: &Utf8PathBuf| {
+            let text = self.text(file)?;
+            Some(self.marked(file, text.to_string()))
+        };
+        let files = changes.keys();
+        files.map(|file| (file.clone(), said(file))).collect()
+    }
+
     /// Every file that was read so far, sorted: what the answer depends on.
     pub fn read_files(&self) -> Vec<Utf8PathBuf> {
         self.texts.borrow().keys().cloned().collect()

@@ -10,12 +10,12 @@ use serde_json::json;
 use super::session::Session;
 use super::{Failure, plural};
 use crate::arguments::{Generate, TextOrJson};
-use crate::drift::{Content, Drift, DriftError};
+use crate::drift::{Content, Drift, DriftError, Turn, write_all_in};
 use crate::model;
 use crate::outcome::{Outcome, Refusal};
 use crate::pipeline::Understood;
 use crate::render::{self, GeneratedFiles};
-use crate::workspace::{MANIFEST, Workspace};
+use crate::workspace::{Changes, MANIFEST, Workspace};
 
 /// Where a manifest that begins with `#:schema` and this path finds its schema.
 const SCHEMA: &str = ".hulk/hulk.schema.json";
@@ -35,20 +35,25 @@ struct Current {
 }
 
 pub(super) fn run(session: &mut Session<'_>, generate: &Generate) -> Result<Outcome, Failure> {
+    // Before anything is read: what another hulkgen changes meanwhile would be generated as it was.
+    let turn = turn(session)?;
     if generate.only.is_empty() {
-        whole(session, generate)
+        whole(session, &turn, generate)
     } else {
-        part(session, generate)
+        part(session, &turn, generate)
     }
 }
 
-fn whole(session: &mut Session<'_>, generate: &Generate) -> Result<Outcome, Failure> {
+/// Waits until no other hulkgen writes in the workspace.
+pub(super) fn turn(session: &Session<'_>) -> Result<Turn, Refusal> {
+    Turn::wait_for(session.workspace.root()).map_err(|error| refusal(&error))
+}
+
+fn whole(session: &mut Session<'_>, turn: &Turn, generate: &Generate) -> Result<Outcome, Failure> {
     let question = format!("generate: color {}", session.terminal.colors_notes());
     let kept: Option<Current> = session.cache.recall(&session.workspace, &question);
     if let Some(current) = kept
-        && current
-            .content
-            .is_there(session.workspace.root(), &current.folder)
+        && current.content.is_there(turn, &current.folder)
     {
         session.terminal.note(&current.notes);
         if !generate.check {
@@ -61,10 +66,10 @@ fn whole(session: &mut Session<'_>, generate: &Generate) -> Result<Outcome, Fail
     let notes = session.rendered_diagnostics();
     session.terminal.note(&notes);
     let files = render(&session.workspace, &understood);
-    let drift = compare(session.workspace.root(), &understood, &files)?;
+    let drift = compare(turn, &understood, &files)?;
     // What is said to be written is there.
     if !generate.check {
-        apply(session, &understood, &files, &drift)?;
+        apply(session, turn, &understood, &files, &drift)?;
     }
     let has_errors = session.diagnostics.has_errors();
     if !generate.check || drift.is_empty() {
@@ -81,14 +86,14 @@ fn whole(session: &mut Session<'_>, generate: &Generate) -> Result<Outcome, Fail
 }
 
 /// The robot of some cyclers. It is asked for too seldom to be kept.
-fn part(session: &mut Session<'_>, generate: &Generate) -> Result<Outcome, Failure> {
+fn part(session: &mut Session<'_>, turn: &Turn, generate: &Generate) -> Result<Outcome, Failure> {
     let mut understood = session.understand()?;
     session.note_diagnostics();
     understood.robot = partial::restrict(session, &understood.robot, generate)?;
     let files = render(&session.workspace, &understood);
-    let drift = compare(session.workspace.root(), &understood, &files)?;
+    let drift = compare(turn, &understood, &files)?;
     if !generate.check {
-        apply(session, &understood, &files, &drift)?;
+        apply(session, turn, &understood, &files, &drift)?;
     }
     answer(session, generate, &drift, &understood.robot.command())?;
     if !generate.check {
@@ -128,8 +133,9 @@ fn outcome(generate: &Generate, drift: &Drift, has_errors: bool) -> Outcome {
 /// Writes the generated crate and says on stderr what changed.
 pub(super) fn write(session: &Session<'_>, understood: &Understood) -> Result<(), Failure> {
     let files = render(&session.workspace, understood);
-    let drift = compare(session.workspace.root(), understood, &files)?;
-    apply(session, understood, &files, &drift)
+    let turn = turn(session)?;
+    let drift = compare(&turn, understood, &files)?;
+    apply(session, &turn, understood, &files, &drift)
 }
 
 /// The files of the generated crate, and, of a whole robot, the schema that the manifest names.
@@ -152,22 +158,24 @@ fn names_schema(workspace: &Workspace) -> bool {
 
 /// How the disk differs from these files.
 pub(super) fn compare(
-    root: &Utf8Path,
+    turn: &Turn,
     understood: &Understood,
     files: &GeneratedFiles,
 ) -> Result<Drift, Failure> {
-    let drift = Drift::compare(root, &understood.robot.generated, files);
+    let drift = Drift::compare_in(turn, &understood.robot.generated, files);
     drift.map_err(|error| refusal(&error).into())
 }
 
 fn apply(
     session: &Session<'_>,
+    turn: &Turn,
     understood: &Understood,
     files: &GeneratedFiles,
     drift: &Drift,
 ) -> Result<(), Failure> {
-    let root = session.workspace.root();
-    drift.write(root, files).map_err(|error| refusal(&error))?;
+    // Nobody else writes what is generated: whatever it says is replaced.
+    let written = write_all_in(turn, &drift.changes(files), &Changes::new());
+    written.map_err(|error| refusal(&error))?;
     if drift.is_empty() {
         note_current(session, &understood.robot.generated);
     } else {
@@ -215,6 +223,7 @@ pub(super) fn refusal(error: &DriftError) -> Refusal {
         DriftError::Io { .. } => {
             refusal.help("look at the permissions of the folder and at the free space")
         }
+        DriftError::Meanwhile { .. } => refusal.help("run it again"),
         DriftError::NotUndone { .. } => {
             refusal.help("look at what has changed, with `git diff` for example, before you go on")
         }

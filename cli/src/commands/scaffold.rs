@@ -1,7 +1,8 @@
 //! `add-node`, `add-cycler`, `remove-node`, `rename-output`: changes to what people write, then the generated crate.
 //!
 //! The robot is looked at before and after the change. Nothing is written unless both are free of errors, and then
-//! everything is written or nothing.
+//! everything is written or nothing. Several of them at once wait for each other before they read; where an editor has
+//! saved a file meanwhile, nothing is written.
 
 use camino::Utf8PathBuf;
 use serde_json::json;
@@ -10,7 +11,7 @@ use super::session::Session;
 use super::{Failure, generate};
 use crate::arguments::{AddCycler, AddNode, CyclerKind, RemoveNode, RenameOutput, TextOrJson};
 use crate::diagnostics::{self, Code, Diagnostic, Diagnostics};
-use crate::drift::{self, DriftError};
+use crate::drift::{self, DriftError, Turn};
 use crate::outcome::{Outcome, Refusal};
 use crate::pipeline;
 use crate::resolve::robot::Robot;
@@ -21,6 +22,7 @@ use crate::workspace::Workspace;
 const UNTOUCHED: &str = "nothing was changed";
 
 pub(super) fn add_node(session: &mut Session<'_>, add: &AddNode) -> Result<Outcome, Failure> {
+    let turn = generate::turn(session)?;
     let robot = sound_robot(session)?;
     let node = scaffold::NewNode {
         path: &add.node,
@@ -31,7 +33,7 @@ pub(super) fn add_node(session: &mut Session<'_>, add: &AddNode) -> Result<Outco
     let name = add.node.rsplit("::").next();
     let is_its = |file: &&Utf8PathBuf| file.extension() == Some("rs") && file.file_stem() == name;
     let written = changes.keys().find(is_its).cloned();
-    let outcome = apply(session, changes, add.format)?;
+    let outcome = apply(session, &turn, changes, add.format)?;
     if let Some(file) = written
         && add.format == TextOrJson::Text
     {
@@ -43,6 +45,7 @@ pub(super) fn add_node(session: &mut Session<'_>, add: &AddNode) -> Result<Outco
 }
 
 pub(super) fn add_cycler(session: &mut Session<'_>, add: &AddCycler) -> Result<Outcome, Failure> {
+    let turn = generate::turn(session)?;
     let robot = sound_robot(session)?;
     let cycler = scaffold::NewCycler {
         name: &add.name,
@@ -54,13 +57,14 @@ pub(super) fn add_cycler(session: &mut Session<'_>, add: &AddCycler) -> Result<O
         setup_node: &add.setup_node,
     };
     let changes = scaffold::add_cycler(&session.workspace, &robot, &cycler)?;
-    apply(session, changes, add.format)
+    apply(session, &turn, changes, add.format)
 }
 
 pub(super) fn remove_node(
     session: &mut Session<'_>,
     remove: &RemoveNode,
 ) -> Result<Outcome, Failure> {
+    let turn = generate::turn(session)?;
     let robot = sound_robot(session)?;
     let removal = scaffold::Removal {
         path: &remove.node,
@@ -75,7 +79,7 @@ pub(super) fn remove_node(
         changes.extend(scaffold::without_unread(&after, &found)?);
     }
     let after = session.workspace.after(&changes);
-    let outcome = apply(session, changes, remove.format)?;
+    let outcome = apply(session, &turn, changes, remove.format)?;
     if remove.delete {
         let leftovers = scaffold::still_named(&after, &robot.generated, &remove.node);
         session.terminal.note(&words(&leftovers, &remove.node));
@@ -116,6 +120,7 @@ pub(super) fn rename_output(
     session: &mut Session<'_>,
     rename: &RenameOutput,
 ) -> Result<Outcome, Failure> {
+    let turn = generate::turn(session)?;
     let robot = sound_robot(session)?;
     let Some((cycler, old)) = rename.output.split_once('.') else {
         let message = format!("`{}` is no output of a cycler", rename.output);
@@ -129,7 +134,7 @@ pub(super) fn rename_output(
         new: &rename.new,
     };
     let renamed = scaffold::rename_output(&session.workspace, &robot, &asked)?;
-    let outcome = apply(session, renamed.changes, rename.format)?;
+    let outcome = apply(session, &turn, renamed.changes, rename.format)?;
     for (file, line) in renamed.unclear {
         session.terminal.note(&format!(
             "{file}:{line}: `.{old}` may be this output or something else; look at it\n"
@@ -154,6 +159,7 @@ fn sound_robot(session: &mut Session<'_>) -> Result<Robot, Failure> {
 /// Looks at the robot as it would be, and writes the changes with the generated crate.
 fn apply(
     session: &mut Session<'_>,
+    turn: &Turn,
     mut changes: Changes,
     format: TextOrJson,
 ) -> Result<Outcome, Failure> {
@@ -174,15 +180,15 @@ fn apply(
             });
         }
     };
-    let root = session.workspace.root().to_owned();
     let files = generate::render(&after, &understood);
-    let drift = generate::compare(&root, &understood, &files)?;
+    let drift = generate::compare(turn, &understood, &files)?;
+    let read = session.workspace.as_read(&changes);
     for (file, text) in &mut changes {
         *text = text.take().map(|text| session.workspace.marked(file, text));
     }
     changes.extend(drift.changes(&files));
     let answer = Answer::new(session, &changes);
-    drift::write_all(&root, &changes).map_err(|error| not_written(&error))?;
+    drift::write_all_in(turn, &changes, &read).map_err(|error| not_written(&error))?;
     match format {
         TextOrJson::Json => session.terminal.data(&answer.to_json())?,
         TextOrJson::Text => session.terminal.note(&answer.text()),

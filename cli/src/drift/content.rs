@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use camino::{Utf8Path, Utf8PathBuf};
 use serde::{Deserialize, Serialize};
 
-use super::{DriftError, disk, own};
+use super::{DriftError, Turn, disk, own};
 use crate::digest::Digest;
 use crate::render::GeneratedFiles;
 
@@ -23,13 +23,12 @@ impl Content {
     }
 
     /// Whether [`super::Drift::compare`] with those files would find nothing; also not if it would fail.
-    pub fn is_there(&self, root: &Utf8Path, folder: &Utf8Path) -> bool {
-        self.compare(root, folder).unwrap_or(false)
+    pub fn is_there(&self, turn: &Turn, folder: &Utf8Path) -> bool {
+        self.compare(turn.root(), folder).unwrap_or(false)
     }
 
     fn compare(&self, root: &Utf8Path, folder: &Utf8Path) -> Result<bool, DriftError> {
         own(root, folder)?;
-        let _lock = disk::lock(root)?;
         let there = disk::files(root, folder)?;
         if there.iter().any(|path| !self.0.contains_key(path)) {
             return Ok(false);

@@ -14,7 +14,15 @@ const CARGOS_OWN: [&str; 2] = ["target", "Cargo.lock"];
 pub(super) fn read(path: &Utf8Path) -> Result<Option<Vec<u8>>, DriftError> {
     match fs::read(path) {
         Ok(content) => Ok(Some(content)),
-        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+        // The second: a file stands where a folder above it would have to.
+        Err(error)
+            if matches!(
+                error.kind(),
+                io::ErrorKind::NotFound | io::ErrorKind::NotADirectory
+            ) =>
+        {
+            Ok(None)
+        }
         Err(source) => Err(failed("read", path, source)),
     }
 }

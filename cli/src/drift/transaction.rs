@@ -5,8 +5,7 @@ use std::io;
 
 use camino::{Utf8Path, Utf8PathBuf};
 
-use super::DriftError;
-use super::disk;
+use super::{DriftError, Turn, disk};
 use crate::workspace::Changes;
 
 /// Writes every change, or restores what was there and says why.
@@ -16,15 +15,35 @@ pub fn write_all(root: &Utf8Path, changes: &Changes) -> Result<(), DriftError> {
     write_all_asking(root, changes, |_| Ok(()))
 }
 
+/// As [`write_all`], in a turn that somebody has already, if every file of `read` still says what it said when it was read.
+///
+/// Editors wait for no turn: what they have saved since is not written over.
+pub fn write_all_in(turn: &Turn, changes: &Changes, read: &Changes) -> Result<(), DriftError> {
+    for (path, text) in read {
+        let now = Before::read(&turn.root().join(path))?;
+        now.expect(path, text)?;
+    }
+    write(turn, changes, read, |_| Ok(()))
+}
+
 /// As [`write_all`]; `permit` is asked before each file is touched and may fail in the place of the disk.
 pub fn write_all_asking(
     root: &Utf8Path,
     changes: &Changes,
+    permit: impl FnMut(&Utf8Path) -> io::Result<()>,
+) -> Result<(), DriftError> {
+    write(&Turn::wait_for(root)?, changes, &Changes::new(), permit)
+}
+
+fn write(
+    turn: &Turn,
+    changes: &Changes,
+    read: &Changes,
     mut permit: impl FnMut(&Utf8Path) -> io::Result<()>,
 ) -> Result<(), DriftError> {
-    let _lock = disk::lock(root)?;
     let mut done = Done {
-        root,
+        root: turn.root(),
+        read,
         files: Vec::new(),
         folders: Vec::new(),
     };
@@ -49,6 +68,8 @@ pub fn write_all_asking(
 /// What was changed so far, and what was there before.
 struct Done<'a> {
     root: &'a Utf8Path,
+    /// What files have to say still.
+    read: &'a Changes,
     files: Vec<(Utf8PathBuf, Before)>,
     /// Folders that were not there before, outer ones first.
     folders: Vec<Utf8PathBuf>,
@@ -80,6 +101,23 @@ impl Before {
             .map_err(|source| disk::failed("read", file, source))
     }
 
+    /// Whether it is what was read: this text, or nothing.
+    fn expect(&self, path: &Utf8Path, text: &Option<String>) -> Result<(), DriftError> {
+        let is_same = match (self, text) {
+            (Self::Nothing, None) => true,
+            (Self::File(now), Some(text)) => now == text.as_bytes(),
+            // It leads to what was read, and goes alone.
+            (Self::Link(_), Some(_)) => true,
+            _ => false,
+        };
+        match is_same {
+            true => Ok(()),
+            false => Err(DriftError::Meanwhile {
+                path: path.to_owned(),
+            }),
+        }
+    }
+
     /// Where something else is now.
     fn restore(&self, file: &Utf8Path) -> Result<(), DriftError> {
         let restored = match self {
@@ -99,6 +137,7 @@ impl Done<'_> {
         let file = self.root.join(path);
         let Some(text) = text else {
             let before = Before::read_itself(&file)?;
+            self.expect(path, &before)?;
             if before == Before::Nothing {
                 return Ok(());
             }
@@ -106,9 +145,16 @@ impl Done<'_> {
             return disk::remove(self.root, path);
         };
         let before = Before::read(&file)?;
+        self.expect(path, &before)?;
         self.folders.extend(missing_folders(&file));
         self.files.push((path.to_owned(), before));
         disk::write_file(&file, text)
+    }
+
+    /// Once more, right before the file is touched.
+    fn expect(&self, path: &Utf8Path, before: &Before) -> Result<(), DriftError> {
+        let read = self.read.get(path);
+        read.map_or(Ok(()), |text| before.expect(path, text))
     }
 
     /// Restores everything that can be restored; the first failure is told.

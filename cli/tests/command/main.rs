@@ -5,6 +5,7 @@ mod cache;
 mod interrupt;
 mod robot;
 mod runs;
+mod together;
 
 use std::process::Stdio;
 

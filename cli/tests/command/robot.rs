@@ -1,5 +1,6 @@
 //! A small robot in a folder of its own, and the built `hulkgen` in it.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
@@ -155,6 +156,24 @@ impl Robot {
         std::fs::read_to_string(self.path(path)).expect("the file can be read")
     }
 
+    /// Every file with its content.
+    pub(crate) fn files(&self) -> BTreeMap<PathBuf, Vec<u8>> {
+        let mut found = BTreeMap::new();
+        let mut folders = vec![self.folder().to_owned()];
+        while let Some(folder) = folders.pop() {
+            for entry in std::fs::read_dir(&folder).expect("the folder can be read") {
+                let path = entry.expect("the folder can be read").path();
+                if path.is_dir() {
+                    folders.push(path);
+                } else {
+                    // It may be a temporary file that has just gone.
+                    found.extend(std::fs::read(&path).ok().map(|text| (path, text)));
+                }
+            }
+        }
+        found
+    }
+
     /// Replaces the only place where `from` stands.
     pub(crate) fn edit(&self, path: &str, from: &str, to: &str) {
         let text = self.read(path);
@@ -195,11 +214,15 @@ pub(crate) struct Ended {
 
 impl Ended {
     pub(crate) fn of(command: &mut Command) -> Self {
+        Self::from(command.output().expect("hulkgen was built"))
+    }
+
+    pub(crate) fn from(output: Output) -> Self {
         let Output {
             status,
             stdout,
             stderr,
-        } = command.output().expect("hulkgen was built");
+        } = output;
         let text = |bytes| String::from_utf8(bytes).expect("hulkgen prints UTF-8");
         Self {
             status: status.code(),

@@ -5,8 +5,9 @@ use camino::Utf8Path;
 use super::Finding;
 use super::machine::answer;
 use crate::commands::session::Session;
-use crate::commands::{Failure, generate, plural};
+use crate::commands::{generate, plural};
 use crate::diagnostics::{Diagnostics, Severity};
+use crate::drift::Drift;
 use crate::outcome::Refusal;
 use crate::pipeline::Understood;
 use crate::resolve::robot::Target;
@@ -66,7 +67,7 @@ fn generated(workspace: &Workspace, understood: &Understood) -> Finding {
     let about = "generated";
     let folder = &understood.robot.generated;
     let files = generate::render(workspace, understood);
-    match generate::compare(workspace.root(), understood, &files) {
+    match Drift::compare(workspace.root(), folder, &files) {
         Ok(drift) if drift.is_empty() => Finding::ok(about, format!("`{folder}` is current")),
         Ok(_) if workspace.list(folder).is_empty() => {
             let message = format!("`{folder}` is missing");
@@ -76,11 +77,11 @@ fn generated(workspace: &Workspace, understood: &Understood) -> Finding {
             let message = format!("`{folder}` is not what would be generated now");
             Finding::bad(about, message, "run `hulkgen generate`")
         }
-        Err(Failure::Refused(refusal)) => {
+        Err(error) => {
+            let refusal = generate::refusal(&error);
             let help = refusal.help.as_deref().unwrap_or("run `hulkgen generate`");
             Finding::bad(about, refusal.message, help)
         }
-        Err(Failure::Reported) => Finding::bad(about, "has errors", "run `hulkgen check`"),
     }
 }
 
