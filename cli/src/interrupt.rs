@@ -1,13 +1,16 @@
-//! Ctrl-C: it ends hulkgen at once, unless a program that hulkgen started has to answer first.
+//! Ctrl-C: it ends hulkgen at once, unless a program that hulkgen started has to answer first, or files are being written.
 //!
-//! A terminal sends it to both; the program's last words would otherwise come after the prompt, or never.
+//! A terminal sends it to both; the program's last words would otherwise come after the prompt, or never. SIGTERM ends
+//! hulkgen as ever, also but for what is being written.
 
 use std::process::ExitStatus;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, LazyLock};
+use std::sync::{Arc, LazyLock, Mutex, MutexGuard, PoisonError};
+use std::thread;
 
-use signal_hook::consts::SIGINT;
-use signal_hook::flag;
+use signal_hook::consts::{SIGINT, SIGTERM};
+use signal_hook::iterator::Signals;
+use signal_hook::{flag, low_level};
 
 /// The exit status after Ctrl-C, as shells expect it.
 pub const STATUS: u8 = 130;
@@ -15,12 +18,56 @@ pub const STATUS: u8 = 130;
 // Handlers run on whichever of the threads the system picks: every access is `SeqCst`, as signal-hook's own are.
 static ENDS_HULKGEN: LazyLock<Arc<AtomicBool>> = LazyLock::new(|| Arc::new(AtomicBool::new(true)));
 static CAME: LazyLock<Arc<AtomicBool>> = LazyLock::new(Arc::default);
+static TERMINATED: LazyLock<Arc<AtomicBool>> = LazyLock::new(Arc::default);
+
+/// Whoever has it may be in the midst of writing: nobody else ends hulkgen.
+static WRITING: Mutex<()> = Mutex::new(());
 
 /// From now on Ctrl-C ends hulkgen with status 130; a robot that `run` started handles it itself.
 pub fn end_hulkgen() {
-    // Without the handlers Ctrl-C still ends hulkgen, only with another status and before what it waits for.
-    let _ = flag::register_conditional_shutdown(SIGINT, STATUS.into(), ENDS_HULKGEN.clone());
+    // Without the handlers signals still end hulkgen, only with another status and before what it waits for.
     let _ = flag::register(SIGINT, CAME.clone());
+    let _ = flag::register(SIGTERM, TERMINATED.clone());
+    let Ok(mut signals) = Signals::new([SIGINT, SIGTERM]) else {
+        return;
+    };
+    // A handler could not wait for what is being written.
+    thread::spawn(move || {
+        for signal in signals.forever() {
+            if signal == SIGTERM || ENDS_HULKGEN.load(Ordering::SeqCst) {
+                let _held = writing();
+                end(signal);
+            }
+        }
+    });
+}
+
+/// Does it to its end: a signal that comes meanwhile ends hulkgen afterwards.
+pub(crate) fn postpone<T>(work: impl FnOnce() -> T) -> T {
+    let held = writing();
+    let done = work();
+    drop(held);
+    // The thread may come too late: hulkgen would end as if nothing had come.
+    if TERMINATED.load(Ordering::SeqCst) {
+        end(SIGTERM);
+    }
+    if CAME.load(Ordering::SeqCst) && ENDS_HULKGEN.load(Ordering::SeqCst) {
+        end(SIGINT);
+    }
+    done
+}
+
+fn writing() -> MutexGuard<'static, ()> {
+    // Nothing is kept in it that a panic could spoil.
+    WRITING.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+fn end(signal: i32) -> ! {
+    if signal == SIGTERM {
+        // Whoever sent it sees that it did what it does.
+        let _ = low_level::emulate_default_handler(signal);
+    }
+    low_level::exit(STATUS.into())
 }
 
 /// How a program ended that hulkgen waited for.
@@ -31,15 +78,19 @@ pub(crate) enum Ended {
     ByInterrupt,
 }
 
-/// Runs a program to its end; until then Ctrl-C is the program's alone.
+/// Runs a program to its end; until then Ctrl-C is the program's alone, and what ended it is answered by nobody else.
 pub(crate) fn wait_for<E>(program: impl FnOnce() -> Result<ExitStatus, E>) -> Result<Ended, E> {
     ENDS_HULKGEN.store(false, Ordering::SeqCst);
     let ended = program();
-    ENDS_HULKGEN.store(true, Ordering::SeqCst);
     // It says so itself if somebody interrupted it alone.
+    let said = ended.as_ref().map_or(None, ExitStatus::code) == Some(STATUS.into());
+    let is_interrupted = || said || CAME.load(Ordering::SeqCst);
+    // The thread may come to a signal of before only now; what follows it are last words.
+    if !is_interrupted() {
+        ENDS_HULKGEN.store(true, Ordering::SeqCst);
+    }
     let status = ended?.code();
-    let is_interrupted = CAME.load(Ordering::SeqCst) || status == Some(STATUS.into());
-    Ok(match is_interrupted {
+    Ok(match is_interrupted() {
         true => Ended::ByInterrupt,
         false => Ended::ByItself(status),
     })

@@ -6,6 +6,7 @@ use std::io::{self, Write as _};
 use camino::{Utf8Path, Utf8PathBuf};
 
 use super::DriftError;
+use crate::interrupt;
 
 /// What cargo puts into the folder of a package.
 const CARGOS_OWN: [&str; 2] = ["target", "Cargo.lock"];
@@ -59,10 +60,10 @@ pub(super) fn files(root: &Utf8Path, folder: &Utf8Path) -> Result<Vec<Utf8PathBu
 
 /// Replaces a file whole or not at all, and creates the folders it needs.
 pub fn write_file(path: &Utf8Path, text: &str) -> Result<(), DriftError> {
-    write_bytes(path, text.as_bytes())
+    interrupt::postpone(|| write_bytes(path, text.as_bytes()))
 }
 
-/// As [`write_file`], also for what is no text.
+/// As [`write_file`], also for what is no text; a signal does not wait for it.
 pub(super) fn write_bytes(path: &Utf8Path, content: &[u8]) -> Result<(), DriftError> {
     // A link stays one: what it leads to is replaced.
     let place = path.canonicalize_utf8().unwrap_or_else(|_| path.to_owned());

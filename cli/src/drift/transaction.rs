@@ -6,11 +6,12 @@ use std::io;
 use camino::{Utf8Path, Utf8PathBuf};
 
 use super::{DriftError, Turn, disk};
+use crate::interrupt;
 use crate::workspace::Changes;
 
 /// Writes every change, or restores what was there and says why.
 ///
-/// Two hulkgens at once write one after the other. Paths are relative to `root`; folders that are needed are created, folders that become empty are removed.
+/// Two hulkgens at once write one after the other. A signal that would end this one waits until all is written. Paths are relative to `root`; folders that are needed are created, folders that become empty are removed.
 pub fn write_all(root: &Utf8Path, changes: &Changes) -> Result<(), DriftError> {
     write_all_asking(root, changes, |_| Ok(()))
 }
@@ -23,7 +24,7 @@ pub fn write_all_in(turn: &Turn, changes: &Changes, read: &Changes) -> Result<()
         let now = Before::read(&turn.root().join(path))?;
         now.expect(path, text)?;
     }
-    write(turn, changes, read, |_| Ok(()))
+    interrupt::postpone(|| write(turn, changes, read, |_| Ok(())))
 }
 
 /// As [`write_all`]; `permit` is asked before each file is touched and may fail in the place of the disk.
@@ -32,7 +33,8 @@ pub fn write_all_asking(
     changes: &Changes,
     permit: impl FnMut(&Utf8Path) -> io::Result<()>,
 ) -> Result<(), DriftError> {
-    write(&Turn::wait_for(root)?, changes, &Changes::new(), permit)
+    let turn = Turn::wait_for(root)?;
+    interrupt::postpone(|| write(&turn, changes, &Changes::new(), permit))
 }
 
 fn write(
@@ -148,7 +150,7 @@ impl Done<'_> {
         self.expect(path, &before)?;
         self.folders.extend(missing_folders(&file));
         self.files.push((path.to_owned(), before));
-        disk::write_file(&file, text)
+        disk::write_bytes(&file, text.as_bytes())
     }
 
     /// Once more, right before the file is touched.

@@ -1,8 +1,12 @@
-//! Ctrl-C while the robot's program runs.
+//! Ctrl-C while the robot's program runs, and while hulkgen writes.
 
-use std::io::{BufRead as _, BufReader};
-use std::os::unix::process::CommandExt as _;
+use std::collections::BTreeMap;
+use std::io::{BufRead as _, BufReader, Write as _};
+use std::os::unix::process::{CommandExt as _, ExitStatusExt as _};
+use std::path::PathBuf;
 use std::process::{Command, Stdio};
+use std::thread;
+use std::time::{Duration, Instant};
 
 use crate::robot::Robot;
 use crate::{SAYS_BUILT, fake_cargo, fake_program};
@@ -59,4 +63,82 @@ fn a_program_that_hulkgen_waits_for_answers_first_and_is_the_last_one() {
             assert_eq!(answered(command, answer), expected, "{command}");
         }
     }
+}
+
+/// Files with their contents.
+type Tree = BTreeMap<PathBuf, Vec<u8>>;
+
+const ADD: &str = "add-node nodes::legs::walker --cycler Control";
+
+/// The tree where `ADD` was sent a signal, and how hulkgen ended: its status, or the signal itself.
+///
+/// It is sent so long after the start, or, where nothing is said, as soon as there is one file more.
+fn interrupted(signal: &str, after: Option<Duration>) -> (Robot, Option<i32>) {
+    let robot = Robot::tiny();
+    let count = || robot.files().len();
+    let before = count();
+    let mut child = robot
+        .command(ADD)
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .expect("hulkgen was built");
+    // It is there already when it has to be quick. hulkgen may have ended, but nobody has asked it how.
+    let mut sender = Command::new("sh")
+        .args(["-c", &format!("read go; kill -{signal} {}", child.id())])
+        .stdin(Stdio::piped())
+        .spawn()
+        .expect("there is a shell");
+    match after {
+        Some(after) => thread::sleep(after),
+        None => {
+            let start = Instant::now();
+            while count() == before {
+                assert!(
+                    start.elapsed() < Duration::from_secs(60),
+                    "it writes nothing"
+                );
+            }
+        }
+    }
+    let mut go = sender.stdin.take().expect("it is piped");
+    go.write_all(b"go\n").expect("it waits");
+    assert!(sender.wait().expect("it ends").success());
+    let status = child.wait().expect("it ends");
+    (robot, status.code().or(status.signal()))
+}
+
+/// The files without the folder that they lie in.
+fn tree(robot: &Robot) -> Tree {
+    let relative = |path: PathBuf| path.strip_prefix(robot.folder()).map(PathBuf::from);
+    let files = robot.files().into_iter();
+    files
+        .map(|(path, text)| (relative(path).expect("it lies in the folder"), text))
+        .collect()
+}
+
+#[test]
+fn a_signal_leaves_all_of_a_change_or_nothing_of_it() {
+    let robot = Robot::tiny();
+    let old = tree(&robot);
+    let start = Instant::now();
+    robot.run(ADD).expect(0);
+    let (new, whole) = (tree(&robot), start.elapsed());
+    let mut wholly_new = 0;
+    for trial in 0..40_u32 {
+        let (signal, expected) = [("INT", 130), ("TERM", 15)][trial as usize % 2];
+        // Half of them as soon as it writes, the others at any time of its life, and a little after.
+        let after = (trial >= 20).then(|| whole * (trial - 19) / 18);
+        let (robot, status) = interrupted(signal, after);
+        let now = tree(&robot);
+        let told = |tree: &Tree| tree.keys().cloned().collect::<Vec<_>>();
+        assert!(now == old || now == new, "{signal}: {:#?}", told(&now));
+        match status {
+            Some(0) => assert!(now == new, "{signal} came behind the end"),
+            status => assert_eq!(status, Some(expected), "{signal} after {after:?}"),
+        }
+        wholly_new += u32::from(now == new && status != Some(0));
+    }
+    // Else none of them came while it wrote.
+    assert!(wholly_new > 0, "no signal came in time");
 }
