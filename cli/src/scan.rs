@@ -48,6 +48,7 @@ use library::NotFound;
 pub use node::NodeSource;
 pub use state::StateSource;
 pub(crate) use state::derives;
+pub(crate) use syntax::parse;
 
 /// Every node of the manifest, and the crates of the workspace that names lead to.
 #[derive(Debug)]

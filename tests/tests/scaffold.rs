@@ -712,6 +712,141 @@ fn a_rename_follows_every_kind_of_reader_and_the_manifest() {
 }
 
 #[test]
+fn a_rename_takes_the_marks_of_raw_names_along() {
+    let files = support::fixture_files("perception_and_real_time").into_iter();
+    let files = files.map(|(path, text)| match path.as_str() {
+        "nodes/src/filter.rs" => {
+            let text = text.replace("estimate: MainOutput", "r#estimate: MainOutput");
+            let text = text.replace("estimate: estimate.into()", "r#estimate: estimate.into()");
+            let test = "#[test]\nfn it_estimates() {\n    let outputs = node.cycle(context).unwrap();\n    \
+                assert_eq!(outputs.r#estimate.value, 1.0);\n    let MainOutputs { r#estimate, .. } = outputs;\n    \
+                assert!(matches!(other.r#estimate, x | y));\n}\n";
+            (path, format!("{text}\n{test}"))
+        }
+        _ => (path, text),
+    });
+    let workspace = Workspace::in_memory(files);
+    let robot = understood(&workspace).robot;
+    let (cycler, old, new) = ("Control", "estimate", "pace");
+    let renamed = scaffold::rename_output(&workspace, &robot, &Rename { cycler, old, new });
+    let renamed = renamed.expect("it can be renamed");
+    let filter = changed(&renamed.changes, "nodes/src/filter.rs");
+    for part in [
+        " pace: MainOutput<f32>",
+        "MainOutputs { pace: estimate.into()",
+        "assert_eq!(outputs.pace.value, 1.0)",
+        "let MainOutputs { pace: r#estimate, .. } = outputs",
+    ] {
+        assert!(filter.contains(part), "{part}:\n{filter}");
+    }
+    let text = workspace
+        .read("nodes/src/filter.rs".into())
+        .expect("it is there");
+    let line = text
+        .lines()
+        .position(|line| line.contains("other.r#estimate"));
+    let line = line.expect("it stands there") + 1;
+    assert_eq!(
+        renamed.unclear.into_iter().collect::<Vec<_>>(),
+        [("nodes/src/filter.rs".into(), line)]
+    );
+}
+
+/// A robot whose `estimate` of Control is named by scenarios, tests, programs and pages.
+fn named_everywhere() -> Workspace {
+    let captured = "//! Cycle 7 of Control as it was recorded.\n//!\n//! Written by `hulkgen capture`, with its values.\n\n\
+        use nodes::filter::{CycleContext, Filter};\n\n#[test]\nfn again() {\n    \
+        let outputs = node.cycle(context).expect(\"it did\");\n    \
+        captured.assert_output(\"estimate\", &outputs.estimate.value);\n}\n";
+    let data = "{\n  \"node\": \"nodes::filter\",\n  \"fields\": {\n    \"estimate\": 1\n  },\n  \
+        \"outputs\": {\n    \"raw\": 1,\n    \"estimate\": {\n      \"estimate\": 2\n    }\n  }\n}\n";
+    let scenario = "# Control.main_outputs.estimate is not far.\n[[assertion]]\nvalue = \"Control.main_outputs.estimate.x\" # it\n\
+        [[assertion]]\nvalue = 'Control.main_outputs.estimate'\n[[assertion]]\nvalue = \"Control.main_outputs.estimates\"\n\
+        [[assertion]]\nvalue = \"VisionTop.main_outputs.estimate\"\nwhat = \"as Control.main_outputs.estimate is\"\n";
+    let by_hand = "use nodes::filter::Filter;\n\nfn f() {\n    let outputs = node.cycle(context).unwrap();\n    \
+        outputs.estimate;\n}\n";
+    let elsewhere = "fn f() { other.estimate; }\n";
+    let more = [
+        ("scenarios/near.toml", scenario),
+        ("nodes/tests/filter_control_7.rs", captured),
+        ("nodes/tests/captured/filter_control_7.json", data),
+        ("nodes/tests/filter_control_8.rs", captured),
+        ("nodes/tests/by_hand.rs", by_hand),
+        ("nodes/tests/elsewhere.rs", elsewhere),
+        (
+            "page.md",
+            "\nhulkgen topic echo Control.main_outputs.estimate.x\n",
+        ),
+        ("other/hulk.toml", ""),
+        ("other/scenarios/near.toml", scenario),
+    ];
+    let more = more.map(|(path, text)| (path.into(), text.to_owned()));
+    let files = support::fixture_files("perception_and_real_time");
+    Workspace::in_memory(files.into_iter().chain(more))
+}
+
+#[test]
+fn a_rename_reaches_scenarios_and_captured_tests_and_lists_what_else_names_the_output() {
+    let workspace = named_everywhere();
+    let robot = understood(&workspace).robot;
+    let (cycler, old, new) = ("Control", "estimate", "pace");
+    let renamed = scaffold::rename_output(&workspace, &robot, &Rename { cycler, old, new });
+    let renamed = renamed.expect("it can be renamed");
+    let text = |path: &str| {
+        workspace
+            .read(path.into())
+            .expect("it is there")
+            .to_string()
+    };
+    let scenario = text("scenarios/near.toml")
+        .replace(
+            "\"Control.main_outputs.estimate.x",
+            "\"Control.main_outputs.pace.x",
+        )
+        .replace(
+            "'Control.main_outputs.estimate'",
+            "'Control.main_outputs.pace'",
+        );
+    assert_eq!(changed(&renamed.changes, "scenarios/near.toml"), scenario);
+    let test = "nodes/tests/filter_control_7.rs";
+    let expected = text(test).replace("estimate", "pace");
+    assert_eq!(changed(&renamed.changes, test), expected);
+    let data = "nodes/tests/captured/filter_control_7.json";
+    let expected = text(data).replace("\"estimate\": {", "\"pace\": {");
+    assert_eq!(changed(&renamed.changes, data), expected);
+    let told = renamed.unclear.iter();
+    let told: Vec<_> = told.map(|(file, line)| (file.as_str(), *line)).collect();
+    assert_eq!(
+        told,
+        [
+            ("nodes/tests/by_hand.rs", 5),
+            // Its data is not there.
+            ("nodes/tests/filter_control_8.rs", 10),
+            ("page.md", 2),
+            ("scenarios/near.toml", 1),
+            ("scenarios/near.toml", 10),
+        ]
+    );
+}
+
+#[test]
+fn the_nao_has_no_test_or_scenario_left_with_the_old_name() {
+    let root = Utf8PathBuf::try_from(root()).expect("the repository has a plain name");
+    let workspace = Workspace::at_root(&root);
+    let robot = understood(&workspace).robot;
+    let (cycler, old, new) = ("Control", "ball", "ball_estimate");
+    let renamed = scaffold::rename_output(&workspace, &robot, &Rename { cycler, old, new });
+    let changes = renamed.expect("it can be renamed").changes;
+    for path in [
+        "robotics/control/tests/ball_filter_control_1157.rs",
+        "robotics/control/tests/captured/ball_filter_control_1157.json",
+        "robotics/scenarios/ball_taken_away.toml",
+    ] {
+        assert!(changed(&changes, path).contains(new), "{path}");
+    }
+}
+
+#[test]
 fn edits_hit_their_place_in_a_file_with_a_byte_order_mark() {
     let marked = |mark: &str| {
         let files = support::fixture_files("perception_and_real_time").into_iter();

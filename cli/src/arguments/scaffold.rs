@@ -132,8 +132,9 @@ pub struct RemoveNode {
 
 /// Rename a main output: its field, what its node's code says of it, and every path that reads it
 ///
-/// Fields of readers keep their names. Code is followed as far as that is possible without compiling; what may be the
-/// output or something else is listed. On an error nothing is changed.
+/// Fields of readers keep their names. Scenarios and captured tests of the node follow; code is followed as far as that is
+/// possible without compiling. What else names the output, or may be it or something else, is listed. On an error nothing
+/// is changed.
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "\
 Exit status: 0 renamed, 1 the robot has errors or would have some, 2 no such output, or no usable name.

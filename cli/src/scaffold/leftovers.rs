@@ -65,6 +65,30 @@ pub fn still_named(workspace: &Workspace, generated: &Utf8Path, module: &str) ->
     leftovers
 }
 
+/// Whether a `use` or a path of a file leads to the module.
+pub(super) fn names(
+    workspace: &Workspace,
+    file: &Utf8Path,
+    syntax: &syn::File,
+    module: &str,
+) -> bool {
+    let target: Vec<&str> = module.split("::").collect();
+    let members = workspace.members().libraries();
+    let around = members.filter(|member| file.starts_with(without_dots(&member.folder)));
+    // A crate may lie in another one's folder.
+    let Some(member) = around.max_by_key(|member| member.folder.components().count()) else {
+        return false;
+    };
+    let mut search = Search {
+        member,
+        module: module_of(member, file),
+        target: &target,
+        found: Vec::new(),
+    };
+    search.visit_file(syntax);
+    !search.found.is_empty()
+}
+
 /// The folder of the generated crate that a file is of, such as a partial robot's, and the command in its header.
 fn generated_crate(
     workspace: &Workspace,

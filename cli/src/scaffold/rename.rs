@@ -1,6 +1,8 @@
 //! A main output gets another name, and everybody who reads it follows.
 
-use std::collections::BTreeMap;
+mod elsewhere;
+
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 use camino::{Utf8Path, Utf8PathBuf};
@@ -16,6 +18,7 @@ use crate::resolve::robot::{Cycler, Robot};
 use crate::scan::library::places;
 use crate::scan::{self, NodeSource, Sources, range};
 use crate::workspace::Workspace;
+use elsewhere::{Sought, Unclear};
 
 /// What is asked for.
 #[derive(Clone, Debug)]
@@ -29,8 +32,8 @@ pub struct Rename<'a> {
 #[derive(Clone, Debug)]
 pub struct Renamed {
     pub changes: Changes,
-    /// File and line of fields of the old name that may be the output's or another's.
-    pub unclear: Vec<(Utf8PathBuf, usize)>,
+    /// File and line of what has the old name and may be the output or something else.
+    pub unclear: BTreeSet<(Utf8PathBuf, usize)>,
 }
 
 /// Between an instance and an output in the paths of clients.
@@ -73,7 +76,22 @@ pub fn rename_output(
             }
         }
     }
-    let unclear = rename_field(workspace, &sources, producer, rename, &mut edits)?;
+    let (structure, mut unclear) = rename_field(workspace, &sources, producer, rename, &mut edits)?;
+    let instances = affected.iter().flat_map(|index| {
+        let instances = robot.cyclers[*index].instances.iter();
+        instances.map(|instance| instance.name.as_str())
+    });
+    let own = own_files(workspace, &sources.nodes[producer])?;
+    let sought = Sought {
+        workspace,
+        robot,
+        rename,
+        producer,
+        structure,
+        instances: instances.collect(),
+        own: own.into_iter().map(|(file, _)| file).collect(),
+    };
+    unclear.extend(sought.find(&mut edits));
     let mut changes = apply(workspace, edits)?;
     changes.extend(renamed_in_manifest(workspace, robot, &affected, rename)?);
     Ok(Renamed { changes, unclear })
@@ -165,14 +183,14 @@ fn path_of(field: &CycleField) -> Option<&DataPath> {
     }
 }
 
-/// The field and its uses in the node's own files; answers with what may be a use.
+/// The field and its uses in the node's own files; answers with the struct that has it, and with what may be a use.
 fn rename_field(
     workspace: &Workspace,
     sources: &Sources<'_>,
     producer: &str,
     rename: &Rename<'_>,
     edits: &mut Edits,
-) -> Result<Vec<(Utf8PathBuf, usize)>, Refusal> {
+) -> Result<(&'static str, Unclear), Refusal> {
     let source = sources.nodes.get(producer);
     let source =
         source.ok_or_else(|| Refusal::bad(format!("the file of `{producer}` cannot be read")))?;
@@ -221,7 +239,7 @@ fn rename_field(
             .insert((range.start, range.end), text);
     };
     insert(source.file(), range(name.span()), rename.new.to_owned());
-    let mut unclear = Vec::new();
+    let mut unclear = Unclear::new();
     for (file, syntax) in own_files(workspace, source)? {
         let found = uses::find(&syntax, structure, rename.old);
         for one in found.names {
@@ -238,7 +256,7 @@ fn rename_field(
                 .map(|one| (file.clone(), position(&text, one).line)),
         );
     }
-    Ok(unclear)
+    Ok((structure, unclear))
 }
 
 /// The node's file and those of modules that it declares, such as its tests.
@@ -258,7 +276,7 @@ fn own_files(
     }
     let parsed = files.into_iter().map(|file| {
         let text = read(workspace, &file)?;
-        let syntax = syn::parse_file(&text)
+        let syntax = scan::parse(&text)
             .map_err(|error| Refusal::bad(format!("`{file}` cannot be parsed: {error}")))?;
         Ok((file, syntax))
     });

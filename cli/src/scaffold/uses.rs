@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 use proc_macro2::{TokenStream, TokenTree};
+use syn::ext::IdentExt as _;
 use syn::punctuated::Punctuated;
 use syn::spanned::Spanned as _;
 use syn::visit::{self, Visit};
@@ -97,7 +98,7 @@ impl Finder<'_> {
     /// Whether an expression is the struct; `None` where that cannot be told.
     fn is_structure(&self, expression: &Expr) -> Option<bool> {
         match expression {
-            Expr::Path(path) => self.variable(&path.path.get_ident()?.to_string()),
+            Expr::Path(path) => self.variable(&path.path.get_ident()?.unraw().to_string()),
             Expr::Struct(literal) => Some(self.is_named(&literal.path)),
             Expr::Paren(inner) => self.is_structure(&inner.expr),
             Expr::Group(inner) => self.is_structure(&inner.expr),
@@ -334,7 +335,8 @@ fn accesses(tokens: TokenStream, field: &str, found: &mut Vec<usize>) {
         let is_point = matches!(&token, TokenTree::Punct(mark) if mark.as_char() == '.');
         match token {
             TokenTree::Group(group) => accesses(group.stream(), field, found),
-            TokenTree::Ident(name) if is_behind_point && name == field => {
+            // Words of macros are as they are written.
+            TokenTree::Ident(name) if is_behind_point && name.unraw() == field => {
                 found.push(range(name.span()).start);
             }
             _ => {}
@@ -354,7 +356,7 @@ impl<'ast> Visit<'ast> for Names<'ast> {
 }
 
 fn names(member: &Member, field: &str) -> bool {
-    matches!(member, Member::Named(name) if name == field)
+    matches!(member, Member::Named(name) if name.unraw() == field)
 }
 
 /// The value of a closure's body.

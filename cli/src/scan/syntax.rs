@@ -9,7 +9,7 @@ use proc_macro2::Ident;
 use syn::ext::IdentExt as _;
 use syn::visit_mut::VisitMut;
 
-pub(super) fn parse(text: &str) -> syn::Result<syn::File> {
+pub(crate) fn parse(text: &str) -> syn::Result<syn::File> {
     let mut file = syn::parse_file(&without_shebang(text))?;
     if text.contains("r#") {
         Unmark.visit_file_mut(&mut file);
