@@ -8,6 +8,7 @@ use camino::{Utf8Component, Utf8Path, Utf8PathBuf};
 use toml_edit::{DocumentMut, Item};
 
 use super::user_folder;
+use crate::digest::Digest;
 use crate::outcome::Refusal;
 
 /// How many revisions stay besides the one that is asked for.
@@ -71,9 +72,11 @@ pub fn of(root: &Utf8Path, revision: &str) -> Result<Checkout, Refusal> {
 }
 
 impl Checkout {
-    /// Where a program of the revision is kept.
+    /// Where a program of the revision's robot is kept; the repository may have several robots.
     pub fn program(&self, target: &str, profile: &str) -> Utf8PathBuf {
-        self.folder.join(format!("{target}-{profile}"))
+        let place = self.root.strip_prefix(&self.folder).unwrap_or(&self.root);
+        let place = Digest::of(place.as_str().as_bytes());
+        self.folder.join(format!("{target}-{profile}-{place}"))
     }
 
     /// Keeps a program that was built of it.
@@ -213,6 +216,21 @@ mod tests {
             text.replace("\"../../far\"", &outside("../../far"))
                 .replace("\"../../../farther\"", &outside("../../../farther"))
         );
+    }
+
+    #[test]
+    fn each_robot_of_a_repository_has_a_program_of_its_own() {
+        let of = |robot: &str| {
+            let checkout = Checkout {
+                folder: "/caches/revisions/4b825dc".into(),
+                root: Utf8Path::new("/caches/revisions/4b825dc/files").join(robot),
+            };
+            checkout.program("simulation", "dev")
+        };
+        assert_eq!(of("a"), of("a"));
+        assert_ne!(of("a"), of("b"));
+        assert_ne!(of("a"), of(""));
+        assert_eq!(of("a/b").parent(), of("a").parent());
     }
 
     #[test]
