@@ -32,7 +32,7 @@ pub use changes::Changes;
 pub use members::{BrokenPackage, Member, Members, OF_GENERATED, Origin};
 pub(crate) use members::{normalized, package_table, relative};
 pub use revision::{Missing, RevisionError};
-pub use watch::Glance;
+pub use watch::{Asked, Glance};
 
 /// Name of the manifest at the workspace root.
 pub const MANIFEST: &str = "hulk.toml";
@@ -231,6 +231,14 @@ impl Workspace {
     /// Every file that was read so far, sorted: what the answer depends on.
     pub fn read_files(&self) -> Vec<Utf8PathBuf> {
         self.texts.borrow().keys().cloned().collect()
+    }
+
+    /// Whether every file that was read says the same now.
+    pub fn is_as_read(&self) -> bool {
+        let now = Self::new(self.files.clone());
+        let read = self.texts.borrow();
+        read.iter()
+            .all(|(file, text)| now.read(file).is_ok_and(|now| now == *text))
     }
 
     /// Every question to the disk so far with its answer: what hulkgen's own answer depends on, and nothing else.

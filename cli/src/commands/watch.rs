@@ -8,7 +8,7 @@ use super::session::Session;
 use crate::diagnostics::Diagnostics;
 use crate::manifest;
 use crate::outcome::Outcome;
-use crate::workspace::{Glance, Workspace};
+use crate::workspace::{Asked, Glance, Workspace};
 
 /// How often files are looked at: fast enough for a person, and a few hundred `stat` calls are nothing.
 const INTERVAL: Duration = Duration::from_millis(300);
@@ -18,12 +18,14 @@ pub(super) fn run(
     session: &mut Session<'_>,
     mut once: impl FnMut(&mut Session<'_>) -> Result<Outcome, Failure>,
 ) -> Result<Outcome, Failure> {
+    // Of the round before: a link may lead elsewhere since, where only this round looks.
+    let mut asked = Asked::default();
     loop {
         let root = session.workspace.root().to_owned();
         session.workspace = Workspace::at_root(&root);
         session.diagnostics = Diagnostics::new();
         // Looked at first: what changes meanwhile is seen afterwards.
-        let before = Glance::at(&session.workspace);
+        let before = Glance::at(&session.workspace, &asked);
         match once(session) {
             Ok(_) => {}
             Err(Failure::Reported) => session.note_diagnostics(),
@@ -32,20 +34,24 @@ pub(super) fn run(
         session
             .terminal
             .note("waiting for changes; Ctrl-C ends this\n");
-        wait(session, &before);
+        asked = Asked::of(&session.workspace);
+        let before = before.and(Glance::at(&Workspace::at_root(&root), &asked));
+        wait(session, &before, &asked);
     }
 }
 
 /// Returns when the workspace is not as it was.
-fn wait(session: &Session<'_>, before: &Glance) {
+fn wait(session: &Session<'_>, before: &Glance, asked: &Asked) {
     let root = session.workspace.root();
     let generated = manifest::load(&session.workspace, &mut Diagnostics::new())
         .ok()
         .map(|manifest| manifest.robot.generated);
+    // What was read first in this round may have changed since, and nobody had looked at it before.
+    let is_as_read = session.workspace.is_as_read();
     loop {
         thread::sleep(INTERVAL);
-        let now = Glance::at(&Workspace::at_root(root));
-        if !now.is_as(before, generated.as_deref()) {
+        let now = Glance::at(&Workspace::at_root(root), asked);
+        if !is_as_read || !now.is_as(before, generated.as_deref()) {
             return;
         }
     }

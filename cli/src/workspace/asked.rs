@@ -54,6 +54,11 @@ impl Asked {
         }
     }
 
+    /// Every path that was asked for so far, with what was asked.
+    pub(super) fn paths(&self) -> Vec<(Question, Utf8PathBuf)> {
+        self.answers.borrow().keys().cloned().collect()
+    }
+
     /// All answers so far; `None` if one question had two.
     pub(super) fn answers(&self) -> Option<Answers> {
         let asked = self.answers.borrow();

@@ -90,6 +90,11 @@ impl Disk {
         names.iter().map(|name| folder.join(name)).collect()
     }
 
+    /// Every path that was asked for, with what was asked.
+    pub(super) fn asked(&self) -> Vec<(Question, Utf8PathBuf)> {
+        self.asked.paths()
+    }
+
     /// Everything that was asked; `None` if one question had two answers.
     pub(super) fn answers(&self) -> Option<Answers> {
         self.asked.answers()

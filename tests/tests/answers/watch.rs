@@ -114,3 +114,26 @@ fn generate_writes_again_and_is_not_woken_by_what_it_writes() {
     assert_eq!(watching.next()["changed"], second["changed"]);
     assert!(!robot.read("generated/DATAFLOW.md").contains("`dim`"));
 }
+
+#[test]
+fn parameters_behind_a_link_to_a_folder_are_watched() {
+    let robot = Robot::new("perception_and_real_time");
+    let shared = tempfile::tempdir().expect("a temporary folder");
+    let file = shared.path().join("default.toml");
+    std::fs::write(&file, "").expect("the folder is ours");
+    std::fs::remove_dir_all(robot.path("parameters")).expect("it is there");
+    std::os::unix::fs::symlink(shared.path(), robot.path("parameters")).expect("it is ours");
+    let watching = Watching::start(&robot, "check --watch --format json");
+    let clean = serde_json::json!({ "version": 1, "diagnostics": [] });
+    assert_eq!(watching.next(), clean);
+    for (text, code) in [
+        ("speed = 1\n", "unknown-parameter"),
+        ("speed = \n", "syntax"),
+    ] {
+        std::fs::write(&file, text).expect("the folder is ours");
+        let answer = watching.next();
+        assert_eq!(answer["diagnostics"][0]["code"], code, "{answer:#}");
+    }
+    std::fs::write(&file, "# none\n").expect("the folder is ours");
+    assert_eq!(watching.next(), clean);
+}

@@ -2,7 +2,7 @@
 
 use camino::Utf8Path;
 
-use super::Glance;
+use super::{Asked, Glance};
 use crate::workspace::Workspace;
 
 #[test]
@@ -14,7 +14,7 @@ fn a_changed_and_a_new_file_are_seen_and_generated_ones_are_not() {
         std::fs::write(root.join(file), text).expect("the folder is ours");
     };
     write("hulk.toml", "a");
-    let glance = || Glance::at(&Workspace::at_root(root));
+    let glance = || Glance::at(&Workspace::at_root(root), &Asked::default());
     let before = glance();
     assert!(glance().is_as(&before, None));
     write("notes.md", "");
@@ -24,6 +24,46 @@ fn a_changed_and_a_new_file_are_seen_and_generated_ones_are_not() {
     assert!(!glance().is_as(&before, None));
     write("hulk.toml", "ab");
     assert!(!glance().is_as(&before, Some("generated".into())));
+}
+
+#[cfg(unix)]
+#[test]
+fn what_somebody_asked_for_is_seen_outside_and_behind_links() {
+    use std::os::unix::fs::symlink;
+
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let outer = Utf8Path::from_path(folder.path()).expect("it is UTF-8");
+    let root = outer.join("robot");
+    for folder in ["robot", "shared", "linked"] {
+        std::fs::create_dir(outer.join(folder)).expect("the folder is ours");
+    }
+    let write = |file: &str, text: &str| {
+        std::fs::write(root.join(file), text).expect("the folder is ours");
+    };
+    symlink("../linked", root.join("nodes")).expect("the folder is ours");
+    write("hulk.toml", "");
+    write("../shared/default.toml", "a");
+    write("nodes/lib.rs", "a");
+    let reading = Workspace::at_root(&root);
+    for file in ["../shared/default.toml", "nodes/lib.rs"] {
+        reading.read(file.into()).expect("it is there");
+    }
+    assert!(!reading.is_file("nodes/more.rs".into()));
+    assert!(reading.list("../shared".into()).len() == 1);
+    let asked = Asked::of(&reading);
+    let glance = || Glance::at(&Workspace::at_root(&root), &asked);
+    for (file, text) in [
+        ("../shared/default.toml", "ab"),
+        ("../shared/head.toml", "a"),
+        ("nodes/lib.rs", "ab"),
+        ("nodes/more.rs", "a"),
+    ] {
+        let before = glance();
+        assert!(glance().is_as(&before, None));
+        write(file, text);
+        assert!(!glance().is_as(&before, None), "{file}");
+    }
+    assert!(!reading.is_as_read());
 }
 
 #[cfg(unix)]
