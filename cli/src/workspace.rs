@@ -9,6 +9,7 @@ mod asked;
 mod changes;
 mod disk;
 mod glob;
+mod links;
 mod members;
 mod memory;
 mod parsed;
@@ -29,6 +30,7 @@ use parsed::Parsed;
 
 pub use asked::Answers;
 pub use changes::Changes;
+pub use links::BrokenLink;
 pub use members::{BrokenPackage, Member, Members, OF_GENERATED, Origin};
 pub(crate) use members::{normalized, package_table, relative};
 pub use revision::{Missing, RevisionError};
@@ -263,7 +265,7 @@ impl Workspace {
     pub fn is_same_file(&self, one: &Utf8Path, other: &Utf8Path) -> bool {
         let canonical = |file: &Utf8Path| match &self.files {
             Files::Disk(disk) => disk.canonical(file).unwrap_or_else(|| normalized(file)),
-            Files::Memory(_) => normalized(file),
+            Files::Memory(memory) => memory.canonical(file),
         };
         one == other || canonical(one) == canonical(other)
     }
@@ -307,7 +309,15 @@ impl Workspace {
     fn is_link(&self, entry: &Utf8Path) -> bool {
         match &self.files {
             Files::Disk(disk) => disk.is_link(entry),
-            Files::Memory(_) => false,
+            Files::Memory(memory) => memory.is_link(entry),
+        }
+    }
+
+    /// The first link of a git revision that was followed in vain.
+    pub fn broken_link(&self) -> Option<BrokenLink> {
+        match &self.files {
+            Files::Disk(_) => None,
+            Files::Memory(memory) => memory.broken_link(),
         }
     }
 

@@ -25,7 +25,13 @@ struct Side {
 pub(super) fn run(session: &mut Session<'_>, diff: &Diff) -> Result<Outcome, Failure> {
     let revision = diff.revision.as_str();
     let earlier = session.workspace.at_revision(revision).map_err(refusal)?;
-    let Some(before) = Side::of(&earlier) else {
+    let before = Side::of(&earlier);
+    if let Some(link) = earlier.broken_link() {
+        let message = format!("the robot of `{revision}` cannot be read: {link}");
+        let help = "name a revision that has the file itself, or a link to one of its own";
+        return Err(Refusal::wrong_usage(message).help(help).into());
+    }
+    let Some(before) = before else {
         let message = format!("the hulk.toml of `{revision}` cannot be read, or there is none");
         return Err(Refusal::wrong_usage(message).into());
     };

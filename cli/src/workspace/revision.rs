@@ -1,12 +1,14 @@
 //! The files of a git revision, read by git itself; nothing is checked out.
 
+use std::collections::BTreeSet;
 use std::io::{self, BufRead, BufReader, Read, Write as _};
 use std::process::{Command, Stdio};
 use std::thread;
 
 use camino::{Utf8Path, Utf8PathBuf};
 
-use super::members::relative;
+use super::links::Links;
+use super::members::{normalized, relative};
 use super::memory::Memory;
 
 /// A revision that cannot be read.
@@ -53,32 +55,72 @@ pub(super) fn load(root: &Utf8Path, revision: &str) -> Result<Memory, RevisionEr
     let prefix = git.ask(&["rev-parse", "--show-prefix"])?;
     let prefix = git.text(&prefix)?.trim_end_matches(['\n', '/']);
     let listing = git.ask(&["ls-tree", "-r", "-z", "--full-tree", commit.trim()])?;
-    let entries = entries(&listing, Utf8Path::new(prefix));
+    let listed = Listed::new(&listing, Utf8Path::new(prefix));
+    let targets = git.texts(&listed.links)?;
+    let targets = targets
+        .iter()
+        .map(|target| String::from_utf8_lossy(target).into_owned().into());
+    let paths = listed
+        .links
+        .iter()
+        .map(|link| from_repository(prefix, &link.path));
+    let links = Links::new(Utf8Path::new(prefix), paths.zip(targets).collect());
+    let entries = listed.files(&links);
     let texts = git.texts(&entries)?;
     let files = entries.into_iter().map(|entry| entry.path).zip(texts);
     // A file that is no UTF-8 cannot be read at all, as on disk.
     let files = files.filter_map(|(path, text)| Some((path, String::from_utf8(text).ok()?)));
-    Ok(Memory::new(files).at(root))
+    Ok(Memory::new(files).at(root).with(links))
 }
 
-/// What `git ls-tree -z` lists; a path that is no UTF-8 cannot be named by a robot.
-fn entries(listing: &[u8], prefix: &Utf8Path) -> Vec<Entry> {
-    let lines = listing.split(|byte| *byte == 0);
-    let lines = lines.filter_map(|line| str::from_utf8(line).ok());
-    lines.filter_map(|line| entry(line, prefix)).collect()
+/// The path from the repository's root.
+fn from_repository(prefix: &str, path: &Utf8Path) -> Utf8PathBuf {
+    normalized(&Utf8Path::new(prefix).join(path))
 }
 
-/// A line of `git ls-tree`: mode, type, object, a tab, path. Links and submodules are no files.
-fn entry(line: &str, prefix: &Utf8Path) -> Option<Entry> {
+/// What `git ls-tree -z` lists; a path that is no UTF-8 cannot be named by a robot. Submodules are no files.
+#[derive(Default)]
+struct Listed {
+    files: Vec<Entry>,
+    links: Vec<Entry>,
+}
+
+impl Listed {
+    fn new(listing: &[u8], prefix: &Utf8Path) -> Self {
+        let lines = listing.split(|byte| *byte == 0);
+        let lines = lines.filter_map(|line| str::from_utf8(line).ok());
+        let mut listed = Self::default();
+        for (mode, entry) in lines.filter_map(|line| entry(line, prefix)) {
+            match mode {
+                "120000" => listed.links.push(entry),
+                mode if mode.starts_with("100") => listed.files.push(entry),
+                _ => {}
+            }
+        }
+        listed
+    }
+
+    /// Those that say something about a robot by their own name or by that of a link.
+    fn files(self, links: &Links) -> Vec<Entry> {
+        let is_ours = |path: &Utf8Path| path.extension().is_some_and(|it| ENDINGS.contains(&it));
+        let linked = self.links.iter().filter(|link| is_ours(&link.path));
+        let linked: BTreeSet<_> = linked.filter_map(|link| links.follow(&link.path)).collect();
+        let mut files = self.files;
+        files.retain(|file| is_ours(&file.path) || linked.contains(&file.path));
+        files
+    }
+}
+
+/// A line of `git ls-tree`: mode, type, object, a tab, path.
+fn entry<'l>(line: &'l str, prefix: &Utf8Path) -> Option<(&'l str, Entry)> {
     let (head, path) = line.split_once('\t')?;
     let mut head = head.split(' ');
     let (mode, _, object) = (head.next()?, head.next()?, head.next()?);
-    let path = Utf8Path::new(path);
-    let is_ours = path.extension().is_some_and(|it| ENDINGS.contains(&it));
-    (mode.starts_with("100") && is_ours).then(|| Entry {
-        path: relative(prefix, path),
+    let entry = Entry {
+        path: relative(prefix, Utf8Path::new(path)),
         object: object.to_owned(),
-    })
+    };
+    Some((mode, entry))
 }
 
 struct Git<'a> {
@@ -197,17 +239,21 @@ fn no_git(error: &io::Error) -> RevisionError {
 mod tests {
     use std::process::Command;
 
-    use super::{Entry, ask_for_all, entries, entry, text};
+    use super::{Entry, Links, Listed, ask_for_all, text};
 
     #[test]
     fn a_path_is_told_from_the_robot_not_from_the_repository() {
         let line = |path: &str| format!("100644 blob 4b825dc\t{path}");
-        let found = |path: &str| entry(&line(path), "robots/nao".into()).map(|entry| entry.path);
+        let found = |path: &str| {
+            let listed = Listed::new(line(path).as_bytes(), "robots/nao".into());
+            let found = listed.files(&Links::default()).pop();
+            found.map(|entry| entry.path)
+        };
         assert_eq!(found("robots/nao/hulk.toml"), Some("hulk.toml".into()));
         assert_eq!(found("Cargo.toml"), Some("../../Cargo.toml".into()));
         assert_eq!(found("robots/nao/notes.md"), None);
-        let link = entry("120000 blob 4b825dc\ta.rs", "".into());
-        assert!(link.is_none());
+        let link = Listed::new(b"120000 blob 4b825dc\ta.rs", "".into());
+        assert_eq!((link.files.len(), link.links.len()), (0, 1));
     }
 
     #[test]
@@ -235,7 +281,7 @@ mod tests {
     #[test]
     fn a_path_that_is_no_utf_8_is_passed_over() {
         let listing = b"100644 blob 4b82\todd\xff.rs\x00100644 blob 5c01\ta.rs\0";
-        let found = entries(listing, "".into()).into_iter();
+        let found = Listed::new(listing, "".into()).files.into_iter();
         assert_eq!(found.map(|entry| entry.path).collect::<Vec<_>>(), ["a.rs"]);
     }
 }

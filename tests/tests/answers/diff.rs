@@ -501,3 +501,37 @@ fn nothing_is_checked_out_and_nothing_is_written() {
     assert_eq!(before, " M nodes/src/battery.rs\n");
     assert!(robot.read("nodes/src/battery.rs").contains("> 3.0"));
 }
+
+#[test]
+fn links_of_a_revision_are_followed_within_it() {
+    use std::os::unix::fs::symlink;
+    let Some(repository) = Repository::new("links_of_a_revision_are_followed_within_it") else {
+        return;
+    };
+    let robot = &repository.robot;
+    let elsewhere = tempfile::tempdir().expect("a temporary folder");
+    let link = |target: &std::path::Path, file: &str| {
+        std::fs::remove_file(robot.path(file)).expect("it is there");
+        symlink(target, robot.path(file)).expect("the folder is ours");
+    };
+    let file = "nodes/src/battery.rs";
+    let text = robot.read(file);
+    robot.write("shared/nodes/battery.rs", &text);
+    std::fs::write(elsewhere.path().join("battery.rs"), &text).expect("the folder is ours");
+    symlink("shared/nodes", robot.path("linked")).expect("the folder is ours");
+    link("../../linked/battery.rs".as_ref(), file);
+    repository.commit("linked");
+    let (lines, _) = repository.diff("linked");
+    assert_eq!(lines, ["the graph is that of `linked`"]);
+    link(&elsewhere.path().join("battery.rs"), file);
+    repository.commit("outside");
+    robot.run("check").expect(0);
+    let stderr = robot.run("diff outside").expect(2).stderr;
+    for part in [
+        "the robot of `outside` cannot be read",
+        "`nodes/src/battery.rs` is a link to `",
+        "which leads out of the repository",
+    ] {
+        assert!(stderr.contains(part), "{part}: {stderr}");
+    }
+}
