@@ -1,9 +1,7 @@
 //! Ctrl-C while the robot's program runs, and while hulkgen writes.
 
-use std::collections::BTreeMap;
 use std::io::{BufRead as _, BufReader, Write as _};
 use std::os::unix::process::{CommandExt as _, ExitStatusExt as _};
-use std::path::PathBuf;
 use std::process::{Command, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -65,9 +63,6 @@ fn a_program_that_hulkgen_waits_for_answers_first_and_is_the_last_one() {
     }
 }
 
-/// Files with their contents.
-type Tree = BTreeMap<PathBuf, Vec<u8>>;
-
 const ADD: &str = "add-node nodes::legs::walker --cycler Control";
 
 /// The tree where `ADD` was sent a signal, and how hulkgen ended: its status, or the signal itself.
@@ -108,31 +103,22 @@ fn interrupted(signal: &str, after: Option<Duration>) -> (Robot, Option<i32>) {
     (robot, status.code().or(status.signal()))
 }
 
-/// The files without the folder that they lie in.
-fn tree(robot: &Robot) -> Tree {
-    let relative = |path: PathBuf| path.strip_prefix(robot.folder()).map(PathBuf::from);
-    let files = robot.files().into_iter();
-    files
-        .map(|(path, text)| (relative(path).expect("it lies in the folder"), text))
-        .collect()
-}
-
 #[test]
 fn a_signal_leaves_all_of_a_change_or_nothing_of_it() {
     let robot = Robot::tiny();
-    let old = tree(&robot);
+    let old = robot.files();
     let start = Instant::now();
     robot.run(ADD).expect(0);
-    let (new, whole) = (tree(&robot), start.elapsed());
+    let (new, whole) = (robot.files(), start.elapsed());
     let mut wholly_new = 0;
     for trial in 0..40_u32 {
         let (signal, expected) = [("INT", 130), ("TERM", 15)][trial as usize % 2];
         // Half of them as soon as it writes, the others at any time of its life, and a little after.
         let after = (trial >= 20).then(|| whole * (trial - 19) / 18);
         let (robot, status) = interrupted(signal, after);
-        let now = tree(&robot);
-        let told = |tree: &Tree| tree.keys().cloned().collect::<Vec<_>>();
-        assert!(now == old || now == new, "{signal}: {:#?}", told(&now));
+        let now = robot.files();
+        let told: Vec<_> = now.keys().collect();
+        assert!(now == old || now == new, "{signal}: {told:#?}");
         match status {
             Some(0) => assert!(now == new, "{signal} came behind the end"),
             status => assert_eq!(status, Some(expected), "{signal} after {after:?}"),

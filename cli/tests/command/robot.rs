@@ -156,7 +156,7 @@ impl Robot {
         std::fs::read_to_string(self.path(path)).expect("the file can be read")
     }
 
-    /// Every file with its content.
+    /// Every file, by its place in the folder, with its content.
     pub(crate) fn files(&self) -> BTreeMap<PathBuf, Vec<u8>> {
         let mut found = BTreeMap::new();
         let mut folders = vec![self.folder().to_owned()];
@@ -166,8 +166,10 @@ impl Robot {
                 if path.is_dir() {
                     folders.push(path);
                 } else {
+                    let place = path.strip_prefix(self.folder()).expect("it lies in it");
                     // It may be a temporary file that has just gone.
-                    found.extend(std::fs::read(&path).ok().map(|text| (path, text)));
+                    let text = std::fs::read(&path).ok();
+                    found.extend(text.map(|text| (place.to_owned(), text)));
                 }
             }
         }
