@@ -1,6 +1,7 @@
 //! What is compared with the disk, written and removed.
 
 use super::*;
+use crate::workspace::Workspace;
 
 fn files(texts: &[(&str, &str)]) -> GeneratedFiles {
     texts
@@ -196,4 +197,43 @@ fn text_that_is_no_utf_8_is_drift_and_no_failure() {
     std::fs::write(folder.root().join("generated/a"), [0xff]).expect("the file is writable");
     let files = files(&[("generated/Cargo.toml", HEADER), ("generated/a", "text\n")]);
     assert_eq!(folder.compare(&files).changed.len(), 1);
+}
+
+#[test]
+fn what_is_not_as_it_was_read_is_not_written_over() {
+    let folder = Folder::with(&[("a", "read\n"), ("b", "\u{feff}read\n"), ("gone", "\n")]);
+    let workspace = Workspace::at_root(folder.root());
+    for file in ["a", "b", "gone"] {
+        workspace.read(file.into()).expect("it is there");
+    }
+    let text = |text: &str| Some(text.to_owned());
+    let changes = [
+        ("a", text("new\n")),
+        ("b", text("new\n")),
+        ("gone", None),
+        ("new/c", text("new\n")),
+    ];
+    let changes: Changes = changes.map(|(path, text)| (path.into(), text)).into();
+    let read = workspace.as_read(&changes);
+    let turn = Turn::wait_for(folder.root()).expect("nobody else has it");
+    let content = |file: &str| std::fs::read_to_string(folder.root().join(file)).ok();
+    for (file, saved) in [
+        ("a", "mine\n"),
+        ("b", "read\n"),
+        ("gone", "mine\n"),
+        ("new/c", "mine\n"),
+    ] {
+        let before = content(file);
+        write_file(&folder.root().join(file), saved).expect("the folder is ours");
+        let error = write_all_in(&turn, &changes, &read).expect_err("somebody has saved it");
+        assert_eq!(error.to_string(), format!("`{file}` was changed meanwhile"));
+        assert_eq!(content(file).as_deref(), Some(saved));
+        match before {
+            Some(before) => write_file(&folder.root().join(file), &before).expect("it is ours"),
+            None => std::fs::remove_file(folder.root().join(file)).expect("it is ours"),
+        }
+    }
+    write_all_in(&turn, &changes, &read).expect("all is as it was read");
+    assert_eq!(content("new/c").as_deref(), Some("new\n"));
+    assert_eq!(content("gone"), None);
 }

@@ -1,6 +1,6 @@
 //! Several hulkgens in one workspace, and an editor beside one.
 
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::{Read as _, Write as _};
 use std::path::Path;
 use std::process::Stdio;
@@ -55,63 +55,33 @@ fn saved_meanwhile(robot: &Robot, arguments: &str, file: &str, text: &str) -> En
     Ended::from(child.wait_with_output().expect("it ends"))
 }
 
-/// Tries it with robots of their own until it was in time: on a busy machine hulkgen may have ended before.
-fn in_time(attempt: impl Fn(&Robot) -> Ended, judge: impl Fn(&Robot, Ended)) {
-    for _ in 0..20 {
-        let robot = Robot::tiny();
-        robot.run("generate").expect(0);
-        let ended = attempt(&robot);
-        if ended.status != Some(0) {
-            return judge(&robot, ended);
-        }
-    }
-    panic!("it was too late each time");
-}
-
-const ADD: &str = "add-node nodes::watcher --cycler Control";
-
 #[test]
 fn what_an_editor_has_saved_meanwhile_is_not_written_over() {
-    let before = Robot::tiny();
-    before.run("generate").expect(0);
     for (file, text) in [("hulk.toml", "# mine\n"), ("nodes/src/lib.rs", "// mine\n")] {
-        let mut expected = before.files();
-        let changed = expected.get_mut(Path::new(file)).expect("it is there");
-        changed.extend(text.as_bytes());
-        let attempt = |robot: &Robot| saved_meanwhile(robot, ADD, file, text);
-        in_time(attempt, |robot, ended| {
-            let stderr = ended.expect(1).stderr;
-            let message = format!("nothing was changed: `{file}` was changed meanwhile");
-            assert!(stderr.contains(&message), "{stderr}");
-            assert!(stderr.contains("run it again"), "{stderr}");
-            assert!(robot.files() == expected, "{file}");
-            robot.run(ADD).expect(0);
-            assert!(robot.read(file).contains(text.trim()));
-        });
+        // On a busy machine the editor may be so late that all is written already.
+        let refused = (0..20).any(|_| is_refused(file, text));
+        assert!(refused, "{file}");
     }
 }
 
-#[test]
-fn a_file_that_comes_meanwhile_stays() {
-    let attempt = |robot: &Robot| {
-        let watch = inotify::init(inotify::CreateFlags::CLOEXEC).expect("there is inotify");
-        // It is the last that stages look at.
-        let read = robot.path("parameters/default.toml");
-        let is_read = inotify::WatchFlags::CLOSE_NOWRITE;
-        inotify::add_watch(&watch, read, is_read).expect("it is there");
-        let child = robot.command(ADD).stderr(Stdio::piped()).spawn();
-        let child = child.expect("hulkgen was built");
-        File::from(watch)
-            .read_exact(&mut [0; 16])
-            .expect("hulkgen reads the file");
-        let new = robot.path("nodes/src/watcher.rs");
-        fs::write(&new, "// mine\n").expect("there is room");
-        Ended::from(child.wait_with_output().expect("it ends"))
-    };
-    in_time(attempt, |robot, ended| {
-        let stderr = ended.expect(1).stderr;
-        assert!(stderr.contains("nothing was changed: "), "{stderr}");
-        assert_eq!(robot.read("nodes/src/watcher.rs"), "// mine\n");
-        assert!(!robot.read("hulk.toml").contains("watcher"));
-    });
+/// Whether the editor saved before hulkgen wrote, and what has to be so then.
+fn is_refused(file: &str, text: &str) -> bool {
+    const ADD: &str = "add-node nodes::watcher --cycler Control";
+    let robot = Robot::tiny();
+    robot.run("generate").expect(0);
+    let mut expected = robot.files();
+    let ended = saved_meanwhile(&robot, ADD, file, text);
+    if ended.status == Some(0) {
+        return false;
+    }
+    let stderr = ended.expect(1).stderr;
+    let message = format!("nothing was changed: `{file}` was changed meanwhile");
+    assert!(stderr.contains(&message), "{stderr}");
+    assert!(stderr.contains("run it again"), "{stderr}");
+    let changed = expected.get_mut(Path::new(file)).expect("it is there");
+    changed.extend(text.as_bytes());
+    assert!(robot.files() == expected, "{file}");
+    robot.run(ADD).expect(0);
+    assert!(robot.read(file).contains(text.trim()));
+    true
 }
