@@ -26,11 +26,11 @@ static WRITING: Mutex<()> = Mutex::new(());
 /// From now on Ctrl-C ends hulkgen with status 130; a robot that `run` started handles it itself.
 pub fn end_hulkgen() {
     // Without the handlers signals still end hulkgen, only with another status and before what it waits for.
-    let _ = flag::register(SIGINT, CAME.clone());
-    let _ = flag::register(SIGTERM, TERMINATED.clone());
     let Ok(mut signals) = Signals::new([SIGINT, SIGTERM]) else {
         return;
     };
+    let _ = flag::register(SIGINT, CAME.clone());
+    let _ = flag::register(SIGTERM, TERMINATED.clone());
     // A handler could not wait for what is being written.
     thread::spawn(move || {
         for signal in signals.forever() {
@@ -70,6 +70,13 @@ fn end(signal: i32) -> ! {
     low_level::exit(STATUS.into())
 }
 
+/// Ends hulkgen if Ctrl-C came and the thread has not looked at it yet: what is begun from now on knows nothing of it.
+pub(crate) fn heed() {
+    if CAME.load(Ordering::SeqCst) {
+        end(SIGINT);
+    }
+}
+
 /// How a program ended that hulkgen waited for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Ended {
@@ -81,6 +88,7 @@ pub(crate) enum Ended {
 /// Runs a program to its end; until then Ctrl-C is the program's alone, and what ended it is answered by nobody else.
 pub(crate) fn wait_for<E>(program: impl FnOnce() -> Result<ExitStatus, E>) -> Result<Ended, E> {
     ENDS_HULKGEN.store(false, Ordering::SeqCst);
+    heed();
     let ended = program();
     // It says so itself if somebody interrupted it alone.
     let said = ended.as_ref().map_or(None, ExitStatus::code) == Some(STATUS.into());

@@ -38,9 +38,9 @@ pub(super) fn run(session: &mut Session<'_>, generate: &Generate) -> Result<Outc
     // Before anything is read: what another hulkgen changes meanwhile would be generated as it was.
     let turn = turn(session)?;
     if generate.only.is_empty() {
-        whole(session, &turn, generate)
+        whole(session, turn, generate)
     } else {
-        part(session, &turn, generate)
+        part(session, turn, generate)
     }
 }
 
@@ -49,12 +49,13 @@ pub(super) fn turn(session: &Session<'_>) -> Result<Turn, Refusal> {
     Turn::wait_for(session.workspace.root()).map_err(|error| refusal(&error))
 }
 
-fn whole(session: &mut Session<'_>, turn: &Turn, generate: &Generate) -> Result<Outcome, Failure> {
+fn whole(session: &mut Session<'_>, turn: Turn, generate: &Generate) -> Result<Outcome, Failure> {
     let question = format!("generate: color {}", session.terminal.colors_notes());
     let kept: Option<Current> = session.cache.recall(&session.workspace, &question);
     if let Some(current) = kept
-        && current.content.is_there(turn, &current.folder)
+        && current.content.is_there(&turn, &current.folder)
     {
+        drop(turn);
         session.terminal.note(&current.notes);
         if !generate.check {
             note_current(session, &current.folder);
@@ -66,11 +67,13 @@ fn whole(session: &mut Session<'_>, turn: &Turn, generate: &Generate) -> Result<
     let notes = session.rendered_diagnostics();
     session.terminal.note(&notes);
     let files = render(&session.workspace, &understood);
-    let drift = compare(turn, &understood, &files)?;
+    let drift = compare(&turn, &understood, &files)?;
     // What is said to be written is there.
     if !generate.check {
-        apply(session, turn, &understood, &files, &drift)?;
+        apply(session, &turn, &understood, &files, &drift)?;
     }
+    // Whoever reads the answer may take as long as they like.
+    drop(turn);
     let has_errors = session.diagnostics.has_errors();
     if !generate.check || drift.is_empty() {
         let current = Current {
@@ -86,15 +89,16 @@ fn whole(session: &mut Session<'_>, turn: &Turn, generate: &Generate) -> Result<
 }
 
 /// The robot of some cyclers. It is asked for too seldom to be kept.
-fn part(session: &mut Session<'_>, turn: &Turn, generate: &Generate) -> Result<Outcome, Failure> {
+fn part(session: &mut Session<'_>, turn: Turn, generate: &Generate) -> Result<Outcome, Failure> {
     let mut understood = session.understand()?;
     session.note_diagnostics();
     understood.robot = partial::restrict(session, &understood.robot, generate)?;
     let files = render(&session.workspace, &understood);
-    let drift = compare(turn, &understood, &files)?;
+    let drift = compare(&turn, &understood, &files)?;
     if !generate.check {
-        apply(session, turn, &understood, &files, &drift)?;
+        apply(session, &turn, &understood, &files, &drift)?;
     }
+    drop(turn);
     answer(session, generate, &drift, &understood.robot.command())?;
     if !generate.check {
         partial::note_membership(session, &understood.robot);

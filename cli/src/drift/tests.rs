@@ -237,3 +237,26 @@ fn what_is_not_as_it_was_read_is_not_written_over() {
     assert_eq!(content("new/c").as_deref(), Some("new\n"));
     assert_eq!(content("gone"), None);
 }
+
+#[test]
+fn a_file_that_is_written_by_two_ways_is_written() {
+    let folder = Folder::with(&[("a", "read\n")]);
+    std::os::unix::fs::symlink("a", folder.root().join("link")).expect("the folder is ours");
+    let workspace = Workspace::at_root(folder.root());
+    for file in ["a", "link"] {
+        workspace.read(file.into()).expect("it is there");
+    }
+    let turn = Turn::wait_for(folder.root()).expect("nobody else has it");
+    let both = |link: &str| -> Changes {
+        let texts = [("a", "new\n"), ("link", link)];
+        texts
+            .map(|(path, text)| (path.into(), Some(text.to_owned())))
+            .into()
+    };
+    let read = workspace.as_read(&both("new\n"));
+    write_all_in(&turn, &both("other\n"), &read).expect_err("it cannot say both");
+    write_all_in(&turn, &both("new\n"), &read).expect("they say the same");
+    let content = std::fs::read_to_string(folder.root().join("a"));
+    assert_eq!(content.expect("it is there"), "new\n");
+    assert!(folder.root().join("link").is_symlink());
+}

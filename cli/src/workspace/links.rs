@@ -74,12 +74,11 @@ impl Links {
         };
         let leads = match self.real(link) {
             Err(leads) => leads,
-            // A folder may lack a file.
+            // It is a folder, which may lack a file.
             Ok(_)
-                if link != path
-                    && self
-                        .follow(&relative(&self.prefix, link))
-                        .is_some_and(|real| has(&real)) =>
+                if self
+                    .follow(&relative(&self.prefix, link))
+                    .is_some_and(|real| has(&real)) =>
             {
                 return;
             }
@@ -171,6 +170,17 @@ mod tests {
         assert!(links.is_link("own.toml".into()) && !links.is_link("head.toml".into()));
         let names: Vec<_> = links.names_in("".into()).collect();
         assert_eq!(names, ["own.toml", "parameters"]);
+    }
+
+    #[test]
+    fn a_link_to_a_folder_leads_somewhere() {
+        let links = links(&[("robots/nao/parameters/lab", "../../shared/lab")]);
+        let has = |folder: &Utf8Path| folder == "../shared/lab";
+        links.note_missing("parameters/lab".into(), has);
+        links.note_missing("parameters/lab/other.toml".into(), has);
+        assert_eq!(links.broken(), None);
+        links.note_missing("parameters/lab".into(), |_| false);
+        assert!(links.broken().is_some());
     }
 
     #[test]

@@ -58,7 +58,11 @@ impl Memory {
     }
 
     pub(super) fn is_file(&self, file: &Utf8Path) -> bool {
-        self.found(file).is_some()
+        // Whoever looks around asks this of folders and of other people's files, too, and misses none.
+        match file.extension() {
+            Some("rs" | "toml") => self.found(file).is_some(),
+            _ => (self.links.follow(file)).is_some_and(|file| self.files.contains_key(&file)),
+        }
     }
 
     pub(super) fn is_link(&self, entry: &Utf8Path) -> bool {

@@ -121,6 +121,8 @@ fn a_signal_leaves_all_of_a_change_or_nothing_of_it() {
         assert!(now == old || now == new, "{signal}: {told:#?}");
         match status {
             Some(0) => assert!(now == new, "{signal} came behind the end"),
+            // Before it listens to signals it has written nothing.
+            Some(2) if signal == "INT" => assert!(now == old),
             status => assert_eq!(status, Some(expected), "{signal} after {after:?}"),
         }
         wholly_new += u32::from(now == new && status != Some(0));

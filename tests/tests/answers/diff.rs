@@ -520,6 +520,10 @@ fn links_of_a_revision_are_followed_within_it() {
     std::fs::write(elsewhere.path().join("battery.rs"), &text).expect("the folder is ours");
     symlink("shared/nodes", robot.path("linked")).expect("the folder is ours");
     link("../../linked/battery.rs".as_ref(), file);
+    // Of a location, and of something that nobody asks for.
+    robot.write("shared/lab/default.toml", "\n");
+    symlink("../shared/lab", robot.path("parameters/lab")).expect("the folder is ours");
+    symlink("../nothing", robot.path("parameters/logs")).expect("the folder is ours");
     repository.commit("linked");
     let (lines, _) = repository.diff("linked");
     assert_eq!(lines, ["the graph is that of `linked`"]);

@@ -21,7 +21,9 @@ pub(in crate::commands) fn become_robot(
     arguments: &[OsString],
     root: &Utf8Path,
 ) -> Refusal {
-    let error = command(executable, arguments, root).exec();
+    let mut command = command(executable, arguments, root);
+    interrupt::heed();
+    let error = command.exec();
     cannot_start(executable, &error)
 }
 

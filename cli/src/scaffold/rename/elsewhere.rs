@@ -16,7 +16,7 @@ use crate::diagnostics::position;
 use crate::manifest::without_dots;
 use crate::resolve::robot::Robot;
 use crate::scan::{parse, range};
-use crate::workspace::{MANIFEST, Workspace, says_generated};
+use crate::workspace::{MANIFEST, RUNS, Workspace, says_generated};
 
 /// Endings of files in which people write paths of clients.
 const ENDINGS: [&str; 11] = [
@@ -56,7 +56,8 @@ impl Sought<'_> {
         unclear
     }
 
-    /// Files of the robot in which paths may stand; below a folder with a manifest of its own is another robot.
+    /// Files of the robot in which paths may stand; below a folder with a manifest of its own is another robot. What runs
+    /// left behind stays as it was, and so do packages of others.
     fn texts(&self) -> Vec<Utf8PathBuf> {
         let mut files = self.workspace.files_below(Utf8Path::new(""));
         let manifests = files
@@ -70,7 +71,12 @@ impl Sought<'_> {
         files.retain(|file| {
             let is_other = |folder: &Utf8PathBuf| file.starts_with(folder);
             let ending = file.extension().unwrap_or_default();
+            let is_foreign = file
+                .components()
+                .any(|part| part.as_str() == "node_modules");
             ENDINGS.contains(&ending)
+                && !is_foreign
+                && !file.starts_with(RUNS)
                 && file.as_str() != MANIFEST
                 && !file.starts_with(&self.robot.generated)
                 && !others.iter().any(is_other)
