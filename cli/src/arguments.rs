@@ -236,15 +236,18 @@ pub enum GraphFormat {
 /// Generate, build and run a target
 ///
 /// Runs in the robot's folder until Ctrl-C, or as long as --for says. With --format json the report
-/// at the end goes to stdout.
+/// at the end goes to stdout. With --watch the robot runs on while what was saved is built, is then stopped in order and
+/// started anew; it goes on where nothing could be built. Parameter files are read by the running robot.
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "\
 Exit status: that of the robot's program: 0 ended in order, 1 failed, 130 ended by Ctrl-C;
              before it starts: 1 errors in the robot or a failed build, 2 wrong usage or no such target.
+             With --watch 130 alone, or 2.
 
 Examples:
   hulkgen run
   hulkgen run simulated --for 10s --headless --format json
+  hulkgen run --watch                      # anew whenever a file is saved that changes the program
   hulkgen run simulated -- --no-ball       # options of the hardware")]
 pub struct Run {
     /// The target [default: the first of hulk.toml]
@@ -279,11 +282,23 @@ pub struct Run {
     /// What the recording keeps, for example `512MiB` or `2GB` [default: the manifest's `recording_budget`]
     #[arg(long, value_name = "SIZE")]
     pub recording_budget: Option<schema::Size>,
+    /// Build and start anew whenever a file changes, until Ctrl-C
+    #[arg(long)]
+    pub watch: bool,
     #[command(flatten)]
     pub build: Build,
     /// Options of the hardware
     #[arg(last = true, value_name = "OPTIONS")]
     pub options: Vec<OsString>,
+}
+
+impl Run {
+    /// The file to record into, if it is one and no switch.
+    pub(crate) fn record_file(&self) -> Option<&Utf8PathBuf> {
+        self.record
+            .as_ref()
+            .filter(|file| !matches!(file.as_str(), "on" | "off"))
+    }
 }
 
 /// Build the program of a target for its machine, and tell whether it would start there

@@ -1,13 +1,15 @@
 //! Ctrl-C: it ends hulkgen at once, unless a program that hulkgen started has to answer first, or files are being written.
 //!
 //! A terminal sends it to both; the program's last words would otherwise come after the prompt, or never. SIGTERM ends
-//! hulkgen as ever, also but for what is being written.
+//! hulkgen as ever, also but for what is being written; a program that runs [beside](Beside) hulkgen gets it first.
 
-use std::process::ExitStatus;
+use std::io;
+use std::process::{Child, Command, ExitStatus};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, LazyLock, Mutex, MutexGuard, PoisonError};
 use std::thread;
 
+use rustix::process::{Pid, Signal, kill_process};
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::iterator::Signals;
 use signal_hook::{flag, low_level};
@@ -22,6 +24,9 @@ static TERMINATED: LazyLock<Arc<AtomicBool>> = LazyLock::new(Arc::default);
 
 /// Whoever has it may be in the midst of writing: nobody else ends hulkgen.
 static WRITING: Mutex<()> = Mutex::new(());
+
+/// The program that runs beside hulkgen. Whoever ends hulkgen keeps it, so that no other program is started meanwhile.
+static BESIDE: Mutex<Option<Child>> = Mutex::new(None);
 
 /// From now on Ctrl-C ends hulkgen with status 130; a robot that `run` started handles it itself.
 pub fn end_hulkgen() {
@@ -62,7 +67,20 @@ fn writing() -> MutexGuard<'static, ()> {
     WRITING.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
+fn beside() -> MutexGuard<'static, Option<Child>> {
+    // A child is in it or not; a panic cannot leave half of it.
+    BESIDE.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
 fn end(signal: i32) -> ! {
+    let mut beside = beside();
+    if let Some(mut program) = beside.take() {
+        // A terminal sends Ctrl-C to both.
+        if signal == SIGTERM {
+            ask_to_end(&program);
+        }
+        let _ = program.wait();
+    }
     if signal == SIGTERM {
         // Whoever sent it sees that it did what it does.
         let _ = low_level::emulate_default_handler(signal);
@@ -74,6 +92,55 @@ fn end(signal: i32) -> ! {
 pub(crate) fn heed() {
     if CAME.load(Ordering::SeqCst) {
         end(SIGINT);
+    }
+}
+
+fn ask_to_end(program: &Child) {
+    // It may have ended by itself; nobody has asked it how, so that its number is still its own.
+    let _ = kill_process(Pid::from_child(program), Signal::TERM);
+}
+
+/// A program that runs while hulkgen does something else. Whatever ends hulkgen, it ends first.
+#[derive(Debug)]
+pub(crate) struct Beside;
+
+impl Beside {
+    /// The one that there is must have ended.
+    pub(crate) fn start(command: &mut Command) -> io::Result<Self> {
+        heed();
+        let mut beside = beside();
+        let program = command.spawn()?;
+        // It came before there was anybody else to get it.
+        if CAME.load(Ordering::SeqCst) {
+            ask_to_end(&program);
+        }
+        *beside = Some(program);
+        Ok(Self)
+    }
+
+    /// How it ended; `None` while it runs.
+    pub(crate) fn ended(&self) -> io::Result<Option<ExitStatus>> {
+        let mut beside = beside();
+        let Some(program) = beside.as_mut() else {
+            return Ok(None);
+        };
+        let ended = program.try_wait()?;
+        if ended.is_some() {
+            *beside = None;
+        }
+        Ok(ended)
+    }
+
+    /// Asks it to end in order, and waits until it has.
+    pub(crate) fn end(self) -> io::Result<()> {
+        // Kept meanwhile: whatever ends hulkgen now waits, too.
+        let mut beside = beside();
+        if let Some(program) = beside.as_mut() {
+            ask_to_end(program);
+            program.wait()?;
+        }
+        *beside = None;
+        Ok(())
     }
 }
 

@@ -30,6 +30,7 @@ use parsed::Parsed;
 
 pub use asked::Answers;
 pub use changes::Changes;
+pub(crate) use disk::content_of;
 pub use links::BrokenLink;
 pub use members::{BrokenPackage, Member, Members, OF_GENERATED, Origin};
 pub(crate) use members::{normalized, package_table, relative};

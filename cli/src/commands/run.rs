@@ -1,6 +1,7 @@
 //! `run`: generate, build, and become the robot's program.
 
 mod program;
+mod watched;
 
 use camino::{Utf8Path, Utf8PathBuf};
 
@@ -16,11 +17,11 @@ use crate::pipeline::Understood;
 use crate::resolve::robot::{Robot, Target};
 
 pub(super) fn run(session: &mut Session<'_>, run: &arguments::Run) -> Result<Outcome, Failure> {
+    if run.watch {
+        return watched::run(session, run);
+    }
     let arguments = program::arguments(run)?;
-    let wanted = Wanted {
-        target: run.target.as_deref(),
-        build: &run.build,
-    };
+    let wanted = Wanted::of(run);
     let Some(executable) = build(session, &wanted)? else {
         return Ok(Outcome::Bad);
     };
@@ -33,6 +34,15 @@ pub(super) struct Wanted<'a> {
     /// `None`: the first.
     pub(super) target: Option<&'a str>,
     pub(super) build: &'a arguments::Build,
+}
+
+impl<'a> Wanted<'a> {
+    fn of(run: &'a arguments::Run) -> Self {
+        Self {
+            target: run.target.as_deref(),
+            build: &run.build,
+        }
+    }
 }
 
 /// A program that was built.

@@ -15,6 +15,11 @@ use crate::digest::Digest;
 /// Bytes; what people write themselves is far smaller, and a larger file would be read for minutes.
 const LARGEST: u64 = 4 << 20;
 
+/// Of a file that may be anywhere and of any size, such as a program that was built; `None` if it cannot be read.
+pub(crate) fn content_of(file: &Utf8Path) -> Option<Digest> {
+    fs::read(file).ok().map(|bytes| Digest::of(&bytes))
+}
+
 /// Files below one folder.
 #[derive(Clone, Debug)]
 pub(super) struct Disk {

@@ -6,6 +6,7 @@ mod interrupt;
 mod robot;
 mod runs;
 mod together;
+mod watched;
 
 use std::process::Stdio;
 

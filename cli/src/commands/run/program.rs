@@ -9,7 +9,7 @@ use std::process::Command;
 use camino::Utf8Path;
 
 use crate::arguments::{Run, TextOrJson};
-use crate::interrupt::{self, Ended};
+use crate::interrupt::{self, Beside, Ended};
 use crate::outcome::Refusal;
 use crate::workspace::RUNS;
 
@@ -34,6 +34,16 @@ pub(in crate::commands) fn end_of_robot(
     root: &Utf8Path,
 ) -> Result<Ended, Refusal> {
     interrupt::wait_for(|| command(executable, arguments, root).status())
+        .map_err(|error| cannot_start(executable, &error))
+}
+
+/// Starts it in the workspace root; hulkgen goes on beside.
+pub(super) fn start_robot(
+    executable: &Utf8Path,
+    arguments: &[OsString],
+    root: &Utf8Path,
+) -> Result<Beside, Refusal> {
+    Beside::start(&mut command(executable, arguments, root))
         .map_err(|error| cannot_start(executable, &error))
 }
 
@@ -70,12 +80,10 @@ pub(super) fn arguments(run: &Run) -> Result<Vec<OsString>, Refusal> {
             arguments.extend([name.into(), absolute(folder)?]);
         }
     }
-    match &run.record {
-        Some(file) if !matches!(file.as_str(), "on" | "off") => {
-            arguments.extend(["--record".into(), absolute(file)?]);
-        }
-        Some(switch) => arguments.extend(["--record".into(), switch.as_str().into()]),
-        None => {}
+    match (run.record_file(), &run.record) {
+        (Some(file), _) => arguments.extend(["--record".into(), absolute(file)?]),
+        (None, Some(switch)) => arguments.extend(["--record".into(), switch.as_str().into()]),
+        (None, None) => {}
     }
     let mut add = |name: &str, value: &str| arguments.extend([name.into(), value.into()]);
     if let Some(duration) = run.duration {
