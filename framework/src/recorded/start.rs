@@ -1,6 +1,7 @@
 //! A recording of a whole robot.
 
 use std::collections::BTreeMap;
+use std::io::{self, ErrorKind};
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -99,9 +100,7 @@ impl Recording {
         let all: Vec<_> = all.collect();
         let rewrites = outputs.rewrites(tell);
         let (recorder, mut tracks) = disk::start(path, description, &all, settings, rewrites)
-            .map_err(|error| {
-                Error::from(error).context(format!("cannot record into {}", path.display()))
-            })?;
+            .map_err(|error| cannot_record(path, error))?;
         let logs = tracks
             .pop()
             .map(|track| LogRecorder::start(track, of_logs, robot.clock.clone()));
@@ -214,6 +213,14 @@ impl Recording {
             missing: missing.collect(),
         }
     }
+}
+
+fn cannot_record(path: &Path, error: io::Error) -> Error {
+    let why = match error.kind() {
+        ErrorKind::AlreadyExists => ": it is there, and nothing is written over; name another file",
+        _ => "",
+    };
+    Error::from(error).context(format!("cannot record into {}{why}", path.display()))
 }
 
 /// The instances with who listens to their additional outputs.

@@ -35,6 +35,22 @@ fn recorded(folder: &Path) -> File {
     File::open(&path).expect("it was written")
 }
 
+#[test]
+fn a_recording_is_never_written_over() {
+    let folder = tempfile::tempdir().expect("a temporary directory");
+    let path = folder.path().join("run.mcap");
+    std::fs::write(&path, "a game").expect("the folder is ours");
+    let hardware = ScriptedHardware::lockstep([]);
+    let robot = robot(&hardware, &Setting::default());
+    let recording = Recording::start(&path, &robot, About::default(), Settings::default());
+    let error = recording.err().expect("it is there").to_string();
+    assert!(
+        error.contains("it is there, and nothing is written over; name another file"),
+        "{error}"
+    );
+    assert_eq!(std::fs::read_to_string(&path).expect("it stays"), "a game");
+}
+
 /// `Legs` alone, whose worker does so in every cycle.
 fn legs(act: Act) -> Box<dyn Replay> {
     let hardware = ScriptedHardware::lockstep([]);
