@@ -214,6 +214,32 @@ fn nobody_adds_all_instances_of_another_cycler_to_one_instance_alone() {
 }
 
 #[test]
+fn a_crate_that_only_a_part_of_what_is_read_whole_comes_from_is_named() {
+    let vision = "instances = [\"Top\", \"Bottom\"]";
+    let vision = cycler("Vision", "perception", vision, &[], &["eye"]);
+    let control = cycler("Control", "real-time", "", &[], &["hand"]);
+    let cameras = "pub struct Cameras { pub vision_top: Camera, pub vision_bottom: Camera }\n\
+                   pub struct Camera { pub offset: nalgebra::Vector3<f32> }";
+    let part = "p: Parameter<nalgebra::Vector3<f32>, \"cameras.$cycler_instance.offset\">,";
+    let hardware = "hardware: HardwareInterface,";
+    for (creation, cycle) in [(part, String::new()), ("", part.to_owned())] {
+        let cycle = cycle + hardware;
+        let eye = Node {
+            creation,
+            cycle: &cycle,
+            ..ACTS
+        };
+        let fixture = Fixture::new(&format!("{vision}{control}")).node("eye", eye);
+        let answer = with_field(fixture, "hand", "c: Parameter<Cameras, \"cameras\">")
+            .file("crates/types/src/lib.rs", cameras)
+            .answer();
+        let robot = answer.robot.unwrap_or_else(|| panic!("{}", answer.text));
+        let crates: Vec<&str> = robot.crates.iter().map(|one| one.name.as_str()).collect();
+        assert!(crates.contains(&"nalgebra"), "{crates:?}");
+    }
+}
+
+#[test]
 fn states_are_shared_by_path() {
     let fixture = two(
         "x: CyclerState<Ball, \"ball\">,\ny: CyclerState<u8, \"count.a\">",
