@@ -240,6 +240,23 @@ fn a_crate_that_only_a_part_of_what_is_read_whole_comes_from_is_named() {
 }
 
 #[test]
+fn a_mark_needs_an_option_whoever_else_reads_what_lies_below() {
+    for (first, second) in [
+        ("Parameter<u8, \"a.b\">", "Parameter<Option<u8>, \"a?.b\">"),
+        ("Parameter<Option<u8>, \"a?.b\">", "Parameter<u8, \"a.b\">"),
+        (
+            "Parameter<Option<Point>, \"a.b\">",
+            "Parameter<Option<f32>, \"a?.b?.x\">",
+        ),
+    ] {
+        two(&format!("x: {first}"), &format!("y: {second}")).expect(
+            "option-mismatch",
+            &["nobody declares parameter `a` as an `Option`"],
+        );
+    }
+}
+
+#[test]
 fn states_are_shared_by_path() {
     let fixture = two(
         "x: CyclerState<Ball, \"ball\">,\ny: CyclerState<u8, \"count.a\">",
