@@ -302,6 +302,45 @@ fn clashing_states_show_both_places() {
 }
 
 #[test]
+fn parts_behind_a_deref_are_borrowed_with_the_whole() {
+    let pose = |parts: &str| two("x: CyclerState<nalgebra::Isometry3<f32>, \"pose\">", parts);
+    for (a, b) in [
+        ("f32, \"pose.translation.x\"", "f32, \"pose.translation.y\""),
+        (
+            "f32, \"pose.translation.x\"",
+            "&f32, \"pose.translation.y\"",
+        ),
+        (
+            "&nalgebra::Vector3<f32>, \"pose.translation.vector\"",
+            "f32, \"pose.translation.y\"",
+        ),
+    ] {
+        pose(&format!("a: CyclerState<{a}>,\nb: CyclerState<{b}>")).expect(
+            "overlapping-states",
+            &[
+                "both borrow `pose.translation` as a whole",
+                "ask for `pose.translation` in their place",
+            ],
+        );
+    }
+    let complex = "x: CyclerState<nalgebra::Vector2<nalgebra::Complex<f32>>, \"pair\">";
+    let parts = "a: CyclerState<f32, \"pair.x.re\">,\nb: CyclerState<f32, \"pair.x.im\">";
+    two(complex, parts).expect(
+        "overlapping-states",
+        &["`pair.x.re` and `pair.x.im` both borrow `pair` as a whole"],
+    );
+    // Both only read, and fields that each are borrowed alone.
+    pose("a: CyclerState<&f32, \"pose.translation.x\">,\nb: CyclerState<&f32, \"pose.translation.y\">")
+        .robot();
+    pose("a: CyclerState<f32, \"pose.translation.x\">,\nb: CyclerState<nalgebra::UnitQuaternion<f32>, \"pose.rotation\">")
+        .robot();
+    // Nobody has the two as one value.
+    let parts = "a: CyclerState<f32, \"place.x\">,\nb: CyclerState<f32, \"place.y\">";
+    let codes = two(parts, "y: CycleTime").answer().codes;
+    assert_eq!(codes, ["state-of-one-node"; 2]);
+}
+
+#[test]
 fn states_that_only_rustc_can_compare_are_counted() {
     let fixture = |a: &str, b: &str| {
         let fixture = two(a, b);
