@@ -257,6 +257,30 @@ fn a_mark_needs_an_option_whoever_else_reads_what_lies_below() {
 }
 
 #[test]
+fn what_is_read_whole_at_creation_and_in_part_later_is_no_parameter_of_creation_alone() {
+    for (part, creation_only) in [
+        ("", true),
+        ("p: Parameter<f32, \"ball.x\">,", false),
+        ("p: Parameter<f32, \"other\">,", true),
+    ] {
+        let cycle = format!("{part}\nhardware: HardwareInterface,");
+        let hand = Node {
+            creation: "b: Parameter<Ball, \"ball\">,",
+            cycle: &cycle,
+            ..ACTS
+        };
+        let robot = Fixture::control(&["hand"])
+            .node("hand", hand)
+            .file("parameters/default.toml", "other = 1\n[ball]\n");
+        let answer = robot.answer();
+        let robot = answer.robot.unwrap_or_else(|| panic!("{}", answer.text));
+        let hints = robot.parameter_hints.get("ball");
+        let found = hints.is_some_and(|hints| hints.creation_only);
+        assert_eq!(found, creation_only, "{part}");
+    }
+}
+
+#[test]
 fn states_are_shared_by_path() {
     let fixture = two(
         "x: CyclerState<Ball, \"ball\">,\ny: CyclerState<u8, \"count.a\">",
