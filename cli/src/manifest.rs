@@ -27,6 +27,8 @@ pub struct Manifest {
     pub robot: schema::Robot,
     /// Of the folder of the generated crate, or of `[robot]` where the manifest does not name it.
     pub generated_range: Range<usize>,
+    /// The same of the folder of the parameter files.
+    pub parameters_range: Range<usize>,
     /// Of each of the robot's identities.
     pub identity_ranges: Vec<Range<usize>>,
     /// In manifest order.
@@ -35,8 +37,6 @@ pub struct Manifest {
     pub targets: Vec<Target>,
     /// In manifest order.
     pub bridges: Vec<Bridge>,
-    /// The whole manifest as it was written.
-    pub text: std::sync::Arc<str>,
 }
 
 /// A cycler and where its parts stand.
@@ -156,7 +156,7 @@ pub fn load(workspace: &Workspace, diagnostics: &mut Diagnostics) -> Result<Mani
         return Err(reported);
     }
     let declared = tolerant::read(&table, file, diagnostics)?;
-    let manifest = places::locate(declared, table.get_ref(), text.clone());
+    let manifest = places::locate(declared, table.get_ref());
     names::check(&manifest, diagnostics);
     for cycler in &manifest.cyclers {
         scheduling::check(cycler, diagnostics);

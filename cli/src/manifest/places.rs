@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 use std::ops::Range;
-use std::sync::Arc;
 
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -12,21 +11,22 @@ use super::{
 };
 
 /// Joins the manifest with its places. Both come from one text, so what the one has, the other has.
-pub(super) fn locate(declared: schema::Manifest, table: &DeTable<'_>, text: Arc<str>) -> Manifest {
+pub(super) fn locate(declared: schema::Manifest, table: &DeTable<'_>) -> Manifest {
     let cyclers = elements(table, "cycler");
     let targets = elements(table, "target");
     let bridges = elements(table, "bridge");
     let robot = table.get("robot");
     let generated = robot.and_then(|robot| range_of(robot, "generated").or(Some(robot.span())));
+    let parameters = robot.and_then(|robot| range_of(robot, "parameters").or(Some(robot.span())));
     let identities = robot.map_or(&[][..], |robot| list(robot, "identities"));
     Manifest {
         identity_ranges: identities.iter().map(Spanned::span).collect(),
         robot: declared.robot,
         generated_range: generated.unwrap_or(0..0),
+        parameters_range: parameters.unwrap_or(0..0),
         cyclers: zip(declared.cycler, cyclers, locate_cycler),
         targets: zip(declared.target, targets, locate_target),
         bridges: zip(declared.bridge, bridges, locate_bridge),
-        text,
     }
 }
 

@@ -63,13 +63,23 @@ impl Names {
 
     /// The wanted name, or the wanted name and the first number that makes it new.
     pub fn give(&mut self, wanted: &str) -> String {
+        self.give_with(wanted, |_| Vec::new())
+    }
+
+    /// The same where others come with it, which have to be new, too, and are given at once.
+    pub fn give_with(&mut self, wanted: &str, derived: impl Fn(&str) -> Vec<String>) -> String {
         let mut name = wanted.to_owned();
         let mut number = 2;
-        while !self.given.insert(name.clone()) {
+        loop {
+            let mut all = derived(&name);
+            all.push(name.clone());
+            if all.iter().all(|one| !self.given.contains(one)) {
+                self.given.extend(all);
+                return name;
+            }
             name = format!("{wanted}{number}");
             number += 1;
         }
-        name
     }
 }
 

@@ -180,11 +180,27 @@ fn variables(robot: &Robot) -> BTreeMap<InstanceId, String> {
     });
     let ids: BTreeSet<InstanceId> = running.chain(outside::instances(robot)).collect();
     let mut names = Names::with(VARIABLES_OF_CREATE.map(str::to_owned));
+    let mut given = Vec::new();
     let variables = ids.into_iter().map(|id| {
         let name = &robot.cyclers[id.cycler].instances[id.instance].name;
-        (id, names.give(&snake_case(name)))
+        let variable = names.give_with(&snake_case(name), |variable| derived(variable, &given));
+        given.push(variable.clone());
+        (id, variable)
     });
     variables.collect()
+}
+
+/// What else may stand in `create` because of this instance, beside instances that have their variables.
+fn derived(variable: &str, others: &[String]) -> Vec<String> {
+    // Else an end of `eye_queue` could be called like a queue of `eye`.
+    let mut names = vec![end("parameters", variable), format!("{variable}_queue")];
+    names.extend(SUFFIXES_OF_CREATE.map(|suffix| format!("{variable}_{suffix}")));
+    for other in others {
+        for (from, to) in [(variable, other.as_str()), (other, variable)] {
+            names.extend([end(from, to), queue(from, to)]);
+        }
+    }
+    names
 }
 
 fn buffer(

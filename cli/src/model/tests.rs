@@ -260,6 +260,38 @@ fn a_reader_is_not_called_like_what_selects_parameters() {
 }
 
 #[test]
+fn no_instance_is_called_like_what_create_has_of_another() {
+    let variables = |names: &[&str]| {
+        let cyclers = names.iter().enumerate().map(|(index, name)| {
+            let path = format!("nodes::n{index}");
+            perception(name, &[]).node(node(&path).output("a", "f32"))
+        });
+        let model = model_of(&robot(cyclers.collect()));
+        let instances = model.runtime.instances.into_iter();
+        instances.map(|one| one.variable).collect::<Vec<_>>()
+    };
+    for (names, expected) in [
+        (
+            &["Control", "ControlInjections"][..],
+            &["control", "control_injections2"][..],
+        ),
+        (&["LogWriter", "Log"], &["log_writer", "log2"]),
+        (
+            &["Log", "ParametersForLog"],
+            &["log", "parameters_for_log2"],
+        ),
+        (
+            &["Eye", "Hand", "EyeForHand", "HandQueueForEye"],
+            &["eye", "hand", "eye_for_hand2", "hand_queue_for_eye2"],
+        ),
+        (&["Eye", "EyeQueue", "Hand"], &["eye", "eye_queue2", "hand"]),
+        (&["Eye", "EyeTop"], &["eye", "eye_top"]),
+    ] {
+        assert_eq!(variables(names), expected);
+    }
+}
+
+#[test]
 fn variables_of_procedures_are_snake_case_and_their_own() {
     let model = model_of(&robot(vec![
         real_time("Control").node(

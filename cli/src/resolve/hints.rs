@@ -47,7 +47,11 @@ pub(super) fn collect(
             }
         }
     }
-    let hints = known.into_iter().map(|(path, (hints, _))| (path, hints));
+    let hints = known.into_iter().map(|(path, (mut hints, first))| {
+        let mut parts = hinted.iter().filter(|part| is_within(part, first));
+        hints.creation_only &= parts.all(|part| part.at_creation);
+        (path, hints)
+    });
     hints
         .filter(|(_, hints)| *hints != Hints::default())
         .collect()

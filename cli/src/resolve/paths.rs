@@ -136,6 +136,20 @@ pub(super) fn only_whole(
     })
 }
 
+/// How many segments lead to the first value that is borrowed as a whole by whoever borrows what lies at the end: one whose
+/// next field is behind `Deref`.
+pub(super) fn borrowed_whole(
+    library: &Library<'_>,
+    start: &Resolved,
+    segments: &[Segment],
+) -> Option<usize> {
+    (1..segments.len()).find(|end| {
+        let owner = walk(library, start, &segments[..*end]);
+        let geometry = owner.ok().and_then(|owner| Geometry::of(&owner));
+        geometry.is_some_and(|geometry| geometry.dereferences_for(&segments[*end].name))
+    })
+}
+
 fn without_mark(end: &Resolved, written: &Resolved, last: &str) -> Agreement {
     match compare(written, end) {
         Comparison::Same => Agreement::Same,
@@ -243,7 +257,7 @@ fn enter(
             file: structure.file,
             range: found.range.clone(),
         }),
-        None if structure.dereferences => Err(Agreement::Unknown),
+        None if library.may_dereference(data) => Err(Agreement::Unknown),
         None => {
             let names = structure.fields.into_iter().map(|one| one.name);
             Err(no_field(data, field, names.collect()))

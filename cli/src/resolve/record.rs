@@ -4,10 +4,13 @@ use std::ops::Range;
 
 use camino::Utf8Path;
 
-use super::paths::{self, Agreement};
+use super::parameter_files::shown::{Part, part};
 use super::robot::{Access, Condition, InstanceId, Record, Segment};
 use super::scene::Scene;
 use crate::diagnostics::{Code, Diagnostic, Diagnostics, suggestion};
+use crate::scan::compare::{Comparison, compare};
+use crate::scan::components::{Component, component};
+use crate::scan::types::Resolved;
 use crate::workspace::MANIFEST;
 
 /// What an instance of this cycler records; `None` and an error where the output is none or no `bool`.
@@ -71,20 +74,9 @@ fn condition(scene: &Scene<'_>, own: usize, written: &str) -> Result<Condition, 
     };
     let library = &scene.sources.library;
     let wanted = library.resolve(&producer.source.module, &syn::parse_quote!(bool));
-    match paths::check(library, &producer.data, &access.segments, &wanted) {
-        Agreement::Same | Agreement::Unknown => Ok(Condition {
-            instance,
-            producer: producer.node,
-            access,
-        }),
-        Agreement::Private {
-            structure, field, ..
-        } => Err(Refused {
-            code: Code::NotPublic,
-            message: format!("field `{field}` of `{structure}` is private"),
-            help: format!("write `pub {field}`"),
-        }),
-        _ => Err(Refused {
+    let end = end_of(scene, &producer.data, &access.segments[1..])?;
+    if end.is_some_and(|end| compare(&end, &wanted) == Comparison::Different) {
+        return Err(Refused {
             code: Code::TypeMismatch,
             message: format!(
                 "`{written}` is no `bool`, so nothing can be recorded while it is true"
@@ -93,8 +85,39 @@ fn condition(scene: &Scene<'_>, own: usize, written: &str) -> Result<Condition, 
                 "name an output of type `bool`, or a field of one; `{name}` is `{}`",
                 producer.data.text
             ),
-        }),
+        });
     }
+    Ok(Condition {
+        instance,
+        producer: producer.node,
+        access,
+    })
+}
+
+/// What lies at the end of a path, by the names that serde gives: the robot looks by them, too. `None`: only it knows.
+fn end_of(
+    scene: &Scene<'_>,
+    output: &Resolved,
+    below: &[Segment],
+) -> Result<Option<Resolved>, Refused> {
+    let mut data = output.clone();
+    for Segment { name, .. } in below {
+        data = match part(&data, name, scene.sources) {
+            Part::Of(inner) => inner,
+            Part::Unknown => match component(&data, name) {
+                Component::Field(inner) => inner,
+                Component::Absent(_) | Component::Unknown => return Ok(None),
+            },
+            Part::None(names) => {
+                return Err(Refused {
+                    code: Code::TypeMismatch,
+                    message: format!("`{}` has no part `{name}`", data.text),
+                    help: suggestion(name, names.iter().map(String::as_str), "its parts are"),
+                });
+            }
+        };
+    }
+    Ok(Some(data))
 }
 
 /// The instance in front of the path, if there is one.

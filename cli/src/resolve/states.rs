@@ -1,15 +1,15 @@
 //! Cycler states and additional outputs: trees of one cycler.
 
 use std::collections::BTreeMap;
-use std::ops::Range;
 
-use grammar::{CreationField, CycleField, StatePath};
+use grammar::{CreationField, CycleField};
 
+use super::paths;
 use super::robot::{Access, Segment, StateUse, Tree, Writer};
 use super::scene::{Scene, SceneCycler};
 use super::tree::{Declaration, Rules, merge};
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
-use crate::scan::{NodeSource, range};
+use crate::scan::{Library, range};
 
 /// States of a cycler, and how many paths could not be compared: all, and those that no edge tells.
 pub(super) fn states(
@@ -17,7 +17,10 @@ pub(super) fn states(
     cycler: &SceneCycler<'_>,
     diagnostics: &mut Diagnostics,
 ) -> (Tree<StateUse>, usize, usize) {
+    let library = &scene.sources.library;
     let mut declarations = Vec::new();
+    // Where the fields of each context begin and end.
+    let mut contexts = Vec::new();
     for node in &cycler.nodes {
         let source = node.source;
         let creation = source
@@ -40,10 +43,10 @@ pub(super) fn states(
             (creation.collect::<Vec<_>>(), false),
             (cycle.collect(), true),
         ] {
-            report_overlaps(source, &context, diagnostics);
+            let begin = declarations.len();
             declarations.extend(context.iter().map(|(state, range)| Declaration {
                 segments: Access::of(&state.path).segments,
-                data: scene.sources.library.resolve(&source.module, &state.data),
+                data: library.resolve(&source.module, &state.data),
                 user: StateUse {
                     node: source.path.clone(),
                     shared: state.shared,
@@ -54,14 +57,18 @@ pub(super) fn states(
                 source,
                 range: range.clone(),
             }));
+            contexts.push(begin..declarations.len());
         }
+    }
+    for context in contexts {
+        report_overlaps(library, &declarations[context], &declarations, diagnostics);
     }
     report_unwritten(cycler, &declarations, diagnostics);
     let rules = Rules {
         conflict: Code::StateConflict,
         what: "cycler state",
     };
-    let mut merged = merge(&scene.sources.library, declarations, &rules, diagnostics);
+    let mut merged = merge(library, declarations, &rules, diagnostics);
     merged
         .tree
         .for_each_leaf(&mut |users| one_use_per_node(users));
@@ -84,30 +91,63 @@ fn one_use_per_node(users: &mut Vec<StateUse>) {
 
 /// Two fields of one context that reach one value, of which one may change it.
 fn report_overlaps(
-    source: &NodeSource,
-    fields: &[(&StatePath, Range<usize>)],
+    library: &Library<'_>,
+    context: &[Declaration<'_, StateUse>],
+    all: &[Declaration<'_, StateUse>],
     diagnostics: &mut Diagnostics,
 ) {
-    for (index, (second, second_range)) in fields.iter().enumerate() {
-        for (first, first_range) in &fields[..index] {
-            let (a, b) = (
-                Access::of(&first.path).segments,
-                Access::of(&second.path).segments,
-            );
-            let overlap = a.iter().zip(&b).all(|(a, b)| a.name == b.name);
-            if overlap && !(first.shared && second.shared) {
-                let message = format!(
-                    "`{}` and `{}` are one cycler state",
-                    first.path, second.path
-                );
-                let error = Diagnostic::new(Code::OverlappingStates, message)
-                    .at(source.file(), second_range.clone(), "borrowed again here")
-                    .at(source.file(), first_range.clone(), "borrowed here")
-                    .help("keep one of the two fields");
-                diagnostics.add(error);
+    for (index, second) in context.iter().enumerate() {
+        for first in &context[..index] {
+            if first.user.shared && second.user.shared {
+                continue;
             }
+            let both = first.segments.iter().zip(&second.segments);
+            let common = both.take_while(|(a, b)| a.name == b.name).count();
+            let (a, b) = (first.path(), second.path());
+            let shorter = first.segments.len().min(second.segments.len());
+            let (message, deed) = if common == shorter {
+                let message = format!("`{a}` and `{b}` are one cycler state");
+                (message, "keep one of the two fields".to_owned())
+            } else if let Some(whole) = [first, second]
+                .into_iter()
+                .find_map(|one| whole_of(library, one, common, all))
+            {
+                let message = format!("`{a}` and `{b}` both borrow `{whole}` as a whole");
+                (message, format!("ask for `{whole}` in their place"))
+            } else {
+                continue;
+            };
+            let error = Diagnostic::new(Code::OverlappingStates, message)
+                .at(
+                    second.source.file(),
+                    second.range.clone(),
+                    "borrowed again here",
+                )
+                .at(first.source.file(), first.range.clone(), "borrowed here")
+                .help(deed);
+            diagnostics.add(error);
         }
     }
+}
+
+/// The path of what is borrowed whole by whoever borrows this one's state, if it is not longer than so many segments.
+fn whole_of(
+    library: &Library<'_>,
+    one: &Declaration<'_, StateUse>,
+    longest: usize,
+    all: &[Declaration<'_, StateUse>],
+) -> Option<String> {
+    let starts = |names: &[Segment]| {
+        let mut both = names.iter().zip(&one.segments);
+        names.len() <= longest && both.all(|(a, b)| a.name == b.name)
+    };
+    let above = all.iter().filter(|other| starts(&other.segments));
+    let leaf = above.min_by_key(|other| other.segments.len())?;
+    let begin = leaf.segments.len() - 1;
+    let length = begin + paths::borrowed_whole(library, &leaf.data, &one.segments[begin..])?;
+    let names = one.segments.iter().map(|segment| segment.name.as_str());
+    let whole = names.take(length).collect::<Vec<_>>().join(".");
+    (length <= longest).then_some(whole)
 }
 
 /// A state that is only read, at, above or below its path.

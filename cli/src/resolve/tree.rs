@@ -86,14 +86,16 @@ pub(super) fn merge<U: Clone + Ord>(
             .find(|(leaf, _)| declaration.names().starts_with(&leaf.names()));
         match above {
             Some((leaf, users)) => {
-                if !agree(library, leaf, &declaration, rules, diagnostics) {
+                let is_told = check_marks(&declaration, Some(leaf), rules, diagnostics)
+                    || agree(library, leaf, &declaration, rules, diagnostics);
+                if !is_told {
                     unchecked += 1;
                     hidden += usize::from(!is_told_by_edge(leaf, &declaration));
                 }
                 users.push(declaration.user);
             }
             None => {
-                check_marks(&declaration, rules, diagnostics);
+                check_marks(&declaration, None, rules, diagnostics);
                 let user = declaration.user.clone();
                 leaves.push((declaration, vec![user]));
             }
@@ -214,14 +216,21 @@ fn only_whole<U>(
     })
 }
 
-/// A `?` before the last segment needs somebody who declares that part as an `Option`.
-fn check_marks<U>(declaration: &Declaration<'_, U>, rules: &Rules, diagnostics: &mut Diagnostics) {
-    let before_last = declaration.segments.len() - 1;
-    let Some(marked) = declaration.segments[..before_last]
-        .iter()
-        .find(|one| one.optional)
+/// A `?` before the end of the leaf at or above a path needs somebody who declares that part as an `Option`; whether it was
+/// reported.
+fn check_marks<U>(
+    declaration: &Declaration<'_, U>,
+    leaf: Option<&Declaration<'_, U>>,
+    rules: &Rules,
+    diagnostics: &mut Diagnostics,
+) -> bool {
+    let end = leaf.unwrap_or(declaration).segments.len() - 1;
+    let mut before_end = declaration.segments[..end].iter().enumerate();
+    // What the leaf marks, too, was reported there.
+    let is_known = |index: usize| leaf.is_some_and(|leaf| leaf.segments[index].optional);
+    let Some((_, marked)) = before_end.find(|(index, one)| one.optional && !is_known(*index))
     else {
-        return;
+        return false;
     };
     let message = format!(
         "nobody declares {} `{}` as an `Option`",
@@ -234,6 +243,7 @@ fn check_marks<U>(declaration: &Declaration<'_, U>, rules: &Rules, diagnostics: 
             marked.name, marked.name
         ));
     diagnostics.add(error);
+    true
 }
 
 impl<U> Tree<U> {

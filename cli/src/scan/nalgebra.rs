@@ -133,6 +133,17 @@ impl Geometry {
         }
     }
 
+    /// Whether the field of this name lies behind `Deref`, so that whoever borrows it borrows the whole value.
+    pub fn dereferences_for(&self, field: &str) -> bool {
+        match self {
+            Self::Matrix { .. } => field != "data",
+            Self::Point { .. } | Self::Quaternion { .. } => field != "coords",
+            Self::Shift { .. } => field != "vector",
+            Self::Rotation { .. } | Self::Unit(_) => true,
+            Self::Complex { .. } | Self::Isometry { .. } | Self::Similarity { .. } => false,
+        }
+    }
+
     /// Its public fields; `None` where a part of it is unknown.
     pub fn fields(&self) -> Option<Vec<(String, Resolved)>> {
         let field = |name: &str, data: Resolved| (name.to_owned(), data);

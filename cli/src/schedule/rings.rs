@@ -72,10 +72,18 @@ pub(super) fn describe(cycler: &Cycler, ring: &[Edge]) -> Diagnostic {
         "nodes of cycler `{}` wait for each other: {whole}",
         cycler.name
     );
-    let mut diagnostic = Diagnostic::new(Code::DependencyCycle, message).help(
-        "break the ring where a value of the cycle before is good enough: write `PreviousInput` \
-         in place of one of these inputs",
-    );
+    let is_input = |edge: &Edge| edge.reason != Reason::CyclerState;
+    let deed = match ring.iter().any(is_input) {
+        true => {
+            "break the ring where a value of the cycle before is good enough: write \
+             `PreviousInput` in place of one of these inputs"
+        }
+        false => {
+            "break the ring where a value of the cycle before is good enough: write one of these \
+             states as a `MainOutput`, and read it as a `PreviousInput`"
+        }
+    };
+    let mut diagnostic = Diagnostic::new(Code::DependencyCycle, message).help(deed);
     diagnostic.spans = ring.iter().map(|edge| label(cycler, edge)).collect();
     diagnostic
 }

@@ -136,6 +136,40 @@ fn a_ring_is_told_whole_with_the_field_of_every_edge() {
 }
 
 #[test]
+fn a_ring_of_states_alone_has_a_help_of_its_own() {
+    let help = |only_states: bool| {
+        let second = match only_states {
+            true => node("control::b").reads_state("y", "f32", "y"),
+            false => node("control::b").input("z", "f32", "z"),
+        };
+        let robot = robot(vec![
+            real_time("Control")
+                .node(
+                    node("control::a")
+                        .reads_state("x", "f32", "x")
+                        .state("y", "f32", "y")
+                        .output("z", "f32"),
+                )
+                .node(second.state("x", "f32", "x")),
+        ]);
+        let mut diagnostics = Diagnostics::new();
+        schedule(&robot, &mut diagnostics).expect_err("the robot has a ring");
+        let helps = diagnostics.sorted();
+        helps[0].help.clone().unwrap_or_default()
+    };
+    let states = help(true);
+    assert!(
+        states.contains("write one of these states as a `MainOutput`"),
+        "{states}"
+    );
+    let inputs = help(false);
+    assert!(
+        inputs.contains("in place of one of these inputs"),
+        "{inputs}"
+    );
+}
+
+#[test]
 fn every_ring_is_told_also_the_smallest() {
     let robot = robot(vec![
         real_time("Control")

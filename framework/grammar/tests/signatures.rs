@@ -79,6 +79,14 @@ fn traits_are_read_from_every_form() {
         ),
         ("cycle<'a, H>(&mut self, c: CycleContext<'a, H>)", &[]),
         ("cycle<H: A>(&mut self, c: CycleContext<'_, H>)", &["A"]),
+        (
+            "cycle<H: h::H + B<'static>>(&mut self, c: CycleContext<H>)",
+            &["h::H", "B<'static>"],
+        ),
+        (
+            "cycle(&mut self, c: CycleContext<impl A<dyn for<'a> F<'a>>>)",
+            &["A<dynfor<'a>F<'a>>"],
+        ),
     ] {
         let source = format!(
             "{CONTEXTS} impl Node {{ pub fn new(c: CreationContext<impl N>) -> Result<Self> {{ x }} pub fn {cycle} -> Result<MainOutputs> {{ x }} }}"
@@ -318,6 +326,55 @@ fn a_wrong_cycle_is_told_with_the_expected_form() {
         assert_eq!(
             help,
             "expected `pub fn cycle(&mut self, context: CycleContext<impl Trait>) -> Result<MainOutputs>`"
+        );
+    }
+}
+
+#[test]
+fn what_generated_code_cannot_ask_of_the_hardware_is_refused() {
+    for (cycle, marked, message) in [
+        (
+            "cycle(&mut self, c: CycleContext<impl for<'a> A<'a>>) -> Result<MainOutputs>",
+            "'a",
+            "`cycle` asks for a trait with `'a`, which only its signature knows",
+        ),
+        (
+            "cycle<'b>(&mut self, c: CycleContext<impl A<&'b u8>>) -> Result<MainOutputs>",
+            "'b",
+            "`cycle` asks for a trait with `'b`, which only its signature knows",
+        ),
+        (
+            "cycle<H>(&mut self, c: CycleContext<H>) -> Result<MainOutputs> where for<'a> H: A<'a>",
+            "'a",
+            "`cycle` asks for a trait with `'a`, which only its signature knows",
+        ),
+        (
+            "cycle<H: A<H::Speed>>(&mut self, c: CycleContext<H>) -> Result<MainOutputs>",
+            "A<H::Speed>",
+            "`cycle` asks for a trait with `H`, which only its signature knows",
+        ),
+        (
+            "cycle<H>(&mut self, c: CycleContext<H>) -> Result<MainOutputs> where H: A, H::Speed: B",
+            "H::Speed",
+            "`cycle` asks for traits of `H::Speed`: only those of `H` itself can be asked for",
+        ),
+        (
+            "cycle<H: A>(&mut self, c: CycleContext<H>) -> Result<MainOutputs> where <H as A>::Speed: B",
+            "<H as A>::Speed",
+            "`cycle` asks for traits of `<H as A>::Speed`: only those of `H` itself can be asked for",
+        ),
+        (
+            "cycle<H: A>(&mut self, c: CycleContext<H>) -> Result<MainOutputs> where Vec<H>: B",
+            "Vec<H>",
+            "`cycle` asks for traits of `Vec<H>`: only those of `H` itself can be asked for",
+        ),
+    ] {
+        let new = "pub fn new(c: CreationContext<impl A>) -> Result<Self> { x }";
+        let (rule, found, told, _) = mistake(CONTEXTS, &format!("{new} pub fn {cycle} {{ x }}"));
+        assert_eq!(
+            (rule, &*found, &*told),
+            (Rule::InvalidSignature, marked, message),
+            "{cycle}"
         );
     }
 }

@@ -12,7 +12,7 @@ pub(super) struct Key {
     pub(super) name: String,
     /// What they may write instead.
     pub(super) aliases: Vec<String>,
-    /// It has no default, and is no `Option`.
+    /// It has no default, and is no `Option` that serde itself reads.
     pub(super) required: bool,
     /// Where an array ends before it, it has its default.
     pub(super) has_default: bool,
@@ -56,25 +56,19 @@ pub(super) fn field_keys(
     has_default: bool,
 ) -> Option<Vec<Key>> {
     let keys = fields.into_iter().map(|field| {
-        let required = !has_default && !is_optional(&field.data);
         let name = renamed(&field.name, rule)?;
-        key(field, name, required, has_default)
+        key(field, name, has_default)
     });
     let keys: Option<Vec<Option<Key>>> = keys.collect();
     Some(keys?.into_iter().flatten().collect())
 }
 
 /// Inner `None`: serde does not read the field.
-fn key(
-    field: StructField,
-    name_by_rule: String,
-    required: bool,
-    has_default: bool,
-) -> Option<Option<Key>> {
+fn key(field: StructField, name_by_rule: String, has_default: bool) -> Option<Option<Key>> {
     let mut key = Key {
         name: name_by_rule,
         aliases: Vec::new(),
-        required,
+        required: false,
         has_default,
         by_function: false,
         field,
@@ -82,7 +76,7 @@ fn key(
     let mut skipped = false;
     for item in serde_items(&key.field.attributes)? {
         match (name(&item).as_str(), text(&item)) {
-            ("default", _) => (key.required, key.has_default) = (false, true),
+            ("default", _) => key.has_default = true,
             ("skip" | "skip_deserializing", _) => skipped = true,
             ("rename", Some(name)) => key.name = name,
             ("alias", Some(name)) => key.aliases.push(name),
@@ -91,6 +85,8 @@ fn key(
             _ => return None,
         }
     }
+    // What a function reads has to be there, also where it gives an `Option`.
+    key.required = !key.has_default && (key.by_function || !is_optional(&key.field.data));
     Some((!skipped).then_some(key))
 }
 

@@ -141,12 +141,10 @@ pub(super) fn find(
 
 fn asked<'a>(manifest: &'a Manifest, choice: Option<&'a Choice>) -> Vec<Asked<'a>> {
     let file = Utf8Path::new(MANIFEST);
-    let key = "parameters";
-    let place = manifest.text.find(key);
     let mut asked = vec![Asked {
         location: None,
         file,
-        range: place.map_or(0..0, |start| start..start + key.len()),
+        range: manifest.parameters_range.clone(),
     }];
     asked.extend(manifest.targets.iter().filter_map(|target| {
         Some(Asked {

@@ -214,6 +214,73 @@ fn nobody_adds_all_instances_of_another_cycler_to_one_instance_alone() {
 }
 
 #[test]
+fn a_crate_that_only_a_part_of_what_is_read_whole_comes_from_is_named() {
+    let vision = "instances = [\"Top\", \"Bottom\"]";
+    let vision = cycler("Vision", "perception", vision, &[], &["eye"]);
+    let control = cycler("Control", "real-time", "", &[], &["hand"]);
+    let cameras = "pub struct Cameras { pub vision_top: Camera, pub vision_bottom: Camera }\n\
+                   pub struct Camera { pub offset: nalgebra::Vector3<f32> }";
+    let part = "p: Parameter<nalgebra::Vector3<f32>, \"cameras.$cycler_instance.offset\">,";
+    let hardware = "hardware: HardwareInterface,";
+    for (creation, cycle) in [(part, String::new()), ("", part.to_owned())] {
+        let cycle = cycle + hardware;
+        let eye = Node {
+            creation,
+            cycle: &cycle,
+            ..ACTS
+        };
+        let fixture = Fixture::new(&format!("{vision}{control}")).node("eye", eye);
+        let answer = with_field(fixture, "hand", "c: Parameter<Cameras, \"cameras\">")
+            .file("crates/types/src/lib.rs", cameras)
+            .answer();
+        let robot = answer.robot.unwrap_or_else(|| panic!("{}", answer.text));
+        let crates: Vec<&str> = robot.crates.iter().map(|one| one.name.as_str()).collect();
+        assert!(crates.contains(&"nalgebra"), "{crates:?}");
+    }
+}
+
+#[test]
+fn a_mark_needs_an_option_whoever_else_reads_what_lies_below() {
+    for (first, second) in [
+        ("Parameter<u8, \"a.b\">", "Parameter<Option<u8>, \"a?.b\">"),
+        ("Parameter<Option<u8>, \"a?.b\">", "Parameter<u8, \"a.b\">"),
+        (
+            "Parameter<Option<Point>, \"a.b\">",
+            "Parameter<Option<f32>, \"a?.b?.x\">",
+        ),
+    ] {
+        two(&format!("x: {first}"), &format!("y: {second}")).expect(
+            "option-mismatch",
+            &["nobody declares parameter `a` as an `Option`"],
+        );
+    }
+}
+
+#[test]
+fn what_is_read_whole_at_creation_and_in_part_later_is_no_parameter_of_creation_alone() {
+    for (part, creation_only) in [
+        ("", true),
+        ("p: Parameter<f32, \"ball.x\">,", false),
+        ("p: Parameter<f32, \"other\">,", true),
+    ] {
+        let cycle = format!("{part}\nhardware: HardwareInterface,");
+        let hand = Node {
+            creation: "b: Parameter<Ball, \"ball\">,",
+            cycle: &cycle,
+            ..ACTS
+        };
+        let robot = Fixture::control(&["hand"])
+            .node("hand", hand)
+            .file("parameters/default.toml", "other = 1\n[ball]\n");
+        let answer = robot.answer();
+        let robot = answer.robot.unwrap_or_else(|| panic!("{}", answer.text));
+        let hints = robot.parameter_hints.get("ball");
+        let found = hints.is_some_and(|hints| hints.creation_only);
+        assert_eq!(found, creation_only, "{part}");
+    }
+}
+
+#[test]
 fn states_are_shared_by_path() {
     let fixture = two(
         "x: CyclerState<Ball, \"ball\">,\ny: CyclerState<u8, \"count.a\">",
@@ -256,6 +323,45 @@ fn clashing_states_show_both_places() {
         "unwritten-state",
         &["no node of cycler `Control` writes the cycler state `a`"],
     );
+}
+
+#[test]
+fn parts_behind_a_deref_are_borrowed_with_the_whole() {
+    let pose = |parts: &str| two("x: CyclerState<nalgebra::Isometry3<f32>, \"pose\">", parts);
+    for (a, b) in [
+        ("f32, \"pose.translation.x\"", "f32, \"pose.translation.y\""),
+        (
+            "f32, \"pose.translation.x\"",
+            "&f32, \"pose.translation.y\"",
+        ),
+        (
+            "&nalgebra::Vector3<f32>, \"pose.translation.vector\"",
+            "f32, \"pose.translation.y\"",
+        ),
+    ] {
+        pose(&format!("a: CyclerState<{a}>,\nb: CyclerState<{b}>")).expect(
+            "overlapping-states",
+            &[
+                "both borrow `pose.translation` as a whole",
+                "ask for `pose.translation` in their place",
+            ],
+        );
+    }
+    let complex = "x: CyclerState<nalgebra::Vector2<nalgebra::Complex<f32>>, \"pair\">";
+    let parts = "a: CyclerState<f32, \"pair.x.re\">,\nb: CyclerState<f32, \"pair.x.im\">";
+    two(complex, parts).expect(
+        "overlapping-states",
+        &["`pair.x.re` and `pair.x.im` both borrow `pair` as a whole"],
+    );
+    // Both only read, and fields that each are borrowed alone.
+    pose("a: CyclerState<&f32, \"pose.translation.x\">,\nb: CyclerState<&f32, \"pose.translation.y\">")
+        .robot();
+    pose("a: CyclerState<f32, \"pose.translation.x\">,\nb: CyclerState<nalgebra::UnitQuaternion<f32>, \"pose.rotation\">")
+        .robot();
+    // Nobody has the two as one value.
+    let parts = "a: CyclerState<f32, \"place.x\">,\nb: CyclerState<f32, \"place.y\">";
+    let codes = two(parts, "y: CycleTime").answer().codes;
+    assert_eq!(codes, ["state-of-one-node"; 2]);
 }
 
 #[test]

@@ -268,15 +268,39 @@ fn recorded_while(path: &str) -> Fixture {
     Fixture::new(&cycler("Control", "real-time", &record, &[], &["a"])).node(
         "a",
         writes(
-            "is_playing: MainOutput<bool>, ball: MainOutput<Option<Ball>>, near: MainOutput<Ball>,",
+            "is_playing: MainOutput<bool>, ball: MainOutput<Option<Ball>>, mode: MainOutput<Mode>,",
         ),
     )
+    .file("crates/types/src/lib.rs", MODES)
+    .file(
+        "crates/types/Cargo.toml",
+        "[package]\nname = \"types\"\n[dependencies]\nnalgebra = \"0.35\"\n",
+    )
 }
+
+const MODES: &str = "
+    pub struct Ball { pub x: f32 }
+    #[derive(Deserialize)]
+    #[serde(rename_all = \"camelCase\")]
+    pub struct Mode {
+        pub is_playing: bool,
+        pub place: nalgebra::Point2<f32>,
+        half: Half,
+        #[serde(with = \"by_hand\")]
+        pub odd: u8,
+    }
+    #[derive(Deserialize)]
+    pub struct Half { first: Option<bool>, #[serde(rename = \"2nd\")] second: bool }
+";
 
 #[test]
 fn an_output_that_says_what_is_recorded_is_read() {
     recorded_while("is_playing").robot();
     recorded_while("Control.is_playing").robot();
+    // By the names of serde, as the robot looks for it.
+    for path in ["mode.isPlaying", "Control.mode.half.2nd", "mode.odd.on"] {
+        recorded_while(path).robot();
+    }
 }
 
 #[test]
@@ -298,12 +322,22 @@ fn what_is_recorded_is_asked_of_an_output_that_is_there_and_a_bool() {
             ["`ball` is no `bool`", "`ball` is `Option<types::Ball>`"],
         ),
         (
-            "near.secret",
-            "not-public",
+            "mode.is_playing",
+            "type-mismatch",
             [
-                "field `secret` of `types::Ball` is private",
-                "write `pub secret`",
+                "`types::Mode` has no part `is_playing`",
+                "did you mean `isPlaying`?",
             ],
+        ),
+        (
+            "mode.half.first",
+            "type-mismatch",
+            ["`mode.half.first` is no `bool`", "`mode` is `types::Mode`"],
+        ),
+        (
+            "mode.place.x",
+            "type-mismatch",
+            ["`mode.place.x` is no `bool`", "`mode` is `types::Mode`"],
         ),
     ] {
         recorded_while(path).expect(code, &parts);

@@ -2,9 +2,10 @@
 
 use syn::punctuated::Punctuated;
 use syn::spanned::Spanned;
+use syn::visit::{self, Visit};
 use syn::{
-    GenericArgument, GenericParam, Ident, ImplItemFn, Path, PathArguments, PathSegment, Token,
-    Type, TypeParamBound, WherePredicate,
+    GenericArgument, GenericParam, Ident, ImplItemFn, Lifetime, LifetimeParam, Path, PathArguments,
+    PathSegment, Token, Type, TypeParamBound, WherePredicate,
 };
 
 use super::check::{Expected, last_segment};
@@ -26,7 +27,10 @@ pub(super) fn read_bounds(
     match (interface.map(peel), parameter) {
         (None, _) => {}
         (Some(Type::ImplTrait(interface)), _) => bounds.extend(&interface.bounds),
-        (Some(_), Some(parameter)) => bounds.extend_from_generics(method, parameter),
+        (Some(_), Some(parameter)) => {
+            bounds.extend_from_generics(method, parameter);
+            mistakes.extend(lost_predicate(expected, method, parameter));
+        }
         (Some(other), None) => {
             let message = format!(
                 "`{}` asks for the hardware `{}`: a node works with any that has the traits it names",
@@ -36,6 +40,8 @@ pub(super) fn read_bounds(
             mistakes.push(expected.mistake(other.span(), message));
         }
     }
+    let strangers = bounds.traits.iter();
+    mistakes.extend(strangers.filter_map(|bound| stranger_in_bound(expected, bound, parameter)));
     bounds
 }
 
@@ -72,11 +78,104 @@ impl Bounds {
         let clause = method.sig.generics.where_clause.iter();
         for predicate in clause.flat_map(|clause| &clause.predicates) {
             if let WherePredicate::Type(predicate) = predicate
-                && last_segment(&predicate.bounded_ty).is_some_and(|last| last.ident == *parameter)
+                && is_parameter(&predicate.bounded_ty, parameter)
             {
                 self.extend(&predicate.bounds);
             }
         }
+    }
+}
+
+/// What a bound names that stands in the signature alone: generated code has the bound and not the signature.
+fn stranger_in_bound(
+    expected: &Expected<'_>,
+    bound: &Path,
+    parameter: Option<&Ident>,
+) -> Option<Mistake> {
+    let names = Names::in_tree(|names| names.visit_path(bound));
+    let (what, span) = match (names.stranger(), parameter) {
+        (Some(lifetime), _) => (lifetime.to_string(), lifetime.span()),
+        (None, Some(parameter)) if names.identifiers.contains(parameter) => {
+            (parameter.to_string(), bound.span())
+        }
+        _ => return None,
+    };
+    let message = format!(
+        "`{}` asks for a trait with `{what}`, which only its signature knows",
+        expected.function
+    );
+    Some(expected.mistake(span, message))
+}
+
+/// A predicate that says more of the hardware than which traits it has.
+fn lost_predicate(
+    expected: &Expected<'_>,
+    method: &ImplItemFn,
+    parameter: &Ident,
+) -> Option<Mistake> {
+    let clause = method.sig.generics.where_clause.iter();
+    let lost =
+        clause
+            .flat_map(|clause| &clause.predicates)
+            .find_map(|predicate| match predicate {
+                WherePredicate::Type(predicate)
+                    if !is_parameter(&predicate.bounded_ty, parameter) =>
+                {
+                    let bounded = &predicate.bounded_ty;
+                    let names = Names::in_tree(|names| names.visit_type(bounded));
+                    names.identifiers.contains(parameter).then_some(bounded)
+                }
+                _ => None,
+            })?;
+    let message = format!(
+        "`{}` asks for traits of `{}`: only those of `{parameter}` itself can be asked for",
+        expected.function,
+        written(lost)
+    );
+    Some(expected.mistake(lost.span(), message))
+}
+
+fn is_parameter(data: &Type, parameter: &Ident) -> bool {
+    matches!(peel(data), Type::Path(path) if path.qself.is_none() && path.path.is_ident(parameter))
+}
+
+/// Names in a part of a signature.
+#[derive(Default)]
+struct Names {
+    /// With which paths begin.
+    identifiers: Vec<Ident>,
+    lifetimes: Vec<Lifetime>,
+    /// Lifetimes that a `for<…>` in it introduces.
+    introduced: Vec<Lifetime>,
+}
+
+impl Names {
+    fn in_tree(visit: impl FnOnce(&mut Self)) -> Self {
+        let mut names = Self::default();
+        visit(&mut names);
+        names
+    }
+
+    /// A lifetime that comes from outside.
+    fn stranger(&self) -> Option<&Lifetime> {
+        let mut lifetimes = self.lifetimes.iter();
+        lifetimes.find(|one| one.ident != "static" && !self.introduced.contains(one))
+    }
+}
+
+impl<'ast> Visit<'ast> for Names {
+    fn visit_path(&mut self, path: &'ast Path) {
+        let first = path.segments.first().map(|first| first.ident.clone());
+        self.identifiers.extend(first);
+        visit::visit_path(self, path);
+    }
+
+    fn visit_lifetime(&mut self, lifetime: &'ast Lifetime) {
+        self.lifetimes.push(lifetime.clone());
+    }
+
+    fn visit_lifetime_param(&mut self, parameter: &'ast LifetimeParam) {
+        self.introduced.push(parameter.lifetime.clone());
     }
 }
 
