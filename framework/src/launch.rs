@@ -35,7 +35,7 @@ use crate::link::Link;
 use crate::parameters::{Layers, Parameters};
 use crate::recorded::Recording;
 use crate::replay::Replayable;
-use crate::report::{RobotReport, tell};
+use crate::report::{RobotReport, flush, keep_from_robot, tell};
 use crate::robot::{Robot, Start};
 use crate::stop::Stop;
 use crate::timing::{self, Timing};
@@ -184,10 +184,12 @@ where
         }
         result.map(|ended| ended.status(signals.interrupted()))
     });
-    result.unwrap_or_else(|error| {
+    let status = result.unwrap_or_else(|error| {
         tell(format_args!("error: {error}"));
         FAILED
-    })
+    });
+    flush();
+    status
 }
 
 fn start_and_run<H, P>(
@@ -207,6 +209,7 @@ where
         Format::Json => Timing::Complete,
         Format::Text => Timing::Sampled,
     });
+    keep_from_robot()?;
     // Dropped behind the hardware.
     let ending = Ending::new();
     let clock = Clock::wall();
@@ -310,6 +313,7 @@ fn write_report(
         Format::Json => {
             let mut json = report.to_json();
             json["page"] = page.into();
+            flush();
             writeln!(output, "{json}")
         }
         Format::Text => {
@@ -326,7 +330,7 @@ fn give_up(recording: &Mutex<Option<Recording>>) {
     if let Some(recording) = lock(recording).take() {
         tell(format_args!("{}", ending::end(recording)));
     }
-    std::process::exit(FAILED.into());
+    ending::exit();
 }
 
 fn lock(recording: &Mutex<Option<Recording>>) -> MutexGuard<'_, Option<Recording>> {

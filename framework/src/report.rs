@@ -1,11 +1,9 @@
 //! What a run was like: counts and durations of instances, nodes and queues.
 
 mod json;
+mod standard_error;
 mod text;
 
-use std::fmt;
-use std::io::Write;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use crate::cycler::{Counts, InstanceDescription};
@@ -15,6 +13,7 @@ use crate::scheduling::Granted;
 use crate::temporal::QueueCounts;
 use crate::timing::{CountingAllocator, Histogram};
 
+pub(crate) use standard_error::{flush, keep_from_robot, tell, tell_test};
 pub(crate) use text::plural;
 
 /// A whole run.
@@ -121,26 +120,6 @@ pub struct QueueReport {
     pub from: &'static str,
     /// Its cycles, as far as this consumer is concerned.
     pub counts: QueueCounts,
-}
-
-/// Whether what is told belongs to a test.
-static IN_TEST: AtomicBool = AtomicBool::new(false);
-
-/// From here on what is told is kept with the output of the test whose thread tells it, or began the one that does: failures
-/// that tests provoke do not hide the one that was not expected.
-pub(crate) fn tell_test() {
-    IN_TEST.store(true, Ordering::Relaxed);
-}
-
-/// Tells whoever watches standard error, in one piece; if nobody can read it, the robot goes on.
-pub(crate) fn tell(message: fmt::Arguments<'_>) {
-    let text = format!("{message}\n");
-    if IN_TEST.load(Ordering::Relaxed) {
-        // What the harness collects; it would panic where nobody can read it.
-        eprint!("{text}");
-        return;
-    }
-    let _ = std::io::stderr().lock().write_all(text.as_bytes());
 }
 
 impl RobotReport {

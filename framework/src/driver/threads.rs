@@ -327,19 +327,21 @@ impl Threads<'_> {
         while self.stop.wait(period).is_ok() {
             safe_state.rearm_if_wanted(&self.rearm);
             let now = self.clock.now();
-            for watched in &mut *watched {
-                if !watched.hangs_anew(now) {
-                    continue;
-                }
+            let hanging = watched.iter_mut();
+            let hanging: Vec<_> = hanging
+                .filter_map(|watched| watched.hangs_anew(now).then_some(&*watched))
+                .collect();
+            // First: whoever is told may not be listening.
+            if hanging.iter().any(|watched| watched.is_real_time()) {
+                safe_state.enter();
+            }
+            for watched in hanging {
                 let (name, limit) = (watched.description.name, watched.limit());
                 let is_real_time = watched.is_real_time();
                 let then = if is_real_time { ": safe state" } else { "" };
                 tell(format_args!(
                     "{name} has not finished a cycle for {limit:?}{then}"
                 ));
-                if is_real_time {
-                    safe_state.enter();
-                }
             }
         }
     }

@@ -11,7 +11,7 @@ use std::sync::Once;
 
 use crate::error::Error;
 use crate::guarded::OnFailure;
-use crate::report::tell;
+use crate::report::{flush, tell};
 
 thread_local! {
     static INSIDE: Cell<Option<&'static str>> = const { Cell::new(None) };
@@ -54,6 +54,7 @@ pub(super) fn install_hook() {
                 let message = describe(panic);
                 if let Some(first) = LAST.replace(Some(message.clone())) {
                     tell(format_args!("{name} {first}\n{name} {message}"));
+                    flush();
                 }
             }
             None => before(panic),

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use super::{FAILED, INTERRUPTED};
 use crate::error::Error;
 use crate::recorded::{Recording, RecordingReport};
-use crate::report::tell;
+use crate::report::{flush, tell};
 
 /// A ring of 2 GiB of which all is in the cache of the system is on a slow stick, of 10 MB/s, within this time.
 const DISK: Duration = Duration::from_secs(300);
@@ -66,7 +66,7 @@ struct Step {
 impl Ending {
     /// Nothing ends yet. Without a thread nobody looks: then it is waited for.
     pub(super) fn new() -> Self {
-        Self::giving_up(|| std::process::exit(FAILED.into()))
+        Self::giving_up(exit)
     }
 
     fn giving_up(give_up: impl FnOnce() + Send + 'static) -> Self {
@@ -91,6 +91,12 @@ impl Ending {
         // Without a thread nobody hears it.
         let _ = self.0.send(Step { patience, failure });
     }
+}
+
+/// Ends the process in place of whatever does not end.
+pub(super) fn exit() {
+    flush();
+    std::process::exit(FAILED.into());
 }
 
 fn look(steps: &Receiver<Step>, give_up: impl FnOnce()) {

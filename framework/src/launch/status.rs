@@ -51,8 +51,8 @@ impl Supervisor {
         let seen = watched.clone();
         let of_thread = stop.clone();
         let is_over = move || {
-            let is_over = lock(&seen).as_mut().is_some_and(Watched::look);
-            is_over || signals.any()
+            // Before anything is shown.
+            signals.any() || lock(&seen).as_mut().is_some_and(Watched::look)
         };
         let thread = thread::Builder::new()
             .name("supervisor".to_owned())

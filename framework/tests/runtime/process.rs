@@ -2,10 +2,10 @@
 
 use std::ffi::OsString;
 use std::fs::File;
-use std::io::{self, Read, Write};
+use std::io::{self, PipeReader, PipeWriter, Read, Write};
 use std::path::Path;
-use std::process::{Command, ExitStatus, Stdio};
-use std::sync::Arc;
+use std::process::{Child, Command, ExitStatus, Stdio};
+use std::sync::{Arc, mpsc};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -26,6 +26,9 @@ const RUN: &str = "FRAMEWORK_TEST_RUN";
 
 /// What a run that hangs leaves in its folder.
 const RECORDING: &str = "run.mcap";
+
+/// What the hardware leaves there when it is asked for the safe state.
+pub(crate) const MARK: &str = "safe_state";
 
 /// A reader of the report who has left.
 struct Closed;
@@ -147,6 +150,18 @@ fn a_process_of_this_test_is_the_run_it_was_told_to_be() {
             let recording = std::env::temp_dir().join(RECORDING);
             let recording = recording.to_str().expect("it was told as text");
             launch(&["--for", "5500ms", "--record", recording], &setting)
+        }
+        Ok("hanging before a terminal that stands still") => {
+            let eye = Plan {
+                work: Script::new([Act::Fail, Act::Fail]),
+                ..Plan::default()
+            };
+            let acts = [Act::Fail, Act::Take(u64::from(u32::MAX))];
+            let setting = Setting {
+                eye,
+                ..failing(OnFailure::Skip, &acts)
+            };
+            launch(&["--", MARK], &setting)
         }
         Ok(where_to @ ("hang in stop" | "hang in safe state" | "hang in drop")) => {
             let recording = std::env::temp_dir().join(RECORDING);
@@ -277,6 +292,63 @@ fn a_robot_whose_standard_error_cannot_be_written_runs_to_its_end() {
         .expect("Linux has it");
     let (status, _) = end_of("long enough for a line of status", full.into());
     assert_eq!(status.code(), Some(0), "{status}");
+}
+
+/// A pipe that is full, and stays so as long as what is read from it is not.
+fn full_pipe() -> (PipeReader, PipeWriter) {
+    let (reader, writer) = io::pipe().expect("a pipe");
+    let mut filling = writer.try_clone().expect("a second end");
+    let (sender, written) = mpsc::channel();
+    thread::spawn(move || while filling.write_all(b"\n").is_ok() && sender.send(()).is_ok() {});
+    // Where the next byte finds no place, nothing is said any more.
+    while written.recv_timeout(Duration::from_secs(1)).is_ok() {}
+    (reader, writer)
+}
+
+#[test]
+fn a_robot_whose_terminal_stands_still_has_its_safe_state_its_signals_and_its_end() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (reader, writer) = full_pipe();
+    let mut child = Command::new(std::env::current_exe().expect("this test"))
+        .args(["--exact", "--nocapture"])
+        .env("TMPDIR", folder.path())
+        .arg("process::a_process_of_this_test_is_the_run_it_was_told_to_be")
+        .env(RUN, "hanging before a terminal that stands still")
+        .stdout(Stdio::null())
+        .stderr(writer)
+        .spawn()
+        .expect("this test can be started");
+    let mut is_within = |limit: Duration, is_so: &mut dyn FnMut(&mut Child) -> bool| {
+        let begun = Instant::now();
+        while !is_so(&mut child) {
+            if begun.elapsed() > limit {
+                child.kill().expect("it is a child");
+                return false;
+            }
+            thread::sleep(Duration::from_millis(10));
+        }
+        true
+    };
+    let mark = folder.path().join(MARK);
+    let limit = Duration::from_secs(20);
+    assert!(
+        is_within(limit, &mut |_| mark.exists()),
+        "no safe state for a cycle that hangs"
+    );
+    assert!(is_within(limit, &mut |child| {
+        let id = rustix::process::Pid::from_child(child);
+        rustix::process::kill_process(id, rustix::process::Signal::TERM).is_ok()
+    }));
+    let mut status = None;
+    // Its threads have 10 s for their end.
+    let limit = Duration::from_secs(30);
+    let is_over = is_within(limit, &mut |child| {
+        status = child.try_wait().expect("it is a child");
+        status.is_some()
+    });
+    assert!(is_over, "the robot does not end");
+    assert_eq!(status.and_then(|status| status.code()), Some(1));
+    drop(reader);
 }
 
 /// Leaves the disk one page, for the parameters that a run of this test has there.

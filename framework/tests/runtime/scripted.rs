@@ -1,6 +1,7 @@
 //! Hardware and nodes that do what a test wrote down.
 
 use std::collections::VecDeque;
+use std::fs::File;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex};
 use std::thread::{self, ThreadId};
@@ -9,6 +10,8 @@ use std::time::Duration;
 use framework::{
     Clock, Error, Event, Hardware, HardwareContext, NoEvent, Result, Stop, Stopped, Timestamp,
 };
+
+use crate::process::MARK;
 
 pub(crate) fn millis(millis: u64) -> Timestamp {
     Timestamp::ZERO + Duration::from_millis(millis)
@@ -232,6 +235,9 @@ impl Hardware for ScriptedHardware {
 
     fn enter_safe_state(&self) {
         self.log.add("safe state");
+        if self.options == [MARK] {
+            File::create(std::env::temp_dir().join(MARK)).expect("its folder is there");
+        }
         hang_if(self.options == ["hang in safe state"]);
     }
 

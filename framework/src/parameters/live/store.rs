@@ -5,7 +5,8 @@ mod layout;
 mod tables;
 mod text;
 
-use std::fs;
+use std::fs::{self, File};
+use std::io::Write;
 use std::path::{Path as FilePath, PathBuf};
 
 use serde::Serialize;
@@ -293,12 +294,20 @@ fn write(file: &FilePath, text: &str) -> Result<(), String> {
     let file = fs::canonicalize(file).unwrap_or_else(|_| file.to_owned());
     let name = file.file_name().unwrap_or_default().to_string_lossy();
     let beside = file.with_file_name(format!(".{name}.{}", std::process::id()));
-    let written = fs::write(&beside, text).and_then(|()| {
+    let written = File::create(&beside).and_then(|mut new| {
+        new.write_all(text.as_bytes())?;
         if let Ok(known) = fs::metadata(&file) {
             fs::set_permissions(&beside, known.permissions())?;
         }
+        // Before it takes the place of what is safe: a battery may be pulled.
+        new.sync_all()?;
         fs::rename(&beside, &file)
     });
+    if written.is_ok() {
+        // The file has its text by now; a folder that cannot be synchronised is no reason to say otherwise.
+        let folder = file.parent().map(File::open);
+        let _ = folder.map(|folder| folder.and_then(|folder| folder.sync_all()));
+    }
     written.map_err(|error| {
         // Perhaps it is not even there.
         let _ = fs::remove_file(&beside);
