@@ -220,6 +220,9 @@ mod tests {
             });
         });
         assert_eq!(written.recv().as_deref(), Ok("one\n"));
+        while queue.done.load(Ordering::Acquire) == 0 {
+            thread::yield_now();
+        }
         queue.await_written(Duration::MAX);
         assert_eq!(written.try_recv().as_deref(), Ok("two\n"));
         writer.join().expect("it does not panic");
