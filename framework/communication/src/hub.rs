@@ -32,6 +32,9 @@ pub(crate) const PATIENCE: Duration = Duration::from_secs(2);
 /// Instances tell what they did within this time, or have finished no cycle meanwhile.
 const REPORTING: Duration = Duration::from_millis(500);
 
+/// So long copies are handed out before clients are heard again.
+const LONGEST: Duration = Duration::from_millis(20);
+
 /// Names one connection.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct ClientId(u64);
@@ -61,6 +64,8 @@ pub(crate) struct Hub {
     pub(crate) rules: Rules,
     pub(crate) limits: Limits,
     pub(crate) sources: Vec<Source>,
+    /// The source that is looked at first.
+    first: usize,
     pub(crate) clients: BTreeMap<ClientId, Client>,
     /// Which client replaced which output last: (instance, name).
     pub(crate) injected: BTreeMap<(usize, &'static str), ClientId>,
@@ -147,6 +152,7 @@ impl Hub {
             rules,
             limits,
             sources,
+            first: 0,
             clients: BTreeMap::new(),
             injected: BTreeMap::new(),
             feeders: BTreeMap::new(),
@@ -289,9 +295,7 @@ impl Hub {
 
     /// Looks at everything that may have changed; whether it has to be done again soon.
     pub(crate) fn look(&mut self) -> bool {
-        for source in self.sources.iter_mut().filter(|source| source.is_open()) {
-            source.hand_out(&mut self.clients, &mut self.press, &self.limits);
-        }
+        self.hand_out();
         self.told.fetch(&self.link.instances);
         self.look_at_logs();
         self.look_after_waiting();
@@ -303,6 +307,24 @@ impl Hub {
         }
         let is_behind = self.tell_parameters();
         is_behind || !self.waiting.is_empty() || self.sources.iter().any(Source::is_open)
+    }
+
+    /// Hands out what instances left, of each in turn, as long as clients can wait to be heard.
+    fn hand_out(&mut self) {
+        let begun = Instant::now();
+        let count = self.sources.len();
+        for index in (self.first..count).chain(0..self.first) {
+            let source = &mut self.sources[index];
+            if !source.is_open() {
+                continue;
+            }
+            source.hand_out(&mut self.clients, &mut self.press, &self.limits);
+            if begun.elapsed() > LONGEST {
+                // Those behind it come first the next time, which is soon: this one is open.
+                self.first = index + 1;
+                return;
+            }
+        }
     }
 
     /// Ends a subscription that its client does not have any more.

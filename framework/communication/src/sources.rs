@@ -5,6 +5,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use framework::reflect::{Path, Reflect, ResolvedPath, Shape, binary};
+use framework::tap::WINDOW;
 use framework::{OutputKind, Tap, Tapped};
 use protocol::Encoding;
 
@@ -211,7 +212,7 @@ impl Source {
         self.forget_unused();
     }
 
-    /// Hands out every copy that the instance left.
+    /// Hands out the copies that the instance has left; of those that it leaves meanwhile some may wait for the next time.
     pub(crate) fn hand_out(
         &mut self,
         clients: &mut BTreeMap<ClientId, Client>,
@@ -225,11 +226,13 @@ impl Source {
             ..
         } = self;
         let mut read = 0;
-        while tap.take(|tapped| {
-            for stream in streams.iter_mut() {
-                read += stream.hand_out(tapped, *is_injected, clients, press, limits);
-            }
-        }) {}
+        as_many_as_wait(|| {
+            tap.take(|tapped| {
+                for stream in streams.iter_mut() {
+                    read += stream.hand_out(tapped, *is_injected, clients, press, limits);
+                }
+            })
+        });
         (0..read).for_each(|_| tap.close());
         let lost = tap.dropped() - self.dropped;
         self.dropped += lost;
@@ -385,6 +388,16 @@ fn stamp(cycle: u64, time: u64) -> Vec<u8> {
 pub(crate) fn resolve(shape: &Shape, below: &str) -> Result<ResolvedPath, String> {
     let path: Path = below.parse().map_err(|error| format!("{error}"))?;
     ResolvedPath::new(shape, &path).map_err(|unknown| unknown.to_string())
+}
+
+/// Takes until there is nothing, but no more than can wait at once: an instance that is faster than its copies are handed out
+/// would have them handed out for ever, and nobody would be heard.
+fn as_many_as_wait(mut take: impl FnMut() -> bool) {
+    for _ in 0..WINDOW {
+        if !take() {
+            return;
+        }
+    }
 }
 
 #[cfg(test)]

@@ -14,7 +14,7 @@ use protocol::Encoding;
 use serde::{Serialize, Serializer};
 use serde_json::json;
 
-use super::{Rate, Reader, Stream, Subscriber, resolve};
+use super::{Rate, Reader, Stream, Subscriber, as_many_as_wait, resolve};
 use crate::connection::News;
 use crate::hub::{Client, ClientId, Hub, Rules};
 use crate::limits::Limits;
@@ -63,6 +63,23 @@ fn rates_are_met_and_never_exceeded() {
     ] {
         assert_eq!(sent(rate, 12_000_000), expected, "{rate:?}");
     }
+}
+
+#[test]
+fn an_instance_that_always_has_one_more_is_left_for_others() {
+    let mut taken = 0;
+    as_many_as_wait(|| {
+        taken += 1;
+        assert!(taken < 1000, "nobody else is heard");
+        true
+    });
+    assert_eq!(taken, framework::tap::WINDOW);
+    let mut left = 3;
+    as_many_as_wait(|| {
+        left -= 1;
+        left > 0
+    });
+    assert_eq!(left, 0, "all of them");
 }
 
 /// A value that counts how often it is written, as a text of 1000 bytes.
