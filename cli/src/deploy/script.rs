@@ -35,10 +35,10 @@ echo "current $(pwd -P)"
     )
 }
 
-/// Tells which files of a version, in its folder, are not as they were sent.
+/// Tells which files of a version, in its folder, are not as they were sent: by a word that other languages translate.
 fn changed() -> String {
     format!(
-        r#"sha256sum -c {SUMS} 2>/dev/null | sed -n 's/^\(.*\): FAILED.*$/changed \1/p'
+        r#"LC_ALL=C sha256sum -c {SUMS} 2>/dev/null | sed -n 's/^\(.*\): FAILED.*$/changed \1/p'
 known=$(sed 's/^[^ ]*  //' {SUMS})
 find . -type f ! -name {SUMS} | grep -vxF -e "$known" | sed 's/^/changed /'
 "#
@@ -143,7 +143,33 @@ pub(crate) fn as_a_word(word: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::quoted;
+    use std::process::Command;
+
+    use super::{SUMS, changed, quoted};
+
+    #[test]
+    fn what_was_changed_is_seen_whatever_language_the_robot_speaks() {
+        let folder = tempfile::tempdir().expect("there is room");
+        let write = |file: &str, text: &str| {
+            std::fs::write(folder.path().join(file), text).expect("the folder is ours");
+        };
+        // Of an empty file.
+        let sum = "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855";
+        write(SUMS, &format!("{sum}  ./default.toml\n"));
+        write("default.toml", "gain = 2\n");
+        // As one that speaks German, where nobody asks it for another language.
+        let german = "sha256sum() { [ \"$LC_ALL\" = C ] && word=FAILED || word=FEHLSCHLAG; \
+                      command sha256sum \"$@\" | sed \"s/FAILED/$word/\"; }";
+        let script = format!("{german}\n{}", changed());
+        let output = Command::new("sh")
+            .args(["-c", &script])
+            .env("LC_ALL", "de_DE.UTF-8")
+            .current_dir(folder.path())
+            .output()
+            .expect("there is a shell");
+        let said = String::from_utf8_lossy(&output.stdout);
+        assert_eq!(said, "changed ./default.toml\n");
+    }
 
     #[test]
     fn a_word_stays_one_word() {
