@@ -79,7 +79,8 @@ fn next(selection: MotionSelection, wanted: BodyMotion, exits: SafeExits) -> Mot
         (BodyMotion::Unstiff, _) => go(wanted),
         _ if selection.is_dispatching => match (exits.dispatch, current == wanted) {
             (false, _) => stay,
-            (true, false) if !is_kick(current) => go(wanted),
+            // Whom the referee takes out may have somebody's hands on it.
+            (true, false) if !is_kick(current) || wanted == BodyMotion::Penalized => go(wanted),
             (true, _) => arrive(stay, exits),
         },
         (BodyMotion::SitDown, _) if !exits.sit_down => stay,
@@ -307,6 +308,16 @@ mod tests {
         assert_eq!(select(&mut node, stand, EVERYWHERE), (KICK, false));
         assert_eq!(select(&mut node, stand, NOWHERE), (KICK, false));
         assert_eq!(select(&mut node, stand, EVERYWHERE), (stand, true));
+    }
+
+    #[test]
+    fn a_kick_that_has_not_begun_is_left_by_who_is_penalized() {
+        let mut node = node_in(BodyMotion::Stand);
+        let out = BodyMotion::Penalized;
+        assert_eq!(select(&mut node, KICK, NOWHERE), (KICK, true));
+        assert_eq!(select(&mut node, out, NOWHERE), (KICK, true));
+        assert_eq!(select(&mut node, out, EVERYWHERE), (out, true));
+        assert_eq!(select(&mut node, out, EVERYWHERE), (out, false));
     }
 
     #[test]

@@ -195,8 +195,15 @@ impl View<'_> {
     ) -> Decision {
         match self.world.ground_to_field {
             Some(ground_to_field) => {
-                let target = ground_to_field.inverse() * pose;
-                self.walk(near, &target, None, (on_the_way, there))
+                let field_to_ground = ground_to_field.inverse();
+                let target = field_to_ground * pose;
+                let ball = self.ball_on_field().map(|ball| field_to_ground * ball);
+                let ball = ball.filter(|_| gives_room(on_the_way));
+                let around = ball.map(|middle| Circle {
+                    middle,
+                    radius: self.parameters.attack.clearance,
+                });
+                self.walk(near, &target, (around, false), (on_the_way, there))
             }
             None => self.look_for_pose(there),
         }
@@ -230,14 +237,15 @@ impl View<'_> {
         there: Activity,
     ) -> Decision {
         let near = self.parameters.walk.near;
-        self.walk(near, target, more, (on_the_way, there))
+        let is_at_ball = more.is_some();
+        self.walk(near, target, (more, is_at_ball), (on_the_way, there))
     }
 
     fn walk(
         &self,
         near: f32,
         target: &Isometry2<f32>,
-        more: Option<Circle>,
+        (more, is_at_ball): (Option<Circle>, bool),
         (on_the_way, there): (Activity, Activity),
     ) -> Decision {
         let walk = WalkParameters {
@@ -246,7 +254,7 @@ impl View<'_> {
         };
         let target = &self.out_of_goals(target);
         let place = Point2::from(target.translation.vector);
-        if self.is_occupied(place, more.is_some()) {
+        if self.is_occupied(place, is_at_ball) {
             let mut decision = Decision::of_body(there, BodyMotion::Stand, self.head());
             decision.plan.target = Some(*target);
             return decision;
@@ -323,6 +331,14 @@ impl View<'_> {
         let place = ground_to_field.inverse() * self.parameters.places.out_of_goals(place);
         Isometry2::from_parts(place.into(), target.rotation)
     }
+}
+
+/// Whoever does this must not touch the ball.
+fn gives_room(activity: Activity) -> bool {
+    matches!(
+        activity,
+        Activity::KeepDistance | Activity::LeavePenaltyArea
+    )
 }
 
 #[cfg(test)]

@@ -49,7 +49,14 @@ fn restricted(view: &View<'_>) -> Option<Decision> {
             return blocks.or_else(|| Some(stay_on_line(view)));
         }
     }
-    if world.ground_to_field.is_none() && is_theirs && world.ball.is_some() {
+    let is_kick_off = world.set_play == SetPlay::None
+        && view
+            .since_kick_off()
+            .is_some_and(|since| since < places.kick_off_duration);
+    let is_their_kick_off =
+        is_kick_off && world.kicking_team == KickingTeam::Opponent && view.role() != Role::Keeper;
+    let is_lost = world.ground_to_field.is_none();
+    if is_lost && (is_theirs || is_their_kick_off) && world.ball.is_some() {
         return Some(view.look_for_pose(Activity::KeepDistance));
     }
     let on_field = view.ball_on_field()?;
@@ -77,9 +84,6 @@ fn restricted(view: &View<'_>) -> Option<Decision> {
             stay_away(Activity::KeepDistance)
         }
         (KickingTeam::Opponent, _) => {
-            let is_kick_off = view
-                .since_kick_off()
-                .is_some_and(|since| since < places.kick_off_duration);
             let lies_there = on_field.coords.norm() < places.kicked_off;
             match is_kick_off && lies_there {
                 true => stay_away(Activity::KeepDistance),
@@ -304,6 +308,39 @@ mod tests {
             scene.kicked_off(since);
             let is_away = scene.view(play).activity == Activity::KeepDistance;
             assert_eq!(is_away, !is_free, "{since} s, {ball_ahead} m");
+        }
+    }
+
+    #[test]
+    fn who_is_lost_leaves_a_kick_off_to_the_others() {
+        for (since, is_theirs) in [(1.0, true), (11.0, false)] {
+            let mut scene = Scene::at(-1.2, 0.0, 0.0).with_ball(1.2, 0.0);
+            scene.world.kicking_team = KickingTeam::Opponent;
+            scene.without_pose_for(0.0);
+            scene.kicked_off(since);
+            let is_away = scene.view(play).activity == Activity::KeepDistance;
+            assert_eq!(is_away, is_theirs, "{since} s");
+        }
+    }
+
+    #[test]
+    fn who_gives_the_others_room_does_not_walk_over_their_ball() {
+        // The ball lies between the robot and its place.
+        for (ahead, left) in [(-0.5, 0.05), (-0.6, -0.1), (-0.4, 0.0)] {
+            for sees in [true, false] {
+                let mut scene = Scene::at(1.0, 0.0, 0.0).with_ball(ahead, left);
+                scene.world.set_play = SetPlay::KickIn;
+                scene.world.kicking_team = KickingTeam::Opponent;
+                if !sees {
+                    scene.world.team_ball = scene.world.ball.take().map(|ball| ball.position);
+                }
+                let plan = scene.view(play).plan;
+                let way_point = plan.way_point.expect("it walks").coords;
+                let ball = Point2::new(ahead, left).coords;
+                let along = (ball.dot(&way_point) / way_point.norm_squared()).clamp(0.0, 1.0);
+                let nearest = (ball - way_point * along).norm();
+                assert!(nearest > 0.25, "{nearest} m of ({ahead}, {left})");
+            }
         }
     }
 
