@@ -309,6 +309,14 @@ impl Hub {
         is_behind || !self.waiting.is_empty() || self.sources.iter().any(Source::is_open)
     }
 
+    /// As [`look`](Self::look), with all that instances have left, however long it takes: nobody looks again.
+    pub(crate) fn look_at_last(&mut self) {
+        for source in self.sources.iter_mut().filter(|source| source.is_open()) {
+            source.hand_out(&mut self.clients, &mut self.press, &self.limits);
+        }
+        self.look();
+    }
+
     /// Hands out what instances left, of each in turn, as long as clients can wait to be heard.
     fn hand_out(&mut self) {
         let begun = Instant::now();

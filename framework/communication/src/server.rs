@@ -153,7 +153,7 @@ async fn run(listener: TcpListener, shared: Arc<Shared>, is_over: oneshot::Recei
         _ = is_over => {}
     }
     // What was answered until the end is told.
-    shared.hub().look();
+    shared.hub().look_at_last();
     shared.ending.send_replace(true);
     let _ = timeout(GOODBYE, async {
         while shared.hub().has_clients() {
