@@ -257,7 +257,7 @@ fn enter(
             file: structure.file,
             range: found.range.clone(),
         }),
-        None if library.may_dereference(data) => Err(Agreement::Unknown),
+        None if structure.dereferences => Err(Agreement::Unknown),
         None => {
             let names = structure.fields.into_iter().map(|one| one.name);
             Err(no_field(data, field, names.collect()))

@@ -25,6 +25,8 @@ pub struct StructFields {
     /// Attributes of the struct.
     pub attributes: Vec<Attribute>,
     pub fields: Vec<StructField>,
+    /// It stands for another value by `Deref`, which may have more fields.
+    pub dereferences: bool,
 }
 
 /// A named field.
@@ -145,6 +147,7 @@ impl Library<'_> {
             range: range(definition.ident.span()),
             attributes: definition.attrs.clone(),
             fields,
+            dereferences: dereferences(&item.module.syntax, &definition.ident, &definition.attrs),
         })
     }
 
@@ -183,20 +186,15 @@ impl Library<'_> {
 
     /// Whether a type of the workspace certainly has no field with a name.
     pub fn is_without_fields(&self, data: &Resolved) -> bool {
-        let plain = Plain::of(data);
-        let is_without = plain.is_some_and(|plain| match plain.item.item() {
-            Item::Enum(_) => true,
-            Item::Struct(item) => !matches!(item.fields, Fields::Named(_)),
-            _ => false,
-        });
-        is_without && !self.may_dereference(data)
-    }
-
-    /// Whether a type of the workspace may stand for another value by `Deref`, which may have more fields.
-    pub fn may_dereference(&self, data: &Resolved) -> bool {
-        Plain::of(data).is_none_or(|plain| {
-            derives(plain.attributes, "Deref") || self.may_implement(plain.item, "Deref")
-        })
+        let Some(plain) = Plain::of(data) else {
+            return false;
+        };
+        let name = match plain.item.item() {
+            Item::Enum(item) => &item.ident,
+            Item::Struct(item) if !matches!(item.fields, Fields::Named(_)) => &item.ident,
+            _ => return false,
+        };
+        !dereferences(&plain.item.module.syntax, name, plain.attributes)
     }
 
     fn variant_fields(
@@ -231,6 +229,30 @@ impl Library<'_> {
             _ => 0..0,
         }
     }
+}
+
+/// Whether a type stands for another value, by `impl Deref` beside it or by a derive.
+fn dereferences(file: &syn::File, name: &syn::Ident, attributes: &[Attribute]) -> bool {
+    let by_hand = file.items.iter().any(|item| match item {
+        Item::Impl(block) => {
+            let is_deref = block.trait_.as_ref().is_some_and(|(_, path, _)| {
+                path.segments
+                    .last()
+                    .is_some_and(|last| last.ident == "Deref")
+            });
+            let of_name = match &*block.self_ty {
+                syn::Type::Path(path) => path
+                    .path
+                    .segments
+                    .last()
+                    .is_some_and(|last| last.ident == *name),
+                _ => false,
+            };
+            is_deref && of_name
+        }
+        _ => false,
+    });
+    by_hand || derives(attributes, "Deref")
 }
 
 pub(super) fn is_harmless(attribute: &Attribute) -> bool {

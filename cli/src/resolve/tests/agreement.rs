@@ -381,34 +381,6 @@ fn a_crate_that_only_types_know_comes_with_their_dependency() {
 }
 
 #[test]
-fn a_field_may_lie_behind_a_deref_that_is_written_in_another_module() {
-    let types = "pub mod shape; mod behind;\npub struct Other;";
-    let shape = "pub struct Inner { pub y: f32 }\npub struct Named { pub inner: Inner }\n\
-                 pub struct Bare(pub Inner);";
-    let behind = |data: &str| {
-        format!(
-            "use std::ops::Deref;\nuse crate::shape::{{Bare, Inner, Named}};\n\
-             impl Deref for {data} {{ type Target = Inner; fn deref(&self) -> &Inner {{}} }}\n"
-        )
-    };
-    let robot = |path: &str, behind: &str| {
-        let output = format!("x: MainOutput<types::shape::{path}>,");
-        let fixture = Fixture::control(&["a", "b"]).node("a", writes(&output));
-        with_field(fixture, "b", "y: Input<f32, \"x.y\">")
-            .file("crates/types/src/lib.rs", types)
-            .file("crates/types/src/shape.rs", shape)
-            .file("crates/types/src/behind.rs", behind)
-            .answer()
-    };
-    for data in ["Named", "Bare"] {
-        let answer = robot(data, &behind(data));
-        assert!(answer.robot.is_some(), "{}", answer.text);
-        let lacks = format!("`types::shape::{data}` has no field `y`");
-        robot(data, &behind("crate::Other")).expect_error("unknown-output", &[&lacks]);
-    }
-}
-
-#[test]
 fn a_library_that_is_not_called_as_its_package_is_named_by_its_user() {
     let robot = |line: &str| {
         let output = writes("x: MainOutput<Md5>,");
