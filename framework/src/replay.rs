@@ -1,7 +1,7 @@
 //! Recorded cycles run again: each instance alone, each cycle from its frame, without hardware.
 //!
 //! ```text
-//! file -> chunks -> frames of one instance -> states, inputs -> run, finish -> digests, beside those of the recording
+//! file -> shelf of chunks -> frames of one instance -> states, inputs -> run, finish -> digests, beside those of the recording
 //! ```
 //! Setup nodes are not called; what they wrote stands in the frame. What nodes command goes nowhere; [`commanded!`](crate::commanded) notes it for whoever listens. A node that asks the
 //! hardware for something in a cycle cannot be replayed in that cycle; it is counted.
@@ -19,6 +19,7 @@ mod other;
 mod output_channels;
 mod play;
 mod report;
+mod shelf;
 mod snapshot;
 mod source;
 mod timeline;
@@ -46,8 +47,9 @@ pub use events::{Happened, MOST_EVENTS, What};
 pub use needed::Needed;
 pub(crate) use other::recorded_parameters;
 pub use other::{Changed, OtherParameters, first_parameters, read_in_new_alone, with_settings};
-pub use play::{Frame, Player, Players, ValueChannels, value_channels};
+pub use play::{Chunks, Player, Players};
 pub use report::Divergence;
+pub use shelf::{Frame, Shelf};
 pub use snapshot::{Call, ParametersAsJson, SNAPSHOT_VERSION, snapshot};
 pub use source::{Digested, Played, Source};
 pub use timeline::{InstancePlace, Move, PROCEDURE, Place, TIMELINE, Timeline};

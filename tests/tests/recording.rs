@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use std::process::Command;
 
 use framework::recorded::{About, Recording, RecordingReport, Settings};
-use framework::replay::{Players, Ran, Verification, value_channels, verify};
+use framework::replay::{Players, Ran, Shelf, Verification, verify};
 use framework::{InstanceDescription, Lockstep, Record, Timestamp};
 use hulkgen_recording::Recording as File;
 use nao_runtime::recording;
@@ -116,22 +116,19 @@ fn every_cycle_of_the_nao_is_recomputed_bit_for_bit_from_any_of_them() {
 
 /// Alone from the first, a middle and the last cycle, and with one player to the end, back, and to the end again.
 fn from_any_cycle(file: &File) {
-    let values = value_channels(file).expect("it is of this version");
+    let shelf = Shelf::of(file).expect("it is of this version");
     for instance in BUSY {
-        let players = || Players::new(file, &values, recording::INSTANCES).expect("it fits");
+        let players = || Players::new(&shelf, recording::INSTANCES).expect("it fits");
         let mut played = players();
         let (player, chunks) = played.of(instance).expect("it is an instance");
-        let ended = player
-            .frames
-            .iter()
-            .rposition(|frame| frame.digests().is_some());
+        let ended = player.frames.iter().rposition(|frame| frame.is_finished());
         let last = ended.expect("cycles have ended");
         for position in [0, last / 2, last, last / 3, last] {
             let mut alone = players();
             let (alone, _) = alone.of(instance).expect("it is an instance");
             for player in [&mut *player, alone] {
-                let recorded = player.frames[position].digests();
-                let recorded: Vec<_> = recorded.expect("the cycle has ended").collect();
+                let recorded = player.digests(position, chunks).expect("it can be read");
+                let recorded = recorded.expect("the cycle has ended");
                 let ran = player.play(position, chunks).expect("the frame is whole");
                 assert_eq!(ran, Ran::Finished, "{instance} {position}");
                 let mut digests = Vec::new();

@@ -3,6 +3,7 @@
 use std::fmt;
 use std::io::{self, Read as _};
 use std::path::Path;
+use std::sync::Arc;
 
 use crate::file::{Attachment, Channel, Metadata, Schema};
 use crate::format::{COMPRESSION, Take, opcode};
@@ -40,13 +41,13 @@ pub enum Way {
     Cut { behind: u64 },
 }
 
-/// Some messages that can be understood without any other chunk.
+/// Some messages that can be understood without any other chunk. Clones share them.
 #[derive(Clone, Debug)]
 pub struct Chunk {
     /// Offset of its record in the file.
     pub offset: u64,
     /// Not compressed.
-    bytes: Vec<u8>,
+    bytes: Arc<Vec<u8>>,
 }
 
 /// One message.
@@ -208,7 +209,7 @@ fn messages(rest: &mut Take<'_>) -> Option<Vec<u8>> {
 impl Chunk {
     /// From the content of its record, if the check sum is right.
     pub(crate) fn understood(content: &[u8], offset: u64) -> Option<Self> {
-        let bytes = messages(&mut Take(content))?;
+        let bytes = Arc::new(messages(&mut Take(content))?);
         Some(Self { offset, bytes })
     }
 
@@ -219,6 +220,11 @@ impl Chunk {
 
     /// In the order in which they were written.
     pub fn messages(&self) -> impl Iterator<Item = Message<'_>> {
+        self.placed_messages().map(|(_, message)| message)
+    }
+
+    /// The same, each with the place among [`bytes`](Self::bytes) where its data begin.
+    pub fn placed_messages(&self) -> impl Iterator<Item = (usize, Message<'_>)> {
         let mut rest = Take(&self.bytes);
         std::iter::from_fn(move || {
             loop {
@@ -229,12 +235,18 @@ impl Chunk {
                 let mut head = Take(content);
                 let (channel, sequence, time) = (head.u16()?, head.u32()?, head.u64()?);
                 head.u64()?;
-                return Some(Message {
-                    channel,
-                    sequence,
-                    time,
-                    data: head.0,
-                });
+                let data = head.0;
+                // They end where the next record begins.
+                let place = self.bytes.len() - rest.0.len() - data.len();
+                return Some((
+                    place,
+                    Message {
+                        channel,
+                        sequence,
+                        time,
+                        data,
+                    },
+                ));
             }
         })
     }

@@ -25,8 +25,8 @@ mod track;
 
 pub use block::{Full, Writing};
 pub use hulkgen_mcap::{
-    Attachment, Channel, ChannelId, Chunk, Contents, Description, Message, Metadata, ReadError,
-    Recording, RecordingFile, Schema, Storage, Way, Writer, layout,
+    Attachment, Channel, ChannelId, Chunk, ChunkPlace, Contents, Description, Message, Metadata,
+    ReadError, Recording, RecordingFile, Schema, Storage, Way, Writer, layout,
 };
 pub use late::Late;
 pub use recorder::{Ended, Recorder, Settings};

@@ -3,7 +3,6 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use hulkgen_recording::Recording;
 use lexopt::{Parser, ValueExt};
 
 use super::options::{Format, Options};
@@ -13,8 +12,8 @@ use crate::data::ParameterData;
 use crate::error::{Error, Result};
 use crate::recorded::Loading;
 use crate::replay::{
-    Call, Comparison, Elsewhere, How, Needed, OtherParameters, Players, Timeline, answer, compare,
-    read_in_new_alone, recorded_parameters, snapshot, value_channels, verify_how, with_settings,
+    Call, Comparison, Elsewhere, How, Needed, OtherParameters, Players, Shelf, Timeline, answer,
+    compare, read_in_new_alone, recorded_parameters, snapshot, verify_how, with_settings,
 };
 use crate::report::tell;
 use crate::stop::Stop;
@@ -112,13 +111,12 @@ impl Replaying {
 /// Plays it for clients, as if the robot ran.
 fn served<P: ParameterData>(
     target: &Target,
-    recording: &Recording,
+    recording: &Shelf,
     options: &Options,
     serve: Serve,
 ) -> Result<bool> {
-    let values = value_channels(recording)?;
     let mut are_recorded = true;
-    let parameters: P = match recorded_parameters(recording, &values) {
+    let parameters: P = match recorded_parameters(recording) {
         Ok(parameters) => parameters,
         Err(why) => {
             let files = super::layers(target, options).and_then(|layers| layers.load());
@@ -129,7 +127,7 @@ fn served<P: ParameterData>(
             parameters
         }
     };
-    let players = Players::new(recording, &values, target.replayables)?;
+    let players = Players::new(recording, target.replayables)?;
     for unknown in &players.unknown {
         tell(format_args!(
             "{unknown}: this robot has no such instance, or cannot replay it"
@@ -140,7 +138,7 @@ fn served<P: ParameterData>(
     if are_recorded {
         timeline.follow_parameters();
     }
-    timeline.say_again(recording);
+    timeline.say_again();
     let listening = options
         .listening(target)
         .ok_or_else(|| Error::new("--listen off leaves nobody to show the recording to"))?;
@@ -166,15 +164,13 @@ pub(super) fn run<P: ParameterData>(
     serve: Serve,
 ) -> u8 {
     let file = &options.replay.file;
-    let result = Recording::open(file)
-        .map_err(|error| Error::new(error.to_string()))
-        .and_then(|recording| {
-            if options.replay.is_question() || !options.settings.is_empty() {
-                replayed::<P>(target, &recording, options, output)
-            } else {
-                served::<P>(target, &recording, options, serve)
-            }
-        });
+    let result = Shelf::open(file).and_then(|recording| {
+        if options.replay.is_question() || !options.settings.is_empty() {
+            replayed::<P>(target, &recording, options, output)
+        } else {
+            served::<P>(target, &recording, options, serve)
+        }
+    });
     match result {
         Ok(true) => DONE,
         Ok(false) => FAILED,
@@ -187,20 +183,18 @@ pub(super) fn run<P: ParameterData>(
 
 fn replayed<P: ParameterData>(
     target: &Target,
-    recording: &Recording,
+    recording: &Shelf,
     options: &Options,
     output: &mut dyn Write,
 ) -> Result<bool> {
     let replay = &options.replay;
     if replay.answer {
-        let values = value_channels(recording)?;
-        let mut players = Players::new(recording, &values, target.replayables)?;
+        let mut players = Players::new(recording, target.replayables)?;
         answer(&mut players, std::io::stdin().lock(), output)?;
         return Ok(true);
     }
     if let Some(node) = &replay.capture {
-        let values = value_channels(recording)?;
-        let mut players = Players::new(recording, &values, target.replayables)?;
+        let mut players = Players::new(recording, target.replayables)?;
         let call = Call {
             instance: replay.instance.as_deref().unwrap_or_default(),
             cycle: replay.at.unwrap_or_default(),
@@ -241,12 +235,12 @@ fn replayed<P: ParameterData>(
         )?;
         verification.is_good()
     };
-    for offset in &recording.damaged {
+    for offset in recording.damaged() {
         tell(format_args!(
             "the chunk at byte {offset} is damaged (its check sum is wrong): what it had is lost"
         ));
     }
-    for offset in &recording.unreadable {
+    for offset in &recording.contents().unreadable {
         tell(format_args!(
             "the record at byte {offset} (metadata, or an attachment) is damaged: what it had is lost"
         ));
@@ -275,12 +269,11 @@ fn say(
 /// Another build beside this one.
 fn against(
     target: &Target,
-    recording: &Recording,
+    recording: &Shelf,
     (program, replay): (&Path, &Replaying),
     needed: Option<&Needed>,
 ) -> Result<Comparison> {
-    let values = value_channels(recording)?;
-    let mut here = Players::new(recording, &values, target.replayables)?;
+    let mut here = Players::new(recording, target.replayables)?;
     if let Some(needed) = needed {
         here = here.only(needed);
     }
@@ -295,20 +288,19 @@ fn against(
 /// The recorded parameters beside others.
 fn under<P: ParameterData>(
     target: &Target,
-    recording: &Recording,
+    recording: &Shelf,
     options: &Options,
     needed: Option<&Needed>,
 ) -> Result<Comparison> {
     let settings = &options.settings;
     let carry = options.replay.carry;
-    let values = value_channels(recording)?;
     let mut unread = Vec::new();
-    let other = OtherParameters::new(recording, &values, &mut |recorded| {
+    let other = OtherParameters::new(recording, &mut |recorded| {
         unread = read_in_new_alone::<P>(recorded, settings)?;
         with_settings::<P>(recorded, settings)
     })?;
     let players = || -> Result<Players<'_>> {
-        let players = Players::new(recording, &values, target.replayables)?;
+        let players = Players::new(recording, target.replayables)?;
         Ok(match needed {
             Some(needed) => players.only(needed),
             None => players,

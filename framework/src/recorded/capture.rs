@@ -6,17 +6,14 @@
 //! message on a channel of values:         one value; its sequence number is the cycle's        before the first frame that names it
 //! ```
 
-use std::collections::BTreeMap;
 use std::time::Duration;
 
 use hulkgen_recording::ChannelId;
-use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use super::target::Target;
-use super::{Foreign, Loading, Outputs, SaveError, Saving};
+use super::{Foreign, Outputs, SaveError, Saving};
 use crate::buffer::Reader;
-use crate::error::{Error, Result};
 use crate::time::Timestamp;
 
 /// Version of all that [`Capture`] writes; a reader of another version says so.
@@ -86,13 +83,6 @@ pub struct Values<'a, 'block> {
     time: Timestamp,
     /// How many inputs there were.
     position: usize,
-}
-
-/// Values of other instances in one chunk, by channel and cycle.
-#[derive(Debug)]
-pub struct Stored<'chunk> {
-    channels: &'chunk [(String, u16)],
-    values: BTreeMap<(u16, u32), &'chunk [u8]>,
 }
 
 impl<'block> Capture<'_, 'block> {
@@ -184,54 +174,12 @@ impl Values<'_, '_> {
     }
 }
 
-impl<'chunk> Stored<'chunk> {
-    /// Of channels by the names of instances.
-    pub(crate) fn new(channels: &'chunk [(String, u16)]) -> Self {
-        Self {
-            channels,
-            values: BTreeMap::new(),
-        }
-    }
-
-    pub(crate) fn add(&mut self, channel: u16, sequence: u32, value: &'chunk [u8]) {
-        self.values.insert((channel, sequence), value);
-    }
-
-    /// The bytes of what an instance wrote in a cycle.
-    pub(crate) fn bytes(&self, instance: &str, cycle: u64) -> Option<&'chunk [u8]> {
-        let mut channels = self.channels.iter();
-        let (_, channel) = channels.find(|(known, _)| known == instance)?;
-        self.values.get(&(*channel, cycle as u32)).copied()
-    }
-
-    /// What an instance wrote in a cycle.
-    ///
-    /// # Errors
-    /// If the chunk does not have it, or it is of another type.
-    pub fn value<T: DeserializeOwned>(&self, instance: &str, cycle: u64) -> Result<T> {
-        let bytes = self.bytes(instance, cycle).ok_or_else(|| {
-            Error::new(format!(
-                "the chunk has no cycle {cycle} of `{instance}`, which a frame in it names"
-            ))
-        })?;
-        Loading::new(bytes).take()
-    }
-
-    /// The parameters that a frame names.
-    ///
-    /// # Errors
-    /// As [`Self::value`].
-    pub fn parameters<P: DeserializeOwned>(&self, from: &mut Loading<'_>) -> Result<P> {
-        self.value(PARAMETERS, from.take()?)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use hulkgen_recording::{Channel, Description, Recorded, Recorder, Recording, Settings};
     use serde::ser::Serializer;
 
-    use super::super::Outputs;
+    use super::super::{Loading, Outputs};
     use super::*;
     use crate::Reflect;
     use crate::buffer::buffer;

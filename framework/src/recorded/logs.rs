@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
-use hulkgen_recording::{Channel, ChannelId, Description, Recording as File, Schema, Track};
+use hulkgen_recording::{Channel, ChannelId, Description, Schema, Track};
 use serde::Deserialize;
 use serde_json::{Map, Value};
 
@@ -20,7 +20,7 @@ use crate::logs::{Level, Rates, Record, Sink};
 use crate::time::Timestamp;
 
 /// What the channel is called, and the track among those of instances.
-pub(super) const LOGS: &str = "logs";
+pub(crate) const LOGS: &str = "logs";
 
 /// How often the thread looks: the queue has room for more than nodes say in this time.
 const LOOK: Duration = Duration::from_millis(50);
@@ -182,16 +182,6 @@ struct Said {
     cycle: Option<u64>,
     #[serde(default)]
     fields: Map<String, Value>,
-}
-
-/// The messages of a recording, in the order of the file: time and JSON.
-pub(crate) fn recorded_logs(file: &File) -> impl Iterator<Item = (Timestamp, &[u8])> {
-    let mut channels = file.channels.iter();
-    let own = channels.find(|(_, one)| one.topic == LOGS && one.encoding == JSON);
-    let own = own.map(|(number, _)| *number);
-    let messages = file.chunks.iter().flat_map(|chunk| chunk.messages());
-    let messages = messages.filter(move |message| Some(message.channel) == own);
-    messages.map(|message| (Timestamp::from_nanos(message.time), message.data))
 }
 
 /// What was said at this time; `None`: the bytes are no such message.

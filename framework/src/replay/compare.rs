@@ -90,25 +90,23 @@ pub fn compare(
         ..Comparison::default()
     };
     let players = after.players.iter();
-    let all: Vec<_> = players
-        .map(|player| {
-            let heads: Vec<_> = player.frames.iter().map(|frame| frame.head).collect();
-            (player.instance, player.is_known, heads)
-        })
-        .collect();
-    for (instance, is_known, heads) in all {
-        let mut compared = Compared::new(instance, needed);
-        if !is_known {
+    let all = players.map(|player| {
+        let mut compared = Compared::new(player.instance, needed);
+        if !player.is_known {
             compared.counts.unfit = Some("the recording has no such instance".to_owned());
         }
-        for (position, head) in heads.into_iter().enumerate() {
+        compared
+    });
+    let mut all: Vec<_> = all.collect();
+    for (index, position) in after.in_file_order() {
+        let compared = &mut all[index];
+        if compared.counts.unfit.is_none() {
+            let head = after.players[index].frames[position].head;
             compared.add(position, head, before, after)?;
-            if compared.counts.unfit.is_some() {
-                break;
-            }
         }
-        let player = after.of(instance).map(|(player, _)| player);
-        compared.counts.carried = player.and_then(|player| player.carried());
+    }
+    for (mut compared, player) in all.into_iter().zip(&after.players) {
+        compared.counts.carried = player.carried();
         comparison.instances.push(compared.counts);
         comparison.changes.extend(compared.changes.into_values());
     }

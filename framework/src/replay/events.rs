@@ -51,7 +51,7 @@ pub(super) fn events(players: &Players<'_>) -> Vec<Happened> {
             });
         };
         let mut last = None;
-        for frame in &player.frames {
+        for frame in player.frames {
             let head = frame.head;
             if let Some((number, start)) = last
                 && number + 1 < head.number
@@ -61,7 +61,7 @@ pub(super) fn events(players: &Players<'_>) -> Vec<Happened> {
             if head.restarted {
                 tell(head.start, head.start, What::Restarted);
             }
-            if frame.digests().is_none() {
+            if !frame.is_finished() {
                 tell(head.start, head.start, What::Unfinished);
             }
             last = Some((head.number, head.start));
@@ -82,7 +82,7 @@ fn changes(players: &Players<'_>) -> impl Iterator<Item = Happened> {
         .filter(|player| reads_parameters(player))
     {
         for (position, frame) in player.frames.iter().enumerate() {
-            let Ok(version) = player.parameters_version(position) else {
+            let Some(version) = player.parameters_version(position) else {
                 continue;
             };
             let start = frame.head.start;

@@ -1,10 +1,9 @@
 //! Other parameters than those that were recorded.
 
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 
-use hulkgen_recording::Recording;
-
-use super::{ValueChannels, types};
+use super::{Shelf, types};
 use crate::buffer::buffer_of;
 use crate::clock::Clock;
 use crate::data::ParameterData;
@@ -15,9 +14,7 @@ use crate::recorded::{Loading, PARAMETERS};
 /// What stands in place of each version of the parameters that a recording has.
 #[derive(Clone, Debug, Default)]
 pub struct OtherParameters {
-    /// By chunk and version.
-    versions: BTreeMap<(usize, u32), Vec<u8>>,
-    channel: u16,
+    versions: BTreeMap<u32, Vec<u8>>,
 }
 
 /// A version of the parameters as it was recorded, and as it is to be.
@@ -28,60 +25,47 @@ impl OtherParameters {
     ///
     /// # Errors
     /// If one cannot be changed: the first reason, which mostly is that of all.
-    pub fn new(
-        recording: &Recording,
-        values: &ValueChannels,
-        changed: Changed<'_>,
-    ) -> Result<Self> {
-        let mut names = values.iter();
-        let Some((_, channel)) = names.find(|(name, _)| name == PARAMETERS) else {
-            return Err(Error::new("the recording has no parameters"));
-        };
+    pub fn new(recording: &Shelf, changed: Changed<'_>) -> Result<Self> {
+        let channel = recording.channel(PARAMETERS);
+        let channel = channel.ok_or_else(|| Error::new("the recording has no parameters"))?;
         let mut versions = BTreeMap::new();
-        for (chunk, content) in recording.chunks.iter().enumerate() {
-            for message in content.messages() {
-                if message.channel == *channel {
-                    versions.insert((chunk, message.sequence), changed(message.data)?);
-                }
+        for (version, place) in recording.index().values(channel) {
+            // Each chunk that refers to a version has it, and all have the same.
+            if let Entry::Vacant(new) = versions.entry(version) {
+                new.insert(changed(&recording.bytes(place)?)?);
             }
         }
-        Ok(Self {
-            versions,
-            channel: *channel,
-        })
+        Ok(Self { versions })
     }
 
-    /// Chunk, channel, version, bytes.
-    pub(super) fn all(&self) -> impl Iterator<Item = (usize, u16, u32, &[u8])> {
-        let versions = self.versions.iter();
-        versions.map(|((chunk, version), bytes)| (*chunk, self.channel, *version, &**bytes))
+    /// By their numbers.
+    pub(super) fn versions(&self) -> &BTreeMap<u32, Vec<u8>> {
+        &self.versions
     }
 }
 
-/// The first version of the parameters that a recording has.
-pub fn first_parameters<'r>(recording: &'r Recording, values: &ValueChannels) -> Option<&'r [u8]> {
-    let mut names = values.iter();
-    let (_, channel) = names.find(|(name, _)| name == PARAMETERS)?;
-    let mut messages = recording.chunks.iter().flat_map(|chunk| chunk.messages());
-    let found = messages.find(|message| message.channel == *channel)?;
-    Some(found.data)
+/// The first version of the parameters that a recording has; `None`: it has none.
+///
+/// # Errors
+/// If its chunk can no longer be read.
+pub fn first_parameters(recording: &Shelf) -> Result<Option<Vec<u8>>> {
+    let channel = recording.channel(PARAMETERS);
+    let first = channel.and_then(|channel| recording.index().values(channel).next());
+    first.map(|(_, place)| recording.bytes(place)).transpose()
 }
 
 /// The same, as this robot has them.
 ///
 /// # Errors
 /// If the recording has none, or they are of other types.
-pub(crate) fn recorded_parameters<P: ParameterData>(
-    recording: &Recording,
-    values: &ValueChannels,
-) -> Result<P> {
-    let first = first_parameters(recording, values)
+pub(crate) fn recorded_parameters<P: ParameterData>(recording: &Shelf) -> Result<P> {
+    let first = first_parameters(recording)?
         .ok_or_else(|| Error::new("the recording has no parameters"))?;
-    match types::of_parameters::<P>(recording) {
+    match types::of_parameters::<P>(recording.contents()) {
         Some(difference) => Err(Error::new(format!(
             "the recorded parameters are of other types: {difference}"
         ))),
-        None => Loading::new(first).take(),
+        None => Loading::new(&first).take(),
     }
 }
 

@@ -1,35 +1,39 @@
 //! Frames of a recording by instance and cycle, in any order.
 
-use std::collections::BTreeMap;
-
 use hulkgen_mcap::layout::Part;
-use hulkgen_recording::{Recording, Writing};
+use hulkgen_recording::Writing;
 
 use super::carry::composed;
-use super::{Needed, OtherParameters, Ran, Replay, Replayable, Setup, types};
+use super::{Frame, Needed, OtherParameters, Ran, Replay, Replayable, Setup, Shelf, types};
 use crate::cycler::Instance;
 use crate::error::{Error, Result};
-use crate::recorded::{
-    BEGUN, FINISHED, FRAMES, Head, Loading, SaveError, Saving, Stored, VALUES, VERSION,
-};
+use crate::recorded::{Loading, SaveError, Saving};
 
 /// For what the first cycle leaves behind, in bytes; twice as many until it has room.
 const ROOM: usize = 1 << 10;
 
 /// All instances of a recording that this robot can replay.
 pub struct Players<'r> {
-    chunks: Vec<Stored<'r>>,
+    chunks: Chunks<'r>,
     /// In manifest order.
     pub players: Vec<Player<'r>>,
     /// Instances of the recording that this robot does not have, or cannot replay.
     pub unknown: Vec<String>,
 }
 
+/// Where players take their frames from.
+#[derive(Clone, Copy, Debug)]
+pub struct Chunks<'r> {
+    pub(super) shelf: &'r Shelf,
+    /// In place of the parameters that were recorded.
+    other: Option<&'r OtherParameters>,
+}
+
 /// One instance and its recorded cycles.
 pub struct Player<'r> {
     pub instance: &'static str,
     /// In the order of the file.
-    pub frames: Vec<Frame<'r>>,
+    pub frames: &'r [Frame],
     /// Whether the recording has a channel for its frames.
     pub is_known: bool,
     /// The only nodes that run; `None`: all.
@@ -55,118 +59,28 @@ struct Carrying {
     cycles: u64,
 }
 
-/// One recorded cycle.
-#[derive(Clone, Copy, Debug)]
-pub struct Frame<'r> {
-    pub head: Head,
-    /// Digests of what it wrote; `None`: it was not finished.
-    end: Option<&'r [u8]>,
-    chunk: usize,
-    content: Loading<'r>,
-}
-
-impl<'r> Frame<'r> {
-    /// Digests in the order in which the outputs were written; `None`: the cycle was not finished.
-    pub fn digests(&self) -> Option<impl Iterator<Item = u64> + use<'r>> {
-        let (whole, _) = self.end?.as_chunks();
-        Some(whole.iter().copied().map(u64::from_le_bytes))
-    }
-}
-
-/// Channels of a recording.
-struct Topics {
-    /// Instance by channel.
-    frames: BTreeMap<u16, String>,
-    values: Vec<(String, u16)>,
-}
-
-/// Names and numbers of the channels that hold values.
-pub type ValueChannels = Vec<(String, u16)>;
-
-/// Channels of values of a recording, which [`Players::new`] needs to live longer than itself.
-///
-/// # Errors
-/// If the recording was made by another version.
-pub fn value_channels(recording: &Recording) -> Result<ValueChannels> {
-    topics(recording).map(|topics| topics.values)
-}
-
-fn topics(recording: &Recording) -> Result<Topics> {
-    let mut topics = Topics {
-        frames: BTreeMap::new(),
-        values: Vec::new(),
-    };
-    for (number, channel) in &recording.channels {
-        if ![FRAMES, VALUES].contains(&&*channel.encoding) {
-            continue;
-        }
-        let mut metadata = channel.metadata.iter();
-        let version = metadata.find(|(key, _)| key == "version");
-        let version = version.map_or("", |(_, version)| version);
-        if version != VERSION.to_string() {
-            return Err(Error::new(format!(
-                "the recording is of version `{version}`, this robot reads version {VERSION}"
-            )));
-        }
-        match channel.topic.split_once('/') {
-            Some(("frames", instance)) => {
-                topics.frames.insert(*number, instance.to_owned());
-            }
-            Some(("values", instance)) => topics.values.push((instance.to_owned(), *number)),
-            _ => {}
-        }
-    }
-    Ok(topics)
-}
-
 impl<'r> Players<'r> {
-    /// Of a recording whose values lie in these channels.
+    /// Of a recording.
     ///
     /// # Errors
     /// If a frame cannot be understood.
-    pub fn new(
-        recording: &'r Recording,
-        values: &'r ValueChannels,
-        replayables: &[Replayable],
-    ) -> Result<Self> {
-        let topics = topics(recording)?;
-        let players = replayables.iter().map(|one| Player {
-            other_types: types::difference(recording, one),
-            ..Player::new(*one)
-        });
-        let mut players: Vec<_> = players.collect();
-        let mut chunks = Vec::new();
-        for (index, chunk) in recording.chunks.iter().enumerate() {
-            let mut stored = Stored::new(values);
-            for message in chunk.messages() {
-                let Some(instance) = topics.frames.get(&message.channel) else {
-                    stored.add(message.channel, message.sequence, message.data);
-                    continue;
-                };
-                if let Some(player) = players.iter_mut().find(|one| one.instance == instance) {
-                    player.add(index, message.sequence, message.data)?;
-                }
-            }
-            chunks.push(stored);
-        }
-        for player in &mut players {
-            let mut recorded = topics.frames.values();
-            player.is_known = recorded.any(|name| name == player.instance);
-        }
-        let is_known = |name: &String| replayables.iter().any(|one| one.instance == name);
-        let unknown = topics.frames.into_values().filter(|name| !is_known(name));
+    pub fn new(recording: &'r Shelf, replayables: &[Replayable]) -> Result<Self> {
+        let players = replayables.iter().map(|one| Player::new(*one, recording));
+        let topics = recording.index().topics.values();
+        let is_known = |name: &&String| replayables.iter().any(|one| one.instance == **name);
         Ok(Self {
-            chunks,
-            players,
-            unknown: unknown.collect(),
+            chunks: Chunks {
+                shelf: recording,
+                other: None,
+            },
+            players: players.collect::<Result<_>>()?,
+            unknown: topics.filter(|name| !is_known(name)).cloned().collect(),
         })
     }
 
     /// The same, with other values in place of the parameters that were recorded.
     pub fn under(mut self, other: &'r OtherParameters) -> Self {
-        for (chunk, channel, version, bytes) in other.all() {
-            self.chunks[chunk].add(channel, version, bytes);
-        }
+        self.chunks.other = Some(other);
         self
     }
 
@@ -202,7 +116,7 @@ impl<'r> Players<'r> {
     ///
     /// # Errors
     /// If there is no such instance.
-    pub fn find(&mut self, instance: &str) -> Result<(&mut Player<'r>, &[Stored<'r>])> {
+    pub fn find(&mut self, instance: &str) -> Result<(&mut Player<'r>, Chunks<'r>)> {
         let names: Vec<_> = self.players.iter().map(|one| one.instance).collect();
         self.of(instance).ok_or_else(|| {
             Error::new(format!(
@@ -212,73 +126,90 @@ impl<'r> Players<'r> {
         })
     }
 
-    /// What an instance wrote in a cycle, as a chunk has it.
-    pub(super) fn bytes(&self, chunk: usize, instance: &str, cycle: u64) -> Option<&'r [u8]> {
-        self.chunks.get(chunk)?.bytes(instance, cycle)
+    /// Where they take their frames from.
+    pub(super) fn chunks(&self) -> Chunks<'r> {
+        self.chunks
+    }
+
+    /// All cycles, those of one chunk after each other, by the place among the players and the position.
+    pub(super) fn in_file_order(&self) -> Vec<(usize, usize)> {
+        let players = self.players.iter().enumerate();
+        let cycles = players.flat_map(|(index, player)| {
+            let positions = 0..player.frames.len();
+            positions.map(move |position| (index, position))
+        });
+        let mut cycles: Vec<_> = cycles.collect();
+        cycles.sort_by_key(|(index, position)| self.players[*index].chunk_of(*position));
+        cycles
     }
 
     /// The player of an instance, with the values that it needs.
-    pub fn of(&mut self, instance: &str) -> Option<(&mut Player<'r>, &[Stored<'r>])> {
+    pub fn of(&mut self, instance: &str) -> Option<(&mut Player<'r>, Chunks<'r>)> {
         let mut players = self.players.iter_mut();
         let player = players.find(|player| player.instance == instance)?;
-        Some((player, &self.chunks))
+        Some((player, self.chunks))
     }
 
     /// All of them.
-    pub fn each(&mut self) -> impl Iterator<Item = (&mut Player<'r>, &[Stored<'r>])> {
-        self.players
-            .iter_mut()
-            .map(|player| (player, &*self.chunks))
+    pub fn each(&mut self) -> impl Iterator<Item = (&mut Player<'r>, Chunks<'r>)> {
+        let chunks = self.chunks;
+        self.players.iter_mut().map(move |player| (player, chunks))
+    }
+}
+
+impl Chunks<'_> {
+    /// What an instance wrote in a cycle, as a chunk has it.
+    pub(super) fn bytes(
+        &self,
+        number: usize,
+        instance: &str,
+        cycle: u64,
+    ) -> Result<Option<Vec<u8>>> {
+        let chunk = self.shelf.chunk(number)?;
+        let stored = self.shelf.stored(number, &chunk, self.other);
+        Ok(stored.bytes(instance, cycle).map(<[u8]>::to_vec))
     }
 }
 
 impl<'r> Player<'r> {
-    fn new(replayable: Replayable) -> Self {
-        Self {
+    fn new(replayable: Replayable, recording: &'r Shelf) -> Result<Self> {
+        let recorded = recording.index().of(replayable.instance);
+        if let Some(damaged) = recorded.and_then(|recorded| recorded.damaged.as_ref()) {
+            return Err(Error::new(damaged));
+        }
+        Ok(Self {
             instance: replayable.instance,
-            frames: Vec::new(),
-            is_known: false,
+            frames: recorded.map_or(&[], |recorded| &recorded.frames),
+            is_known: recorded.is_some(),
             nodes: None,
             replayable,
             replay: None,
-            other_types: None,
+            other_types: types::difference(recording.contents(), &replayable),
             loaded: None,
             carrying: None,
-        }
+        })
     }
 
-    fn add(&mut self, chunk: usize, sequence: u32, data: &'r [u8]) -> Result<()> {
-        let damaged = || Error::new(format!("a frame of `{}` is damaged", self.instance));
-        let (kind, content) = data.split_first().ok_or_else(damaged)?;
-        match *kind {
-            BEGUN => {
-                let mut content = Loading::new(content);
-                let head: Head = content.take()?;
-                self.frames.push(Frame {
-                    head,
-                    end: None,
-                    chunk,
-                    content,
-                });
-                Ok(())
-            }
-            FINISHED => {
-                // It may stand alone in a chunk, and the one before, where its beginning stood, may be gone.
-                let begun = self.frames.last_mut();
-                if let Some(begun) = begun.filter(|frame| frame.head.number as u32 == sequence) {
-                    begun.end = Some(content);
-                }
-                Ok(())
-            }
-            _ => Err(damaged()),
-        }
+    /// Digests of a cycle in the order in which the outputs were written; `None`: it was not finished.
+    ///
+    /// # Errors
+    /// If its chunk can no longer be read.
+    pub fn digests(&self, position: usize, chunks: Chunks<'_>) -> Result<Option<Vec<u64>>> {
+        let Some(end) = self.frames[position].end else {
+            return Ok(None);
+        };
+        let chunk = chunks.shelf.chunk(end.chunk())?;
+        let (whole, _) = end.part(&chunk)?.as_chunks();
+        Ok(Some(
+            whole.iter().copied().map(u64::from_le_bytes).collect(),
+        ))
     }
 
     /// Runs the cycle at this position again, whichever ran before.
     ///
     /// # Errors
     /// If its frame, or one that it needs, does not fit this robot.
-    pub fn play(&mut self, position: usize, chunks: &[Stored<'_>]) -> Result<Ran> {
+    pub fn play(&mut self, position: usize, chunks: Chunks<'_>) -> Result<Ran> {
         if !self.carry_to(position, chunks)? {
             self.load_at(position, chunks)?;
         }
@@ -301,7 +232,7 @@ impl<'r> Player<'r> {
 
     /// Makes the cycle at this position the one that has just begun, with what the one before it left behind, if that is
     /// wanted and the one before it is the one that ran last; gives whether.
-    fn carry_to(&mut self, position: usize, chunks: &[Stored<'_>]) -> Result<bool> {
+    fn carry_to(&mut self, position: usize, chunks: Chunks<'_>) -> Result<bool> {
         let Some(carrying) = &mut self.carrying else {
             return Ok(false);
         };
@@ -314,17 +245,12 @@ impl<'r> Player<'r> {
             return Ok(false);
         }
         self.loaded = None;
-        let content = composed(
-            &carrying.parts,
-            &carrying.setup,
-            frame.content.rest(),
-            &left,
-        )?;
-        replay.load(
-            frame.head,
-            &mut Loading::new(&content),
-            &chunks[frame.chunk],
-        )?;
+        let number = frame.content.chunk();
+        let chunk = chunks.shelf.chunk(number)?;
+        let recorded = frame.content.part(&chunk)?;
+        let content = composed(&carrying.parts, &carrying.setup, recorded, &left)?;
+        let stored = chunks.shelf.stored(number, &chunk, chunks.other);
+        replay.load(frame.head, &mut Loading::new(&content), &stored)?;
         carrying.cycles += 1;
         Ok(true)
     }
@@ -338,7 +264,7 @@ impl<'r> Player<'r> {
     ///
     /// # Errors
     /// As [`Self::play`].
-    pub fn load_at(&mut self, position: usize, chunks: &[Stored<'_>]) -> Result<()> {
+    pub fn load_at(&mut self, position: usize, chunks: Chunks<'_>) -> Result<()> {
         let whole = (0..=position)
             .rev()
             .find(|at| self.frames[*at].head.whole)
@@ -355,14 +281,13 @@ impl<'r> Player<'r> {
     }
 
     /// The version of the parameters that a frame begins with, of an instance that reads any.
-    pub(super) fn parameters_version(&self, position: usize) -> Result<u64> {
-        let mut content = self.frames[position].content;
-        content.take()
+    pub(super) fn parameters_version(&self, position: usize) -> Option<u64> {
+        self.frames[position].version
     }
 
     /// The chunk in which the frame at this position stands.
     pub(super) fn chunk_of(&self, position: usize) -> usize {
-        self.frames[position].chunk
+        self.frames[position].content.chunk()
     }
 
     /// The instance, which has a frame.
@@ -377,7 +302,7 @@ impl<'r> Player<'r> {
         nodes.all(|nodes| nodes.iter().any(|one| one == node))
     }
 
-    fn load(&mut self, at: usize, chunks: &[Stored<'_>]) -> Result<()> {
+    fn load(&mut self, at: usize, chunks: Chunks<'_>) -> Result<()> {
         if let Some(difference) = &self.other_types {
             return Err(Error::new(format!(
                 "the recording is of other types: {difference}"
@@ -387,16 +312,19 @@ impl<'r> Player<'r> {
         self.loaded = None;
         let Frame {
             head,
-            chunk,
-            mut content,
+            content: place,
             ..
         } = self.frames[at];
+        let number = place.chunk();
+        let chunk = chunks.shelf.chunk(number)?;
+        let stored = chunks.shelf.stored(number, &chunk, chunks.other);
+        let mut content = Loading::new(place.part(&chunk)?);
         let mut states = content;
         let replay = match &mut self.replay {
             Some(replay) => replay,
-            none => none.insert((self.replayable.create)(&mut states, &chunks[chunk])?),
+            none => none.insert((self.replayable.create)(&mut states, &stored)?),
         };
-        replay.load(head, &mut content, &chunks[chunk])?;
+        replay.load(head, &mut content, &stored)?;
         if !content.is_empty() {
             return Err(Error::new(
                 "the frame has more than this robot takes: the recording is of another robot, or of another version of it",

@@ -76,9 +76,10 @@ pub fn snapshot(
         let name = reference.instance;
         if name == crate::recorded::PARAMETERS {
             // In a replay the buffer of the parameters counts frames.
-            let version = players.find(instance)?.0.parameters_version(position)?;
-            let bytes = players.bytes(chunk, name, version);
-            parameters_read = parameters(bytes.ok_or_else(|| missing(name))?)?;
+            let version = players.find(instance)?.0.parameters_version(position);
+            let version = version.ok_or_else(|| missing(name))?;
+            let bytes = players.chunks().bytes(chunk, name, version)?;
+            parameters_read = parameters(&bytes.ok_or_else(|| missing(name))?)?;
         } else if reference.cycle > 0 {
             let is_new = !before.contains(&(name, reference.cycle));
             others.push(other(players, chunk, reference, is_new)?);
@@ -207,7 +208,7 @@ fn other(
     is_new: bool,
 ) -> Result<Value> {
     let name = reference.instance;
-    let bytes = players.bytes(chunk, name, reference.cycle);
+    let bytes = players.chunks().bytes(chunk, name, reference.cycle)?;
     let bytes = bytes.ok_or_else(|| missing(name))?;
     let (player, chunks) = players.find(name)?;
     let frame = player
@@ -223,7 +224,7 @@ fn other(
     if player.replay().is_none() {
         player.load_at(0, chunks)?;
     }
-    let outputs = player.replay_mut()?.shared(bytes)?;
+    let outputs = player.replay_mut()?.shared(&bytes)?;
     let outputs: Map<String, Value> = outputs.into_iter().collect();
     let (kind, order) = match reference.kind {
         ReferenceKind::Latest => ("latest", None),

@@ -10,7 +10,6 @@ mod said;
 use std::collections::BTreeSet;
 use std::time::{Duration, Instant};
 
-use hulkgen_recording::Recording;
 use serde::{Deserialize, Serialize};
 
 use super::events::{Happened, events};
@@ -163,9 +162,10 @@ impl<'r> Timeline<'r> {
             remotes: Vec::new(),
             recorded: Vec::new(),
         };
+        let recording = players.chunks().shelf;
         let timeline = Self {
-            parameters: RecordedParameters::fixed(parameters.live()),
-            said: Said::default(),
+            parameters: RecordedParameters::fixed(parameters.live(), recording),
+            said: Said::nothing(recording),
             heard: vec![None; players.players.len()],
             players,
             moments,
@@ -186,8 +186,9 @@ impl<'r> Timeline<'r> {
         self.parameters.show(self.passed);
     }
 
-    /// From now on clients hear what was said when this recording was made, of which the cycles are.
-    pub fn say_again(&mut self, recording: &'r Recording) {
+    /// From now on clients hear what was said when the recording was made.
+    pub fn say_again(&mut self) {
+        let recording = self.players.chunks().shelf;
         self.said = Said::new(recording, &self.players, &self.moments);
     }
 

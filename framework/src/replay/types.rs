@@ -1,6 +1,6 @@
 //! Recordings of other types.
 
-use hulkgen_recording::Recording;
+use hulkgen_recording::Contents;
 use hulkgen_recording::layout::{Layout, Layouts, Part, PartKind, first_difference};
 use serde::de::DeserializeOwned;
 
@@ -8,7 +8,7 @@ use super::Replayable;
 use crate::recorded::{PARAMETERS, TYPES, layout_of};
 
 /// What is of another type in the recording than in this robot, in words; `None`: nothing, or the recording does not tell.
-pub(super) fn difference(recording: &Recording, replayable: &Replayable) -> Option<String> {
+pub(super) fn difference(recording: &Contents, replayable: &Replayable) -> Option<String> {
     let topic = format!("frames/{}", replayable.instance);
     let mut channels = recording.channels.iter();
     let (_, channel) = channels.find(|(_, channel)| channel.topic == topic)?;
@@ -27,7 +27,7 @@ pub(super) fn difference(recording: &Recording, replayable: &Replayable) -> Opti
 }
 
 /// The same of the parameters.
-pub(super) fn of_parameters<P: DeserializeOwned>(recording: &Recording) -> Option<String> {
+pub(super) fn of_parameters<P: DeserializeOwned>(recording: &Contents) -> Option<String> {
     let layouts = Layouts::of(&recording.attachments);
     of_values(&layouts, PARAMETERS, &layout_of::<P>())
 }

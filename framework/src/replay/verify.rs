@@ -1,15 +1,13 @@
 //! Whether every recorded cycle gives the same bits again.
 
-use hulkgen_recording::Recording;
+use hulkgen_recording::{Contents, Recording};
 
 use super::difference::first_difference;
-use super::output_channels::OutputChannels;
-use super::play::{self, Player, Players};
+use super::output_channels::recorded_output;
 use super::tolerance::{TOLERANCE, first_beyond, is_within};
-use super::{Divergence, Needed, Ran, Replayable};
+use super::{Chunks, Divergence, Needed, Player, Players, Ran, Replayable, Shelf};
 use crate::error::{Error, Result};
 use crate::numerics;
-use crate::recorded::Stored;
 
 /// How a recording is verified.
 #[derive(Clone, Debug, Default)]
@@ -138,36 +136,36 @@ impl Verification {
     }
 }
 
-/// Recomputes every cycle of a recording.
+/// Recomputes every cycle of a recording that is in memory.
 ///
 /// # Errors
 /// If the recording is of another version, or damaged.
 pub fn verify(recording: &Recording, replayables: &[Replayable]) -> Result<Verification> {
-    verify_how(recording, replayables, &How::default())
+    verify_how(&Shelf::of(recording)?, replayables, &How::default())
 }
 
 /// Recomputes every cycle of a recording, or what one node needs of it.
 ///
 /// # Errors
-/// As [`verify`].
+/// If a frame cannot be understood.
 pub fn verify_how(
-    recording: &Recording,
+    recording: &Shelf,
     replayables: &[Replayable],
     how: &How,
 ) -> Result<Verification> {
-    let values = play::value_channels(recording)?;
-    let mut players = Players::new(recording, &values, replayables)?;
+    let mut players = Players::new(recording, replayables)?;
+    let contents = recording.contents();
     let mut verification = Verification {
         unknown: players.unknown.clone(),
-        numerics: other_numerics(recording, "numerics", numerics::fingerprint()),
+        numerics: other_numerics(contents, "numerics", numerics::fingerprint()),
         numerics_of_std: other_numerics(
-            recording,
+            contents,
             "numerics_of_std",
             numerics::fingerprint_of_std(),
         ),
-        graph: other_graph(recording, how),
+        graph: other_graph(contents, how),
         tolerance: how.tolerance,
-        damaged: recording.damaged.clone(),
+        damaged: recording.damaged().to_vec(),
         is_complete: recording.is_complete(),
         ..Verification::default()
     };
@@ -179,32 +177,7 @@ pub fn verify_how(
             .map(|(instance, nodes)| (instance.to_owned(), nodes.to_vec()))
             .collect();
     }
-    let channels = OutputChannels::of(recording);
-    for (player, chunks) in players.each() {
-        let mut comparing = Comparing {
-            channels: &channels,
-            node: how.needed.as_ref().map(|needed| needed.node.as_str()),
-            tolerance: verification.compared_within,
-            verified: described(recording, player.instance),
-            first: None,
-        };
-        comparing.verified.frames = player.frames.len() as u64;
-        for position in 0..player.frames.len() {
-            if let Err(error) = comparing.one(player, position, chunks) {
-                let cycle = player.frames[position].head.number;
-                let reason = error.context(format!("cycle {cycle}")).to_string();
-                comparing.verified.unreadable = Some(reason);
-                break;
-            }
-        }
-        let Comparing {
-            mut verified,
-            first,
-            ..
-        } = comparing;
-        if !player.is_known {
-            verified.unreadable = Some("the recording has no such instance".to_owned());
-        }
+    for (verified, first) in compared(&mut players, how, verification.compared_within) {
         verification.instances.push(verified);
         let earlier = |other: &Divergence| {
             verification
@@ -219,9 +192,50 @@ pub fn verify_how(
     Ok(verification)
 }
 
+/// What came of each instance, and its first divergence.
+fn compared(
+    players: &mut Players<'_>,
+    how: &How,
+    tolerance: Option<f64>,
+) -> Vec<(InstanceVerified, Option<Divergence>)> {
+    let chunks = players.chunks();
+    let comparing = players.players.iter().map(|player| Comparing {
+        chunks,
+        node: how.needed.as_ref().map(|needed| needed.node.as_str()),
+        tolerance,
+        verified: InstanceVerified {
+            frames: player.frames.len() as u64,
+            ..described(chunks.shelf.contents(), player.instance)
+        },
+        first: None,
+    });
+    let mut comparing: Vec<_> = comparing.collect();
+    // All cycles of a chunk, whosever they are, before the next chunk is read.
+    for (index, position) in players.in_file_order() {
+        let (player, comparing) = (&mut players.players[index], &mut comparing[index]);
+        if comparing.verified.unreadable.is_some() {
+            continue;
+        }
+        if let Err(error) = comparing.one(player, position) {
+            let cycle = player.frames[position].head.number;
+            let reason = error.context(format!("cycle {cycle}")).to_string();
+            comparing.verified.unreadable = Some(reason);
+        }
+    }
+    let all = comparing.into_iter().zip(&players.players);
+    let all = all.map(|(comparing, player)| {
+        let mut verified = comparing.verified;
+        if !player.is_known {
+            verified.unreadable = Some("the recording has no such instance".to_owned());
+        }
+        (verified, comparing.first)
+    });
+    all.collect()
+}
+
 /// The comparison of one instance.
 struct Comparing<'a> {
-    channels: &'a OutputChannels<'a>,
+    chunks: Chunks<'a>,
     /// The only node whose outputs are compared.
     node: Option<&'a str>,
     /// If it applies.
@@ -240,18 +254,13 @@ enum Differs {
 
 impl Comparing<'_> {
     /// Recomputes one cycle and compares.
-    fn one(
-        &mut self,
-        player: &mut Player<'_>,
-        position: usize,
-        chunks: &[Stored<'_>],
-    ) -> Result<()> {
+    fn one(&mut self, player: &mut Player<'_>, position: usize) -> Result<()> {
         let frame = player.frames[position];
-        let Some(recorded) = frame.digests() else {
+        let Some(recorded) = player.digests(position, self.chunks)? else {
             self.verified.unfinished += 1;
             return Ok(());
         };
-        match player.play(position, chunks)? {
+        match player.play(position, self.chunks)? {
             Ran::NeedsHardware => {
                 self.verified.needs_hardware += 1;
                 return Ok(());
@@ -267,8 +276,9 @@ impl Comparing<'_> {
         let Some(replay) = player.replay() else {
             return Ok(());
         };
-        let mut recorded = same_outputs(recorded.collect(), replay.instance().digested())?;
+        let mut recorded = same_outputs(recorded, replay.instance().digested())?;
         let (mut diverged, mut outputs, mut not_compared) = (false, 0, 0);
+        let mut unread = None;
         let digested = replay.instance().digests(&mut |node, output, digest| {
             let wanted = recorded.next();
             if self.node.is_some_and(|asked| asked != node) {
@@ -280,16 +290,20 @@ impl Comparing<'_> {
                 return;
             }
             let found = Divergence::of(player.instance, frame.head, (node, output), wanted, digest);
-            match self.judged(found, replay, chunks) {
-                Differs::Within => self.verified.within += 1,
-                Differs::Unknown => not_compared += 1,
-                Differs::Diverged(found) => {
+            match self.judged(found, replay) {
+                Err(error) => unread = Some(error),
+                Ok(Differs::Within) => self.verified.within += 1,
+                Ok(Differs::Unknown) => not_compared += 1,
+                Ok(Differs::Diverged(found)) => {
                     diverged = true;
                     self.first.get_or_insert(*found);
                 }
             }
         });
         digested.map_err(|error| Error::new(error.to_string()))?;
+        if let Some(error) = unread {
+            return Err(error);
+        }
         self.verified.outputs += outputs;
         self.verified.not_compared += not_compared;
         self.verified.diverged += u64::from(diverged);
@@ -299,14 +313,9 @@ impl Comparing<'_> {
         Ok(())
     }
 
-    fn judged(
-        &self,
-        mut found: Divergence,
-        replay: &dyn super::Replay,
-        chunks: &[Stored<'_>],
-    ) -> Differs {
+    fn judged(&self, mut found: Divergence, replay: &dyn super::Replay) -> Result<Differs> {
         if self.tolerance.is_some() || self.first.is_none() {
-            compare(&mut found, replay, chunks, self.channels);
+            compare(&mut found, replay, self.chunks.shelf)?;
         }
         if let (Some(recorded), Some(recomputed)) = (&found.recorded, &found.recomputed) {
             found.path = match self.tolerance {
@@ -314,7 +323,7 @@ impl Comparing<'_> {
                 None => first_difference(recorded, recomputed),
             };
         }
-        match (self.tolerance, &found.recorded, &found.recomputed) {
+        Ok(match (self.tolerance, &found.recorded, &found.recomputed) {
             (Some(_), None, _) => Differs::Unknown,
             (Some(tolerance), Some(recorded), Some(recomputed))
                 if is_within(recorded, recomputed, tolerance) =>
@@ -322,7 +331,7 @@ impl Comparing<'_> {
                 Differs::Within
             }
             _ => Differs::Diverged(Box::new(found)),
-        }
+        })
     }
 }
 
@@ -330,29 +339,31 @@ impl Comparing<'_> {
 fn compare(
     divergence: &mut Divergence,
     replay: &dyn super::Replay,
-    chunks: &[Stored<'_>],
-    channels: &OutputChannels<'_>,
-) {
+    recording: &Shelf,
+) -> Result<()> {
     let value = replay.instance().main_output(&divergence.output);
     divergence.recomputed = value.and_then(|value| serde_json::to_value(value.as_serialize()).ok());
     let Some(wanted) = divergence.digests.0 else {
-        return;
+        return Ok(());
     };
-    let mut written = chunks
-        .iter()
-        .filter_map(|chunk| chunk.bytes(divergence.instance, divergence.cycle));
-    divergence.recorded =
-        written.find_map(|bytes| replay.recorded(bytes, &divergence.output, wanted));
-    if divergence.recorded.is_some() {
-        return;
+    let (instance, output, cycle) = (divergence.instance, &divergence.output, divergence.cycle);
+    if let Some(channel) = recording.channel(instance) {
+        // Whatever chunk has it: that of a cycle that read it.
+        for place in recording.index().everywhere((channel, cycle as u32)) {
+            let written = recording.bytes(place)?;
+            divergence.recorded = replay.recorded(&written, output, wanted);
+            if divergence.recorded.is_some() {
+                return Ok(());
+            }
+        }
     }
-    let (instance, output) = (divergence.instance, &divergence.output);
-    divergence.recorded = channels.value(instance, output, divergence.cycle);
+    divergence.recorded = recorded_output(recording, (instance, output), cycle)?;
     if divergence.recorded.is_some() {
         // Text has another `f64` for an `f32` than the number itself: both were text.
         let text = value.and_then(|value| serde_json::to_vec(value.as_serialize()).ok());
         divergence.recomputed = text.and_then(|text| serde_json::from_slice(&text).ok());
     }
+    Ok(())
 }
 
 /// The digests of a cycle, which are in the order of its outputs.
@@ -371,7 +382,7 @@ fn same_outputs(
 }
 
 /// What the recording itself says of an instance.
-fn described(recording: &Recording, instance: &str) -> InstanceVerified {
+fn described(recording: &Contents, instance: &str) -> InstanceVerified {
     let said = |metadata: &str, key: &str| {
         let entries = &recording.metadata(metadata)?.entries;
         let entry = entries.iter().find(|(known, _)| known == key);
@@ -393,13 +404,13 @@ fn described(recording: &Recording, instance: &str) -> InstanceVerified {
 }
 
 /// What the recording says under `key`, and what is the case here, if that is something else.
-fn other_numerics(recording: &Recording, key: &str, here: String) -> Option<(String, String)> {
+fn other_numerics(recording: &Contents, key: &str, here: String) -> Option<(String, String)> {
     let run = &recording.metadata("run")?.entries;
     let (_, there) = run.iter().find(|(known, _)| known == key)?;
     (*there != here).then(|| (there.clone(), here))
 }
 
-fn other_graph(recording: &Recording, how: &How) -> Option<(String, String)> {
+fn other_graph(recording: &Contents, how: &How) -> Option<(String, String)> {
     let here = how.graph.clone()?;
     let run = &recording.metadata("run")?.entries;
     let (_, there) = run.iter().find(|(key, _)| key == "graph")?;

@@ -4,9 +4,7 @@ use std::path::Path;
 use std::time::Duration;
 
 use framework::recorded::{About, Recording, Settings, describe};
-use framework::replay::{
-    Alone, Move, Players, Ran, Replay, Replayable, Timeline, ValueChannels, value_channels,
-};
+use framework::replay::{Alone, Move, Players, Ran, Replay, Replayable, Shelf, Timeline};
 use framework::{
     AdditionalSlot, Clock, Cycler, Guarded, Lockstep, OnFailure, Stop, Subscriptions, Swap,
     Timestamp, buffer, buffer_of, procedure,
@@ -101,8 +99,8 @@ const QUICK: Replayable = Replayable {
     ..FAILING
 };
 
-fn timeline<'r>(file: &'r File, values: &'r ValueChannels, one: Replayable) -> Timeline<'r> {
-    let players = Players::new(file, values, &[one]).expect("it is of this version");
+fn timeline(shelf: &Shelf, one: Replayable) -> Timeline<'_> {
+    let players = Players::new(shelf, &[one]).expect("it is of this version");
     let made = Timeline::new("test", players, Parameters { gain: 1 }, &Stop::new());
     let (mut timeline, _) = made.expect("it has cycles");
     let fast = Move {
@@ -117,8 +115,8 @@ fn timeline<'r>(file: &'r File, values: &'r ValueChannels, one: Replayable) -> T
 fn the_fifth_cycle_that_fails_does_so_for_its_own_reason() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = recorded(folder.path());
-    let values = value_channels(&file).expect("it is of this version");
-    let mut players = Players::new(&file, &values, &[FAILING]).expect("it is of this version");
+    let shelf = Shelf::of(&file).expect("it is of this version");
+    let mut players = Players::new(&shelf, &[FAILING]).expect("it is of this version");
     let (player, chunks) = players.of("Legs").expect("it is an instance");
     let reasons = (0..8).map(|position| player.play(position, chunks));
     let reasons: Vec<_> = reasons
@@ -133,8 +131,8 @@ fn the_fifth_cycle_that_fails_does_so_for_its_own_reason() {
 fn time_waits_for_cycles_that_are_slower_than_it_and_drops_what_it_has_too_much() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = recorded(folder.path());
-    let values = value_channels(&file).expect("it is of this version");
-    let mut timeline = timeline(&file, &values, QUICK);
+    let shelf = Shelf::of(&file).expect("it is of this version");
+    let mut timeline = timeline(&shelf, QUICK);
     let mut left = 3;
     let mut three = || {
         left -= 1;
@@ -178,8 +176,8 @@ fn time_waits_for_cycles_that_are_slower_than_it_and_drops_what_it_has_too_much(
 fn a_replay_that_is_slower_than_its_speed_looks_up_meanwhile() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = recorded(folder.path());
-    let values = value_channels(&file).expect("it is of this version");
-    let mut timeline = timeline(&file, &values, SLOW);
+    let shelf = Shelf::of(&file).expect("it is of this version");
+    let mut timeline = timeline(&shelf, SLOW);
     // All cycles would take half a second at least, and are due after one of its thousandths.
     timeline.run(&Stop::new(), Some(Duration::from_millis(100)));
     let place = timeline.place();

@@ -12,8 +12,7 @@ use crate::injection::Inject;
 use crate::link::InstanceLink;
 use crate::parameters::Given;
 use crate::procedure::CallAny;
-use crate::recorded::Stored;
-use crate::replay::{Player, Players};
+use crate::replay::{Chunks, Player, Players};
 use crate::robot::Access;
 use crate::scheduling::Scheduling;
 use crate::subscriptions::Subscriptions;
@@ -81,7 +80,7 @@ pub(super) fn timeline(procedures: Vec<(&'static str, Box<dyn CallAny>)>) -> Ins
     }
 }
 
-fn link(player: &mut Player<'_>, chunks: &[Stored<'_>]) -> Result<InstanceLink> {
+fn link(player: &mut Player<'_>, chunks: Chunks<'_>) -> Result<InstanceLink> {
     let name = player.instance;
     let first = player.load_at(0, chunks);
     let others = 1..player.frames.len();

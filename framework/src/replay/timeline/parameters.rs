@@ -3,45 +3,51 @@
 use super::Moment;
 use crate::parameters::{Live, Version};
 use crate::recorded::PARAMETERS;
-use crate::replay::Players;
 use crate::replay::events::reads_parameters;
+use crate::replay::shelf::Place;
+use crate::replay::{Players, Shelf};
 use crate::report::tell;
 
 /// The parameters that clients see, and what the recording has of them.
 pub(super) struct RecordedParameters<'r> {
     live: Live,
+    recording: &'r Shelf,
     /// In order of time, and of the versions; empty: they stay as they are.
-    changes: Vec<Change<'r>>,
+    changes: Vec<Change>,
     /// Which of the changes is shown.
     shown: Option<usize>,
 }
 
 /// A version that was there from a cycle on.
-struct Change<'r> {
+struct Change {
     /// How many moments have been once it is there.
     passed: usize,
     version: Version,
-    bytes: &'r [u8],
+    place: Place,
 }
 
 impl<'r> RecordedParameters<'r> {
     /// Those that stay as they are.
-    pub(super) fn fixed(live: Live) -> Self {
+    pub(super) fn fixed(live: Live, recording: &'r Shelf) -> Self {
         live.freeze();
         Self {
             live,
+            recording,
             changes: Vec::new(),
             shown: None,
         }
     }
 
     /// From now on they are what the newest of these cycles took.
-    pub(super) fn follow(&mut self, players: &Players<'r>, moments: &[Moment]) {
+    pub(super) fn follow(&mut self, players: &Players<'_>, moments: &[Moment]) {
+        let Some(channel) = self.recording.channel(PARAMETERS) else {
+            return;
+        };
         let readers: Vec<_> = players.players.iter().map(reads_parameters).collect();
         let moments = moments.iter().enumerate();
         for (index, moment) in moments.filter(|(_, moment)| readers[moment.instance]) {
             let player = &players.players[moment.instance];
-            let Ok(version) = player.parameters_version(moment.position) else {
+            let Some(version) = player.parameters_version(moment.position) else {
                 continue;
             };
             // A cycle that began earlier, and came here later, has older ones.
@@ -53,11 +59,12 @@ impl<'r> RecordedParameters<'r> {
                 continue;
             }
             let chunk = player.chunk_of(moment.position);
-            if let Some(bytes) = players.bytes(chunk, PARAMETERS, version) {
+            let recorded = self.recording.index();
+            if let Some(place) = recorded.value(chunk, (channel, version as u32)) {
                 self.changes.push(Change {
                     passed: index + 1,
                     version: Version(version),
-                    bytes,
+                    place,
                 });
             }
         }
@@ -76,7 +83,9 @@ impl<'r> RecordedParameters<'r> {
         if self.shown.replace(wanted) == Some(wanted) {
             return;
         }
-        if let Err(error) = self.live.show(change.version, change.bytes) {
+        let bytes = self.recording.bytes(change.place);
+        let shown = bytes.and_then(|bytes| self.live.show(change.version, &bytes));
+        if let Err(error) = shown {
             let Version(version) = change.version;
             tell(format_args!(
                 "version {version} of the parameters cannot be shown: {error}"

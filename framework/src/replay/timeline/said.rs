@@ -1,13 +1,13 @@
 //! What was said when the recording was made: said again when the time passes it.
 
+use std::cell::Cell;
 use std::collections::BTreeMap;
-
-use hulkgen_recording::Recording;
 
 use super::Moment;
 use crate::logs::{Record, say_again};
-use crate::recorded::{from_log, recorded_logs};
-use crate::replay::Players;
+use crate::recorded::from_log;
+use crate::replay::shelf::Place;
+use crate::replay::{Players, Shelf};
 use crate::report::tell;
 use crate::time::Timestamp;
 
@@ -15,56 +15,68 @@ use crate::time::Timestamp;
 const MOST: usize = 500;
 
 /// The messages of a recording.
-#[derive(Default)]
 pub(super) struct Said<'r> {
+    recording: &'r Shelf,
     /// In the order in which they are said.
-    messages: Vec<Message<'r>>,
+    messages: Vec<Message>,
     /// Of a cycle, by instance and position: which of the messages.
     of_cycles: BTreeMap<(usize, usize), Vec<usize>>,
+    /// Whether it was told that a message cannot be read: once says enough.
+    is_told: Cell<bool>,
 }
 
-struct Message<'r> {
+struct Message {
     /// How many moments have been once it was said: one of a cycle that was recorded belongs to that cycle.
     passed: usize,
     time: Timestamp,
-    json: &'r [u8],
+    /// Of its JSON.
+    place: Place,
     /// Instance and position.
     cycle: Option<(usize, usize)>,
 }
 
 impl<'r> Said<'r> {
-    /// Those of the recording with these cycles.
-    pub(super) fn new(recording: &'r Recording, players: &Players<'_>, moments: &[Moment]) -> Self {
+    /// Nothing was said.
+    pub(super) fn nothing(recording: &'r Shelf) -> Self {
+        Self {
+            recording,
+            messages: Vec::new(),
+            of_cycles: BTreeMap::new(),
+            is_told: Cell::new(false),
+        }
+    }
+
+    /// All that was, with these cycles.
+    pub(super) fn new(recording: &'r Shelf, players: &Players<'_>, moments: &[Moment]) -> Self {
         let numbered = moments.iter().enumerate().map(|(index, moment)| {
             let player = &players.players[moment.instance];
             let number = player.frames[moment.position].head.number;
             ((player.instance, number), (index, moment))
         });
         let numbered: BTreeMap<_, _> = numbered.collect();
-        let (mut messages, mut unreadable) = (Vec::new(), 0);
-        for (time, json) in recorded_logs(recording) {
-            let Some(record) = from_log(time, json) else {
-                unreadable += 1;
-                continue;
-            };
-            let cycle = record.instance.as_deref().zip(record.cycle);
-            let found = cycle.and_then(|cycle| numbered.get(&cycle));
-            messages.push(match found {
+        let index = recording.index();
+        let messages = index.logs.iter().map(|logged| {
+            let (time, place) = (logged.time, logged.place);
+            let cycle = logged.cycle;
+            let cycle = cycle.map(|(speaker, cycle)| (&*index.speakers[speaker], cycle));
+            match cycle.and_then(|cycle| numbered.get(&cycle)) {
                 Some((index, moment)) => Message {
                     passed: index + 1,
                     time,
-                    json,
+                    place,
                     cycle: Some((moment.instance, moment.position)),
                 },
                 None => Message {
                     // What was said before everything else is said with it.
                     passed: moments.partition_point(|moment| moment.at <= time).max(1),
                     time,
-                    json,
+                    place,
                     cycle: None,
                 },
-            });
-        }
+            }
+        });
+        let mut messages: Vec<_> = messages.collect();
+        let unreadable = index.unreadable_logs;
         if unreadable > 0 {
             tell(format_args!(
                 "{unreadable} log messages of the recording cannot be read"
@@ -80,6 +92,7 @@ impl<'r> Said<'r> {
         Self {
             messages,
             of_cycles,
+            ..Self::nothing(recording)
         }
     }
 
@@ -87,7 +100,7 @@ impl<'r> Said<'r> {
     pub(super) fn of(&self, instance: usize, position: usize) -> Vec<Record> {
         let found = self.of_cycles.get(&(instance, position));
         let found = found.into_iter().flatten();
-        let records = found.map(|index| self.messages[*index].record());
+        let records = found.map(|index| self.record(&self.messages[*index]));
         records.flatten().collect()
     }
 
@@ -102,23 +115,29 @@ impl<'r> Said<'r> {
         if from <= to {
             let passed = &self.messages[until(from)..until(to)];
             let heard = &passed[passed.len().saturating_sub(MOST)..];
-            heard.iter().for_each(Message::say);
+            heard.iter().for_each(|message| self.say(message));
         } else {
             let passed = &self.messages[until(to.saturating_sub(1))..until(from - 1)];
             let heard = &passed[..passed.len().min(MOST)];
-            heard.iter().rev().for_each(Message::say);
+            heard.iter().rev().for_each(|message| self.say(message));
         }
     }
-}
 
-impl Message<'_> {
-    fn record(&self) -> Option<Record> {
-        from_log(self.time, self.json)
+    fn say(&self, message: &Message) {
+        if let Some(record) = self.record(message) {
+            say_again(&record);
+        }
     }
 
-    fn say(&self) {
-        if let Some(record) = self.record() {
-            say_again(&record);
+    fn record(&self, message: &Message) -> Option<Record> {
+        match self.recording.bytes(message.place) {
+            Ok(json) => from_log(message.time, &json),
+            Err(error) => {
+                if !self.is_told.replace(true) {
+                    tell(format_args!("what was said cannot be said again: {error}"));
+                }
+                None
+            }
         }
     }
 }

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use framework::parameters::Layers;
 use framework::recorded::{About, Recording, Settings};
-use framework::replay::{Players, value_channels, verify};
+use framework::replay::{Players, verify, Shelf};
 use framework::testing::created;
 use framework::{Clock, Lockstep, ParameterData, Record, Robot, Start, Stop, Timestamp};
 use hulkgen_recording::Recording as File;
@@ -51,14 +51,14 @@ fn record<P: ParameterData>(
 
 /// Calls of the node in each instance while all of its cycles run that a verification runs, too; in the order of their runs.
 fn calls(file: &File, flip: &Flip) -> Vec<(&'static str, u64)> {
-    let values = value_channels(file).expect("it is of this version");
-    let mut players = Players::new(file, &values, INSTANCES).expect("it is of this robot");
+    let shelf = Shelf::of(file).expect("it is of this version");
+    let mut players = Players::new(&shelf, INSTANCES).expect("it is of this robot");
     let mut calls = Vec::new();
     for (player, chunks) in players.each() {
         let never = u64::MAX;
         flip::arm(Flip { after: never, ..flip.clone() });
         for position in 0..player.frames.len() {
-            if player.frames[position].digests().is_some() {
+            if player.frames[position].is_finished() {
                 player.play(position, chunks).expect("it is of this robot");
             }
         }
@@ -70,11 +70,11 @@ fn calls(file: &File, flip: &Flip) -> Vec<(&'static str, u64)> {
 
 /// The instance and the cycle in which the bit is flipped.
 fn flipped_in(file: &File) -> (&'static str, u64) {
-    let values = value_channels(file).expect("it is of this version");
-    let mut players = Players::new(file, &values, INSTANCES).expect("it is of this robot");
+    let shelf = Shelf::of(file).expect("it is of this version");
+    let mut players = Players::new(&shelf, INSTANCES).expect("it is of this robot");
     for (player, chunks) in players.each() {
         for position in 0..player.frames.len() {
-            if player.frames[position].digests().is_none() {
+            if !player.frames[position].is_finished() {
                 continue;
             }
             player.play(position, chunks).expect("it is of this robot");

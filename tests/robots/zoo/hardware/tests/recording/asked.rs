@@ -4,8 +4,8 @@ use std::io::Cursor;
 
 use framework::recorded::Settings;
 use framework::replay::{
-    Comparison, How, Needed, OtherParameters, Played, Players, Source, answer, compare,
-    value_channels, verify_how, with_settings,
+    Comparison, How, Needed, OtherParameters, Played, Players, Shelf, Source, answer, compare,
+    verify_how, with_settings,
 };
 use hulkgen_recording::Recording as File;
 use zoo_runtime::parameters::Parameters;
@@ -27,14 +27,14 @@ fn setting(text: &str) -> Vec<(String, String)> {
 }
 
 fn under(file: &File, text: &str, node: Option<&str>) -> framework::Result<Comparison> {
-    let values = value_channels(file)?;
+    let shelf = Shelf::of(file)?;
     let settings = setting(text);
-    let other = OtherParameters::new(file, &values, &mut |recorded| {
+    let other = OtherParameters::new(&shelf, &mut |recorded| {
         with_settings::<Parameters>(recorded, &settings)
     })?;
     let needed = node.map(|name| Needed::new(name, GRAPH)).transpose()?;
     let players = || {
-        let players = Players::new(file, &values, recording::INSTANCES).expect("it fits");
+        let players = Players::new(&shelf, recording::INSTANCES).expect("it fits");
         match &needed {
             Some(needed) => players.only(needed),
             None => players,
@@ -92,7 +92,8 @@ fn one_node_alone_runs_what_comes_before_it_and_no_more() {
         needed: Some(Needed::new("spot_filter", GRAPH).expect("it is a node")),
         ..How::default()
     };
-    let verification = verify_how(&file, recording::INSTANCES, &how).expect("it is of this robot");
+    let shelf = Shelf::of(&file).expect("it is of this version");
+    let verification = verify_how(&shelf, recording::INSTANCES, &how).expect("it is of this robot");
     assert!(verification.is_good(), "{verification}");
     let nodes = [
         "zoo_nodes::control::pose_filter",
@@ -110,8 +111,8 @@ fn one_node_alone_runs_what_comes_before_it_and_no_more() {
     // It writes two.
     assert_eq!(control.outputs, 2 * control.verified, "{verification}");
     // What comes behind it did not run.
-    let values = value_channels(&file).expect("it is of this version");
-    let players = Players::new(&file, &values, recording::INSTANCES).expect("it fits");
+    let shelf = Shelf::of(&file).expect("it is of this version");
+    let players = Players::new(&shelf, recording::INSTANCES).expect("it fits");
     let mut players = players.only(how.needed.as_ref().expect("it was asked for"));
     players.play("Control", 60).expect("it is here");
     let (player, _) = players.of("Control").expect("it is an instance");
@@ -134,8 +135,8 @@ fn one_node_alone_runs_what_comes_before_it_and_no_more() {
 fn another_build_is_asked_line_by_line() {
     let tape = recorded();
     let file = tape.read();
-    let values = value_channels(&file).expect("it is of this version");
-    let mut players = Players::new(&file, &values, recording::INSTANCES).expect("it fits");
+    let shelf = Shelf::of(&file).expect("it is of this version");
+    let mut players = Players::new(&shelf, recording::INSTANCES).expect("it fits");
     let questions = concat!(
         r#"{"play":{"instance":"Control","position":60}}"#,
         "\n",
@@ -183,7 +184,8 @@ fn a_recording_of_another_graph_is_replayed_as_far_as_it_fits() {
     };
     let lights = other.iter().position(|one| one.instance == "Lights");
     other[lights.expect("it is an instance")].create = create("Reflexes");
-    let verification = verify_how(&file, &other, &How::default()).expect("it is a recording");
+    let shelf = Shelf::of(&file).expect("it is of this version");
+    let verification = verify_how(&shelf, &other, &How::default()).expect("it is a recording");
     assert_eq!(verification.unknown, ["Hearing"]);
     assert!(!verification.is_good());
     for one in &verification.instances {

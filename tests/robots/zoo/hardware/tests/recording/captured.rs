@@ -1,7 +1,7 @@
 //! What a node took in one cycle, whatever kinds of fields it has.
 
 use framework::recorded::Loading;
-use framework::replay::{Call, Needed, Players, snapshot, value_channels};
+use framework::replay::{Call, Needed, Players, Shelf, snapshot};
 use hulkgen_recording::Recording as File;
 use serde_json::{Value, json};
 use zoo_runtime::parameters::Parameters;
@@ -10,8 +10,8 @@ use zoo_runtime::recording;
 use super::asked::{GRAPH, recorded};
 
 fn taken(file: &File, node: &str, cycle: u64) -> framework::Result<Value> {
-    let values = value_channels(file)?;
-    let mut players = Players::new(file, &values, recording::INSTANCES)?;
+    let shelf = Shelf::of(file)?;
+    let mut players = Players::new(&shelf, recording::INSTANCES)?;
     let call = Call {
         instance: "Control",
         cycle,

@@ -1,8 +1,6 @@
 //! Other parameters over many cycles: each goes on with what the one before it left.
 
-use framework::replay::{
-    Comparison, OtherParameters, Players, compare, value_channels, with_settings,
-};
+use framework::replay::{Comparison, OtherParameters, Players, Shelf, compare, with_settings};
 use framework::{Record, recorded::Settings};
 use hulkgen_recording::Recording as File;
 use zoo_runtime::parameters::Parameters;
@@ -13,16 +11,16 @@ use super::{Tape, as_it_is, record_in_lockstep};
 
 /// What this setting changes, or none where there is no setting.
 fn carried(file: &File, setting: Option<(&str, &str)>) -> Comparison {
-    let values = value_channels(file).expect("it is of this version");
+    let shelf = Shelf::of(file).expect("it is of this version");
     let settings: Vec<_> = setting
         .map(|(path, value)| (path.to_owned(), value.to_owned()))
         .into_iter()
         .collect();
-    let other = OtherParameters::new(file, &values, &mut |recorded| {
+    let other = OtherParameters::new(&shelf, &mut |recorded| {
         with_settings::<Parameters>(recorded, &settings)
     });
     let other = other.expect("it is a parameter");
-    let players = || Players::new(file, &values, recording::INSTANCES).expect("it fits");
+    let players = || Players::new(&shelf, recording::INSTANCES).expect("it fits");
     let after = players().under(&other).carrying(GRAPH);
     let mut after = after.expect("it is the graph of the zoo");
     compare(&mut players(), &mut after, None).expect("both answer")

@@ -2,7 +2,7 @@
 
 use framework::driver::Observer;
 use framework::recorded::{About, Recording, Settings};
-use framework::replay::{How, TOLERANCE, Verification, verify_how};
+use framework::replay::{How, Shelf, TOLERANCE, Verification, verify_how};
 use framework::{Clock, Given, Instance, Lockstep, State, Timestamp};
 use hulkgen_recording::Recording as File;
 use serde_json::{Value, json};
@@ -104,7 +104,8 @@ fn verify_within(file: &File, tolerance: Option<f64>) -> Verification {
         tolerance,
         ..How::default()
     };
-    verify_how(file, recording::INSTANCES, &how).expect("it is of this robot")
+    let shelf = Shelf::of(file).expect("it is of this version");
+    verify_how(&shelf, recording::INSTANCES, &how).expect("it is of this robot")
 }
 
 /// Control's cycles whose outputs the recording has.

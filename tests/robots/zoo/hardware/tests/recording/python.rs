@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::io::ErrorKind;
 use std::process::Command;
 
-use framework::replay::{Players, value_channels};
+use framework::replay::{Players, Shelf};
 use serde_json::Value;
 use zoo_runtime::recording;
 
@@ -58,15 +58,16 @@ fn python_decodes_every_message() {
         .map(|one| ((one["path"].as_str(), one["cycle"].as_u64()), &one["value"]))
         .filter(|((path, _), _)| path.is_some_and(|path| path.contains(".digests.")))
         .collect();
-    let values = value_channels(&file).expect("it is of this version");
-    let mut players = Players::new(&file, &values, recording::INSTANCES).expect("it fits");
+    let shelf = Shelf::of(&file).expect("it is of this version");
+    let mut players = Players::new(&shelf, recording::INSTANCES).expect("it fits");
     let mut named = 0;
     for instance in INSTANCES {
         let (player, chunks) = players.of(instance).expect("it is an instance");
         player.load_at(0, chunks).expect("its first frame is whole");
         let replay = player.replay().expect("it was loaded").instance();
-        for frame in &player.frames {
-            let Some(recorded) = frame.digests() else {
+        for (position, frame) in player.frames.iter().enumerate() {
+            let recorded = player.digests(position, chunks);
+            let Some(recorded) = recorded.expect("it can be read") else {
                 continue;
             };
             for ((node, output), digest) in replay.digested().iter().zip(recorded) {

@@ -7,11 +7,9 @@ use std::time::Duration;
 
 use framework::recorded::{Loading, Settings};
 use framework::replay::{
-    Move, PROCEDURE, Players, Ran, TIMELINE, Timeline, ValueChannels, What, first_parameters,
-    value_channels,
+    Move, PROCEDURE, Players, Ran, Shelf, TIMELINE, Timeline, What, first_parameters,
 };
 use framework::{InstanceDescription, Record, Reflect, Stop, Target, Timestamp, launch};
-use hulkgen_recording::Recording as File;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use zoo_hardware::Hardware;
@@ -40,10 +38,12 @@ fn time_goes_where_clients_want_it() {
     let tape = Tape::new();
     record_in_lockstep(&tape.path, Settings::default(), on, &as_it_is);
     let file = tape.read();
-    let values = value_channels(&file).expect("it is of this version");
-    let players = Players::new(&file, &values, recording::INSTANCES).expect("it fits");
-    let first = first_parameters(&file, &values).expect("they were recorded");
-    let parameters: Parameters = Loading::new(first).take().expect("they are of this robot");
+    let shelf = Shelf::of(&file).expect("it is of this version");
+    let players = Players::new(&shelf, recording::INSTANCES).expect("it fits");
+    let first = first_parameters(&shelf)
+        .expect("it can be read")
+        .expect("they were recorded");
+    let parameters: Parameters = Loading::new(&first).take().expect("they are of this robot");
     let (mut timeline, mut link) =
         Timeline::new("zoo", players, parameters, &Stop::default()).expect("it has cycles");
     let names = link.instances.iter().map(|one| one.description.name);
@@ -177,12 +177,13 @@ fn whoever_listens_to_additional_outputs_changes_nothing_else() {
     let tape = Tape::new();
     record_in_lockstep(&tape.path, Settings::default(), on, &as_it_is);
     let file = tape.read();
-    let values = value_channels(&file).expect("it is of this version");
-    let mut players = Players::new(&file, &values, recording::INSTANCES).expect("it fits");
+    let shelf = Shelf::of(&file).expect("it is of this version");
+    let mut players = Players::new(&shelf, recording::INSTANCES).expect("it fits");
     let (mut compared, mut filled) = (0, 0);
     for (player, chunks) in players.each() {
         for position in 0..player.frames.len() {
-            let Some(recorded) = player.frames[position].digests() else {
+            let recorded = player.digests(position, chunks);
+            let Some(recorded) = recorded.expect("it can be read") else {
                 continue;
             };
             let ran = player.play(position, chunks).expect("the frame is whole");
@@ -203,7 +204,7 @@ fn whoever_listens_to_additional_outputs_changes_nothing_else() {
             let mut digests = Vec::new();
             let visited = instance.digests(&mut |_, _, digest| digests.push(digest));
             visited.expect("every output serialises");
-            assert!(recorded.eq(digests), "{} {position}", player.instance);
+            assert!(recorded == digests, "{} {position}", player.instance);
             compared += 1;
         }
     }
@@ -216,8 +217,8 @@ fn what_a_setup_node_filled_is_there_again_in_the_cycles_in_which_it_did() {
     let tape = Tape::new();
     record_in_lockstep(&tape.path, Settings::default(), on, &as_it_is);
     let file = tape.read();
-    let values = value_channels(&file).expect("it is of this version");
-    let mut players = Players::new(&file, &values, recording::INSTANCES).expect("it fits");
+    let shelf = Shelf::of(&file).expect("it is of this version");
+    let mut players = Players::new(&shelf, recording::INSTANCES).expect("it fits");
     let mut filled = Vec::new();
     for (player, chunks) in players.each() {
         let name = match player.instance {
@@ -268,10 +269,12 @@ fn cycles_that_were_not_recorded_are_told_with_their_place() {
     };
     record_in_lockstep(&tape.path, Settings::default(), record, &as_it_is);
     let file = tape.read();
-    let values = value_channels(&file).expect("it is of this version");
-    let players = Players::new(&file, &values, recording::INSTANCES).expect("it fits");
-    let first = first_parameters(&file, &values).expect("they were recorded");
-    let parameters: Parameters = Loading::new(first).take().expect("they are of this robot");
+    let shelf = Shelf::of(&file).expect("it is of this version");
+    let players = Players::new(&shelf, recording::INSTANCES).expect("it fits");
+    let first = first_parameters(&shelf)
+        .expect("it can be read")
+        .expect("they were recorded");
+    let parameters: Parameters = Loading::new(&first).take().expect("they are of this robot");
     let (timeline, _link) =
         Timeline::new("zoo", players, parameters, &Stop::default()).expect("it has cycles");
     let place = timeline.place();
@@ -307,16 +310,19 @@ fn a_frame_that_does_not_fit_is_passed_over() {
     let tape = Tape::new();
     record_in_lockstep(&tape.path, Settings::default(), on, &as_it_is);
     let file = tape.read();
-    let values = value_channels(&file).expect("it is of this version");
-    let mut players = Players::new(&file, &values, recording::INSTANCES).expect("it fits");
-    let first = first_parameters(&file, &values).expect("they were recorded");
-    let parameters: Parameters = Loading::new(first).take().expect("they are of this robot");
+    let shelf = Shelf::of(&file).expect("it is of this version");
+    let mut players = Players::new(&shelf, recording::INSTANCES).expect("it fits");
+    let first = first_parameters(&shelf)
+        .expect("it can be read")
+        .expect("they were recorded");
+    let parameters: Parameters = Loading::new(&first).take().expect("they are of this robot");
     let mut foreign = players.players[0].frames[0];
-    let control = &mut players.players[3].frames;
+    let mut control = players.players[3].frames.to_vec();
     let last = control.len() - 1;
     let (before, number) = (control[last - 1].head.number, control[last].head.number);
     foreign.head = control[last].head;
     control[last] = foreign;
+    players.players[3].frames = &control;
     let (mut timeline, mut link) =
         Timeline::new("zoo", players, parameters, &Stop::default()).expect("it has cycles");
     let control = link
@@ -344,13 +350,12 @@ fn a_frame_that_does_not_fit_is_passed_over() {
 }
 
 /// The timeline of a recording, in which some instances are of other types.
-fn timeline_of<'r>(
-    file: &'r File,
-    values: &'r ValueChannels,
-) -> framework::Result<(Timeline<'r>, framework::link::Link)> {
-    let players = Players::new(file, values, recording::INSTANCES).expect("it is of this version");
-    let first = first_parameters(file, values).expect("they were recorded");
-    let parameters: Parameters = Loading::new(first).take().expect("they are of this robot");
+fn timeline_of(shelf: &Shelf) -> framework::Result<(Timeline<'_>, framework::link::Link)> {
+    let players = Players::new(shelf, recording::INSTANCES).expect("it is of this version");
+    let first = first_parameters(shelf)
+        .expect("it can be read")
+        .expect("they were recorded");
+    let parameters: Parameters = Loading::new(&first).take().expect("they are of this robot");
     Timeline::new("zoo", players, parameters, &Stop::default())
 }
 
@@ -359,9 +364,9 @@ fn an_instance_that_does_not_fit_is_left_out_and_the_others_are_shown() {
     let tape = Tape::new();
     record_in_lockstep(&tape.path, Settings::default(), on, &as_it_is);
     let mut file = tape.read();
-    let values = value_channels(&file).expect("it is of this version");
     let node = with_another_node(&mut file, "Control");
-    let (mut timeline, link) = timeline_of(&file, &values).expect("the others fit");
+    let shelf = Shelf::of(&file).expect("it is of this version");
+    let (mut timeline, link) = timeline_of(&shelf).expect("the others fit");
     let names = link.instances.iter().map(|one| one.description.name);
     let fitting = INSTANCES.into_iter().filter(|name| *name != "Control");
     assert!(names.eq(fitting.clone().chain([TIMELINE])));
@@ -382,7 +387,8 @@ fn an_instance_that_does_not_fit_is_left_out_and_the_others_are_shown() {
     for name in fitting {
         with_another_node(&mut file, name);
     }
-    let Err(error) = timeline_of(&file, &values) else {
+    let shelf = Shelf::of(&file).expect("it is of this version");
+    let Err(error) = timeline_of(&shelf) else {
         panic!("nothing fits");
     };
     let error = error.to_string();
