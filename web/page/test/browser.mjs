@@ -72,6 +72,7 @@ async function everyPresetIsShown(page) {
 
 async function aPhoneShowsIt(browser) {
   const context = await browser.newContext({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, colorScheme: "dark" });
+  context.setDefaultTimeout(PATIENCE);
   const page = await context.newPage();
   await page.goto(stage.address);
   await isConnected(page);

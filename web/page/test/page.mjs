@@ -48,9 +48,9 @@ export function hasPicture(canvas) {
   return colors.size >= 20;
 }
 
-export async function until(page, locator, judge, what) {
+export async function until(page, locator, judge, what, timeout = PATIENCE) {
   const handle = await locator.elementHandle();
-  await page.waitForFunction(judge, handle, { timeout: PATIENCE, polling: 250 }).catch(() => assert.fail(`not seen: ${what}`));
+  await page.waitForFunction(judge, handle, { timeout, polling: 250 }).catch(() => assert.fail(`not seen: ${what}`));
 }
 
 export async function changes(page, locator, what) {
@@ -62,10 +62,10 @@ export async function changes(page, locator, what) {
 }
 
 /** Waits until the text is like this. */
-export async function reads(locator, pattern, what) {
+export async function reads(locator, pattern, what, timeout = PATIENCE) {
   await locator
     .filter({ hasText: pattern })
-    .waitFor({ timeout: PATIENCE })
+    .waitFor({ timeout })
     .catch(async () => {
       const failures = await locator.page().locator(".failure:not([hidden])").allTextContents();
       assert.fail(`${what} is "${await locator.first().textContent()}", not ${pattern}; the page says ${JSON.stringify(failures)}`);

@@ -128,6 +128,7 @@ export async function tokensAreAskedFor(page, stage) {
 /** Everything that a broken robot could say, between what a good one says. */
 export async function nonsenseDoesNoHarm(browser, stage) {
   const page = await browser.newPage();
+  page.setDefaultTimeout(PATIENCE);
   const wrong = [];
   page.on("pageerror", (error) => wrong.push(error.message));
   // As often as it is enough: some of it makes the page ask again.
@@ -180,6 +181,7 @@ const NONSENSE = [
 /** Of the same robot the page hears only what every robot has: numbers, and the framework's own procedure. */
 export async function otherRobotsHaveNoFootball(browser, stage) {
   const page = await browser.newPage();
+  page.setDefaultTimeout(PATIENCE);
   await page.routeWebSocket(/\/socket$/, (socket) => {
     const robot = socket.connectToServer();
     robot.onMessage((message) => {
