@@ -51,6 +51,10 @@ pub(crate) struct Extra {
     pub(crate) limit: Option<f32>,
     #[serde(default)]
     pub(crate) poses: Vec<Pose>,
+    #[serde(default)]
+    pub(crate) note: Option<String>,
+    #[serde(default)]
+    pub(crate) shelves: BTreeMap<String, Room>,
 }
 
 #[derive(Clone, Debug, Deserialize, PartialEq, Reflect, Serialize)]

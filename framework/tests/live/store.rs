@@ -129,6 +129,52 @@ fn what_is_absent_now_is_taken_away() {
 }
 
 #[test]
+fn what_is_absent_at_any_depth_is_taken_away_in_a_new_layer_too() {
+    let more =
+        "note = \"old\"\n[extra.shelves.left]\nwidth = 1.0\n[extra.shelves.right]\nwidth = 2.0\n";
+    for (file, before) in [
+        ("body.b1", None),
+        ("body.b1", Some("extra = 3\n")),
+        ("body.b1", Some("[extra]\nlimit = 1.0\n")),
+        ("body.b1", Some("# empty\n")),
+    ] {
+        let text = format!("{DEFAULT}{more}");
+        let robot = Robot::new(&[("default.toml", &text)]);
+        let shelves = json!({ "left": { "width": 1.5 } });
+        robot
+            .live
+            .change(&[("extra.note", Value::Null), ("extra.shelves", shelves)])
+            .expect("valid");
+        if let Some(before) = before {
+            robot.write(&format!("{file}.toml"), before);
+        }
+        let stored = robot
+            .live
+            .store(file, &["extra"])
+            .expect("it can be stored");
+        assert_eq!(stored.warnings, [""; 0], "{before:?}");
+        let extra = robot.after_restart().extra;
+        let text = robot.text(&format!("{file}.toml"));
+        assert_eq!(extra.note, None, "{text}");
+        let shelves: Vec<_> = extra.shelves.into_iter().collect();
+        assert_eq!(shelves.len(), 1, "{text}");
+        assert_eq!((&shelves[0].0[..], shelves[0].1.width), ("left", 1.5));
+        assert!(robot.live.changed_not_stored().is_empty(), "{text}");
+    }
+}
+
+#[test]
+fn an_earlier_layer_is_not_told_to_come_later() {
+    let text = DEFAULT.replace("\"Stand\"", "{ Turn = { angle = 1.0 } }");
+    let robot = Robot::new(&[("default.toml", &text)]);
+    let walk = json!({ "Walk": { "speed": 0.5 } });
+    robot.live.change(&[("motion", walk)]).expect("valid");
+    let stored = robot.live.store("body.b1", &["motion"]);
+    assert_eq!(stored.expect("it can be stored").warnings, [""; 0]);
+    assert!(robot.live.changed_not_stored().is_empty());
+}
+
+#[test]
 fn what_cannot_be_stored_leaves_the_file_as_it_was() {
     let robot = Robot::new(&[]);
     let live = &robot.live;

@@ -228,19 +228,11 @@ impl Entry<'_> {
         if is_replaced_whole {
             return self.replace(table, key, value);
         }
+        if !table.get(key).is_some_and(Item::is_table_like) {
+            layout::set(table, key, InlineTable::new().into());
+        }
         let known = table.get_mut(key).and_then(Item::as_table_like_mut);
-        let Some(known) = known else {
-            let mut new = layout::to_toml(value).map_err(|message| self.refuse(message))?;
-            if let toml_edit::Value::InlineTable(new) = &mut new {
-                for key in others.into_iter().flat_map(Tree::keys) {
-                    if !entries.contains_key(key) {
-                        new.insert(key, unset());
-                    }
-                }
-            }
-            layout::set(table, key, new);
-            return Ok(());
-        };
+        let known = known.ok_or_else(|| self.refuse("its key in the file is no table"))?;
         let old: Vec<String> = known.iter().map(|(key, _)| key.to_owned()).collect();
         for key in old.iter().filter(|key| !entries.contains_key(*key)) {
             known.remove(key);
@@ -272,15 +264,22 @@ fn unset() -> toml_edit::Value {
 
 /// Where a later layer than the file has a value at the path or below it.
 fn shadows(loaded: &Parameters, file: &FilePath, path: &Path) -> Vec<String> {
-    let own = file.display().to_string();
+    // Those up to the file itself.
+    let files = loaded.files();
+    let end = files.iter().position(|known| known == file);
+    let earlier = &files[..end.map_or(0, |end| end + 1)];
+    let is_earlier = |origin: &Origin| match origin {
+        Origin::File { path, .. } => earlier
+            .iter()
+            .any(|file| *file.display().to_string() == **path),
+        _ => false,
+    };
     let text = path.to_string();
     let mut leaves = Vec::new();
     if let Some(tree) = loaded.tree.get(&text) {
         tree.leaves(text, &mut leaves);
     }
-    let foreign = leaves
-        .into_iter()
-        .filter(|(_, origin)| !matches!(origin, Origin::File { path, .. } if **path == *own));
+    let foreign = leaves.into_iter().filter(|(_, origin)| !is_earlier(origin));
     foreign
         .map(|(path, origin)| {
             format!("`{path}` has no effect at the next start: {origin} comes later")
