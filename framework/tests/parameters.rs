@@ -388,3 +388,37 @@ fn text_and_tables_are_read_alike() {
         .to_string();
     assert_eq!(message, "parameters: `mass`: is missing: no layer has it");
 }
+
+#[test]
+fn parts_of_a_variant_come_from_several_variables_or_settings() {
+    let (_directory, mut layers) = layers(&[("default.toml", DEFAULT)]);
+    let mut kick = |environment: &[(&str, &str)], settings: &[(&str, &str)]| {
+        layers.environment = pairs(environment);
+        layers.settings = pairs(settings);
+        let loaded = layers.load();
+        let read = loaded.and_then(|parameters| parameters.deserialize::<Parameters>());
+        read.map(|read| read.kick)
+            .map_err(|error| error.to_string())
+    };
+    let turned = |angle, strength| Ok(Kick::Turned { angle, strength });
+    let angle = ("HULK_PARAMETERS__kick__Turned__angle", "0.5");
+    let strength = ("HULK_PARAMETERS__kick__Turned__strength", "3");
+    let straight = ("HULK_PARAMETERS__kick__Straight", "1.0");
+    assert_eq!(kick(&[angle, strength], &[]), turned(0.5, 3));
+    // Whatever the order in which the system has them: by name.
+    for environment in [[straight, angle, strength], [strength, angle, straight]] {
+        assert_eq!(kick(&environment, &[]), turned(0.5, 3));
+    }
+    let settings = [("kick.Turned.strength", "4"), ("kick.Turned.angle", "1.5")];
+    assert_eq!(kick(&[], &settings), turned(1.5, 4));
+    assert_eq!(kick(&[straight], &settings), turned(1.5, 4));
+    // Of two variants the later one is meant.
+    let later = [settings[0], settings[1], ("kick", "{ Straight = 2.0 }")];
+    assert_eq!(kick(&[], &later), Ok(Kick::Straight(2.0)));
+    // A layer of its own has all of the variant.
+    let error = kick(&[strength], &settings[1..]).expect_err("half of it is there");
+    assert!(
+        error.contains("`kick.Turned.strength`: is missing"),
+        "{error}"
+    );
+}

@@ -14,7 +14,7 @@ use serde::forward_to_deserialize_any;
 use super::error::{Fault, Origin, ParameterError};
 use super::live::Refusal;
 use super::nearest::nearest;
-use super::tree::{Tree, Value};
+use super::tree::{Layer, Tree, Value};
 
 /// The type that the tree stands for.
 pub(super) fn deserialize<T: DeserializeOwned>(tree: &Tree) -> Result<T, ParameterError> {
@@ -230,10 +230,14 @@ impl<'de> Deserializer<'de> for Node<'_> {
             }),
             // A later layer replaces the whole value, and its variant need not be the one from before.
             Value::Table(entries) => {
-                let layer = Some(self.tree.layer);
-                let mut entries = Node { layer, ..self }.entries(entries);
-                match (entries.next(), entries.next()) {
+                let Layer { number, .. } = self.tree.layer;
+                // Of one that is given in parts its last part says which variant it is.
+                let mut last = entries
+                    .iter()
+                    .filter(|(_, tree)| tree.layer == self.tree.layer);
+                match (last.next(), last.next()) {
                     (Some((name, tree)), None) => {
+                        let layer = Some(number);
                         visit_variant(name, Node { tree, layer }, visitor)
                     }
                     _ => Err(Mistake::new("expected a table with one variant")),
@@ -307,7 +311,7 @@ impl<'tree> Iterator for Entries<'tree> {
         let mut counting = self
             .entries
             .by_ref()
-            .filter(|(_, tree)| layer.is_none_or(|layer| tree.layer == layer));
+            .filter(|(_, tree)| layer.is_none_or(|layer| tree.layer.number == layer));
         counting.next().map(|(key, tree)| (key.as_str(), tree))
     }
 }

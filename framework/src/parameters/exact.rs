@@ -5,7 +5,7 @@ mod serializer;
 use serde::ser::Serialize;
 
 use super::error::Origin;
-use super::tree::{Tree, Value};
+use super::tree::{Layer, Tree, Value};
 use crate::error::{Error, Result};
 use crate::reflect::{self, Path, Reflect};
 
@@ -74,7 +74,7 @@ impl From<Value> for Tree {
     fn from(value: Value) -> Self {
         Self {
             origin: Origin::Unknown,
-            layer: 0,
+            layer: Layer::default(),
             value,
         }
     }

@@ -77,13 +77,15 @@ impl Layers {
     /// As [`Layers::load`], with another text in place of that of one file.
     pub(super) fn load_with(&self, replaced: Option<(&Path, &str)>) -> Result<Parameters> {
         let mut parameters = self.load_files(replaced, None)?;
-        for (variable, value) in &self.environment {
-            if let Some(path) = variable.strip_prefix(ENVIRONMENT_PREFIX) {
-                let origin = Origin::Environment(variable.as_str().into());
-                let setting = tree::parse_setting(value, &origin);
-                parameters.overlay(setting.below(path, ENVIRONMENT_SEPARATOR));
-            }
-        }
+        let mut variables: Vec<_> = self.environment.iter().collect();
+        // The system has them in any order.
+        variables.sort_unstable();
+        parameters.overlay_one_by_one(variables.into_iter().filter_map(|(variable, value)| {
+            let path = variable.strip_prefix(ENVIRONMENT_PREFIX)?;
+            let origin = Origin::Environment(variable.as_str().into());
+            let setting = tree::parse_setting(value, &origin);
+            Some(setting.below(path, ENVIRONMENT_SEPARATOR))
+        }));
         for above in &self.above {
             match above {
                 Above::Settings(settings) => parameters.set(settings),
@@ -340,9 +342,19 @@ impl Parameters {
     }
 
     fn set(&mut self, settings: &[(String, String)]) {
-        for (path, value) in settings {
+        self.overlay_one_by_one(settings.iter().map(|(path, value)| {
             let origin = Origin::Setting(format!("{path}={value}").into());
-            self.overlay(tree::parse_setting(value, &origin).below(path, "."));
+            tree::parse_setting(value, &origin).below(path, ".")
+        }));
+    }
+
+    /// They are one layer: of one variant of an enum, each may have a part.
+    fn overlay_one_by_one(&mut self, mut later: impl Iterator<Item = Tree>) {
+        if let Some(first) = later.next() {
+            self.overlay(first);
+        }
+        for tree in later {
+            self.tree.overlay_more(tree, &mut self.removed);
         }
     }
 

@@ -16,8 +16,16 @@ pub(super) const UNSET: &str = "unset";
 pub(super) struct Tree {
     pub(super) origin: Origin,
     /// The last layer that has anything here.
-    pub(super) layer: usize,
+    pub(super) layer: Layer,
     pub(super) value: Value,
+}
+
+/// Where in the merge order something stands.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Layer {
+    pub(super) number: usize,
+    /// Among what is given one by one and is one layer, as all variables of the environment are.
+    step: usize,
 }
 
 #[derive(Clone, Debug)]
@@ -47,7 +55,7 @@ pub(super) fn parse(path: &str, text: &str) -> Result<Tree, ParameterError> {
     let entries = lines.table(table.get_ref())?;
     Ok(Tree {
         origin: lines.origin(0),
-        layer: 0,
+        layer: Layer::default(),
         value: Value::Table(entries),
     })
 }
@@ -87,7 +95,7 @@ impl Tree {
         };
         Self {
             origin: origin.clone(),
-            layer: 0,
+            layer: Layer::default(),
             value,
         }
     }
@@ -118,14 +126,22 @@ impl Tree {
     pub(super) fn empty(origin: Origin) -> Self {
         Self {
             origin,
-            layer: 0,
+            layer: Layer::default(),
             value: Value::Table(BTreeMap::new()),
         }
     }
 
     /// Puts a later layer over this one; adds to what was taken away.
     pub(super) fn overlay(&mut self, mut later: Self, removed: &mut Removed) {
-        later.mark(self.layer + 1);
+        let number = self.layer.number + 1;
+        later.mark(Layer { number, step: 0 });
+        self.merge(later, "", removed);
+    }
+
+    /// Adds to the last layer.
+    pub(super) fn overlay_more(&mut self, mut later: Self, removed: &mut Removed) {
+        let step = self.layer.step + 1;
+        later.mark(Layer { step, ..self.layer });
         self.merge(later, "", removed);
     }
 
@@ -186,7 +202,7 @@ impl Tree {
         }
     }
 
-    fn mark(&mut self, layer: usize) {
+    fn mark(&mut self, layer: Layer) {
         self.layer = layer;
         match &mut self.value {
             Value::Table(entries) => entries.values_mut().for_each(|tree| tree.mark(layer)),
@@ -199,7 +215,7 @@ impl Tree {
     pub(super) fn below(self, path: &str, separator: &str) -> Self {
         path.rsplit(separator).fold(self, |tree, key| Self {
             origin: tree.origin.clone(),
-            layer: 0,
+            layer: Layer::default(),
             value: Value::Table(BTreeMap::from([(key.to_owned(), tree)])),
         })
     }
@@ -326,7 +342,7 @@ impl Lines {
         };
         Ok(Tree {
             origin,
-            layer: 0,
+            layer: Layer::default(),
             value,
         })
     }
