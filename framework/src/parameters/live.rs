@@ -25,6 +25,7 @@ use crate::buffer::Writer;
 use crate::clock::Clock;
 use crate::data::ParameterData;
 use crate::error::Result;
+use crate::logs::tell_warning;
 use crate::reflect::{Content, Path, Shape};
 use files::Files;
 use values::{Typed, Values, plain};
@@ -187,7 +188,7 @@ impl Live {
     }
 
     /// As somebody may have edited the files: takes what they say now, and keeps changes that were not stored, which are
-    /// the last layer. `None` if the files are as they were.
+    /// the last layer; one for which they leave no place is told and gone. `None` if the files are as they were.
     ///
     /// A mistake in the files is told once; the robot goes on with the values it has.
     pub fn poll(&self) -> Option<Result<Version>> {
@@ -359,7 +360,16 @@ impl State {
         let stored = self.values.load(&loaded)?;
         loaded.check_ranges(shape, self.values.draft())?;
         for (path, value) in &kept {
-            self.values.write(path, &Given::of(value))?;
+            if let Err(refusal) = self.values.write(path, &Given::of(value)) {
+                // What it was a part of is gone from the files; that must not hold up what else they say.
+                self.changes.retain(|(known, _)| known.to_string() != *path);
+                tell_warning(
+                    module_path!(),
+                    &format_args!(
+                        "a change that was not stored is gone, the files leave no place for it: {refusal}"
+                    ),
+                );
+            }
         }
         self.values.set_stored(stored);
         if let Some(files) = &mut self.files {

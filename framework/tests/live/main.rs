@@ -380,6 +380,26 @@ fn an_edited_file_is_seen_and_changes_stay_on_top() {
 }
 
 #[test]
+fn a_change_that_no_longer_fits_holds_up_no_file() {
+    let mut robot = Robot::new(&[]);
+    let changes = [("rooms.hall.width", json!(5.0)), ("steps", json!(9))];
+    robot.live.change(&changes).expect("valid");
+    let text = DEFAULT.replace("[rooms.hall]\nwidth = 4.0\n", "");
+    robot.write(
+        "default.toml",
+        &text.replace("brightness = 7", "brightness = 3"),
+    );
+    let polled = robot.live.poll().expect("it is new");
+    assert_eq!(polled.expect("it is right"), Version(2));
+    let seen = robot.seen();
+    assert_eq!((seen.lamp.brightness, seen.steps), (3, 9));
+    assert!(seen.rooms.is_empty(), "{:?}", seen.rooms);
+    let unstored = robot.live.changed_not_stored().into_iter();
+    let unstored: Vec<_> = unstored.map(|change| change.path).collect();
+    assert_eq!(unstored, ["steps"]);
+}
+
+#[test]
 fn a_layer_can_take_away_what_earlier_layers_say() {
     let robot = Robot::new(&[(
         "home/default.toml",
