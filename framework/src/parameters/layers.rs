@@ -51,12 +51,17 @@ pub enum Above {
     },
 }
 
+/// Every file that could be a layer, and the one that chooses the location, with its text if it is there.
+pub(super) type Texts = Vec<(PathBuf, Option<Vec<u8>>)>;
+
 /// The merged values of one robot.
 #[derive(Clone, Debug)]
 pub struct Parameters {
     pub(super) tree: Tree,
     /// The files that were read, in order.
     files: Vec<PathBuf>,
+    /// As they were when they were read.
+    texts: Texts,
     /// What a layer says `unset` of.
     removed: Removed,
 }
@@ -130,6 +135,8 @@ impl Layers {
         replaced: Option<(&Path, &str)>,
         last: Option<&Path>,
     ) -> Result<Parameters> {
+        let choice = self.choice_file();
+        let chosen = fs::read(&choice).ok();
         let location = self.location()?;
         if let Some(location) = &location {
             self.check_location(location)?;
@@ -140,6 +147,7 @@ impl Layers {
                 line: 1,
             }),
             files: Vec::new(),
+            texts: vec![(choice, chosen)],
             removed: Vec::new(),
         };
         for (file, required) in self.files(location.as_deref()) {
@@ -148,6 +156,8 @@ impl Layers {
                 _ => read(&file)?,
             };
             let is_last = last == Some(&file);
+            let read = text.clone().map(String::into_bytes);
+            parameters.texts.push((file.clone(), read));
             parameters.add(file, text, required)?;
             if is_last {
                 break;
@@ -315,6 +325,11 @@ impl Parameters {
     /// The files that were read, later ones win.
     pub fn files(&self) -> &[PathBuf] {
         &self.files
+    }
+
+    /// What was read, also where nothing is there.
+    pub(super) fn texts(&self) -> &Texts {
+        &self.texts
     }
 
     /// Gives an error of `[hardware.<target>]` the place that the hardware could not know.

@@ -117,8 +117,7 @@ impl<P> Deref for LiveParameters<P> {
 impl Live {
     /// Tells where the values at the start came from: from then on they have a provenance, can be stored and reloaded.
     pub fn came_from(&self, layers: Layers, loaded: Parameters) -> Result<()> {
-        let files = Files::new(layers, loaded)?;
-        self.state().files = Some(files);
+        self.state().files = Some(Files::new(layers, loaded));
         Ok(())
     }
 

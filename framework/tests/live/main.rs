@@ -400,6 +400,46 @@ fn a_change_that_no_longer_fits_holds_up_no_file() {
 }
 
 #[test]
+fn a_mistake_in_the_choice_of_the_location_is_told_once() {
+    let mut robot = Robot::with(&[("parameters.toml", "location = \"home\"\n")], |layers| {
+        layers.location = None;
+    });
+    assert!(robot.live.poll().is_none());
+    robot.write("parameters.toml", "location = \n");
+    let error = told(robot.live.poll().expect("it is new"));
+    assert!(error.contains("parameters.toml:1"), "{error}");
+    assert!(robot.live.poll().is_none());
+    // Asked for, it is told again.
+    assert_eq!(told(robot.live.reload()), error);
+    assert!(robot.live.poll().is_none());
+    fs::remove_file(robot.path("parameters.toml")).expect("it is there");
+    fs::create_dir(robot.path("parameters.toml")).expect("its place is free");
+    let error = told(robot.live.poll().expect("it is another mistake"));
+    assert!(error.contains("cannot read"), "{error}");
+    assert!(robot.live.poll().is_none());
+    robot.write("home/default.toml", "steps = 7\n");
+    fs::remove_dir(robot.path("parameters.toml")).expect("it is there");
+    robot.write("parameters.toml", "location = \"home\"\n");
+    robot.live.poll().expect("it is new").expect("it is right");
+    assert_eq!(robot.seen().steps, 7);
+}
+
+#[test]
+fn what_is_edited_while_the_robot_is_created_is_found() {
+    let robot = Robot::new(&[]);
+    let loaded = robot.layers.load().expect("the files are right");
+    let start: Parameters = loaded.deserialize().expect("the files are right");
+    robot.write("body.b1.toml", "steps = 7\n");
+    let (writer, [], []) = buffer_of(|| start.clone(), []);
+    let live = LiveParameters::new(writer, start, Clock::wall());
+    live.came_from(robot.layers.clone(), loaded)
+        .expect("they can be read");
+    live.poll().expect("it is new").expect("it is right");
+    assert_eq!(live.read("steps").expect("it is there").value, json!(7));
+    assert!(live.poll().is_none());
+}
+
+#[test]
 fn a_layer_can_take_away_what_earlier_layers_say() {
     let robot = Robot::new(&[(
         "home/default.toml",

@@ -5,38 +5,59 @@ use std::path::{Path, PathBuf};
 
 use super::{Layers, Parameters};
 use crate::error::{Error, Result};
+use crate::parameters::layers::Texts;
 
 /// What was read, and from where.
 pub(super) struct Files {
     pub(super) layers: Layers,
     pub(super) loaded: Parameters,
     /// Every file that could be a layer, with its text at the last look.
-    seen: Vec<(PathBuf, Option<Vec<u8>>)>,
+    seen: Texts,
+    /// Why the layers could not be named at the last look.
+    mistake: Option<String>,
 }
 
 impl Files {
-    pub(super) fn new(layers: Layers, loaded: Parameters) -> Result<Self> {
-        let mut files = Self {
+    /// What was edited since the layers were loaded is still to be found.
+    pub(super) fn new(layers: Layers, loaded: Parameters) -> Self {
+        Self {
             layers,
+            seen: loaded.texts().clone(),
             loaded,
-            seen: Vec::new(),
-        };
-        files.look()?;
-        Ok(files)
+            mistake: None,
+        }
     }
 
     /// Whether a file has another text than at the last look.
+    ///
+    /// # Errors
+    /// If the layers cannot be named; once for all looks that find the same.
     pub(super) fn look(&mut self) -> Result<bool> {
-        let mut paths = vec![self.layers.choice_file()];
-        paths.extend(self.layers.candidates()?);
+        let (paths, error) = match self.layers.candidates() {
+            Ok(candidates) => {
+                let choice = [self.layers.choice_file()].into_iter();
+                (choice.chain(candidates).collect(), None)
+            }
+            // Those that are known by now.
+            Err(error) => {
+                let known = self.seen.iter().map(|(path, _)| path.clone());
+                (known.collect::<Vec<_>>(), Some(error))
+            }
+        };
         let read = paths.into_iter().map(|path| {
             let text = fs::read(&path).ok();
             (path, text)
         });
-        let seen: Vec<_> = read.collect();
-        let is_new = seen != self.seen;
+        let seen: Texts = read.collect();
+        let mistake = error.as_ref().map(Error::to_string);
+        let is_new = seen != self.seen || mistake != self.mistake;
         self.seen = seen;
-        Ok(is_new)
+        self.mistake = mistake;
+        match error {
+            Some(error) if is_new => Err(error),
+            Some(_) => Ok(false),
+            None => Ok(is_new),
+        }
     }
 
     /// The robot has written this text itself, in place of `before`; what others wrote since the last look is still to be
