@@ -179,8 +179,14 @@ where
         let joined = supervisor.join();
         let result = result.and_then(|ended| joined.map(|()| ended));
         // What fails while the user interrupts is mostly the interruption.
-        if signals.interrupted() && result.as_ref().is_err_and(Error::is_stopped) {
-            return Ok(INTERRUPTED);
+        if result.as_ref().is_err_and(Error::is_stopped) {
+            if signals.interrupted() {
+                return Ok(INTERRUPTED);
+            }
+            // Of scenarios and tools, what they were to do is not done.
+            if signals.any() && options.scenario.is_none() && options.tool.is_none() {
+                return Ok(DONE);
+            }
         }
         result.map(|ended| ended.status(signals.interrupted()))
     });

@@ -14,7 +14,8 @@ use framework::testing::TARGET;
 use framework::{OnFailure, Start};
 use hulkgen_recording::Recording;
 use serde_json::Value;
-use signal_hook::consts::SIGHUP;
+use signal_hook::consts::{SIGHUP, SIGTERM};
+use signal_hook::flag;
 use signal_hook::low_level::raise;
 
 use crate::body::{Parameters, Plan, Setting, robot};
@@ -83,6 +84,24 @@ before = 1e9
     std::process::exit(status.into())
 }
 
+/// Somebody ends the run while the robot is created, which waits for something.
+fn terminate_start(scenario: &[OsString]) -> ! {
+    let directory = tempfile::tempdir().expect("a temporary directory");
+    std::fs::write(directory.path().join("default.toml"), "gain = 1").expect("can be written");
+    let plain = [OsString::from("--parameters"), directory.path().into()];
+    let arguments = match scenario {
+        [] => plain.to_vec(),
+        _ => scenario.to_vec(),
+    };
+    let create = |_: &Arc<ScriptedHardware>, start: Start<Parameters>| {
+        raise(SIGTERM)?;
+        start.stop.wait(Duration::from_secs(5))?;
+        Err("nobody ended it".into())
+    };
+    let status = launch::run(TARGET, arguments, &mut Closed, create, launch::nobody);
+    std::process::exit(status.into())
+}
+
 #[test]
 fn a_process_of_this_test_is_the_run_it_was_told_to_be() {
     let failing = |on_failure, acts: &[Act]| Setting {
@@ -104,12 +123,22 @@ fn a_process_of_this_test_is_the_run_it_was_told_to_be() {
             let words = ["--for", "100ms", "--record", "on", "--run-folder", folder];
             launch(&words, &Setting::default())
         }
-        Ok("hung up") => {
+        Ok(run @ ("hung up" | "hung up and left alone")) => {
             thread::spawn(|| {
                 thread::sleep(Duration::from_millis(100));
                 raise(SIGHUP).expect("a valid signal");
             });
+            if run != "hung up" {
+                launch(&["--for", "1s"], &Setting::default());
+            }
+            // Whoever runs this test may have started it with `nohup`.
+            flag::register(SIGHUP, Arc::default()).expect("a valid signal");
             launch(&["--for", "10s"], &Setting::default())
+        }
+        Ok("terminated while it starts") => terminate_start(&[]),
+        Ok("terminated while its scenario starts") => {
+            let (_directory, arguments) = written("ends = 1.0\n");
+            terminate_start(&arguments)
         }
         Ok("interrupted in a scenario") => interrupt_scenario(),
         Ok("failing") => {
@@ -197,7 +226,19 @@ fn end_of(run: &str, errors: Stdio) -> (ExitStatus, String) {
 
 /// As [`end_of`], of a run that has a folder for what it leaves behind.
 fn end_within(limit: Duration, run: &str, folder: &Path, errors: Stdio) -> (ExitStatus, String) {
-    let mut child = Command::new(std::env::current_exe().expect("this test"))
+    let this = Command::new(std::env::current_exe().expect("this test"));
+    end_of_started(this, limit, run, folder, errors)
+}
+
+/// As [`end_within`], started by what `command` says.
+fn end_of_started(
+    mut command: Command,
+    limit: Duration,
+    run: &str,
+    folder: &Path,
+    errors: Stdio,
+) -> (ExitStatus, String) {
+    let mut child = command
         .args(["--exact", "--nocapture"])
         .env("TMPDIR", folder)
         .arg("process::a_process_of_this_test_is_the_run_it_was_told_to_be")
@@ -400,6 +441,16 @@ fn a_robot_whose_terminal_is_gone_stops_in_order() {
     let (status, errors) = end_of("hung up", Stdio::piped());
     assert_eq!(status.code(), Some(0), "{status}: {errors}");
     assert!(errors.contains("simulated ran for 0."), "{errors}");
+}
+
+#[test]
+fn a_robot_that_somebody_ends_while_it_starts_has_not_failed() {
+    let (status, errors) = end_of("terminated while it starts", Stdio::piped());
+    assert_eq!(status.code(), Some(0), "{status}: {errors}");
+    assert!(!errors.contains("error"), "{errors}");
+    // A scenario that was not played has not passed.
+    let (status, errors) = end_of("terminated while its scenario starts", Stdio::piped());
+    assert_eq!(status.code(), Some(1), "{status}: {errors}");
 }
 
 #[test]
