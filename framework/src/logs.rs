@@ -52,11 +52,13 @@ thread_local! {
 /// Until it is dropped, what its thread says is one robot's.
 pub(crate) struct Within {
     before: Option<usize>,
+    place: Option<Place>,
 }
 
 impl Drop for Within {
     fn drop(&mut self) {
         ROBOT.set(self.before);
+        PLACE.set(self.place);
     }
 }
 
@@ -232,11 +234,12 @@ pub fn is_within(module: &str, outer: &str) -> bool {
     rest.is_some_and(|rest| rest.is_empty() || rest.starts_with("::"))
 }
 
-/// What this thread says is of the robot with this clock.
+/// What this thread says is of the robot with this clock, and of no instance until it enters one.
 #[must_use]
 pub(crate) fn within(clock: &Clock) -> Within {
     Within {
         before: ROBOT.replace(clock.identity()),
+        place: PLACE.take(),
     }
 }
 

@@ -373,6 +373,7 @@ impl<B: Recorded> Instance for Cycler<B> {
     }
 
     fn restart(&mut self) -> Result<Restarted> {
+        logs::enter(self.description.name, self.cycle.number + 1);
         self.abandon();
         self.counters.restarts.add(1);
         let nodes = self.nodes_so_far();

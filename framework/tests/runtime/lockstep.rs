@@ -3,7 +3,11 @@
 use std::time::Duration;
 
 use framework::driver::lockstep::Step;
-use framework::{Digest, Finished, Lockstep, Timestamp, Waited};
+use framework::logs::Sink;
+use framework::{
+    Digest, Event, Finished, Hardware, HardwareContext, Lockstep, OnFailure, Result, Timestamp,
+    Waited,
+};
 use serde_json::json;
 
 use crate::body::{Mistake, Plan, Setting, robot};
@@ -589,4 +593,50 @@ fn cycles_in_chaos_take_up_to_the_deadline_or_half_of_it_in_real_time() {
 fn cycles_in_chaos_without_deadline_take_up_to_20_ms() {
     let (steps, _) = chaotic(7, None);
     assert_drawn_up_to(Duration::from_millis(20), &durations(&steps, "Eye"));
+}
+
+/// Says something whenever it is asked for what comes next.
+struct Talking<'hardware>(&'hardware ScriptedHardware);
+
+impl Hardware for Talking<'_> {
+    fn new(_: HardwareContext) -> Result<Self> {
+        Err("it stands before another one".into())
+    }
+
+    fn stop(&self) {}
+
+    fn enter_safe_state(&self) {}
+
+    fn next_event(&self) -> Result<Option<Event>> {
+        tracing::info!(target: "talking", "the next one");
+        self.0.next_event()
+    }
+}
+
+#[test]
+fn what_is_said_between_two_cycles_is_of_no_other_instance() {
+    let legs = Plan {
+        work: Script::new([Act::Fail]),
+        create: Script::new([Act::Say("anew")]),
+        ..Plan::default()
+    };
+    let setting = Setting {
+        legs,
+        on_failure: OnFailure::Restart,
+        ..Setting::default()
+    };
+    let hardware = ScriptedHardware::lockstep([(0, "Legs"), (50, "Eye"), (200, "Legs")]);
+    let mut robot = robot(&hardware, &setting);
+    let sink = Sink::new(hardware.clock.clone());
+    let talking = Talking(&hardware);
+    let mut lockstep = Lockstep::new(&mut robot, &talking);
+    while lockstep.step().expect("nothing stops it").is_some() {}
+    let said: Vec<_> = std::iter::from_fn(|| sink.take()).collect();
+    let places = |module| -> Vec<_> {
+        let said = said.iter().filter(|said| said.module == module);
+        said.map(|said| (said.instance.as_deref(), said.cycle))
+            .collect()
+    };
+    assert_eq!(places("talking"), [(None, None); 4]);
+    assert_eq!(places("scripted"), [(Some("Legs"), Some(2))]);
 }

@@ -27,6 +27,8 @@ pub(crate) enum Act {
     Stopped,
     /// Takes so many milliseconds.
     Take(u64),
+    /// Says so and works.
+    Say(&'static str),
 }
 
 impl Act {
@@ -39,6 +41,10 @@ impl Act {
             Self::Stopped => Err(Stopped.into()),
             Self::Take(millis) => {
                 std::thread::sleep(Duration::from_millis(millis));
+                Ok(())
+            }
+            Self::Say(text) => {
+                tracing::info!(target: "scripted", "{text}");
                 Ok(())
             }
         }
