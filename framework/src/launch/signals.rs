@@ -1,6 +1,7 @@
 //! Ctrl-C, the system's request to terminate, the end of the terminal: the first asks for an orderly stop, a second Ctrl-C
 //! ends the process.
 
+use std::fs;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -32,8 +33,11 @@ impl Signals {
         )?;
         flag::register(SIGINT, signals.interrupted.clone())?;
         flag::register(SIGTERM, signals.terminated.clone())?;
-        // The terminal or the connection to the robot is gone; the robot still has to stop in order.
-        flag::register(SIGHUP, signals.terminated.clone())?;
+        // The terminal or the connection to the robot is gone; the robot still has to stop in order, unless `nohup` or
+        // whoever else started it wants it to go on.
+        if !is_ignored(SIGHUP) {
+            flag::register(SIGHUP, signals.terminated.clone())?;
+        }
         Ok(signals)
     }
 
@@ -46,4 +50,13 @@ impl Signals {
     pub(super) fn any(&self) -> bool {
         self.interrupted() || self.terminated.load(Ordering::Relaxed)
     }
+}
+
+/// Whether whoever started the process had the signal ignored; only Linux tells.
+fn is_ignored(signal: i32) -> bool {
+    let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mut lines = status.lines();
+    let ignored = lines.find_map(|line| line.strip_prefix("SigIgn:"));
+    let ignored = ignored.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
+    ignored.is_some_and(|mask| (mask >> (signal - 1)) & 1 == 1)
 }

@@ -443,6 +443,21 @@ fn a_robot_whose_terminal_is_gone_stops_in_order() {
     assert!(errors.contains("simulated ran for 0."), "{errors}");
 }
 
+#[cfg(target_os = "linux")]
+#[test]
+fn a_robot_that_is_to_outlive_its_terminal_does() {
+    let mut command = Command::new("sh");
+    // As `nohup` does it.
+    command.args(["-c", "trap '' HUP; exec \"$0\" \"$@\""]);
+    command.arg(std::env::current_exe().expect("this test"));
+    let limit = Duration::from_secs(8);
+    let folder = std::env::temp_dir();
+    let run = "hung up and left alone";
+    let (status, errors) = end_of_started(command, limit, run, &folder, Stdio::piped());
+    assert_eq!(status.code(), Some(0), "{status}: {errors}");
+    assert!(errors.contains("simulated ran for 1."), "{errors}");
+}
+
 #[test]
 fn a_robot_that_somebody_ends_while_it_starts_has_not_failed() {
     let (status, errors) = end_of("terminated while it starts", Stdio::piped());
