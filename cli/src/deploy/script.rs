@@ -7,6 +7,10 @@ use super::package::SUMS;
 /// Versions that stay on the robot.
 const KEPT: usize = 4;
 
+/// For how many seconds a program must run before it counts as started: what lacks a device, a port or a file ends in the
+/// first or second, and Linux starts it again before the next.
+const WATCHED_SECONDS: u32 = 5;
+
 /// One word for a shell, whatever is in it.
 pub(crate) fn quoted(word: &str) -> String {
     format!("'{}'", word.replace('\'', "'\\''"))
@@ -45,7 +49,8 @@ find . -type f ! -name {SUMS} | grep -vxF -e "$known" | sed 's/^/changed /'
     )
 }
 
-/// Makes what has arrived the running version. Exit status 3: it did not start, and the one before runs again.
+/// Makes what has arrived the running version. Exit status 3: it did not start, and the one before runs again; 4: nor does
+/// that one.
 pub(crate) fn switch(folder: &str, version: &str, service: Service<'_>) -> String {
     let (folder, version) = (quoted(folder), quoted(version));
     let functions = functions(service);
@@ -55,13 +60,14 @@ pub(crate) fn switch(folder: &str, version: &str, service: Service<'_>) -> Strin
 cd "$folder/versions/.incoming" || exit 1
 sha256sum -c {SUMS} >/dev/null 2>&1 || {{ echo "files did not arrive whole" >&2; exit 1; }}
 ln -sfn ../../runs runs || exit 1
-./start --check-parameters >&2 || {{ echo "the program does not start, or refuses its parameters" >&2; exit 1; }}
+said=$(./start --check-parameters 2>&1) || {{ echo "the program does not start, or refuses its parameters: $said" >&2; exit 1; }}
 cd "$folder" || exit 1
 rm -rf "versions/$version" && mv versions/.incoming "versions/$version" || exit 1
 old=$(readlink current)
 point current "versions/$version" || exit 1
 if ! start; then
-  if [ -n "$old" ]; then point current "$old"; start; fi
+  [ -n "$old" ] || exit 3
+  point current "$old" && start || exit 4
   exit 3
 fi
 if [ -n "$old" ]; then point previous "$old"; fi
@@ -75,7 +81,7 @@ exit 0
 }
 
 /// Makes the version before the running one; lines as those of [`probe`]: the new one, and which files of the other were
-/// changed there.
+/// changed there. Exit statuses as those of [`switch`].
 pub(crate) fn roll_back(folder: &str, service: Service<'_>) -> String {
     let (folder, changed) = (quoted(folder), changed());
     let functions = functions(service);
@@ -87,9 +93,12 @@ old=$(readlink current)
 (cd "$old" 2>/dev/null || exit 0
 {changed})
 point current "$new" && point previous "$old" || exit 1
+if ! start; then
+  point previous "$new" && point current "$old" && start || exit 4
+  exit 3
+fi
 echo "current $new"
 echo "previous $old"
-start || exit 3
 "#
     )
 }
@@ -116,19 +125,33 @@ echo "free $(df -Pk "$folder" 2>/dev/null | sed -n '2s/  */ /gp' | cut -d' ' -f4
     )
 }
 
-/// `point LINK TARGET` in one step, whoever looks meanwhile; `start` the current version.
+/// `point LINK TARGET` in one step, whoever looks meanwhile; `start` the current version, and see that it goes on.
 fn functions(service: Service<'_>) -> String {
-    let start = match service.unit {
-        None => ":".to_owned(),
-        Some(unit) => {
-            let (systemctl, unit) = (service.systemctl, quoted(unit));
-            format!(
-                "{systemctl} enable --force \"$folder/current/\"{unit} >&2 && {systemctl} daemon-reload >&2 && \
-                 {systemctl} restart {unit} >&2"
-            )
-        }
+    let point = r#"point() { ln -sfn "$2" ".$1" && mv -T ".$1" "$1"; }"#;
+    let Some(unit) = service.unit else {
+        return format!("{point}\nstart() {{ :; }}");
     };
-    format!("point() {{ ln -sfn \"$2\" \".$1\" && mv -T \".$1\" \"$1\"; }}\nstart() {{ {start}; }}")
+    let (systemctl, unit) = (service.systemctl, quoted(unit));
+    let seconds = WATCHED_SECONDS;
+    // Where a program is started again and again, most looks find it running; what Linux counts tells them apart.
+    format!(
+        r#"{point}
+count() {{ {systemctl} show --property=MainPID --property=NRestarts {unit} 2>&1; }}
+goes_on() {{
+  first=$(count); second=0
+  while [ $second -lt {seconds} ]; do
+    sleep 1; second=$((second + 1))
+    state=$({systemctl} is-active {unit} 2>&1)
+    [ "$state" = active ] || {{ echo "after $second s "{unit}" is $state" >&2; return 1; }}
+    [ "$(count)" = "$first" ] || {{ echo "after $second s "{unit}" was started again" >&2; return 1; }}
+  done
+}}
+start() {{
+  said=$({{ {systemctl} enable --force "$folder/current/"{unit} && {systemctl} daemon-reload && {systemctl} restart {unit}; }} 2>&1) ||
+    {{ echo "$said" >&2; return 1; }}
+  goes_on
+}}"#
+    )
 }
 
 /// One word as a person types it: quoted only where it has to be.

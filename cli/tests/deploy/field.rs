@@ -33,6 +33,17 @@ fn main() {
 }
 "#;
 
+/// Stands in for the robot's: a version may be refused, end at once, or be started again and again.
+const SYSTEMCTL: &str = r#"#!/bin/sh
+here=FOLDER/disk/current/motions
+case "$1" in
+  is-active) if [ -e $here/mortal ]; then echo failed; exit 3; fi; echo active; exit 0 ;;
+  show) echo "NRestarts=$(if [ -e $here/restless ]; then date +%s%N; else echo 0; fi)"; exit 0 ;;
+esac
+echo "$* $(readlink FOLDER/disk/current)" >> FOLDER/systemctl.log
+if [ "$1" = restart ]; then [ ! -e $here/broken ]; fi
+"#;
+
 pub(crate) struct Field {
     folder: TempDir,
     sshd: Child,
@@ -71,7 +82,7 @@ impl Field {
             "sshd_config",
             &format!(
                 "Port {port}\nListenAddress 127.0.0.1\nHostKey {0}/host_key\nAuthorizedKeysFile {0}/key.pub\nStrictModes no\n\
-             PidFile none\nUsePAM no\nPasswordAuthentication no\nPermitRootLogin yes\nMaxStartups 100\n",
+             SetEnv PATH={0}/bin:/usr/local/bin:/usr/bin:/bin\nPidFile none\nUsePAM no\nPasswordAuthentication no\nPermitRootLogin yes\nMaxStartups 100\n",
                 path.display()
             ),
         );
@@ -119,15 +130,13 @@ impl Field {
         write(&robot, "motions/wave.toml", "wave\n");
         write(&robot, "system/lamp.service", "[Service]\nExecStart=lamp\n");
         self.write_manifest(&self.path("disk"), true);
-        let systemctl = format!(
-            "#!/bin/sh\necho \"$* $(readlink {0}/disk/current)\" >> {0}/systemctl.log\n\
-             case \"$*\" in restart*) [ ! -e {0}/disk/current/motions/broken ];; is-active*) echo active;; esac\n",
-            self.folder.path().display()
-        );
+        let systemctl = SYSTEMCTL.replace("FOLDER", &self.folder.path().display().to_string());
         let journalctl = "#!/bin/sh\necho \"journal of $*\"\n";
         for (name, text) in [
             ("systemctl", systemctl.as_str()),
             ("journalctl", journalctl),
+            // Seconds of a robot.
+            ("bin/sleep", "#!/bin/sh\nexec /bin/sleep 0.02\n"),
         ] {
             write(self.folder.path(), name, text);
             fs::set_permissions(self.path(name), Permissions::from_mode(0o755))

@@ -302,6 +302,52 @@ fn a_version_that_does_not_start_gives_way_to_the_one_before() {
 }
 
 #[test]
+fn a_version_that_ends_soon_after_its_start_gives_way_to_the_one_before() {
+    let name = "a_version_that_ends_soon_after_its_start_gives_way_to_the_one_before";
+    let Some(field) = Field::open(name) else {
+        return;
+    };
+    assert_eq!(field.deploy("a").0, 0);
+    let old = field.current().expect("there is a version");
+    for (how, seen) in [
+        ("mortal", "after 1 s lamp.service is failed"),
+        ("restless", "after 1 s lamp.service was started again"),
+    ] {
+        // Names of versions are seconds.
+        std::thread::sleep(std::time::Duration::from_millis(1100));
+        let file = format!("robot/motions/{how}");
+        field.write(&file, "");
+        let (status, answer, said) = field.deploy("a");
+        assert_eq!(status, 1, "{answer}{said}");
+        let expected = format!(
+            "the new version did not start, {} runs again: {seen}\n  help: `hulkgen logs`",
+            old.trim_start_matches("versions/")
+        );
+        assert!(answer.contains(&expected), "{answer}");
+        assert_eq!(field.current().as_ref(), Some(&old));
+        fs::remove_file(field.path(&file)).expect("it is ours");
+    }
+    // Where the version before is broken meanwhile, the new one stays.
+    assert_eq!(field.deploy("a").0, 0);
+    let new = field.current().expect("there is a version");
+    assert_ne!(new, old);
+    field.write(&format!("disk/{old}/motions/mortal"), "");
+    let (status, answer, _) = field.hulkgen("deploy a --rollback");
+    assert_eq!(status, 1, "{answer}");
+    assert!(
+        answer.contains("the version before did not start, the one that ran runs again: "),
+        "{answer}"
+    );
+    assert_eq!(field.current().as_ref(), Some(&new));
+    // And neither starts.
+    field.write(&format!("disk/{new}/motions/mortal"), "");
+    let (status, answer, _) = field.hulkgen("deploy a --rollback");
+    assert_eq!(status, 1, "{answer}");
+    assert!(answer.contains("nor does the one that ran"), "{answer}");
+    assert_eq!(field.current(), Some(new));
+}
+
+#[test]
 fn a_full_disk_changes_nothing() {
     let name = "a_full_disk_changes_nothing";
     let Some(field) = Field::open(name) else {

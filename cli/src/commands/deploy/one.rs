@@ -5,6 +5,9 @@ use crate::deploy::script::{self, as_a_word, quoted};
 use crate::deploy::{Failed, ForRobot, Package, Remote};
 use crate::outcome::Refusal;
 
+/// Where the reason stands.
+const LOGS: &str = "`hulkgen logs` shows what it said";
+
 /// What is to be done on one robot.
 pub(super) struct Deed<'a> {
     pub(super) remote: &'a Remote,
@@ -19,7 +22,7 @@ pub(super) struct Deed<'a> {
 pub(super) struct Done {
     pub(super) version: String,
     pub(super) before: Option<String>,
-    /// "runs", or "is there" where nothing starts it.
+    /// "runs", as it was seen to for some seconds; or "is there" where nothing starts it.
     pub(super) state: &'static str,
 }
 
@@ -108,9 +111,15 @@ impl Deed<'_> {
             .shell(&script)
             .map_err(|failed| match failed.status {
                 Some(3) => Refusal::bad(format!(
-                    "the version before is current, but does not start: {}",
+                    "the version before did not start, the one that ran runs again: {}",
                     failed.message
-                )),
+                ))
+                .help(LOGS),
+                Some(4) => Refusal::bad(format!(
+                    "the version before did not start, nor does the one that ran, which is current again: {}",
+                    failed.message
+                ))
+                .help(LOGS),
                 _ if failed.is_unreachable() => not_reached(self.remote, &failed),
                 _ => failed.into(),
             })?;
@@ -250,12 +259,17 @@ fn not_switched(failed: &Failed, probed: &Probed) -> Refusal {
             "the new version did not start, {current} runs again: {}",
             failed.message
         ),
-        (Some(3), None) => format!("the new version did not start: {}", failed.message),
+        (Some(4), Some(current)) => format!(
+            "the new version did not start, nor does {current}, which is current again: {}",
+            failed.message
+        ),
+        (Some(3 | 4), None) => format!("the new version did not start: {}", failed.message),
         (Some(255), _) => format!("the connection broke while switching: {}", failed.message),
         _ => failed.message.clone(),
     };
     match failed.status {
         Some(255) => Refusal::bad(message).help("`hulkgen robots` shows which version runs"),
+        Some(3 | 4) => Refusal::bad(message).help(LOGS),
         _ => Refusal::bad(message),
     }
 }
