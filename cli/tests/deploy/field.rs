@@ -124,6 +124,12 @@ impl Field {
         write(self.folder.path(), "ssh_config", &config);
     }
 
+    /// Who may be there.
+    pub(crate) fn user(&self) -> String {
+        let said = Command::new("id").arg("-un").output().expect("id starts");
+        String::from_utf8_lossy(&said.stdout).trim().to_owned()
+    }
+
     fn write_workspace(&self) {
         let robot = self.path("robot");
         write(&robot, "parameters/default.toml", "speed = 1\n");

@@ -485,6 +485,10 @@ fn doctor_looks_at_a_robot() {
         checks
     };
     let told = checks("--host a");
+    assert!(
+        told.iter().all(|(about, _, _)| about != "lingering"),
+        "{told:?}"
+    );
     let about = |about: &str| {
         let found = told.iter().find(|(one, _, _)| one == about);
         found.unwrap_or_else(|| panic!("nothing about {about}: {told:?}"))
@@ -511,8 +515,24 @@ fn doctor_looks_at_a_robot() {
         );
     }
 
-    // Another machine's triple, and a robot that is not there.
+    // A user's own systemd ends with the connection.
     let manifest = field.read("robot/hulk.toml");
+    let user = manifest.replace("/systemctl\"", "/systemctl --user\"");
+    assert_ne!(user, manifest);
+    field.write("robot/hulk.toml", &user);
+    let told = checks("--host a");
+    let found = told.iter().find(|(about, _, _)| about == "lingering");
+    let (_, state, message) = found.unwrap_or_else(|| panic!("{told:?}"));
+    let lingers = format!("/var/lib/systemd/linger/{}", field.user());
+    let is_there = fs::exists(lingers).expect("it can be asked");
+    assert_eq!(state, if is_there { "ok" } else { "warning" });
+    assert!(
+        message.contains(&format!("`{}`", field.user())),
+        "{message}"
+    );
+    field.write("robot/hulk.toml", &manifest);
+
+    // Another machine's triple, and a robot that is not there.
     let other = if cfg!(target_arch = "x86_64") {
         "aarch64"
     } else {

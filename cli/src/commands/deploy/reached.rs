@@ -96,6 +96,12 @@ impl Reached {
         self.target.triple.as_deref()
     }
 
+    /// Whether the programs of a user's own systemd are started there.
+    pub(in crate::commands) fn is_of_a_user(&self) -> bool {
+        let mut words = self.deploy.systemctl.split_whitespace();
+        self.deploy.unit.is_some() && words.any(|word| word == "--user")
+    }
+
     /// Of the unit there are a name and what manages it.
     pub(super) fn service(&self) -> Service<'_> {
         service(&self.deploy)

@@ -46,8 +46,11 @@ pub(super) fn look(
         ),
         rsync(&read("hulkgen/rsync")),
         version(&read("hulkgen/current")),
-        machine::disk(Some(&read("hulkgen/disk"))),
     ];
+    if reached.is_of_a_user() {
+        findings.push(lingering(&read("hulkgen/lingers")));
+    }
+    findings.push(machine::disk(Some(&read("hulkgen/disk"))));
     findings.extend(system::look(&files, "this user there"));
     // The robot's program listens where ssh does, if the destination is an address.
     let address = remote.destination.rsplit('@').next().unwrap_or_default();
@@ -69,6 +72,7 @@ part hulkgen/machine; uname -m
 part hulkgen/libc; getconf GNU_LIBC_VERSION 2>/dev/null
 part hulkgen/rsync; rsync --version 2>/dev/null | head -n 1
 part hulkgen/current; [ -e {folder}/current ] && basename "$(readlink {folder}/current)"
+part hulkgen/lingers; id -un; [ -e "/var/lib/systemd/linger/$(id -un)" ] && echo lingers
 part hulkgen/disk; if [ -d {folder} ]; then df -Pk {folder}; else df -Pk .; fi
 exit 0
 "#,
@@ -154,9 +158,27 @@ fn version(said: &str) -> Finding {
     Finding::ok("version", said)
 }
 
+/// Whether the user's systemd outlives ssh, by what its file says of it: the user's name, and `lingers` if it does.
+fn lingering(said: &str) -> Finding {
+    let about = "lingering";
+    let mut lines = said.lines();
+    let user = lines.next().unwrap_or_default();
+    if lines.next() == Some("lingers") {
+        return Finding::ok(
+            about,
+            format!("units of `{user}` run while nobody is logged in"),
+        );
+    }
+    Finding::warning(
+        about,
+        format!("units of `{user}` end with its last connection, and do not start with the robot"),
+        format!("run `sudo loginctl enable-linger {user}` there, once"),
+    )
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{fit, parts, script};
+    use super::{fit, lingering, parts, script};
     use crate::commands::doctor::State;
 
     #[test]
@@ -171,6 +193,15 @@ mod tests {
             fit("i686", "", Some("i586-unknown-linux-musl")).state,
             State::Ok
         );
+    }
+
+    #[test]
+    fn a_users_units_that_end_with_the_connection_are_warned_of() {
+        assert_eq!(lingering("nao\nlingers").state, State::Ok);
+        let finding = lingering("nao");
+        assert_eq!(finding.state, State::Warning);
+        let help = finding.help.expect("a warning has one");
+        assert!(help.contains("`sudo loginctl enable-linger nao`"), "{help}");
     }
 
     #[test]
