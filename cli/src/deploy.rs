@@ -17,5 +17,5 @@ mod program;
 mod remote;
 pub(crate) mod script;
 
-pub(crate) use package::{Contents, ForRobot, Package};
+pub(crate) use package::{BESIDE, Contents, ForRobot, Package};
 pub(crate) use remote::{Failed, Remote};

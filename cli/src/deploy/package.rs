@@ -15,6 +15,14 @@ use crate::outcome::Refusal;
 /// Lists the digests of all other files.
 pub(super) const SUMS: &str = "SUMS";
 
+/// The script that the unit starts.
+const START: &str = "start";
+/// The folder of recordings.
+const RUNS: &str = "runs";
+
+/// What lies beside the program, its parameters and its files on the robot.
+pub(crate) const BESIDE: &[&str] = &[SUMS, RUNS, START];
+
 /// What a version is made of.
 #[derive(Debug)]
 pub(crate) struct Contents<'a> {
@@ -96,9 +104,9 @@ impl Package {
             .arg(&into);
         run(&mut copy)?;
         let start = start(&self.name, &self.revision, options);
-        fs::write(into.join("start"), start).map_err(|error| cannot("write `start`", &error))?;
+        fs::write(into.join(START), start).map_err(|error| cannot("write `start`", &error))?;
         let executable = Permissions::from_mode(0o755);
-        fs::set_permissions(into.join("start"), executable)
+        fs::set_permissions(into.join(START), executable)
             .map_err(|error| cannot("write `start`", &error))?;
         let sums = format!(
             "find . -type f ! -name {SUMS} -print0 | sort -z | xargs -0 sha256sum > {SUMS}"

@@ -7,6 +7,7 @@ use camino::{Utf8Component, Utf8Path};
 
 use super::{Manifest, Target, without_dots};
 use crate::cross::{Wanted, WrongTriple};
+use crate::deploy::BESIDE;
 use crate::diagnostics::{Code, Diagnostic, Diagnostics, nearest};
 use crate::workspace::{MANIFEST, Workspace};
 
@@ -19,8 +20,15 @@ pub(super) fn check(workspace: &Workspace, manifest: &Manifest, diagnostics: &mu
             said.check_words(diagnostics);
             said.check_hosts(diagnostics);
             said.check_ways(diagnostics);
+            said.check_names(manifest, diagnostics);
             said.check_files(workspace, diagnostics);
         }
+    }
+    // Every robot gets them.
+    let parameters = manifest.robot.parameters.as_str();
+    let mut targets = manifest.targets.iter();
+    if targets.any(|target| target.declared.deploy.is_some()) && !is_below(parameters) {
+        diagnostics.add(elsewhere(parameters, &manifest.parameters_range));
     }
 }
 
@@ -160,16 +168,36 @@ impl Said<'_> {
         let unit = unit.map(|unit| (unit, self.range("unit")));
         for (file, range) in files.chain(unit) {
             if !is_below(file) {
-                let message = format!("`{file}` is no plain path below the workspace root");
-                let error = mistake(
-                    Code::InvalidValue,
-                    message,
-                    range,
-                    "is sent with its folders",
-                );
-                diagnostics
-                    .add(error.help("copy it into the workspace, and name it from its root"));
+                diagnostics.add(elsewhere(file, range));
             }
+        }
+    }
+
+    /// The program lies beside all that is sent with it.
+    fn check_names(&self, manifest: &Manifest, diagnostics: &mut Diagnostics) {
+        let name = self.target.declared.name.as_str();
+        let of_deploy = BESIDE.contains(&name);
+        let files = self.deploy.files.iter().map(String::as_str);
+        let ways = files.chain([manifest.robot.parameters.as_str()]);
+        let unit = self.deploy.unit.as_deref();
+        let unit = unit.and_then(|unit| Utf8Path::new(unit).file_name());
+        let is_sent = ways
+            .map(first_of)
+            .chain([unit])
+            .flatten()
+            .any(|it| it == name);
+        if of_deploy || is_sent {
+            let what = if of_deploy {
+                "`hulkgen deploy` puts one there"
+            } else {
+                "it is sent, too"
+            };
+            let message = format!(
+                "the program `{name}` would lie in the place of another `{name}` on a robot: {what}"
+            );
+            let range = &self.target.name_range;
+            let error = mistake(Code::InvalidValue, message, range, "");
+            diagnostics.add(error.help("give the target another name"));
         }
     }
 
@@ -199,6 +227,14 @@ impl Said<'_> {
     }
 }
 
+/// What does not lie where it can be sent from.
+fn elsewhere(file: &str, range: &Range<usize>) -> Diagnostic {
+    let message = format!("`{file}` is no plain path below the workspace root");
+    let label = "is sent with its folders";
+    let error = mistake(Code::InvalidValue, message, range, label);
+    error.help("copy it into the workspace, and name it from its root")
+}
+
 /// A warning: a build may make the file, and some lie where the robots are alone.
 fn missing(workspace: &Workspace, file: &str, range: &Range<usize>, label: &str) -> Diagnostic {
     let message = format!("`{file}` is not there");
@@ -210,6 +246,15 @@ fn missing(workspace: &Workspace, file: &str, range: &Range<usize>, label: &str)
     warning.help(match near {
         Some(near) => format!("did you mean `{}`?", path.with_file_name(near)),
         None => format!("make `{file}`, or name what is there"),
+    })
+}
+
+/// The first folder of a way, or the file itself.
+fn first_of(way: &str) -> Option<&str> {
+    let mut parts = Utf8Path::new(way).components();
+    parts.find_map(|part| match part {
+        Utf8Component::Normal(name) => Some(name),
+        _ => None,
     })
 }
 

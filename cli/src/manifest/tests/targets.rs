@@ -92,6 +92,58 @@ fn what_no_robot_could_do_is_an_error_at_its_value() {
 }
 
 #[test]
+fn parameters_from_elsewhere_are_an_error_where_they_are_sent() {
+    let told = |parameters: &str, target: &str| {
+        let manifest = format!(
+            "{ROBOT}parameters = \"{parameters}\"\n[[target]]\nname = \"board\"\nhardware = \"h::Hardware\"\n{target}\n"
+        );
+        let workspace = Workspace::in_memory([("hulk.toml", manifest.as_str())]);
+        let mut diagnostics = Diagnostics::new();
+        let _ = load(&workspace, &mut diagnostics);
+        render(&diagnostics, &workspace, false)
+    };
+    let deployed = "[target.deploy]\nfolder = \"/r\"";
+    for parameters in ["../shared", "/shared"] {
+        let text = told(parameters, deployed);
+        let expected = format!("`{parameters}` is no plain path below the workspace root");
+        assert!(
+            text.contains(&expected) && text.contains("hulk.toml:3:14"),
+            "{text}"
+        );
+        assert_eq!(told(parameters, ""), "", "nothing is sent");
+    }
+    assert_eq!(told("./values", deployed), "");
+}
+
+#[test]
+fn a_program_lies_in_no_others_place_on_the_robot() {
+    for (name, is_taken) in [
+        ("runs", true),
+        ("start", true),
+        ("parameters", true),
+        ("motions", true),
+        ("system", false),
+        ("motion", false),
+    ] {
+        let manifest = format!(
+            "{ROBOT}[[target]]\nname = \"{name}\"\nhardware = \"h::Hardware\"\n[target.deploy]\n{FOLDER}\
+             files = [\"./motions/wave.toml\"]\nunit = \"system/robot.service\"\n"
+        );
+        let workspace = Workspace::in_memory([
+            ("hulk.toml", manifest.as_str()),
+            ("motions/wave.toml", ""),
+            ("system/robot.service", ""),
+        ]);
+        let mut diagnostics = Diagnostics::new();
+        let _ = load(&workspace, &mut diagnostics);
+        let text = render(&diagnostics, &workspace, false);
+        let is_told = text.contains(&format!("the program `{name}` would lie in the place"))
+            && text.contains("hulk.toml:4:8");
+        assert_eq!((is_told, text.is_empty()), (is_taken, !is_taken), "{text}");
+    }
+}
+
+#[test]
 fn a_file_that_is_not_there_is_warned_of_where_it_is_named() {
     for (line, part, place) in [
         (
