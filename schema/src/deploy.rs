@@ -29,7 +29,7 @@ pub struct Deploy {
     /// What prints the unit's log on the robot. Left out: `journalctl --user`.
     #[serde(default = "journalctl")]
     pub journalctl: String,
-    /// What joins a wireless network on the robot, its name in place of `{name}`: `nmcli connection up {name}`.
+    /// What joins a wireless network on the robot, its name as one quoted word in place of `{name}`: `nmcli connection up {name}`.
     #[serde(default)]
     pub wlan: Option<String>,
 }

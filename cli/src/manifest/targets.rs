@@ -134,6 +134,13 @@ impl Said<'_> {
             diagnostics
                 .add(error.help("write `{name}` in its place, as in `nmcli connection up {name}`"));
         }
+        if deploy.wlan.as_deref().is_some_and(quotes_the_name) {
+            let message = "`{name}` stands between quotes: it is replaced by one quoted word, and these quotes would be part of the network's name";
+            let error = self.wrong("wlan", message.to_owned());
+            diagnostics.add(error.help(
+                "leave the quotes out, as in `nmcli connection up {name}`; where the program wants some, end yours before it, as in `'\"'{name}'\"'`",
+            ));
+        }
         for (key, command) in [
             ("systemctl", &deploy.systemctl),
             ("journalctl", &deploy.journalctl),
@@ -247,6 +254,26 @@ fn missing(workspace: &Workspace, file: &str, range: &Range<usize>, label: &str)
         Some(near) => format!("did you mean `{}`?", path.with_file_name(near)),
         None => format!("make `{file}`, or name what is there"),
     })
+}
+
+/// Whether a shell reads `{name}` as part of what stands between quotes.
+fn quotes_the_name(command: &str) -> bool {
+    let mut quote = None;
+    let mut is_escaped = false;
+    for (index, one) in command.char_indices() {
+        if is_escaped {
+            is_escaped = false;
+            continue;
+        }
+        match (one, quote) {
+            ('\\', None | Some('"')) => is_escaped = true,
+            ('"' | '\'', None) => quote = Some(one),
+            (one, Some(open)) if one == open => quote = None,
+            ('{', Some(_)) if command[index..].starts_with("{name}") => return true,
+            _ => {}
+        }
+    }
+    false
 }
 
 /// The first folder of a way, or the file itself.

@@ -41,6 +41,10 @@ fn what_a_robot_can_be_deployed_with_is_no_mistake() {
          wlan = \"nmcli connection up {{name}}\""
     ));
     assert!(codes.is_empty(), "{text}");
+    let (codes, text) = deployed(&format!(
+        "{FOLDER}wlan = \"\"\"echo \\\\\" '\"'{{name}}'\"' \"it's\" {{name}}\"\"\""
+    ));
+    assert!(codes.is_empty(), "{text}");
 }
 
 #[test]
@@ -59,6 +63,16 @@ fn what_no_robot_could_do_is_an_error_at_its_value() {
         (
             "folder = \"/r\"\nwlan = \"nmcli up\"",
             "write `{name}` in its place",
+            "hulk.toml:8:8",
+        ),
+        (
+            "folder = \"/r\"\nwlan = 'wpa_cli set_network 0 ssid \"{name}\"'",
+            "leave the quotes out",
+            "hulk.toml:8:8",
+        ),
+        (
+            "folder = \"/r\"\nwlan = \"echo \\\"it's\\\" ; join '{name}'\"",
+            "leave the quotes out",
             "hulk.toml:8:8",
         ),
         (
