@@ -12,10 +12,12 @@
 //! <folder>/runs/                               recordings, of all versions
 //! ```
 
+mod destination;
 mod package;
 mod program;
 mod remote;
 pub(crate) mod script;
 
+pub(crate) use destination::Destination;
 pub(crate) use package::{BESIDE, Contents, ForRobot, Package};
 pub(crate) use remote::{Failed, Remote};

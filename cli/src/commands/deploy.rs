@@ -36,7 +36,7 @@ pub(super) fn deploy(
     deploy: &arguments::Deploy,
 ) -> Result<Outcome, Failure> {
     let reached = Reached::read(session, &deploy.reached)?;
-    let robots = reached.robots(&deploy.hosts)?;
+    let robots = reached.different_robots(&deploy.hosts)?;
     if deploy.wlan.is_some() && reached.deploy.wlan.is_none() {
         return Err(Refusal::wrong_usage("the manifest does not say how a robot joins a network")
             .help("add `wlan = \"nmcli connection up {name}\"`, or what your robot's system has, to `[target.deploy]`")

@@ -6,7 +6,8 @@ use std::thread;
 
 use camino::{Utf8Path, Utf8PathBuf};
 
-use super::script::quoted;
+use super::destination::Destination;
+use super::script::{as_a_word, quoted};
 use crate::outcome::Refusal;
 
 /// Seconds until a robot that does not answer counts as absent, and a connection without a byte as broken.
@@ -18,8 +19,7 @@ const SILENCE_SECONDS: u32 = 20;
 pub(crate) struct Remote {
     /// As its people call it.
     pub(crate) name: String,
-    /// For ssh.
-    pub(crate) destination: String,
+    pub(crate) destination: Destination,
     pub(crate) ssh_config: Option<Utf8PathBuf>,
 }
 
@@ -39,7 +39,7 @@ impl Remote {
         // The script comes as input: whatever shell the user has there, sh reads it, and nothing is quoted twice.
         command
             .args(self.ssh_options())
-            .args(["--", &self.destination, "sh -s"]);
+            .args(["--", &self.destination.of_ssh(), "sh -s"]);
         command
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
@@ -79,7 +79,7 @@ impl Remote {
         command.args([
             "--",
             &format!("{from}/"),
-            &format!("{}:{into}/", self.destination),
+            &format!("{}:{into}/", self.destination.of_rsync()),
         ]);
         watch(command, percent)
     }
@@ -102,7 +102,7 @@ impl Remote {
             // A ring is mostly holes: as long as all that was ever written, as large as its budget.
             "--sparse",
             "--",
-            &format!("{}:{from}/", self.destination),
+            &format!("{}:{from}/", self.destination.of_rsync()),
             &format!("{into}/"),
         ]);
         watch(command, percent)
@@ -112,9 +112,31 @@ impl Remote {
     pub(crate) fn attached(&self, command: &str) -> Command {
         let mut ssh = Command::new("ssh");
         ssh.args(self.ssh_options())
-            .args(["--", &self.destination, command]);
+            .args(["--", &self.destination.of_ssh(), command]);
         ssh.stdin(Stdio::null());
         ssh
+    }
+
+    /// What a person types to be there.
+    pub(crate) fn as_typed(&self) -> String {
+        format!("{} {}", self.ssh_as_typed(), self.destination.of_ssh())
+    }
+
+    /// What a person types to get files there into the folder here, each with its folders behind `/./`.
+    pub(crate) fn fetching_as_typed(&self, files: impl Iterator<Item = String>) -> String {
+        let rsh = match self.ssh_as_typed() {
+            plain if plain == "ssh" => String::new(),
+            ssh => format!(" -e {}", quoted(&ssh)),
+        };
+        let destination = self.destination.of_rsync();
+        let files = files.map(|file| format!(" {}", as_a_word(&format!("{destination}:{file}"))));
+        format!("rsync -aR{rsh}{} .", files.collect::<String>())
+    }
+
+    fn ssh_as_typed(&self) -> String {
+        let words = self.way();
+        let words = words.iter().map(|word| format!(" {}", as_a_word(word)));
+        format!("ssh{}", words.collect::<String>())
     }
 
     fn rsync(&self) -> Command {
@@ -127,11 +149,20 @@ impl Remote {
         command
     }
 
-    fn ssh_options(&self) -> Vec<String> {
+    /// Options without which it is another robot.
+    fn way(&self) -> Vec<String> {
         let mut options = Vec::new();
         if let Some(file) = &self.ssh_config {
             options.extend(["-F".to_owned(), file.to_string()]);
         }
+        if let Some(port) = self.destination.port() {
+            options.extend(["-p".to_owned(), port.to_string()]);
+        }
+        options
+    }
+
+    fn ssh_options(&self) -> Vec<String> {
+        let mut options = self.way();
         let settings = [
             // Nobody is asked for a password: several robots would ask at once.
             "BatchMode=yes".to_owned(),
@@ -234,7 +265,29 @@ impl From<Failed> for Refusal {
 
 #[cfg(test)]
 mod tests {
-    use super::{Failed, tell_percents};
+    use super::{Destination, Failed, Remote, tell_percents};
+
+    #[test]
+    fn what_a_person_types_goes_the_way_that_hulkgen_goes() {
+        let robot = |written: &str, ssh_config: Option<&str>| Remote {
+            name: "a".to_owned(),
+            destination: Destination::parse(written).expect("it is one"),
+            ssh_config: ssh_config.map(Into::into),
+        };
+        let typed = |robot: &Remote| {
+            let files = ["/r/./a.toml", "/r/./it's"].map(str::to_owned);
+            (robot.as_typed(), robot.fetching_as_typed(files.into_iter()))
+        };
+        let plain = r"rsync -aR nao@robot:/r/./a.toml 'nao@robot:/r/./it'\''s' .";
+        assert_eq!(
+            typed(&robot("nao@robot", None)),
+            ("ssh nao@robot".to_owned(), plain.to_owned())
+        );
+        let (ssh, rsync) = typed(&robot("ssh://[::1]:2222", Some("/team/ssh.config")));
+        assert_eq!(ssh, "ssh -F /team/ssh.config -p 2222 ::1");
+        let start = "rsync -aR -e 'ssh -F /team/ssh.config -p 2222' '[::1]:/r/./a.toml' ";
+        assert!(rsync.starts_with(start), "{rsync}");
+    }
 
     #[test]
     fn percents_of_rsync_are_told() {

@@ -39,10 +39,12 @@ echo "current $(pwd -P)"
     )
 }
 
-/// Tells which files of a version, in its folder, are not as they were sent: by a word that other languages translate.
+/// Tells which files of a version, in its folder, are not as they were sent, by a word that other languages translate; and
+/// which are gone.
 fn changed() -> String {
     format!(
-        r#"LC_ALL=C sha256sum -c {SUMS} 2>/dev/null | sed -n 's/^\(.*\): FAILED.*$/changed \1/p'
+        r#"LC_ALL=C sha256sum -c {SUMS} 2>/dev/null | sed -n 's/^\(.*\): FAILED.*$/\1/p' |
+while IFS= read -r file; do if [ -e "$file" ]; then echo "changed $file"; else echo "gone $file"; fi; done
 known=$(sed 's/^[^ ]*  //' {SUMS})
 find . -type f ! -name {SUMS} | grep -vxF -e "$known" | sed 's/^/changed /'
 "#
@@ -178,7 +180,10 @@ mod tests {
         };
         // Of an empty file.
         let sum = "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855";
-        write(SUMS, &format!("{sum}  ./default.toml\n"));
+        write(
+            SUMS,
+            &format!("{sum}  ./default.toml\n{sum}  ./head.toml\n"),
+        );
         write("default.toml", "gain = 2\n");
         // As one that speaks German, where nobody asks it for another language.
         let german = "sha256sum() { [ \"$LC_ALL\" = C ] && word=FAILED || word=FEHLSCHLAG; \
@@ -191,7 +196,7 @@ mod tests {
             .output()
             .expect("there is a shell");
         let said = String::from_utf8_lossy(&output.stdout);
-        assert_eq!(said, "changed ./default.toml\n");
+        assert_eq!(said, "changed ./default.toml\ngone ./head.toml\n");
     }
 
     #[test]

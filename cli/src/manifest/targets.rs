@@ -7,7 +7,7 @@ use camino::{Utf8Component, Utf8Path};
 
 use super::{Manifest, Target, without_dots};
 use crate::cross::{Wanted, WrongTriple};
-use crate::deploy::BESIDE;
+use crate::deploy::{BESIDE, Destination};
 use crate::diagnostics::{Code, Diagnostic, Diagnostics, nearest};
 use crate::workspace::{MANIFEST, Workspace};
 
@@ -154,15 +154,12 @@ impl Said<'_> {
 
     fn check_hosts(&self, diagnostics: &mut Diagnostics) {
         for (name, destination) in &self.deploy.hosts {
-            let is_one = !destination.is_empty()
-                && !destination.starts_with('-')
-                && !destination.contains(char::is_whitespace);
-            if !is_one {
+            if Destination::parse(destination).is_none() {
                 let ranges = &self.target.deploy_ranges.hosts;
                 let range = ranges.get(name).unwrap_or(&self.target.name_range);
                 let message = format!("`{destination}` is no destination for ssh");
                 let error = mistake(Code::InvalidValue, message, range, "");
-                diagnostics.add(error.help("write it like `nao@10.1.24.22`"));
+                diagnostics.add(error.help(Destination::HELP));
             }
         }
     }

@@ -124,6 +124,12 @@ impl Field {
         write(self.folder.path(), "ssh_config", &config);
     }
 
+    /// From now on ssh's configuration names another port; gives the robots' own.
+    pub(crate) fn ignore_port(&self) -> u16 {
+        self.write_ssh_config(free_port());
+        self.port
+    }
+
     /// Who may be there.
     pub(crate) fn user(&self) -> String {
         let said = Command::new("id").arg("-un").output().expect("id starts");

@@ -225,7 +225,7 @@ fn what_cannot_run_there_is_refused_before_the_switch() {
     );
     let told = format!("{answer}{said}");
     assert!(
-        told.contains("`rsync -aR ") && told.contains(&fetch),
+        told.contains("`rsync -aR -e 'ssh -F ") && told.contains(&fetch),
         "{told}"
     );
     // So would a layer that came with them.
@@ -234,6 +234,16 @@ fn what_cannot_run_there_is_refused_before_the_switch() {
     refused(
         &field,
         "`parameters/head.P1.toml` was changed on the robot",
+        field.deploy("a"),
+    );
+    // What was removed there does not come back without a word, and cannot be brought home.
+    fs::remove_file(field.path("disk/current/parameters/head.P1.toml")).expect("it is ours");
+    fs::remove_file(field.path("disk/current/motions/wave.toml")).expect("it is ours");
+    let (_, answer, said) = field.deploy("a");
+    assert!(!answer.contains("rsync"), "{answer}{said}");
+    refused(
+        &field,
+        "`motions/wave.toml` was removed on the robot",
         field.deploy("a"),
     );
     std::thread::sleep(std::time::Duration::from_millis(1100));
@@ -384,6 +394,63 @@ fn a_full_disk_changes_nothing() {
     assert!(answer.contains("no space left on the robot"), "{answer}");
     assert_eq!(current, None);
     assert_eq!(field.read("systemctl.log"), "");
+}
+
+#[test]
+fn a_robot_that_is_named_twice_is_refused() {
+    let Some(field) = Field::open("a_robot_that_is_named_twice_is_refused") else {
+        return;
+    };
+    for (first, second) in [
+        ("a", "ssh://robot-a"),
+        ("a", "somebody@robot-a"),
+        ("robot@::1", "[::1]"),
+    ] {
+        let (status, answer, said) = field.deploy(&format!("{first} b {second}"));
+        assert_eq!(status, 2, "{answer}{said}");
+        let expected = format!("`{first}` and `{second}` are one robot");
+        assert!(said.contains(&expected), "{said}");
+    }
+    assert_eq!(field.current(), None);
+}
+
+#[test]
+fn a_destination_is_what_ssh_takes() {
+    let Some(field) = Field::open("a_destination_is_what_ssh_takes") else {
+        return;
+    };
+    // Not the port of ssh's configuration.
+    let port = field.ignore_port();
+    let user = field.user();
+    let url = format!("ssh://{user}@127.0.0.1:{port}");
+    let (status, answer, said) = field.deploy(&url);
+    assert_eq!(status, 0, "{answer}{said}");
+    assert!(field.current().is_some());
+    field.write("disk/runs/1-1/recording.mcap", "first");
+    let (status, answer, said) = field.hulkgen(&format!("recording pull {url}"));
+    let folder = format!("runs/{user}@127.0.0.1:{port}\n");
+    assert_eq!((status, answer), (0, folder), "{said}");
+    // The way that a person types is the same.
+    field.write("disk/current/parameters/default.toml", "speed = 3\n");
+    let (status, answer, said) = field.deploy(&url);
+    assert_eq!(status, 1, "{answer}{said}");
+    let config = field.path("ssh_config");
+    let typed = format!(
+        "`rsync -aR -e 'ssh -F {} -p {port}' {user}@127.0.0.1:",
+        config.display()
+    );
+    assert!(answer.contains(&typed), "{answer}");
+    let typed = answer.split('`').find(|part| part.starts_with("rsync -aR"));
+    let fetched = Command::new("sh")
+        .args(["-c", typed.expect("it was found above")])
+        .current_dir(field.path("robot"))
+        .status();
+    assert!(fetched.expect("there is a shell").success());
+    assert_eq!(field.read("robot/parameters/default.toml"), "speed = 3\n");
+    // What rsync would take for a path.
+    let (status, _, said) = field.deploy("nao@127.0.0.1:22");
+    assert_eq!(status, 2, "{said}");
+    assert!(said.contains("is no destination for ssh"), "{said}");
 }
 
 #[test]

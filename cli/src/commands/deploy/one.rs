@@ -1,7 +1,7 @@
 //! One robot's part of `deploy`.
 
 use super::reached::service;
-use crate::deploy::script::{self, as_a_word, quoted};
+use crate::deploy::script::{self, quoted};
 use crate::deploy::{Failed, ForRobot, Package, Remote};
 use crate::outcome::Refusal;
 
@@ -38,6 +38,8 @@ struct Probed {
     previous: Option<String>,
     /// Files of the current version that were changed there.
     changed: Vec<String>,
+    /// Files of it that were removed there.
+    gone: Vec<String>,
 }
 
 impl Deed<'_> {
@@ -124,10 +126,10 @@ impl Deed<'_> {
                 _ => failed.into(),
             })?;
         let probed = Probed::read(&said);
-        if let Some(changed) = probed.changed() {
+        if let Some(differs) = probed.differs() {
             let left = name_of(probed.previous.as_deref()).unwrap_or_default();
             say(format!(
-                "warning: {changed} in {left}, which does not count now; another `--rollback` goes back to it"
+                "warning: {differs} in {left}, which does not count now; another `--rollback` goes back to it"
             ));
         }
         Ok(Done {
@@ -147,15 +149,15 @@ impl Probed {
                 continue;
             };
             let value = value.trim();
+            let file = || value.trim_start_matches("./").to_owned();
             match word {
                 "machine" => probed.machine = value.to_owned(),
                 "free" => probed.kibibytes = value.parse().ok(),
                 "rsync" => probed.has_rsync = true,
                 "current" => probed.current = Some(value.to_owned()),
                 "previous" => probed.previous = Some(value.to_owned()),
-                "changed" => probed
-                    .changed
-                    .push(value.trim_start_matches("./").to_owned()),
+                "changed" => probed.changed.push(file()),
+                "gone" => probed.gone.push(file()),
                 _ => {}
             }
         }
@@ -167,13 +169,18 @@ impl Probed {
         name_of(self.current.as_deref())
     }
 
-    /// Which files were changed: the first, and how many more; `None`: nothing was.
-    fn changed(&self) -> Option<String> {
-        let first = self.changed.first()?;
-        Some(match self.changed.len() - 1 {
-            0 => format!("`{first}` was changed"),
-            more => format!("`{first}` and {more} more were changed"),
-        })
+    /// What somebody did to files there: of each deed the first file, and how many more; `None`: nothing.
+    fn differs(&self) -> Option<String> {
+        let deed = |files: &[String], deed: &str| {
+            let first = files.first()?;
+            Some(match files.len() - 1 {
+                0 => format!("`{first}` was {deed}"),
+                more => format!("`{first}` and {more} more were {deed}"),
+            })
+        };
+        let deeds = [deed(&self.changed, "changed"), deed(&self.gone, "removed")];
+        let deeds: Vec<String> = deeds.into_iter().flatten().collect();
+        (!deeds.is_empty()).then(|| deeds.join(", "))
     }
 
     fn permits(&self, package: &Package, deed: &Deed<'_>) -> Result<(), Refusal> {
@@ -199,26 +206,27 @@ impl Probed {
                 Refusal::bad(message).help("fetch and remove old runs: `hulkgen recording pull`")
             );
         }
-        if let Some(changed) = self.changed()
+        if let Some(differs) = self.differs()
             && !deed.discards_changes
         {
-            let message = format!("{changed} on the robot and would be lost");
-            return Err(Refusal::bad(message).help(format!(
-                "bring it home with `{}`, here in the robot's folder; then give `--discard-changes`",
-                self.fetching(deed)
-            )));
+            let message = format!("{differs} on the robot, which would be lost");
+            return Err(Refusal::bad(message).help(match self.changed.is_empty() {
+                true => "remove it here, too, or let it come back; then give `--discard-changes`".to_owned(),
+                false => format!(
+                    "bring it home with `{}`, here in the robot's folder; then give `--discard-changes`",
+                    self.fetching(deed)
+                ),
+            }));
         }
         Ok(())
     }
 
     /// What a person types to get the changed files, each into its folder.
     fn fetching(&self, deed: &Deed<'_>) -> String {
-        let (destination, folder) = (&deed.remote.destination, &deed.deploy.folder);
-        let files = self.changed.iter().map(|file| {
-            let file = format!("{destination}:{folder}/current/./{file}");
-            format!(" {}", as_a_word(&file))
-        });
-        format!("rsync -aR{} .", files.collect::<String>())
+        let folder = &deed.deploy.folder;
+        let files = self.changed.iter();
+        let files = files.map(|file| format!("{folder}/current/./{file}"));
+        deed.remote.fetching_as_typed(files)
     }
 }
 
@@ -233,8 +241,8 @@ fn not_reached(remote: &Remote, failed: &Failed) -> Refusal {
         return Refusal::bad(failed.message.clone());
     }
     Refusal::bad(format!("not reached: {}", failed.message)).help(format!(
-        "try `ssh {}`: network, key, and the host's key",
-        remote.destination
+        "try `{}`: network, key, and the host's key",
+        remote.as_typed()
     ))
 }
 
@@ -280,7 +288,7 @@ mod tests {
 
     #[test]
     fn a_probe_is_read_whatever_a_login_prints() {
-        let said = "Welcome!\nmachine x86_64\nfree 1024\nrsync yes\ncurrent /home/nao/robot/versions/2026\nchanged ./a/b.toml\n";
+        let said = "Welcome!\nmachine x86_64\nfree 1024\nrsync yes\ncurrent /home/nao/robot/versions/2026\nchanged ./a/b.toml\ngone ./a/c.toml\n";
         let expected = Probed {
             machine: "x86_64".to_owned(),
             kibibytes: Some(1024),
@@ -288,8 +296,13 @@ mod tests {
             current: Some("/home/nao/robot/versions/2026".to_owned()),
             previous: None,
             changed: vec!["a/b.toml".to_owned()],
+            gone: vec!["a/c.toml".to_owned()],
         };
         assert_eq!(expected.version(), Some("2026"));
+        assert_eq!(
+            expected.differs().as_deref(),
+            Some("`a/b.toml` was changed, `a/c.toml` was removed")
+        );
         assert_eq!(Probed::read(said), expected);
         assert_eq!(Probed::read("free ?\n").kibibytes, None);
     }

@@ -9,6 +9,12 @@ use crate::commands::session::Session;
 use crate::deploy::script::quoted;
 use crate::outcome::{Outcome, Refusal};
 
+/// A folder's name, also of a destination that is a URL.
+fn folder_of(host: &str) -> &str {
+    let host = host.strip_prefix("ssh://").unwrap_or(host);
+    host.strip_suffix('/').unwrap_or(host)
+}
+
 pub(in crate::commands) fn pull(
     session: &mut Session<'_>,
     pull: &Pull,
@@ -18,7 +24,7 @@ pub(in crate::commands) fn pull(
     let into = pull
         .into
         .clone()
-        .unwrap_or_else(|| session.runs().join(&pull.host));
+        .unwrap_or_else(|| session.runs().join(folder_of(&pull.host)));
     let (from, into) = if pull.newest {
         // By the recordings: a folder is as old as its file is, however long that is written.
         let newest = format!(

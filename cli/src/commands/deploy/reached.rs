@@ -5,8 +5,8 @@ use camino::Utf8PathBuf;
 use crate::arguments;
 use crate::commands::Failure;
 use crate::commands::session::Session;
-use crate::deploy::Remote;
 use crate::deploy::script::Service;
+use crate::deploy::{Destination, Remote};
 use crate::diagnostics::{listed, nearest};
 use crate::manifest;
 use crate::outcome::Refusal;
@@ -58,6 +58,20 @@ impl Reached {
         Ok(robots)
     }
 
+    /// As [`Self::robots`], each of them once: two deeds at once would be in each other's way there.
+    pub(super) fn different_robots(&self, hosts: &[String]) -> Result<Vec<Robot>, Refusal> {
+        let robots = self.robots(hosts)?;
+        for (index, Robot { remote }) in robots.iter().enumerate() {
+            let earlier = robots[..index].iter().map(|robot| &robot.remote);
+            let same = |other: &&Remote| remote.destination.is_machine_of(&other.destination);
+            if let Some(other) = earlier.into_iter().find(same) {
+                let message = format!("`{}` and `{}` are one robot", other.name, remote.name);
+                return Err(Refusal::wrong_usage(message).help("name it once"));
+            }
+        }
+        Ok(robots)
+    }
+
     /// Of a name among `hosts`, else a destination: it has an `@`, a dot or a colon.
     pub(super) fn robot(&self, host: &str) -> Result<Robot, Refusal> {
         let known = self.deploy.hosts.get(host);
@@ -77,10 +91,15 @@ impl Reached {
                 ),
             );
         }
+        let written = known.map_or(host, String::as_str);
+        let destination = Destination::parse(written).ok_or_else(|| {
+            Refusal::wrong_usage(format!("`{written}` is no destination for ssh"))
+                .help(Destination::HELP)
+        })?;
         Ok(Robot {
             remote: Remote {
                 name: host.to_owned(),
-                destination: known.map_or(host, String::as_str).to_owned(),
+                destination,
                 ssh_config: self.ssh_config.clone(),
             },
         })

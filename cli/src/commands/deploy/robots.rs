@@ -44,7 +44,7 @@ pub(in crate::commands) fn robots(
     let is_good = answers.iter().all(Result::is_ok);
     let told: Vec<Value> = (robots.iter().zip(answers))
         .map(|(robot, answer)| {
-            let (name, destination) = (&robot.remote.name, &robot.remote.destination);
+            let (name, destination) = (&robot.remote.name, robot.remote.destination.to_string());
             let mut told = json!({ "host": name, "destination": destination });
             match answer {
                 Ok(said) => WORDS

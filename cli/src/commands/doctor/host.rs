@@ -21,8 +21,8 @@ pub(super) fn look(
         Ok(said) => said,
         Err(failed) => {
             let help = format!(
-                "try `ssh {}`: network, key, and the host's key",
-                remote.destination
+                "try `{}`: network, key, and the host's key",
+                remote.as_typed()
             );
             return Ok(vec![Finding::bad(about, failed.message, help)]);
         }
@@ -53,8 +53,7 @@ pub(super) fn look(
     findings.push(machine::disk(Some(&read("hulkgen/disk"))));
     findings.extend(system::look(&files, "this user there"));
     // The robot's program listens where ssh does, if the destination is an address.
-    let address = remote.destination.rsplit('@').next().unwrap_or_default();
-    findings.extend(running::look(Some(address)));
+    findings.extend(running::look(Some(remote.destination.host())));
     Ok(findings)
 }
 
