@@ -20,4 +20,5 @@ pub(crate) mod script;
 
 pub(crate) use destination::Destination;
 pub(crate) use package::{BESIDE, Contents, ForRobot, Package};
+pub(crate) use program::{Fit, fit_of_triple};
 pub(crate) use remote::{Failed, Remote};

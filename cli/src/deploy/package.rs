@@ -8,7 +8,7 @@ use std::process::{Command, Stdio};
 use camino::{Utf8Path, Utf8PathBuf};
 use tempfile::TempDir;
 
-use super::program::machines;
+use super::program::{Machine, machine};
 use super::script::quoted;
 use crate::outcome::Refusal;
 
@@ -42,8 +42,7 @@ pub(crate) struct Package {
     folder: TempDir,
     pub(crate) version: String,
     pub(crate) kibibytes: u64,
-    /// What `uname -m` may say where it runs.
-    pub(crate) machines: &'static [&'static str],
+    pub(crate) machine: &'static Machine,
     name: String,
     /// As recordings of the robot tell it; empty where there is no commit.
     revision: String,
@@ -60,7 +59,7 @@ impl Package {
             return Err(Refusal::bad(format!("there is no program `{program}`"))
                 .help("build it, or name the file with `--program`"));
         }
-        let machines = machines(program)?;
+        let machine = machine(program)?;
         let folder = tempfile::Builder::new().prefix("hulkgen-deploy-").tempdir();
         let folder = folder.map_err(|error| cannot("make a temporary folder", &error))?;
         let into = text(&folder)?;
@@ -80,7 +79,7 @@ impl Package {
             version: version(revision.as_ref())?,
             revision: revision.map_or_else(String::new, |it| it.to_string()),
             kibibytes: kibibytes(&into)?,
-            machines,
+            machine,
             name: contents.name.to_owned(),
             folder,
         };

@@ -2,7 +2,7 @@
 
 use super::reached::service;
 use crate::deploy::script::{self, quoted};
-use crate::deploy::{Failed, ForRobot, Package, Remote};
+use crate::deploy::{Failed, Fit, ForRobot, Package, Remote};
 use crate::outcome::Refusal;
 
 /// Where the reason stands.
@@ -185,8 +185,9 @@ impl Probed {
 
     fn permits(&self, package: &Package, deed: &Deed<'_>) -> Result<(), Refusal> {
         let machine = self.machine.as_str();
-        if !package.machines.contains(&machine) {
-            let built = package.machines.first().copied().unwrap_or_default();
+        // Whether the system has libraries for a smaller machine's programs shows when it starts there.
+        if package.machine.fit(machine) == Fit::Fails {
+            let built = package.machine.name();
             return Err(Refusal::bad(format!(
                 "the program is for {built}, the robot is {machine}"
             ))

@@ -5,6 +5,7 @@ use crate::arguments::Reached;
 use crate::commands::deploy;
 use crate::commands::{Failure, session::Session};
 use crate::deploy::script::quoted;
+use crate::deploy::{Fit, fit_of_triple};
 use crate::workspace::Workspace;
 
 /// Before every file, and before the name of what is no file.
@@ -104,9 +105,8 @@ fn fit(machine: &str, libc: &str, triple: Option<&str>) -> Finding {
     let (plain, needed) = triple
         .split_once('.')
         .map_or((triple, None), |(plain, version)| (plain, Some(version)));
-    let processor = plain.split('-').next().unwrap_or_default();
-    let is_32_bit = |name: &str| name.len() == 4 && name.starts_with('i') && name.ends_with("86");
-    if processor != machine && !(is_32_bit(processor) && is_32_bit(machine)) {
+    let fit = fit_of_triple(plain, machine);
+    if fit == Fit::Fails {
         let message = format!("{said}: programs for `{triple}` do not start");
         return Finding::bad(
             about,
@@ -125,7 +125,14 @@ fn fit(machine: &str, libc: &str, triple: Option<&str>) -> Finding {
             "name the robot's glibc behind the triple of the target in hulk.toml",
         );
     }
-    Finding::ok(about, said)
+    match fit {
+        Fit::StartsAsSmaller => Finding::warning(
+            about,
+            format!("{said}: programs for `{triple}` start if the system has libraries for them"),
+            "deploy and see, or name the robot's machine: `triple` of the target in hulk.toml",
+        ),
+        _ => Finding::ok(about, said),
+    }
 }
 
 fn numbers(version: &str) -> Vec<u32> {
@@ -192,6 +199,11 @@ mod tests {
             fit("i686", "", Some("i586-unknown-linux-musl")).state,
             State::Ok
         );
+        let arm = Some("armv7-unknown-linux-gnueabihf");
+        assert_eq!(fit("armv7l", "glibc 2.41", arm).state, State::Ok);
+        assert_eq!(fit("aarch64", "glibc 2.41", arm).state, State::Warning);
+        let riscv = Some("riscv64gc-unknown-linux-gnu");
+        assert_eq!(fit("riscv64", "glibc 2.41", riscv).state, State::Ok);
     }
 
     #[test]
