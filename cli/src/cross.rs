@@ -15,7 +15,7 @@ use camino::Utf8Path;
 pub use elf::{Elf, Version};
 pub use flags::{ENCODED, Flags};
 pub use processor::Processor;
-pub use tools::Tools;
+pub use tools::{Tools, python};
 pub use verdict::{Wanted, WrongTriple, objections};
 
 use crate::outcome::Refusal;

@@ -28,8 +28,7 @@ impl Tools {
             Refusal::bad("there is no cache folder for the tools that build for other machines")
                 .help("set XDG_CACHE_HOME")
         })?;
-        let python = std::env::var("PYTHON").unwrap_or_else(|_| "python3".to_owned());
-        Self::bring_into(&caches.join("cross"), &python, tell)
+        Self::bring_into(&caches.join("cross"), &python(), tell)
     }
 
     fn bring_into(
@@ -69,6 +68,11 @@ impl Tools {
         }
         Ok(tools)
     }
+}
+
+/// The Python that brings them: the variable names another than the system's.
+pub fn python() -> String {
+    std::env::var("PYTHON").unwrap_or_else(|_| "python3".to_owned())
 }
 
 fn install(python: &str, folder: &Utf8Path) -> Result<(), Refusal> {

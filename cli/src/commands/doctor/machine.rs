@@ -39,12 +39,11 @@ pub(super) fn tools(root: &Utf8Path) -> Vec<Finding> {
     ]
 }
 
-/// Where programs come from that build for other machines and put robots onto them.
+/// Programs that put robots' programs onto robots.
 pub(super) fn tools_of_deploy(root: &Utf8Path) -> Vec<Finding> {
     // ssh tells its version on stderr.
     let ssh = answer("ssh", &["-G", "localhost"], root).is_some();
     let rsync = answer("rsync", &["--version"], root);
-    let pip = answer("python3", &["-m", "venv", "--help"], root).is_some();
     let needed = "`hulkgen deploy` needs it";
     vec![
         if ssh {
@@ -60,13 +59,20 @@ pub(super) fn tools_of_deploy(root: &Utf8Path) -> Vec<Finding> {
                 Finding::warning("rsync", "cannot be started", help)
             }
         },
-        if pip {
-            Finding::ok("venv", "python3 makes virtual environments")
-        } else {
-            let help = "install python3-venv: cross compilers come from PyPI";
-            Finding::warning("venv", "python3 makes no virtual environments", help)
-        },
     ]
+}
+
+/// What `build` asks to bring compilers for other machines, from PyPI.
+pub(super) fn pip(python: &str, root: &Utf8Path) -> Finding {
+    let about = "pip";
+    match answer(python, &["-m", "pip", "--version"], root) {
+        Some(version) => Finding::ok(about, version),
+        None => Finding::warning(
+            about,
+            format!("`{python}` has none"),
+            "install python3-pip, or name another Python in the variable PYTHON: `hulkgen build` brings compilers for other machines with it",
+        ),
+    }
 }
 
 /// Free disk in a folder.

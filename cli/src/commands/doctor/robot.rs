@@ -3,9 +3,10 @@
 use camino::Utf8Path;
 
 use super::Finding;
-use super::machine::answer;
+use super::machine::{self, answer};
 use crate::commands::session::Session;
 use crate::commands::{generate, plural};
+use crate::cross;
 use crate::diagnostics::{Diagnostics, Severity};
 use crate::drift::Drift;
 use crate::outcome::Refusal;
@@ -30,6 +31,10 @@ pub(super) fn look(session: &mut Result<Session<'_>, Refusal>) -> Vec<Finding> {
     findings.push(lock(&session.workspace));
     if let Ok(understood) = understood {
         findings.push(generated(&session.workspace, &understood));
+        let targets = &understood.robot.targets;
+        if targets.iter().any(|target| target.triple.is_some()) {
+            findings.push(machine::pip(&cross::python(), session.workspace.root()));
+        }
         findings.extend(
             (understood.robot.targets.iter()).filter_map(|it| target(session.workspace.root(), it)),
         );

@@ -1,6 +1,9 @@
 //! What programs and limits say, read without them.
 
-use super::{answer, disk, numbers, rustc};
+use std::fs::{self, Permissions};
+use std::os::unix::fs::PermissionsExt as _;
+
+use super::{answer, disk, numbers, pip, rustc};
 use crate::commands::doctor::State;
 
 #[test]
@@ -23,6 +26,22 @@ fn little_free_space_is_a_warning_and_none_is_bad() {
 #[test]
 fn a_program_that_is_not_there_has_no_answer() {
     assert_eq!(answer("hulkgen-is-not-called-so", &[], ".".into()), None);
+}
+
+#[test]
+fn the_python_that_brings_compilers_is_asked_for_pip() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let python = folder.path().join("python");
+    let python = camino::Utf8Path::from_path(&python).expect("it is UTF-8");
+    for (has, state) in [
+        ("-m pip --version", State::Ok),
+        ("-m venv --help", State::Warning),
+    ] {
+        let script = format!("#!/bin/sh\n[ \"$*\" = \"{has}\" ] && echo pip 25\n");
+        fs::write(python, script).expect("the folder is ours");
+        fs::set_permissions(python, Permissions::from_mode(0o755)).expect("it is ours");
+        assert_eq!(pip(python.as_str(), ".".into()).state, state, "{has}");
+    }
 }
 
 #[test]
