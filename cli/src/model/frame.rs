@@ -128,7 +128,7 @@ type PartKey = (Vec<String>, Vec<Segment>);
 /// Parts of the parameter tree that the nodes of a cycler read by `$cycler_instance`.
 pub fn instance_parameters(cycler: &Cycler, parameters: &Parameters) -> Vec<InstanceParameters> {
     let mut found: BTreeMap<PartKey, FieldType> = BTreeMap::new();
-    for (access, data) in cycler.nodes.iter().flat_map(read_parameters) {
+    for (access, data) in cycler.nodes.iter().flat_map(Node::parameters) {
         if let Some((key, content)) = selected(cycler, parameters, access, data) {
             found.entry(key).or_insert(content);
         }
@@ -189,22 +189,6 @@ fn selected(
         .and_then(|text| text.strip_suffix('>'));
     let text = inner.filter(|_| access.is_optional()).unwrap_or(text);
     Some(((path, segments.clone()), FieldType::Data(text.to_owned())))
-}
-
-/// Every parameter that a node reads, and its type as written.
-pub(super) fn read_parameters(node: &Node) -> impl Iterator<Item = (&Access, &DataType)> {
-    let created = node
-        .creation
-        .iter()
-        .filter_map(|field| match &field.binding {
-            CreationBinding::Parameter { access, data } => Some((access, data)),
-            _ => None,
-        });
-    let cycled = node.cycle.iter().filter_map(|field| match &field.binding {
-        CycleBinding::Parameter { access, data } => Some((access, data)),
-        _ => None,
-    });
-    created.chain(cycled)
 }
 
 /// The part that a path leads through, and what is left of the path.

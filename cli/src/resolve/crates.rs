@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use camino::Utf8Path;
 
-use super::robot::{Content, CreationBinding, CycleBinding, Dependency, Node, Robot, Tree};
+use super::robot::{Content, CycleBinding, Dependency, Node, Robot, Tree};
 use crate::scan::lookup::is_prelude;
 use crate::workspace::{OF_GENERATED, Workspace};
 
@@ -125,19 +125,9 @@ fn names_in_code(robot: &Robot) -> Vec<String> {
 
 /// Types behind `$cycler_instance`: `Frame` may name them, and they may lie below a leaf of the tree.
 fn parts_of_instances(node: &Node) -> impl Iterator<Item = String> {
-    let created = node
-        .creation
-        .iter()
-        .filter_map(|field| match &field.binding {
-            CreationBinding::Parameter { access, data } => Some((access, data)),
-            _ => None,
-        });
-    let cycled = node.cycle.iter().filter_map(|field| match &field.binding {
-        CycleBinding::Parameter { access, data } => Some((access, data)),
-        _ => None,
-    });
-    let parameters = created.chain(cycled);
-    let parts = parameters.filter(|(access, _)| access.segments.iter().any(|one| one.instance));
+    let parts = node
+        .parameters()
+        .filter(|(access, _)| access.segments.iter().any(|one| one.instance));
     parts.map(|(_, data)| data.text.clone())
 }
 

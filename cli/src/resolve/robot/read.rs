@@ -1,8 +1,8 @@
-//! What a field of a cycle context reads of others, whatever its kind.
+//! What a node reads: fields of its contexts, whatever their kind.
 
 use serde::Serialize;
 
-use super::{Access, CycleBinding, InstanceId};
+use super::{Access, CreationBinding, CycleBinding, DataType, InstanceId, Node};
 
 /// What a field of a cycle context reads from the main outputs of a cycler.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -14,6 +14,24 @@ pub struct OutputRead<'a> {
     pub producer: usize,
     /// Whether the types were compared.
     pub checked: bool,
+}
+
+impl Node {
+    /// Parameters that it reads, when it is created and in cycles.
+    pub fn parameters(&self) -> impl Iterator<Item = (&Access, &DataType)> {
+        let created = self
+            .creation
+            .iter()
+            .filter_map(|field| match &field.binding {
+                CreationBinding::Parameter { access, data } => Some((access, data)),
+                _ => None,
+            });
+        let cycled = self.cycle.iter().filter_map(|field| match &field.binding {
+            CycleBinding::Parameter { access, data } => Some((access, data)),
+            _ => None,
+        });
+        created.chain(cycled)
+    }
 }
 
 impl CycleBinding {

@@ -3,7 +3,6 @@
 use std::time::Duration;
 
 use super::CyclerBuilder;
-use crate::model::frame::read_parameters;
 use crate::model::names::snake_case;
 use crate::resolve::robot::{
     Access, Branch, Content, CreationBinding, CycleBinding, Cycler, CyclerKind, DataType,
@@ -311,7 +310,7 @@ fn parameter_tree(cyclers: &[Cycler]) -> Tree<Reader> {
     };
     for (position, cycler) in cyclers.iter().enumerate() {
         for node in &cycler.nodes {
-            for (access, data) in read_parameters(node) {
+            for (access, data) in node.parameters() {
                 for instance in &cycler.instances {
                     let names: Vec<(String, Option<usize>)> = access
                         .segments
