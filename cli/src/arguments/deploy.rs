@@ -23,7 +23,8 @@ pub struct Reached {
 /// step. A version that does not start is replaced by the one before.
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "\
-Exit status: 0 all robots have it, 1 some have not: these run what they ran before; 2 wrong usage.
+Exit status: 0 all robots have it, and joined the network of `--wlan`; 1 some did not: these run what they ran before, unless the
+answer says that they have it and did not join; 2 wrong usage.
 
 Examples:
   hulkgen deploy nao22 nao23 --location hall_3
@@ -43,7 +44,9 @@ pub struct Deploy {
     /// Start it with this parameter, on one robot or on all; may be repeated
     #[arg(long, value_name = "[HOST:]PATH=VALUE", conflicts_with = "rollback")]
     pub set: Vec<String>,
-    /// A further option that the program is started with, for example `--option=--listen=0.0.0.0:4857`; may be repeated
+    /// A further option that the program is started with, for example `--option=--peer=nao23.local:4857`; may be repeated
+    ///
+    /// Options of the unit file stand behind these: of what may be given once, such as `--listen`, the unit's counts.
     #[arg(
         long,
         value_name = "OPTION",
