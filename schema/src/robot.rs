@@ -63,7 +63,7 @@ pub struct Target {
     /// CPU to compile for, as in `-C target-cpu`.
     #[serde(default)]
     pub cpu: Option<String>,
-    /// Cargo profile. Left out: `release`.
+    /// Cargo profile. Left out: `release`; without `triple` that of hulkgen itself, which is `release` where it was installed.
     #[serde(default)]
     pub profile: Option<String>,
     /// Default location of its parameters: a folder below the robot's `parameters`.
