@@ -166,17 +166,20 @@ fn summary_of_robot(graph: &Graph, besides: usize, opaque: usize) -> String {
         .map(|cycler| cycler.instances.len())
         .sum();
     let nodes = graph.cyclers.iter().map(|cycler| cycler.nodes.len()).sum();
-    let left = graph.edges.len() - graph.checked_edges() + besides;
-    let checked = match left {
+    let edges = match graph.edges.len() - graph.checked_edges() {
         0 => "all checked".to_owned(),
         left => format!("{left} left to rustc"),
+    };
+    let besides = match besides {
+        0 => String::new(),
+        _ => format!(", {} left to rustc", plural(besides, "other question")),
     };
     let opaque = match opaque {
         0 => String::new(),
         _ => format!(", {} left to `check --cargo`", plural(opaque, "parameter")),
     };
     format!(
-        "robot {}: {}, {}, {}, {}, {checked}{opaque}\n",
+        "robot {}: {}, {}, {}, {}, {edges}{besides}{opaque}\n",
         graph.robot,
         plural(graph.cyclers.len(), "cycler"),
         plural(instances, "instance"),

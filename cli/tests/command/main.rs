@@ -90,6 +90,19 @@ fn a_good_robot_is_summed_up() {
 }
 
 #[test]
+fn what_is_left_to_rustc_is_no_edge_if_all_edges_are_checked() {
+    let robot = Robot::tiny();
+    robot.edit(
+        "nodes/src/lib.rs",
+        "pub mod counter;",
+        "#[cfg(feature = \"no\")]\npub mod counter;",
+    );
+    let ended = robot.run("check").expect(0);
+    let summary = ", 2 edges, all checked, 1 other question left to rustc\n";
+    assert!(ended.stdout.ends_with(summary), "{}", ended.stdout);
+}
+
+#[test]
 fn a_broken_manifest_ends_with_1_and_writes_nothing() {
     let robot = Robot::tiny();
     robot.edit("hulk.toml", "\"nodes::counter\"", "\"nodes::conter\"");
