@@ -1,6 +1,7 @@
 //! One client's WebSocket, from its first message to its end.
 
 use std::future::ready;
+use std::pin::pin;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -33,9 +34,25 @@ pub(crate) async fn talk(mut socket: WebSocket, guest: Guest, shared: Arc<Shared
     let mut heard = Instant::now();
     let mut ending = shared.ending.subscribe();
     let mut why = None;
-    while let Some(is_more) = send_some(&mut socket, client, &shared).await {
+    loop {
+        let begun = Instant::now();
+        let Some(is_more) = send_some(&mut socket, client, &guest, &shared).await else {
+            break;
+        };
         let may_ask = shared.hub().may_ask(client);
+        // Who is not listened to is not silent.
+        heard = match may_ask {
+            true => heard + begun.elapsed(),
+            false => Instant::now(),
+        };
         tokio::select! {
+            biased;
+            _ = ending.changed() => {
+                let _ = send_some(&mut socket, client, &guest, &shared).await;
+                why = Some((close_code::AWAY, "the robot ends"));
+                break;
+            }
+            // Before its silence is judged.
             received = socket.recv(), if may_ask => {
                 heard = Instant::now();
                 let message = match received {
@@ -53,24 +70,19 @@ pub(crate) async fn talk(mut socket: WebSocket, guest: Guest, shared: Arc<Shared
                     break;
                 }
             }
-            () = ready(()), if is_more => {}
-            () = news.notified() => {}
-            _ = ending.changed() => {
-                let _ = send_some(&mut socket, client, &shared).await;
-                why = Some((close_code::AWAY, "the robot ends"));
-                break;
-            }
             _ = pings.tick() => {
                 if heard.elapsed() > shared.limits.silence {
                     why = Some((close_code::POLICY, "silent for too long"));
                     break;
                 }
-                if !send(&mut socket, Message::Ping(Vec::new().into()), &shared).await
-                {
+                let ping = socket.send(Message::Ping(Vec::new().into()));
+                if taken(ping, &guest, shared.limits.taking).await.is_none() {
                     break;
                 }
             }
         }
+            () = news.notified() => {}
+            () = ready(()), if is_more => {}
     }
     if why.is_some() {
         guest.dismiss();
@@ -108,7 +120,12 @@ fn receive(message: Message, client: ClientId, guest: &Guest, shared: &Shared) -
 }
 
 /// Sends what waits for the client, and says whether more may wait; `None`: it does not take it.
-async fn send_some(socket: &mut WebSocket, client: ClientId, shared: &Shared) -> Option<bool> {
+async fn send_some(
+    socket: &mut WebSocket,
+    client: ClientId,
+    guest: &Guest,
+    shared: &Shared,
+) -> Option<bool> {
     let mut bytes = 0;
     let mut is_more = true;
     while is_more && bytes < AT_ONCE {
@@ -118,13 +135,11 @@ async fn send_some(socket: &mut WebSocket, client: ClientId, shared: &Shared) ->
             // Short ones take their frame and their turn, too.
             bytes += message_bytes(&message) + 64;
             // Many in one piece: a system call for each would be most of the work.
-            let fed = timeout(shared.limits.taking, socket.feed(message)).await;
-            fed.ok()?.ok()?;
+            taken(socket.feed(message), guest, shared.limits.taking).await?;
         }
     }
     if bytes > 0 {
-        let flushed = timeout(shared.limits.taking, socket.flush()).await;
-        flushed.ok()?.ok()?;
+        taken(socket.flush(), guest, shared.limits.taking).await?;
     }
     Some(is_more)
 }
@@ -137,9 +152,22 @@ fn message_bytes(message: &Message) -> usize {
     }
 }
 
-async fn send(socket: &mut WebSocket, message: Message, shared: &Shared) -> bool {
-    let sent = timeout(shared.limits.taking, socket.send(message)).await;
-    matches!(sent, Ok(Ok(())))
+/// Sends as long as the client takes something of it, however little; `None`: it takes nothing for as long as the limit says.
+async fn taken(
+    sending: impl Future<Output = Result<(), axum::Error>>,
+    guest: &Guest,
+    limit: Duration,
+) -> Option<()> {
+    let mut sending = pin!(sending);
+    let begun = std::time::Instant::now();
+    loop {
+        let left = limit.saturating_sub(guest.took().max(begun).elapsed());
+        match timeout(left, sending.as_mut()).await {
+            Ok(sent) => return sent.ok(),
+            Err(_) if left.is_zero() => return None,
+            Err(_) => {}
+        }
+    }
 }
 
 struct Leaving<'shared> {

@@ -2,6 +2,7 @@
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::Relaxed};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Instant;
 
 use crate::limits::Limits;
 
@@ -17,6 +18,8 @@ struct State {
     /// Bytes of what it says that is not whole: what it announced, for which there is room already.
     held: AtomicUsize,
     refusal: Mutex<Option<&'static str>>,
+    /// When it took bytes last.
+    took: Mutex<Instant>,
     room: Arc<Room>,
 }
 
@@ -64,6 +67,7 @@ impl Guest {
             may_change: AtomicBool::new(false),
             held: AtomicUsize::new(0),
             refusal: Mutex::default(),
+            took: Mutex::new(Instant::now()),
             room,
         }))
     }
@@ -117,6 +121,16 @@ impl Guest {
         *self.0.refusal() = Some(why);
     }
 
+    /// It takes bytes now.
+    pub(crate) fn take(&self) {
+        *self.0.took() = Instant::now();
+    }
+
+    /// When it took bytes last.
+    pub(crate) fn took(&self) -> Instant {
+        *self.0.took()
+    }
+
     /// Why it was refused.
     pub(crate) fn refusal(&self) -> Option<&'static str> {
         *self.0.refusal()
@@ -126,6 +140,10 @@ impl Guest {
 impl State {
     fn refusal(&self) -> MutexGuard<'_, Option<&'static str>> {
         self.refusal.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn took(&self) -> MutexGuard<'_, Instant> {
+        self.took.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     fn hold(&self, bytes: usize) {

@@ -9,9 +9,9 @@ pub struct Limits {
     pub connections: usize,
     /// Until a connection has become a WebSocket; what is none by then is closed.
     pub head: Duration,
-    /// Until a client that says nothing, not even to a ping, counts as gone.
+    /// Until a client that says nothing, not even to a ping, counts as gone; only while it is listened to and takes what it is sent.
     pub silence: Duration,
-    /// Until a client that takes nothing counts as gone.
+    /// Until a client that takes nothing, no part of a message either, counts as gone.
     pub taking: Duration,
     /// Bytes of one message of a client: an image as JSON has a few million.
     pub message_bytes: usize,

@@ -2,13 +2,13 @@
 
 use std::io::{Read, Write};
 use std::net::TcpStream;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use framework::launch::Listening;
 use hulkgen_communication::Limits;
 use serde_json::{Value, json};
 
-use crate::zoo::{Client, Zoo, eventually, stream};
+use crate::zoo::{Client, PATIENCE, Zoo, eventually, stream};
 
 const CYCLES: &str = "Control.main_outputs.cycles";
 
@@ -327,6 +327,58 @@ fn updates_that_nobody_takes_are_lost_and_told() {
         let mut cycle = good.update(cycles)["cycle"].as_u64();
         // On a busy machine it, too, may miss some, and is told.
         for _ in 0..250 {
+/// Reads 512 KiB every 60 ms until the text has come; whether it has.
+fn comes_slowly(stream: &mut TcpStream, text: &str) -> bool {
+    let mut part = vec![0; 64 << 10];
+    let (mut end, mut read) = (Vec::new(), 0);
+    let started = Instant::now();
+    while started.elapsed() < PATIENCE {
+        let Ok(count @ 1..) = stream.read(&mut part) else {
+            return false;
+        };
+        end.extend_from_slice(&part[..count]);
+        if end.windows(text.len()).any(|it| it == text.as_bytes()) {
+            return true;
+        }
+        end.drain(..end.len().saturating_sub(text.len()));
+        read += count;
+        if read > 512 << 10 {
+            read = 0;
+            std::thread::sleep(Duration::from_millis(60));
+        }
+    }
+    false
+}
+
+#[test]
+fn a_client_that_takes_something_is_kept_however_long_its_message_takes() {
+    let second = Duration::from_secs(1);
+    for limits in [
+        Limits {
+            taking: second,
+            ..unlimited()
+        },
+        Limits {
+            silence: second,
+            ..unlimited()
+        },
+    ] {
+        let zoo = zoo(limits);
+        let mut client = zoo.client();
+        // More than the buffers of the system have room for.
+        let text = format!("{}END", "x".repeat(32 << 20));
+        let change = json!([{ "path": "option.text", "value": text }]);
+        client.ok(json!({ "write": { "changes": change } }));
+        client.ask_later(&json!({ "read": { "path": "parameters.option.text" } }));
+        assert!(comes_slowly(client.socket().get_mut(), "END"));
+        // What it does not hear while it takes the message it answers behind it.
+        std::thread::sleep(Duration::from_millis(100));
+        let id = client.ask_later(&json!({ "paths": { "below": "" } }));
+        let answer = format!("{{\"answer\":{{\"id\":{id},");
+        assert!(comes_slowly(client.socket().get_mut(), &answer));
+    }
+}
+
             let next = good.update(cycles)["cycle"].as_u64();
             assert!(next > cycle, "{next:?} behind {cycle:?}");
             cycle = next;
