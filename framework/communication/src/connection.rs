@@ -66,6 +66,7 @@ pub(crate) async fn talk(mut socket: WebSocket, guest: Guest, shared: Arc<Shared
                     }
                 };
                 if !receive(message, client, &guest, &shared) {
+                    let _ = send_some(&mut socket, client, &guest, &shared).await;
                     why = Some((close_code::POLICY, "too many wrong tokens"));
                     break;
                 }
@@ -80,9 +81,9 @@ pub(crate) async fn talk(mut socket: WebSocket, guest: Guest, shared: Arc<Shared
                     break;
                 }
             }
-        }
             () = news.notified() => {}
             () = ready(()), if is_more => {}
+        }
     }
     if why.is_some() {
         guest.dismiss();

@@ -40,7 +40,7 @@ pub(crate) fn receive(hub: &mut Hub, client: ClientId, text: &str) -> bool {
         Err((id, message)) => hub.answer(client, id, Err(Failure::new(message))),
     }
     let wrong_tokens = hub.clients.get(&client).map_or(0, |it| it.wrong_tokens);
-    wrong_tokens <= hub.limits.wrong_tokens
+    wrong_tokens == 0 || wrong_tokens < hub.limits.wrong_tokens
 }
 
 /// The request, or why it is none, with its number where that can be read.

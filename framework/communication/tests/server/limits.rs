@@ -241,6 +241,24 @@ fn who_guesses_tokens_has_to_connect_again() {
     assert!(goes_on(unlimited()));
 }
 
+#[test]
+fn the_last_wrong_token_is_answered_too() {
+    let listening = Listening {
+        token: Some("secret".to_owned()),
+        ..Listening::default()
+    };
+    let zoo = Zoo::with(listening, Limits::default());
+    let mut client = zoo.client();
+    for _ in 0..5 {
+        client.ask_later(&json!({ "authenticate": { "token": "guessed" } }));
+    }
+    for id in 1..=5 {
+        let answer = client.try_receive().expect("each has an answer");
+        assert_eq!(answer["answer"]["id"], json!(id));
+    }
+    assert!(client.try_receive().is_err(), "there is no sixth");
+}
+
 /// Whether the server still has the connection after a second.
 fn is_kept(mut stream: TcpStream) -> bool {
     let timeout = Some(Duration::from_secs(1));
@@ -309,24 +327,6 @@ fn a_client_that_takes_nothing_is_let_go() {
     });
 }
 
-#[test]
-fn updates_that_nobody_takes_are_lost_and_told() {
-    let lost = |limits: Limits| {
-        let zoo = zoo(limits);
-        let mut slow = zoo.client();
-        // Megabytes, so that the buffers of the system are full soon.
-        let pixels = vec![0_u8; 300_000];
-        let image = json!({ "width": 300_000, "height": 1, "data": pixels });
-        slow.ok(json!({ "inject": { "path": "VisionTop.main_outputs.image", "value": image } }));
-        let answer = slow.ok(json!({ "subscribe": {
-            "path": "VisionTop.main_outputs.image", "encoding": "binary",
-        } }));
-        let images = &answer["subscribed"]["subscription"];
-        let mut good = zoo.client();
-        let cycles = good.subscribe(CYCLES);
-        let mut cycle = good.update(cycles)["cycle"].as_u64();
-        // On a busy machine it, too, may miss some, and is told.
-        for _ in 0..250 {
 /// Reads 512 KiB every 60 ms until the text has come; whether it has.
 fn comes_slowly(stream: &mut TcpStream, text: &str) -> bool {
     let mut part = vec![0; 64 << 10];
@@ -379,6 +379,24 @@ fn a_client_that_takes_something_is_kept_however_long_its_message_takes() {
     }
 }
 
+#[test]
+fn updates_that_nobody_takes_are_lost_and_told() {
+    let lost = |limits: Limits| {
+        let zoo = zoo(limits);
+        let mut slow = zoo.client();
+        // Megabytes, so that the buffers of the system are full soon.
+        let pixels = vec![0_u8; 300_000];
+        let image = json!({ "width": 300_000, "height": 1, "data": pixels });
+        slow.ok(json!({ "inject": { "path": "VisionTop.main_outputs.image", "value": image } }));
+        let answer = slow.ok(json!({ "subscribe": {
+            "path": "VisionTop.main_outputs.image", "encoding": "binary",
+        } }));
+        let images = &answer["subscribed"]["subscription"];
+        let mut good = zoo.client();
+        let cycles = good.subscribe(CYCLES);
+        let mut cycle = good.update(cycles)["cycle"].as_u64();
+        // On a busy machine it, too, may miss some, and is told.
+        for _ in 0..250 {
             let next = good.update(cycles)["cycle"].as_u64();
             assert!(next > cycle, "{next:?} behind {cycle:?}");
             cycle = next;
