@@ -15,6 +15,8 @@ use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use protocol::{Answer, Ask, Good, Message, Outcome, Request, SOCKET, VERSION, Welcome};
 use tungstenite::WebSocket;
+use tungstenite::error::CapacityError;
+use tungstenite::protocol::WebSocketConfig;
 
 pub use self::error::{Error, Why};
 pub use self::frame::Frame;
@@ -33,6 +35,9 @@ const LONGEST: Duration = Duration::from_secs(86_400);
 
 /// Messages that are kept while an answer is awaited; of more the oldest are lost.
 const KEPT: usize = 4096;
+
+/// Bytes of what a robot says at once: the answer to a `read` is as long as the value.
+const LARGEST: usize = 64 << 20;
 
 /// A running robot.
 pub struct Robot {
@@ -76,7 +81,11 @@ impl Robot {
             .and_then(|()| stream.set_write_timeout(Some(PATIENCE)))
             .and_then(|()| stream.set_nodelay(true))
             .map_err(|error| absent(error.to_string()))?;
-        let (mut socket, _) = tungstenite::client(format!("ws://{address}{SOCKET}"), stream)
+        let uri = format!("ws://{address}{SOCKET}");
+        let sizes = WebSocketConfig::default()
+            .max_message_size(Some(LARGEST))
+            .max_frame_size(Some(LARGEST));
+        let (mut socket, _) = tungstenite::client::client_with_config(uri, stream, Some(sizes))
             .map_err(|error| absent(error.to_string()))?;
         let mut heard = Instant::now();
         let first = hear(&mut socket, &mut heard, Instant::now() + PATIENCE).map_err(wrong)?;
@@ -259,18 +268,25 @@ fn hear(
 }
 
 fn gone(error: &tungstenite::Error) -> Why {
-    Why::Gone(error.to_string())
+    Why::Gone(match error {
+        tungstenite::Error::Capacity(CapacityError::MessageTooLong { size, max_size }) => format!(
+            "it said {size} bytes at once, of which this program takes {max_size}: ask for a part of the value"
+        ),
+        error => error.to_string(),
+    })
 }
 
 #[cfg(test)]
 mod tests {
+    use std::io::Write;
     use std::net::{TcpListener, TcpStream};
     use std::time::{Duration, Instant};
 
+    use protocol::{BINARY_HEADER, BINARY_MAGIC, VERSION, Welcome};
     use tungstenite::protocol::Role;
     use tungstenite::{Message, WebSocket};
 
-    use super::{MOMENT, SILENCE, Why, hear};
+    use super::{Heard, LARGEST, MOMENT, PATIENCE, Robot, SILENCE, Why, hear};
 
     #[test]
     fn a_silent_robot_is_gone_and_a_ping_is_a_word() {
@@ -296,5 +312,52 @@ mod tests {
             assert!(begin.elapsed() < SILENCE, "the ping does not come");
         }
         assert!(heard > long_ago);
+    }
+
+    /// Says that it is a robot, a frame with so long a value, and the head of one that is too long.
+    fn says_long_frames(listener: &TcpListener, value: usize) {
+        let (stream, _) = listener.accept().expect("somebody connected");
+        let mut socket = tungstenite::accept(stream).expect("it speaks our protocol");
+        let welcome = protocol::Message::Welcome(Welcome {
+            version: VERSION,
+            robot: "lamp".to_owned(),
+            target: "desk".to_owned(),
+            instances: Vec::new(),
+            can_write: true,
+            needs_token: false,
+            time: 0,
+            run: None,
+            peers: Vec::new(),
+        });
+        let welcome = serde_json::to_string(&welcome).expect("it is JSON");
+        let mut frame = BINARY_MAGIC.to_vec();
+        frame.resize(BINARY_HEADER + value, 0);
+        for message in [Message::text(welcome), Message::binary(frame)] {
+            socket.send(message).expect("the other end is open");
+        }
+        let mut head = vec![0x82, 127];
+        head.extend_from_slice(&(LARGEST as u64 + 1).to_be_bytes());
+        let written = socket.get_mut().write_all(&head);
+        written.expect("the other end is open");
+        // It stays until the other end has gone.
+        let _ = socket.read();
+    }
+
+    #[test]
+    fn long_messages_come_and_of_too_long_ones_the_size_is_told() {
+        let listener = TcpListener::bind("127.0.0.1:0").expect("there is a free port");
+        let address = listener.local_addr().expect("it is bound").to_string();
+        // Longer than the library would take by itself.
+        let value = 17 << 20;
+        let said = std::thread::spawn(move || says_long_frames(&listener, value));
+        let mut robot = Robot::connect(&address, None).expect("it is a robot");
+        let frame = robot.hear_before(Instant::now() + PATIENCE);
+        let frame = frame.expect("the robot is there").expect("it comes");
+        assert!(matches!(frame, Heard::Frame(frame) if frame.value.len() == value));
+        let error = robot.hear_before(Instant::now() + PATIENCE);
+        let error = error.expect_err("it is too long").to_string();
+        assert!(error.contains("said 67108865 bytes at once"), "{error}");
+        drop(robot);
+        said.join().expect("it said everything");
     }
 }

@@ -108,7 +108,7 @@ impl Outbox {
         self.answer_bytes <= limits.queued_bytes
     }
 
-    /// A value of a subscription; where there is no room, its oldest go.
+    /// A value of a subscription; where there is no room, its oldest go. One for which there never is any comes alone.
     pub(crate) fn update(&mut self, subscription: u32, content: Content, limits: &Limits) {
         let waiting = |outbox: &Self| {
             let numbers = outbox.of_subscription.get(&subscription);
@@ -125,6 +125,10 @@ impl Outbox {
             && let Some((_, (oldest, _))) = self.updates.first_key_value()
         {
             self.lose_oldest(*oldest);
+        if content.len() > limits.queued_bytes && self.updates.len() > waiting(self) {
+            self.count_lost(Some(subscription), 1);
+            return;
+        }
         }
         self.update_bytes += content.len();
         self.updates.insert(self.next, (subscription, content));
@@ -279,6 +283,29 @@ mod tests {
         let lost: Vec<_> = outbox.lost.clone().into_iter().collect();
         assert_eq!(lost, [(Some(1), 1), (Some(2), 2)]);
         assert_eq!(outbox.update_bytes, 100);
+    }
+
+    #[test]
+    fn what_is_larger_than_all_that_may_wait_drives_nothing_out() {
+        let mut outbox = Outbox::default();
+        outbox.update(1, text(1), &limits());
+        outbox.update(2, text(2), &limits());
+        outbox.update(3, text(101), &limits());
+        outbox.update(2, text(101), &limits());
+        let expected = [
+            r#"{"lost":{"subscription":2,"updates":1}}"#.to_owned(),
+            r#"{"lost":{"subscription":3,"updates":1}}"#.to_owned(),
+            r#"{"update":{"subscription":1,x"#.to_owned(),
+            r#"{"update":{"subscription":2,xx"#.to_owned(),
+        ];
+        assert_eq!(sent(&mut outbox), expected);
+        // Alone it has room.
+        for lost in [0, 1] {
+            outbox.update(3, text(101), &limits());
+            assert_eq!(outbox.lost.get(&Some(3)).copied().unwrap_or(0), lost);
+        }
+        assert_eq!(outbox.update_bytes, 101);
+        assert_eq!(sent(&mut outbox).len(), 2);
     }
 
     #[test]
