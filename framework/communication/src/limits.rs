@@ -33,7 +33,7 @@ pub struct Limits {
     pub waiting: usize,
     /// Updates of one subscription that wait to be sent: at 83 Hz a third of a second.
     pub queued_updates: usize,
-    /// Bytes of updates, and of answers, that wait to be sent to one client.
+    /// Bytes of updates, of log messages, and of answers that wait to be sent to one client.
     pub queued_bytes: usize,
     /// Wrong tokens of one connection.
     pub wrong_tokens: u32,

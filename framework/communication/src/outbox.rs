@@ -1,4 +1,4 @@
-//! What waits to be sent to one client: answers, which are never lost, and updates, of which the newest count.
+//! What waits to be sent to one client: answers, which are never lost, and log messages and updates, of which the newest count.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
@@ -38,6 +38,9 @@ pub(crate) struct Outbox {
     frames: Option<Message>,
     answers: VecDeque<Said>,
     answer_bytes: usize,
+    /// Oldest first, as they are sent.
+    logs: VecDeque<String>,
+    log_bytes: usize,
     /// Oldest first, by a number of their own.
     updates: BTreeMap<u64, (u32, Content)>,
     /// Numbers of each subscription's updates, oldest first.
@@ -94,11 +97,19 @@ impl Outbox {
         self.answers.push_back(said);
     }
 
-    /// A message that may be lost, and is told then.
+    /// A message that may be lost, and is told then; where there is no room, the oldest go.
     pub(crate) fn log(&mut self, log: Log, limits: &Limits) {
-        if self.may_ask(limits) {
-            self.say(&protocol::Message::Log(log));
-        } else {
+        let text = serde_json::to_string(&protocol::Message::Log(log)).unwrap_or_default();
+        if text.len() > limits.queued_bytes {
+            self.count_lost(None, 1);
+            return;
+        }
+        self.log_bytes += text.len();
+        self.logs.push_back(text);
+        while self.log_bytes > limits.queued_bytes
+            && let Some(oldest) = self.logs.pop_front()
+        {
+            self.log_bytes -= oldest.len();
             self.count_lost(None, 1);
         }
     }
@@ -114,6 +125,10 @@ impl Outbox {
             let numbers = outbox.of_subscription.get(&subscription);
             numbers.map_or(0, VecDeque::len)
         };
+        if content.len() > limits.queued_bytes && self.updates.len() > waiting(self) {
+            self.count_lost(Some(subscription), 1);
+            return;
+        }
         while waiting(self) > 0
             && (waiting(self) >= limits.queued_updates
                 || self.update_bytes + content.len() > limits.queued_bytes)
@@ -125,10 +140,6 @@ impl Outbox {
             && let Some((_, (oldest, _))) = self.updates.first_key_value()
         {
             self.lose_oldest(*oldest);
-        if content.len() > limits.queued_bytes && self.updates.len() > waiting(self) {
-            self.count_lost(Some(subscription), 1);
-            return;
-        }
         }
         self.update_bytes += content.len();
         self.updates.insert(self.next, (subscription, content));
@@ -180,7 +191,7 @@ impl Outbox {
         texts.or_else(|| self.frames.take())
     }
 
-    /// Answers, what was lost, updates.
+    /// Answers, what was lost, log messages, updates.
     fn next_piece(&mut self) -> Option<Piece> {
         if let Some(answer) = self.answers.pop_front() {
             self.answer_bytes -= answer.len();
@@ -192,6 +203,10 @@ impl Outbox {
                 updates,
             });
             return serde_json::to_string(&lost).ok().map(Piece::Text);
+        }
+        if let Some(log) = self.logs.pop_front() {
+            self.log_bytes -= log.len();
+            return Some(Piece::Text(log));
         }
         let (_, (subscription, content)) = self.updates.pop_first()?;
         self.update_bytes -= content.len();
@@ -306,6 +321,38 @@ mod tests {
         }
         assert_eq!(outbox.update_bytes, 101);
         assert_eq!(sent(&mut outbox).len(), 2);
+    }
+
+    #[test]
+    fn of_log_messages_the_newest_are_kept_and_who_waits_for_them_may_ask() {
+        let limits = Limits {
+            queued_bytes: 400,
+            ..Limits::default()
+        };
+        let log = |number, message: &str| Log {
+            number,
+            time: 0,
+            level: protocol::Level::Info,
+            instance: None,
+            node: None,
+            cycle: None,
+            message: message.to_owned(),
+            fields: serde_json::Map::default(),
+        };
+        let mut outbox = Outbox::default();
+        for number in 1..=9 {
+            outbox.log(log(number, &"x".repeat(100)), &limits);
+        }
+        outbox.log(log(10, &"x".repeat(400)), &limits);
+        outbox.update(1, text(1), &limits);
+        assert!(outbox.may_ask(&limits));
+        let sent = sent(&mut outbox);
+        assert_eq!(sent[0], r#"{"lost":{"updates":8}}"#);
+        let begins = |text: &String, begin: &str| text.starts_with(begin);
+        assert!(begins(&sent[1], r#"{"log":{"number":8,"#), "{sent:?}");
+        assert!(begins(&sent[2], r#"{"log":{"number":9,"#), "{sent:?}");
+        assert!(begins(&sent[3], r#"{"update":"#), "{sent:?}");
+        assert_eq!(sent.len(), 4);
     }
 
     #[test]
