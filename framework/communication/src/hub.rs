@@ -17,7 +17,7 @@ use crate::limits::Limits;
 use crate::logs::Logs;
 use crate::outbox::{Content, Outbox};
 use crate::press::Press;
-use crate::requests::{self, Feeder};
+use crate::requests::{self, Feeder, Injection};
 use crate::run::new_run_id;
 use crate::sources::{Rate, Source};
 use crate::timings::{self, Told};
@@ -67,8 +67,8 @@ pub(crate) struct Hub {
     /// The source that is looked at first.
     first: usize,
     pub(crate) clients: BTreeMap<ClientId, Client>,
-    /// Which client replaced which output last: (instance, name).
-    pub(crate) injected: BTreeMap<(usize, &'static str), ClientId>,
+    /// What clients put in place of which output, the last of it last: (instance, name).
+    pub(crate) injected: BTreeMap<(usize, &'static str), Vec<Injection>>,
     /// Which client feeds which instance of another machine, by place.
     pub(crate) feeders: BTreeMap<usize, Feeder>,
     pub(crate) waiting: Vec<Waiting>,
@@ -214,39 +214,7 @@ impl Hub {
         }
         self.waiting.retain(|waiting| waiting.client != id);
         self.stop_feeding(id);
-        let held: Vec<_> = self
-            .injected
-            .iter()
-            .filter(|(_, owner)| **owner == id)
-            .map(|(output, _)| *output)
-            .collect();
-        for (instance, output) in held {
-            // It was injected by this name, so it can be released by it.
-            let _ = self.release_output(instance, output);
-        }
-    }
-
-    /// The output is its node's again.
-    pub(crate) fn release_output(
-        &mut self,
-        instance: usize,
-        output: &'static str,
-    ) -> framework::Result<()> {
-        self.injected.remove(&(instance, output));
-        self.mark(instance, output, false);
-        match self.link.instances.get_mut(instance) {
-            Some(instance) => instance.access.injector.release(output),
-            None => Ok(()),
-        }
-    }
-
-    /// Remembers whether a client has replaced an output.
-    pub(crate) fn mark(&mut self, instance: usize, output: &str, is_injected: bool) {
-        let mut sources = self.sources.iter_mut();
-        let found = sources.find(|it| (it.instance, it.name()) == (instance, output));
-        if let Some(source) = found {
-            source.is_injected = is_injected;
-        }
+        self.stop_injecting(id);
     }
 
     /// A client has said something; whether it may go on.

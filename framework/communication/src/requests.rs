@@ -1,13 +1,15 @@
 //! What clients ask, and what becomes of it.
 
 mod feed;
+mod inject;
 mod subscribe;
 
 use std::time::{Duration, Instant};
 
 pub(crate) use feed::Feeder;
+use framework::Given;
 use framework::reflect::ResolvedPath;
-use framework::{Given, OutputKind};
+pub(crate) use inject::Injection;
 use protocol::{Ask, Change, Failure, Good, Level, Request, Value};
 use serde_json::Value as Json;
 
@@ -100,7 +102,7 @@ fn answer(hub: &mut Hub, client: ClientId, request: Request) -> Answered {
             Ok(Some(Good::Stored(stored)))
         }
         Ask::Reload {} => hub.reload(),
-        Ask::Inject { path, value } => hub.inject(client, &path, &value),
+        Ask::Inject { path, value } => hub.inject(client, &path, value),
         Ask::Release { path } => hub.release(&path),
         Ask::Call {
             path,
@@ -281,29 +283,6 @@ impl Hub {
         Ok(Some(Good::Written { version: version.0 }))
     }
 
-    fn inject(&mut self, client: ClientId, path: &str, value: &Json) -> Answered {
-        let (instance, output) = self.main_output(path)?;
-        if let Some(link) = self.link.instances.get_mut(instance) {
-            link.access
-                .injector
-                .inject(output, &Given::from(value))
-                .map_err(|error| Failure::new(error.to_string()))?;
-            self.injected.insert((instance, output), client);
-            self.mark(instance, output, true);
-        }
-        Ok(Some(Good::Done {}))
-    }
-
-    fn release(&mut self, path: &str) -> Answered {
-        let (instance, output) = self.main_output(path)?;
-        if !self.injected.contains_key(&(instance, output)) {
-            return Err(Failure::new(format!("nobody has replaced `{path}`")));
-        }
-        self.release_output(instance, output)
-            .map_err(|error| Failure::new(error.to_string()))?;
-        Ok(Some(Good::Done {}))
-    }
-
     fn call(
         &mut self,
         client: ClientId,
@@ -420,19 +399,6 @@ impl Hub {
                 "no `{path}`: expected `parameters…`, `INSTANCE.main_outputs.NAME…` or `INSTANCE.additional_outputs.NAME…`; `hulkgen topic list` lists them{near}"
             ))
         })
-    }
-
-    /// A whole main output, as instance and name.
-    fn main_output(&self, path: &str) -> Result<(usize, &'static str), Failure> {
-        self.check_path(path)?;
-        let (source, below) = self.find(path)?;
-        let source = &self.sources[source];
-        if !below.is_empty() || source.kind() != OutputKind::Main {
-            return Err(Failure::new(format!(
-                "`{path}` is no whole main output, and only such can be replaced"
-            )));
-        }
-        Ok((source.instance, source.name()))
     }
 }
 

@@ -300,6 +300,43 @@ fn an_output_is_replaced_until_it_is_released_or_its_client_leaves() {
 }
 
 #[test]
+fn who_leaves_gives_an_output_back_to_whoever_replaced_it_before() {
+    let zoo = Zoo::new();
+    let mut watching = zoo.client();
+    let speed = watching.subscribe("Control.main_outputs.speed");
+    let inject = |client: &mut Client, value: f32| {
+        client.ok(json!({ "inject": { "path": "Control.main_outputs.speed", "value": value } }));
+    };
+    let mut clients = [(); 4].map(|()| zoo.client());
+    for (client, value) in clients.iter_mut().zip([1.0, 2.0, 3.0, 4.0]) {
+        inject(client, value);
+    }
+    let [mut first, second, third, fourth] = clients;
+    // Who does it again is the last.
+    inject(&mut first, 5.0);
+    drop(third);
+    let mut becomes = |value: f32| {
+        let what = format!("it is {value}");
+        eventually(&what, || watching.update(speed)["value"] == json!(value));
+        (0..10).for_each(|_| assert_eq!(watching.update(speed)["value"], json!(value)));
+    };
+    becomes(5.0);
+    drop(first);
+    becomes(4.0);
+    drop(fourth);
+    becomes(2.0);
+    drop(second);
+    becomes(0.0);
+    // It is released for all.
+    let mut clients = [(); 2].map(|()| zoo.client());
+    inject(&mut clients[0], 1.0);
+    inject(&mut clients[1], 2.0);
+    becomes(2.0);
+    clients[1].ok(json!({ "release": { "path": "Control.main_outputs.speed" } }));
+    becomes(0.0);
+}
+
+#[test]
 fn procedures_answer_refuse_and_take_their_time() {
     let zoo = Zoo::new();
     let mut client = zoo.client();
