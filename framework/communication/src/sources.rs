@@ -200,12 +200,17 @@ impl Source {
         Some(reader.is_passed_over)
     }
 
-    /// The client does not wait for this one any more; without a number, for none.
+    /// The client does not wait for this one any more, of several with its number for one; without a number, for none.
     pub(crate) fn stop_reading(&mut self, client: ClientId, request: Option<u32>) {
+        let mut left = request.map_or(usize::MAX, |_| 1);
         for stream in &mut self.streams {
             let before = stream.readers.len();
             stream.readers.retain(|reader| {
-                reader.client != client || request.is_some_and(|it| it != reader.request)
+                let stops = left > 0
+                    && reader.client == client
+                    && request.is_none_or(|it| it == reader.request);
+                left -= usize::from(stops);
+                !stops
             });
             (stream.readers.len()..before).for_each(|_| self.tap.close());
         }

@@ -14,9 +14,9 @@ use protocol::Encoding;
 use serde::{Serialize, Serializer};
 use serde_json::json;
 
-use super::{Rate, Reader, Stream, Subscriber, as_many_as_wait, resolve};
+use super::{Rate, Reader, Source, Stream, Subscriber, as_many_as_wait, resolve};
 use crate::connection::News;
-use crate::hub::{Client, ClientId, Hub, Rules};
+use crate::hub::{Client, ClientId, Hub, PATIENCE, Rules};
 use crate::limits::Limits;
 use crate::outbox::Outbox;
 use crate::press::Press;
@@ -334,4 +334,26 @@ fn a_read_without_a_value_says_whether_there_was_none_or_the_client_was_slow() {
         let last = texts(own).pop().expect("an answer").to_string();
         assert!(last.contains(expected), "{last}");
     }
+}
+
+#[test]
+fn each_of_two_reads_with_one_number_has_an_answer() {
+    let (mut hub, _run) = zoo(Stop::new());
+    let (client, _) = hub.connect();
+    for part in ["", ".heading"] {
+        for _ in 0..2 {
+            let path = format!("Control.main_outputs.pose{part}");
+            let read = format!(r#"{{"id":7,"ask":{{"read":{{"path":"{path}"}}}}}}"#);
+            hub.receive(client, &read);
+        }
+    }
+    // Nobody runs it, so no cycle writes anything.
+    std::thread::sleep(PATIENCE);
+    hub.look();
+    assert!(hub.waiting.is_empty());
+    assert!(!hub.sources.iter().any(Source::is_open));
+    let own = hub.clients.get_mut(&client).expect("it is there");
+    let answers = texts(own).into_iter().skip(1);
+    let numbers: Vec<_> = answers.map(|text| text["answer"]["id"].clone()).collect();
+    assert_eq!(numbers, [7, 7, 7, 7]);
 }
