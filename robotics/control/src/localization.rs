@@ -4,8 +4,8 @@
 //! A few hypotheses, each an extended Kalman filter over place and heading that odometry moves. What
 //! was seen belongs to the marking that was expected nearest; a hypothesis that explains little of it
 //! loses weight. A robot whose best hypothesis explains too little is lost: it looks for places from
-//! which the field looks as it was seen lately. It begins at the start pose of its number, and comes
-//! back from a penalty where the rules have it put.
+//! which the field looks as it was seen lately. It begins at the start pose of its number, or lost at
+//! any of them where its number has none, and comes back from a penalty where the rules have it put.
 //!
 //! Cycles of Vision that nothing older can overtake any more are learnt; younger ones only refine
 //! this cycle's answer.
@@ -20,6 +20,7 @@ mod seen;
 mod sight;
 
 use std::f32::consts::FRAC_PI_2;
+use std::slice;
 
 use framework::{
     AdditionalOutput, CycleTime, HistoricInput, Input, MainOutput, Parameter, PerceptionInput,
@@ -186,15 +187,12 @@ impl Localization {
             _ => false,
         };
         let belief = self.belief.settled_mut();
-        let begins_at = match put_to.and_then(|team| shot_pose(team, view)) {
-            None if is_first || is_put_to_start => {
-                Some(start_pose(*context.player, view.parameters))
-            }
-            pose => pose,
-        };
-        if let Some(pose) = begins_at {
+        if let Some(pose) = put_to.and_then(|team| shot_pose(team, view)) {
             self.begun_at = now;
             belief.begin(now, ground_to_start, [put_at(pose, view)].into_iter());
+        } else if is_first || is_put_to_start {
+            self.begun_at = now;
+            belief.begin(now, ground_to_start, starts(*context.player, view));
         } else if before == PrimaryState::Penalized && primary_state != before {
             belief.or_at(
                 return_poses(view)
@@ -245,12 +243,24 @@ impl CycleContext<'_> {
     }
 }
 
-fn start_pose(player: Player, parameters: &LocalizationParameters) -> Isometry2<f32> {
-    let poses = &parameters.start_poses;
-    let index = usize::from(player.number).saturating_sub(1);
-    let pose = poses.get(index).or(poses.last());
-    let FieldPose { x, y, heading } = pose.copied().unwrap_or_default();
-    Isometry2::new(Vector2::new(x, y), heading)
+/// The start pose of its number, or all of them where it has none: what it sees decides, and until then it is lost.
+fn starts(player: Player, view: &View<'_>) -> impl Iterator<Item = Hypothesis> {
+    let poses = view.parameters.start_poses.as_slice();
+    let own = match poses {
+        [everybodys] => Some(everybodys),
+        _ => poses.get(usize::from(player.number).saturating_sub(1)),
+    };
+    let (poses, evidence) = match own {
+        Some(own) => (slice::from_ref(own), view.parameters.start_evidence),
+        None => (poses, view.parameters.lost_evidence / 2.0),
+    };
+    poses.iter().map(move |&FieldPose { x, y, heading }| {
+        let pose = Isometry2::new(Vector2::new(x, y), heading);
+        Hypothesis {
+            evidence,
+            ..put_at(pose, view)
+        }
+    })
 }
 
 /// RoboCup SPL rules 2025, penalty shoot-out: who shoots stands on the edge of the penalty area before the ball, who

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, Default, Deserialize, PartialEq, Reflect, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct LocalizationParameters {
-    /// Where robots stand before the game, by the number of the shirt; others stand as the last one.
+    /// Where robots stand before the game, by the number of the shirt; a single one is everybody's. Whose number has none may stand at any of them.
     pub start_poses: Vec<FieldPose>,
     /// How far beside the touch line robots are put after a penalty.
     #[reflect(unit = "m", range = 0.0..)]

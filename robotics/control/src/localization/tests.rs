@@ -37,6 +37,7 @@ struct Moment<'a> {
     primary_state: PrimaryState,
     said: Option<GameControllerState>,
     has_ground_contact: bool,
+    number: u8,
 }
 
 struct Cycle {
@@ -95,7 +96,7 @@ fn cycle(node: &mut Localization, moment: &Moment<'_>) -> Cycle {
         game_controller_state: &moment.said,
         cycle_time: cycle_time(moment.millis, 33),
         player: &Player {
-            number: 1,
+            number: moment.number,
             team: 77,
         },
         markings: &MARKINGS,
@@ -121,6 +122,7 @@ fn playing(millis: u64, odometry: Isometry2<f32>, lines: &Vec<LineSegment>) -> M
         primary_state: PrimaryState::Playing,
         said: None,
         has_ground_contact: true,
+        number: 1,
     }
 }
 

@@ -35,6 +35,55 @@ fn before_it_has_seen_anything_it_stands_where_its_number_starts() {
 }
 
 #[test]
+fn who_has_no_start_pose_is_lost_until_it_sees_from_which_of_them_it_begins() {
+    let nothing = Vec::new();
+    for start in &PARAMETERS.start_poses {
+        let truth = pose(start.x, start.y, start.heading);
+        let mut node = node();
+        let limp = Moment {
+            primary_state: PrimaryState::Unstiff,
+            number: 9,
+            ..playing(33, Isometry2::identity(), &nothing)
+        };
+        let begun = cycle(&mut node, &limp);
+        assert_eq!(begun.ground_to_field, None);
+        assert_eq!(begun.hypotheses.len(), PARAMETERS.start_poses.len());
+        let lines = view_from(&truth);
+        let mut found = None;
+        for index in 2..60 {
+            let initial = Moment {
+                primary_state: PrimaryState::Initial,
+                number: 9,
+                ..playing(33 * index, Isometry2::identity(), &lines)
+            };
+            found = cycle(&mut node, &initial).ground_to_field;
+        }
+        assert_near(found, &truth, 0.1, 0.05);
+    }
+}
+
+#[test]
+fn a_single_start_pose_is_everybodys() {
+    let single = LocalizationParameters {
+        start_poses: vec![FieldPose {
+            x: -1.0,
+            ..FieldPose::default()
+        }],
+        ..PARAMETERS.clone()
+    };
+    let view = View {
+        markings: &MARKINGS,
+        parameters: &single,
+    };
+    let player = Player {
+        number: 9,
+        team: 77,
+    };
+    let begun: Vec<_> = starts(player, &view).collect();
+    assert_eq!(begun, [put_at(pose(-1.0, 0.0, 0.0), &view)]);
+}
+
+#[test]
 fn before_the_second_half_it_is_put_to_its_start_whatever_it_believed() {
     use PrimaryState::{Finished, Initial, Playing, Ready, Standby};
     let nothing = Vec::new();
