@@ -1,6 +1,7 @@
 //! Moves the head to where it shall look, slowly enough for sharp and well-placed images.
 //!
-//! A client may ask it to look somewhere else instead. While the body is on its way from one motion to
+//! A client may ask it to look somewhere else instead, until it says otherwise or the robot is limp or
+//! penalised: buttons and referee come first. While the body is on its way from one motion to
 //! the next, or down, the head goes with it.
 
 use framework::{
@@ -11,7 +12,7 @@ use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 use types::head::{HeadAngles, HeadCommand, HeadRequest};
 use types::joints::Joints;
-use types::motion::{HeadMotion as Wanted, MotionCommand, MotionSelection};
+use types::motion::{BodyMotion, HeadMotion as Wanted, MotionCommand, MotionSelection};
 use types::motor_commands::MotorCommands;
 
 use crate::transition;
@@ -65,16 +66,23 @@ impl HeadMotion {
         };
         let is_free = (context.motion_selection).is_head_free(context.motion_command.head);
         let goal = context.goal();
+        let obstacle = obstacle(context.motion_command);
+        if obstacle.is_some() {
+            self.looking_at = None;
+        }
         if let Some(call) = context.look_at {
-            let (looking_at, answer) = match *call.request() {
-                HeadRequest::Scan => (None, from),
-                HeadRequest::LookAt(angles) => {
-                    let reachable = limits::clamp_head(angles);
-                    (Some(reachable), reachable)
+            match (*call.request(), obstacle) {
+                (HeadRequest::Scan, _) => {
+                    self.looking_at = None;
+                    call.answer(from);
                 }
-            };
-            self.looking_at = looking_at;
-            call.answer(answer);
+                (HeadRequest::LookAt(_), Some(reason)) => call.refuse(reason),
+                (HeadRequest::LookAt(angles), None) => {
+                    let reachable = limits::clamp_head(angles);
+                    self.looking_at = Some(reachable);
+                    call.answer(reachable);
+                }
+            }
         }
 
         let goal = self.looking_at.or(goal).unwrap_or(from);
@@ -101,6 +109,17 @@ impl CycleContext<'_> {
     }
 }
 
+/// Why no client may turn the head now.
+fn obstacle(command: &MotionCommand) -> Option<&'static str> {
+    match (command.head, command.body) {
+        (Wanted::WithBody, BodyMotion::Unstiff | BodyMotion::SitDown) => {
+            Some("the robot is limp, or about to be")
+        }
+        (Wanted::WithBody, BodyMotion::Penalized) => Some("the robot is penalised"),
+        _ => None,
+    }
+}
+
 /// The angles on the straight way to the goal that are within reach, in rad.
 fn step(from: HeadAngles, goal: HeadAngles, reach: f32) -> HeadAngles {
     let goal = limits::clamp_head(goal);
@@ -122,7 +141,7 @@ mod tests {
     use framework::procedure::procedure;
     use framework::{math, testing};
     use nalgebra::Point2;
-    use types::motion::{BodyMotion, Script};
+    use types::motion::Script;
 
     use super::*;
 
@@ -288,5 +307,43 @@ mod tests {
 
         assert_eq!(ask(&mut node, &situation, HeadRequest::Scan), answer);
         assert_eq!(situation.turn(&mut node, 500), LEFT);
+    }
+
+    #[test]
+    fn a_robot_that_was_limp_or_penalised_looks_where_it_wants_itself() {
+        let (caller, mut answerer) = procedure();
+        let mut ask = |node: &mut HeadMotion, situation: &Situation| {
+            let pending = caller.call(HeadRequest::LookAt(RIGHT));
+            answerer.take();
+            let mut context = situation.context();
+            context.look_at = answerer.call();
+            node.cycle(context).unwrap();
+            pending.try_answer().unwrap()
+        };
+        for (body, is_out) in [
+            (BodyMotion::SitDown, true),
+            (BodyMotion::Unstiff, true),
+            (BodyMotion::Penalized, true),
+            // Who gets up goes on to look there.
+            (BodyMotion::Scripted(Script::StandUpBack), false),
+        ] {
+            let mut node = node();
+            let mut situation = Situation::new(Wanted::LookAround);
+            assert_eq!(ask(&mut node, &situation).unwrap(), RIGHT);
+            let playing = std::mem::replace(
+                &mut situation.motion_command,
+                MotionCommand {
+                    body,
+                    ..MotionCommand::default()
+                },
+            );
+            node.cycle(situation.context()).unwrap();
+            if is_out {
+                assert!(ask(&mut node, &situation).is_err(), "{body:?}");
+            }
+            situation.motion_command = playing;
+            let expected = if is_out { LEFT } else { RIGHT };
+            assert_eq!(situation.turn(&mut node, 500), expected, "{body:?}");
+        }
     }
 }

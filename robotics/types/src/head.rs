@@ -28,6 +28,6 @@ pub enum HeadRequest {
     /// Do again what the behaviour says.
     #[default]
     Scan,
-    /// Look there and stay.
+    /// Look there and stay, until the robot is limp or penalised.
     LookAt(HeadAngles),
 }
