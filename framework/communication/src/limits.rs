@@ -35,6 +35,8 @@ pub struct Limits {
     pub queued_updates: usize,
     /// Bytes of updates, of log messages, and of answers that wait to be sent to one client.
     pub queued_bytes: usize,
+    /// Bytes of values that clients put in place of outputs, and that others took the place of since, of all clients.
+    pub passed_over_bytes: usize,
     /// Wrong tokens of one connection.
     pub wrong_tokens: u32,
     /// Entries in one answer to `paths`.
@@ -65,6 +67,7 @@ impl Default for Limits {
             waiting: 64,
             queued_updates: 32,
             queued_bytes: 16 << 20,
+            passed_over_bytes: 16 << 20,
             wrong_tokens: 5,
             entries: 20_000,
             spans: 20_000,

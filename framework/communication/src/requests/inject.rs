@@ -1,4 +1,6 @@
 //! Values in place of outputs: the last one counts, and who leaves gives the output back to whoever replaced it before.
+//!
+//! Invariant: of values that do not count no more is kept than [`Limits::passed_over_bytes`](crate::limits::Limits).
 
 use framework::{Given, OutputKind};
 use protocol::{Failure, Good};
@@ -10,7 +12,8 @@ use crate::hub::{ClientId, Fail, Hub};
 /// What a client put in place of an output.
 pub(crate) struct Injection {
     client: ClientId,
-    value: Json,
+    /// As JSON.
+    value: String,
 }
 
 impl Hub {
@@ -20,8 +23,25 @@ impl Hub {
             .map_err(|error| Failure::new(error.to_string()))?;
         let injections = self.injected.entry((instance, output)).or_default();
         injections.retain(|injection| injection.client != client);
+        let value = value.to_string();
         injections.push(Injection { client, value });
+        self.forget_oldest(instance, output);
         Ok(Some(Good::Done {}))
+    }
+
+    /// One more value of this output does not count any more: if that is too much, its oldest are forgotten.
+    fn forget_oldest(&mut self, instance: usize, output: &'static str) {
+        let passed_over = |injections: &[Injection]| -> usize {
+            let before = injections.iter().rev().skip(1);
+            before.map(|injection| injection.value.len()).sum()
+        };
+        let mut held: usize = self.injected.values().map(|all| passed_over(all)).sum();
+        let Some(injections) = self.injected.get_mut(&(instance, output)) else {
+            return;
+        };
+        while held > self.limits.passed_over_bytes && injections.len() > 1 {
+            held -= injections.remove(0).value.len();
+        }
     }
 
     pub(super) fn release(&mut self, path: &str) -> Answered {
@@ -42,8 +62,9 @@ impl Hub {
             injections.retain(|injection| !is_own(injection));
             if is_last {
                 let before = injections.last();
-                let is_replaced = before
-                    .is_some_and(|before| self.replace(instance, output, &before.value).is_ok());
+                let value = before.and_then(|before| serde_json::from_str(&before.value).ok());
+                let is_replaced =
+                    value.is_some_and(|value| self.replace(instance, output, &value).is_ok());
                 if !is_replaced {
                     // It was injected by this name, so it can be released by it.
                     let _ = self.release_output(instance, output);

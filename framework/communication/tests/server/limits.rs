@@ -39,6 +39,7 @@ pub(crate) fn unlimited() -> Limits {
         waiting: usize::MAX,
         queued_updates: usize::MAX,
         queued_bytes: usize::MAX,
+        passed_over_bytes: usize::MAX,
         wrong_tokens: u32::MAX,
         entries: usize::MAX,
         spans: usize::MAX,
@@ -66,6 +67,36 @@ fn messages_have_a_greatest_length() {
         );
         client.send(&long);
         client.try_receive().is_ok()
+    });
+}
+
+#[test]
+fn of_values_that_others_took_the_place_of_so_much_is_kept() {
+    let limited = Limits {
+        passed_over_bytes: 4,
+        ..Limits::default()
+    };
+    with_and_without(limited, |zoo| {
+        let mut watching = zoo.client();
+        let speed = watching.subscribe("Control.main_outputs.speed");
+        let [_first, second, third] = [1.5, 2.5, 3.5].map(|value| {
+            let mut client = zoo.client();
+            let path = "Control.main_outputs.speed";
+            client.ok(json!({ "inject": { "path": path, "value": value } }));
+            client
+        });
+        drop(third);
+        eventually("the one before counts", || {
+            watching.update(speed)["value"] == json!(2.5)
+        });
+        drop(second);
+        let mut after = json!(2.5);
+        eventually("it counts no more", || {
+            after = watching.update(speed)["value"].clone();
+            after != json!(2.5)
+        });
+        assert!([json!(1.5), json!(0.0)].contains(&after), "{after}");
+        after == json!(1.5)
     });
 }
 
