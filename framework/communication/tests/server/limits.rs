@@ -358,7 +358,7 @@ fn a_client_that_takes_nothing_is_let_go() {
     });
 }
 
-/// Reads 512 KiB every 60 ms until the text has come; whether it has.
+/// Reads 512 KiB every 100 ms until the text has come; whether it has.
 fn comes_slowly(stream: &mut TcpStream, text: &str) -> bool {
     let mut part = vec![0; 64 << 10];
     let (mut end, mut read) = (Vec::new(), 0);
@@ -375,7 +375,7 @@ fn comes_slowly(stream: &mut TcpStream, text: &str) -> bool {
         read += count;
         if read > 512 << 10 {
             read = 0;
-            std::thread::sleep(Duration::from_millis(60));
+            std::thread::sleep(Duration::from_millis(100));
         }
     }
     false
@@ -383,14 +383,14 @@ fn comes_slowly(stream: &mut TcpStream, text: &str) -> bool {
 
 #[test]
 fn a_client_that_takes_something_is_kept_however_long_its_message_takes() {
-    let second = Duration::from_secs(1);
+    let limit = Duration::from_secs(2);
     for limits in [
         Limits {
-            taking: second,
+            taking: limit,
             ..unlimited()
         },
         Limits {
-            silence: second,
+            silence: limit,
             ..unlimited()
         },
     ] {
