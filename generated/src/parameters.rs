@@ -92,7 +92,8 @@ pub struct Parameters {
     pub penalty_mark_detection: PenaltyMarkDetectionParameters,
     /// control::game_controller_filter, control::game_controller_responder,
     /// control::localization, control::role_assignment, control::self_report,
-    /// control::team_ball_filter, spl_network::team_message_parser
+    /// control::team_ball_filter, spl_network::message_receiver,
+    /// spl_network::team_message_parser
     pub player: Player,
     /// vision::ball_detection, vision::corner_detection, vision::line_detection,
     /// vision::obstacle_detection, vision::penalty_mark_detection

@@ -101,6 +101,11 @@ impl MicrophoneInterface for Sink {
 }
 
 impl NetworkInterface for Sink {
+    fn join_team(&self, team: u8) -> Result<()> {
+        commanded!("NetworkInterface::join_team", team);
+        Ok(())
+    }
+
     fn read_datagram(&self, _: &mut Datagram) -> Result<Timestamp> {
         no_hardware()
     }

@@ -119,10 +119,14 @@ where
         start.clock.clone(),
     );
 
+    let mut creation = databases::spl_network::Creation {
+        hardware_interface: hardware,
+        parameters: &start.parameters,
+    };
     let spl_network = Cycler::new(
         spl_network::SPL_NETWORK,
         spl_network::SplNetwork {
-            nodes: cyclers::spl_network::Nodes::new()?,
+            nodes: cyclers::spl_network::Nodes::new(&mut creation)?,
             additional_outputs: databases::spl_network::AdditionalOutputs::default(),
             capture_time: None,
             hardware_interface: hardware.clone(),

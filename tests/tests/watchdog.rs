@@ -89,6 +89,10 @@ impl SpeakerInterface for Blocking {
 }
 
 impl NetworkInterface for Blocking {
+    fn join_team(&self, team: u8) -> Result<()> {
+        self.inner.join_team(team)
+    }
+
     fn read_datagram(&self, datagram: &mut Datagram) -> Result<Timestamp> {
         self.inner.read_datagram(datagram)
     }

@@ -13,6 +13,7 @@ use spl_network::game_controller_parser;
 use spl_network::message_receiver;
 use spl_network::team_message_parser;
 
+use crate::databases::spl_network::Creation;
 use crate::databases::spl_network::Frame;
 
 /// The nodes of one instance; they keep their state between cycles.
@@ -23,12 +24,12 @@ pub struct Nodes {
 }
 
 impl Nodes {
-    pub fn new() -> Result<Self> {
+    pub fn new(creation: &mut Creation<'_, impl NetworkInterface>) -> Result<Self> {
         Ok(Self {
             message_receiver: Guarded::new(
                 "spl_network::message_receiver",
                 OnFailure::Restart,
-                Self::create_message_receiver()?,
+                Self::create_message_receiver(creation)?,
             ),
             game_controller_parser: Guarded::new(
                 "spl_network::game_controller_parser",
@@ -160,8 +161,13 @@ impl Nodes {
             .in_node("spl_network::game_controller_parser")
     }
 
-    fn create_message_receiver() -> Result<message_receiver::MessageReceiver> {
-        let context = message_receiver::CreationContext {};
+    fn create_message_receiver(
+        creation: &mut Creation<'_, impl NetworkInterface>,
+    ) -> Result<message_receiver::MessageReceiver> {
+        let context = message_receiver::CreationContext {
+            hardware_interface: creation.hardware_interface,
+            team: &creation.parameters.player.team,
+        };
         message_receiver::MessageReceiver::new(context)
             .in_node("spl_network::message_receiver")
     }

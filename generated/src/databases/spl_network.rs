@@ -90,6 +90,12 @@ impl InjectionTable for Injections {
     }
 }
 
+/// Everything a node may ask for when it is created.
+pub struct Creation<'a, Hardware> {
+    pub hardware_interface: &'a Arc<Hardware>,
+    pub parameters: &'a Parameters,
+}
+
 /// Everything the nodes of one cycle may touch, borrowed.
 pub struct Frame<'a, Hardware> {
     pub additional_outputs: &'a mut AdditionalOutputs,

@@ -29,6 +29,7 @@ use hardware::NetworkInterface;
 
 use crate::cyclers::spl_network::Nodes;
 use crate::databases::spl_network::AdditionalOutputs;
+use crate::databases::spl_network::Creation;
 use crate::databases::spl_network::Frame;
 use crate::databases::spl_network::Injections;
 use crate::databases::spl_network::OwnOutputs;
@@ -99,7 +100,12 @@ impl<Hardware: NetworkInterface + Send + Sync> Body for SplNetwork<Hardware> {
 
     fn create(&mut self) -> Result<()> {
         self.parameters.take();
-        self.nodes = Nodes::new()?;
+        let parameters = self.parameters.view().value();
+        let mut creation = Creation {
+            hardware_interface: &self.hardware_interface,
+            parameters,
+        };
+        self.nodes = Nodes::new(&mut creation)?;
         Ok(())
     }
 

@@ -74,6 +74,14 @@ pub trait SpeakerInterface {
 
 /// Reads what comes over the network.
 pub trait NetworkInterface {
+    /// Listens where the team of that number talks, unless the hardware's parameters say where.
+    ///
+    /// Before the first read; once it listens it goes on to listen there.
+    ///
+    /// # Errors
+    /// Names the port that is in use.
+    fn join_team(&self, team: u8) -> Result<()>;
+
     /// Waits for the next datagram on any channel, writes it into `datagram`, and says when it came.
     ///
     /// `datagram` keeps its heap. What is longer than any message of the game is cut, and a byte longer

@@ -5,7 +5,6 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use framework::{Clock, Error, HardwareContext, Result, Stop, Timestamp};
 use hardware::{ActuatorInterface, SensorInterface};
-use links::sockets::RobotSockets;
 use lola::Client;
 use types::leds::Leds;
 use types::motor_commands::MotorCommands;
@@ -13,8 +12,8 @@ use types::sensor_data::SensorData;
 
 use crate::body::Body;
 use crate::cameras::Cameras;
-use crate::network;
-use crate::settings::{NetworkSettings, Settings};
+use crate::network::Network;
+use crate::settings::Settings;
 use crate::sound::{Microphones, Speaker};
 use crate::supervisor::Supervisor;
 
@@ -26,8 +25,7 @@ pub struct Hardware {
     pub(crate) cameras: Cameras,
     pub(crate) microphones: Microphones,
     pub(crate) speaker: Speaker,
-    pub(crate) sockets: RobotSockets,
-    pub(crate) network: NetworkSettings,
+    pub(crate) network: Network,
     supervisor: Supervisor,
     identities: Vec<(String, String)>,
     /// The chest button, in the newest state.
@@ -47,7 +45,7 @@ impl framework::Hardware for Hardware {
         }
         let settings = Settings::of(&context)?;
         let supervisor = Supervisor::of_environment();
-        let sockets = network::listen(&settings.network)?;
+        let network = Network::new(settings.network)?;
         let client = Client::connect(&settings.lola, clock.clone(), stop.clone());
         let client = Arc::new(client);
         let first = wait_for_lola(&client, &settings, &supervisor)?;
@@ -62,8 +60,7 @@ impl framework::Hardware for Hardware {
             cameras: Cameras::new(&settings, clock, stop),
             microphones: sound.0,
             speaker: sound.1,
-            sockets,
-            network: settings.network,
+            network,
             supervisor,
             identities: vec![
                 ("body".to_owned(), identifiers.body_id.to_string()),

@@ -122,8 +122,8 @@ pub struct NetworkSettings {
     pub control_port: u16,
     /// Where the referee's computer hears answers: 3939.
     pub return_port: u16,
-    /// Where it hears its team: 10000 and the team's number. The team is told at the same port.
-    pub team_port: u16,
+    /// Where it hears its team, and tells it; left out: 10000 and the team's number.
+    pub team_port: Option<u16>,
     /// Whom the team is told through: the broadcast address of the field's network.
     pub broadcast: Ipv4Addr,
 }
@@ -184,7 +184,7 @@ impl Default for NetworkSettings {
             address: Ipv4Addr::UNSPECIFIED,
             control_port: 3838,
             return_port: 3939,
-            team_port: 0,
+            team_port: None,
             broadcast: Ipv4Addr::BROADCAST,
         }
     }
@@ -269,7 +269,7 @@ impl NetworkSettings {
             address: Ipv4Addr::LOCALHOST,
             control_port: 0,
             return_port: 0,
-            team_port: 0,
+            team_port: Some(0),
             broadcast: Ipv4Addr::LOCALHOST,
         };
     }
@@ -311,7 +311,10 @@ mod tests {
         let parameters: toml::Table = toml::from_str(text).unwrap();
         let table = parameters["hardware"]["nao"].clone();
         let settings: Settings = table.try_into().unwrap();
-        assert_eq!(settings.network.team_port, 10_077);
+        assert_eq!(
+            settings.network.team_port, None,
+            "as the team's number says"
+        );
         assert_eq!(settings.lola, Path::new("/tmp/robocup"));
     }
 

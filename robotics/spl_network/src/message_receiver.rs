@@ -1,6 +1,6 @@
 //! Waits for the next datagram from the referee's computer or the own team: this cycle is about it.
 
-use framework::{CaptureTime, HardwareInterface, MainOutput, Result, context};
+use framework::{CaptureTime, HardwareInterface, MainOutput, Parameter, Result, context};
 use hardware::NetworkInterface;
 use serde::{Deserialize, Serialize};
 use types::network::Datagram;
@@ -10,7 +10,10 @@ use types::network::Datagram;
 pub struct MessageReceiver {}
 
 #[context]
-pub struct CreationContext {}
+pub struct CreationContext {
+    hardware_interface: HardwareInterface,
+    team: Parameter<u8, "player.team">,
+}
 
 #[context]
 pub struct CycleContext {
@@ -26,8 +29,9 @@ pub struct MainOutputs {
 }
 
 impl MessageReceiver {
-    /// Nothing to prepare.
-    pub fn new(_context: CreationContext) -> Result<Self> {
+    /// Listens to the own team.
+    pub fn new(context: CreationContext<impl NetworkInterface>) -> Result<Self> {
+        context.hardware_interface.join_team(*context.team)?;
         Ok(Self {})
     }
 
@@ -43,6 +47,7 @@ impl MessageReceiver {
 #[cfg(test)]
 mod tests {
     use std::sync::Arc;
+    use std::sync::atomic::{AtomicU8, Ordering};
 
     use framework::testing::at_millis;
     use framework::{NoEvent, Timestamp};
@@ -51,11 +56,19 @@ mod tests {
     use super::*;
 
     /// Has one datagram, or none.
+    #[derive(Default)]
     struct Network {
         bytes: Option<&'static [u8]>,
+        team: AtomicU8,
     }
 
     impl NetworkInterface for Network {
+        fn join_team(&self, team: u8) -> Result<()> {
+            // Relaxed: the test has one thread.
+            self.team.store(team, Ordering::Relaxed);
+            Ok(())
+        }
+
         fn read_datagram(&self, datagram: &mut Datagram) -> Result<Timestamp> {
             let silence = || NoEvent("nothing came".to_owned());
             datagram.channel = Channel::Team;
@@ -67,18 +80,38 @@ mod tests {
         }
     }
 
+    fn node(network: &Arc<Network>, team: u8) -> MessageReceiver {
+        let context = CreationContext {
+            hardware_interface: network,
+            team: &team,
+        };
+        MessageReceiver::new(context).unwrap()
+    }
+
     fn cycle(network: Network, datagram: &mut Datagram) -> Result<MainOutputs> {
-        MessageReceiver::new(CreationContext {})?.cycle(CycleContext {
-            hardware_interface: &Arc::new(network),
+        let network = Arc::new(network);
+        node(&network, 77).cycle(CycleContext {
+            hardware_interface: &network,
             datagram,
         })
+    }
+
+    #[test]
+    fn the_robot_listens_to_its_own_team() {
+        let network = Arc::new(Network::default());
+        node(&network, 24);
+        assert_eq!(network.team.load(Ordering::Relaxed), 24);
     }
 
     #[test]
     fn the_cycle_is_about_the_arrival_of_the_datagram() {
         let mut datagram = Datagram::default();
         let bytes = Some(&b"hello"[..]);
-        let outputs = cycle(Network { bytes }, &mut datagram).unwrap();
+        let network = Network {
+            bytes,
+            ..Network::default()
+        };
+        let outputs = cycle(network, &mut datagram).unwrap();
         assert_eq!(outputs.captured_at, CaptureTime(at_millis(70)));
         assert_eq!(datagram.channel, Channel::Team);
         assert_eq!(datagram.bytes, b"hello");
@@ -86,7 +119,7 @@ mod tests {
 
     #[test]
     fn silence_is_no_event() {
-        let error = cycle(Network { bytes: None }, &mut Datagram::default())
+        let error = cycle(Network::default(), &mut Datagram::default())
             .err()
             .unwrap();
         assert!(error.is_no_event());
