@@ -442,6 +442,8 @@ impl<'robot, P> Lockstep<'robot, P> {
     fn finish(&mut self, at: Timestamp, index: usize) -> Result<Step> {
         self.become_idle(at, index);
         let instance = self.robot.instances[index].as_mut();
+        // Others may have run since it did.
+        logs::enter(instance.description().name, instance.cycle().number);
         let finished = instance.finish()?;
         self.observers[index].finished(instance, finished)?;
         let description = instance.description();

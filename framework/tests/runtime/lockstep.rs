@@ -3,10 +3,11 @@
 use std::time::Duration;
 
 use framework::driver::lockstep::Step;
+use framework::driver::observer::Observer;
 use framework::logs::Sink;
 use framework::{
-    Digest, Event, Finished, Hardware, HardwareContext, Lockstep, OnFailure, Result, Timestamp,
-    Waited,
+    Digest, Event, Finished, Hardware, HardwareContext, Instance, Lockstep, OnFailure, Result,
+    Timestamp, Waited,
 };
 use serde_json::json;
 
@@ -595,6 +596,15 @@ fn cycles_in_chaos_without_deadline_take_up_to_20_ms() {
     assert_drawn_up_to(Duration::from_millis(20), &durations(&steps, "Eye"));
 }
 
+/// Says something whenever a cycle is published.
+struct Publishing;
+
+impl Observer for Publishing {
+    fn finished(&mut self, _: &dyn Instance) {
+        tracing::info!(target: "publishing", "one more");
+    }
+}
+
 /// Says something whenever it is asked for what comes next.
 struct Talking<'hardware>(&'hardware ScriptedHardware);
 
@@ -629,7 +639,8 @@ fn what_is_said_between_two_cycles_is_of_no_other_instance() {
     let mut robot = robot(&hardware, &setting);
     let sink = Sink::new(hardware.clock.clone());
     let talking = Talking(&hardware);
-    let mut lockstep = Lockstep::new(&mut robot, &talking);
+    let lockstep = Lockstep::new(&mut robot, &talking);
+    let mut lockstep = lockstep.observed(|_| Some(Box::new(Publishing)));
     while lockstep.step().expect("nothing stops it").is_some() {}
     let said: Vec<_> = std::iter::from_fn(|| sink.take()).collect();
     let places = |module| -> Vec<_> {
@@ -639,4 +650,6 @@ fn what_is_said_between_two_cycles_is_of_no_other_instance() {
     };
     assert_eq!(places("talking"), [(None, None); 4]);
     assert_eq!(places("scripted"), [(Some("Legs"), Some(2))]);
+    let published = [(Some("Eye"), Some(1)), (Some("Legs"), Some(2))];
+    assert_eq!(places("publishing"), published);
 }
