@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 
 use framework::launch;
 use framework::testing::TARGET;
-use framework::{OnFailure, Start};
+use framework::{OnFailure, Start, Stopped};
 use hulkgen_recording::Recording;
 use serde_json::Value;
 use signal_hook::consts::{SIGHUP, SIGTERM};
@@ -84,7 +84,7 @@ before = 1e9
     std::process::exit(status.into())
 }
 
-/// Somebody ends the run while the robot is created, which waits for something.
+/// Somebody ends the run while the robot is created, which is told so.
 fn terminate_start(scenario: &[OsString]) -> ! {
     let directory = tempfile::tempdir().expect("a temporary directory");
     std::fs::write(directory.path().join("default.toml"), "gain = 1").expect("can be written");
@@ -93,12 +93,11 @@ fn terminate_start(scenario: &[OsString]) -> ! {
         [] => plain.to_vec(),
         _ => scenario.to_vec(),
     };
-    let create = |_: &Arc<ScriptedHardware>, start: Start<Parameters>| {
+    let create = |_: &Arc<ScriptedHardware>, _: Start<Parameters>| {
         raise(SIGTERM)?;
-        start.stop.wait(Duration::from_secs(5))?;
-        Err("nobody ended it".into())
+        Err(Stopped.into())
     };
-    let status = launch::run(TARGET, arguments, &mut Closed, create, launch::nobody);
+    let status = launch::run(TARGET, arguments, &mut io::stderr(), create, launch::nobody);
     std::process::exit(status.into())
 }
 
@@ -137,7 +136,13 @@ fn a_process_of_this_test_is_the_run_it_was_told_to_be() {
         }
         Ok("terminated while it starts") => terminate_start(&[]),
         Ok("terminated while its scenario starts") => {
-            let (_directory, arguments) = written("ends = 1.0\n");
+            let scenario = "ends = 1.0
+[[assertion]]
+what = 'something happens'
+value = 'truth.events'
+above = 0
+";
+            let (_directory, arguments) = written(scenario);
             terminate_start(&arguments)
         }
         Ok("interrupted in a scenario") => interrupt_scenario(),
@@ -466,6 +471,7 @@ fn a_robot_that_somebody_ends_while_it_starts_has_not_failed() {
     // A scenario that was not played has not passed.
     let (status, errors) = end_of("terminated while its scenario starts", Stdio::piped());
     assert_eq!(status.code(), Some(1), "{status}: {errors}");
+    assert!(errors.contains("is being stopped"), "{errors}");
 }
 
 #[test]
