@@ -8,7 +8,7 @@ use super::package::SUMS;
 const KEPT: usize = 4;
 
 /// For how many seconds a program must run before it counts as started: what lacks a device, a port or a file ends in the
-/// first or second, and Linux starts it again before the next.
+/// first or second, and systemd starts it again before the next.
 const WATCHED_SECONDS: u32 = 5;
 
 /// One word for a shell, whatever is in it.
@@ -135,7 +135,7 @@ fn functions(service: Service<'_>) -> String {
     };
     let (systemctl, unit) = (service.systemctl, quoted(unit));
     let seconds = WATCHED_SECONDS;
-    // Where a program is started again and again, most looks find it running; what Linux counts tells them apart.
+    // Where a program is started again and again, most looks find it running; what systemd counts tells them apart.
     format!(
         r#"{point}
 count() {{ {systemctl} show --property=MainPID --property=NRestarts {unit} 2>&1; }}
