@@ -15,7 +15,8 @@ use camino::Utf8Path;
 pub use elf::{Elf, Version};
 pub use flags::{ENCODED, Flags};
 pub use processor::Processor;
-pub use tools::{Tools, python};
+pub use tools::Tools;
+pub(crate) use tools::python;
 pub use verdict::{Wanted, WrongTriple, objections};
 
 use crate::outcome::Refusal;

@@ -71,7 +71,7 @@ impl Tools {
 }
 
 /// The Python that brings them: the variable names another than the system's.
-pub fn python() -> String {
+pub(crate) fn python() -> String {
     std::env::var("PYTHON").unwrap_or_else(|_| "python3".to_owned())
 }
 

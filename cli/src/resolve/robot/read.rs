@@ -18,7 +18,7 @@ pub struct OutputRead<'a> {
 
 impl Node {
     /// Parameters that it reads, when it is created and in cycles.
-    pub fn parameters(&self) -> impl Iterator<Item = (&Access, &DataType)> {
+    pub(crate) fn parameters(&self) -> impl Iterator<Item = (&Access, &DataType)> {
         let created = self
             .creation
             .iter()
