@@ -17,6 +17,7 @@ use crate::forms::Form;
 use crate::keys::{Keys, Wish, refuse};
 use crate::layout::Layout;
 use crate::ros2;
+use crate::trouble::Trouble;
 
 /// Answers that are awaited of the robot at a time; it has a limit of its own for those that take long.
 const AWAITED: usize = 64;
@@ -69,12 +70,18 @@ impl<'keys> Bridge<'keys> {
     /// left out.
     ///
     /// # Errors
-    /// If Zenoh refuses a key.
-    pub(crate) fn start(mut robot: Robot, keys: &'keys mut Keys) -> Result<Self> {
-        let edges = edges::of_robot(&mut robot).unwrap_or_else(|message| {
-            eprintln!("warning: {message}");
-            Vec::new()
-        });
+    /// If Zenoh refuses a key, or the robot does not answer: then its keys stay as they are.
+    pub(crate) fn start(
+        mut robot: Robot,
+        keys: &'keys mut Keys,
+    ) -> std::result::Result<Self, Trouble> {
+        let edges = match edges::of_robot(&mut robot) {
+            Err(Trouble::Refused(message)) => {
+                eprintln!("warning: {message}");
+                Vec::new()
+            }
+            told => told?,
+        };
         keys.declare(edges, &robot.welcome.robot)?;
         let mut bridge = Self {
             robot,
@@ -87,14 +94,17 @@ impl<'keys> Bridge<'keys> {
         };
         for index in 0..bridge.keys.edges().len() {
             let edge = bridge.keys.edges()[index].clone();
-            if let Err(message) = bridge.prepare(index, &edge) {
-                eprintln!("warning: `{}`: {message}", edge.path);
+            match bridge.prepare(index, &edge) {
+                Err(Trouble::Refused(message)) => {
+                    eprintln!("warning: `{}`: {message}", edge.path);
+                }
+                prepared => prepared?,
             }
         }
         Ok(bridge)
     }
 
-    fn prepare(&mut self, index: usize, edge: &Edge) -> Result<()> {
+    fn prepare(&mut self, index: usize, edge: &Edge) -> std::result::Result<(), Trouble> {
         let is_output = matches!(edge.kind, Kind::MainOutput | Kind::AdditionalOutput);
         if edge.encoding == Encoding::Cdr && !is_output {
             let form = Form::ask(&mut self.robot, edge)?;
@@ -105,13 +115,18 @@ impl<'keys> Bridge<'keys> {
         }
         let form = self.forms.get(&index);
         match form.and_then(|form| ros2::interface::objection(edge, form)) {
-            Some(objection) if self.keys.objects_first(index) => Err(objection),
+            Some(objection) if self.keys.objects_first(index) => Err(objection.into()),
             _ => Ok(()),
         }
     }
 
     /// Of outputs the robot has bytes, of parameters JSON alone.
-    fn subscribe(&mut self, index: usize, edge: &Edge, is_output: bool) -> Result<()> {
+    fn subscribe(
+        &mut self,
+        index: usize,
+        edge: &Edge,
+        is_output: bool,
+    ) -> std::result::Result<(), Trouble> {
         let asked = Ask::Subscribe {
             path: edge.path.clone(),
             rate: edge.rate,
@@ -121,7 +136,7 @@ impl<'keys> Bridge<'keys> {
             },
         };
         let Good::Subscribed(subscribed) = self.robot.ask(asked)? else {
-            return Err("the robot subscribes nobody".to_owned());
+            return Err("the robot subscribes nobody".to_owned().into());
         };
         match subscribed.layout.map(Layout::read).transpose() {
             Ok(layout) => {
@@ -133,7 +148,7 @@ impl<'keys> Bridge<'keys> {
             Err(message) => {
                 let subscription = subscribed.subscription;
                 self.robot.ask(Ask::Unsubscribe { subscription })?;
-                Err(message)
+                Err(message.into())
             }
         }
     }
@@ -370,9 +385,8 @@ impl<'keys> Bridge<'keys> {
                 return Ok(());
             }
             (Outcome::Error(failure), Asker::Query(_, query) | Asker::Written(_, query)) => {
-                let refusals = failure.refusals.into_iter().map(|one| one.message);
-                let messages: Vec<String> = [failure.message].into_iter().chain(refusals).collect();
-                refuse(query, &messages.join("; "));
+                // It has the refusals in it.
+                refuse(query, &failure.message);
                 return Ok(());
             }
         };

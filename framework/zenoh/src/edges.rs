@@ -4,7 +4,7 @@ use client::Robot;
 use protocol::{Ask, Good};
 use serde::Deserialize;
 
-use crate::Result;
+use crate::trouble::Trouble;
 
 /// A `[[bridge]]` of the manifest. Keys that a later hulkgen adds are left alone.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
@@ -67,14 +67,15 @@ impl Edge {
 ///
 /// # Errors
 /// If the robot does not tell, or what it tells cannot be read.
-pub(crate) fn of_robot(robot: &mut Robot) -> Result<Vec<Edge>> {
+pub(crate) fn of_robot(robot: &mut Robot) -> Result<Vec<Edge>, Trouble> {
     let Good::Graph(mut graph) = robot.ask(Ask::Graph {})? else {
-        return Err("the robot does not tell its graph".to_owned());
+        return Err("the robot does not tell its graph".to_owned().into());
     };
     match graph.get_mut("bridges").map(serde_json::Value::take) {
         None => Ok(Vec::new()),
-        Some(bridges) => serde_json::from_value(bridges)
-            .map_err(|error| format!("the robot's graph has other bridges than this one: {error}")),
+        Some(bridges) => serde_json::from_value(bridges).map_err(|error| {
+            format!("the robot's graph has other bridges than this one: {error}").into()
+        }),
     }
 }
 

@@ -3,9 +3,9 @@
 use client::Robot;
 use protocol::{Ask, Good};
 
-use crate::Result;
 use crate::edges::{Edge, Kind};
 use crate::layout::Layout;
+use crate::trouble::Trouble;
 
 /// Of an edge whose values are CDR.
 pub(crate) enum Form {
@@ -18,11 +18,11 @@ pub(crate) enum Form {
 impl Form {
     /// # Errors
     /// If the robot does not tell, or CDR has no form for it.
-    pub(crate) fn ask(robot: &mut Robot, edge: &Edge) -> Result<Self> {
+    pub(crate) fn ask(robot: &mut Robot, edge: &Edge) -> Result<Self, Trouble> {
         let path = &edge.path;
         let mut layout = |path: String| match robot.ask(Ask::Layout { path })? {
-            Good::Layout(layout) => Layout::read(layout),
-            _ => Err("the robot tells no layout".to_owned()),
+            Good::Layout(layout) => Ok(Layout::read(layout)?),
+            _ => Err(Trouble::Refused("the robot tells no layout".to_owned())),
         };
         Ok(match edge.kind {
             Kind::Procedure => Self::Call {

@@ -19,6 +19,7 @@ mod options;
 #[cfg(test)]
 mod random;
 mod ros2;
+mod trouble;
 
 use std::process::ExitCode;
 use std::thread::sleep;
@@ -28,6 +29,7 @@ use bridge::Bridge;
 use client::Robot;
 use keys::Keys;
 use options::Options;
+use trouble::Trouble;
 
 /// What goes wrong is told to people.
 pub(crate) type Result<T> = std::result::Result<T, String>;
@@ -61,10 +63,14 @@ fn run(options: &Options) -> Result<()> {
     let mut keys = Keys::open(options)?;
     let mut said = String::new();
     loop {
-        let robot = Robot::connect(&options.host, options.token.as_deref());
-        let mut bridge = match robot.map_err(String::from) {
-            Ok(robot) => Bridge::start(robot, &mut keys)?,
-            Err(message) => {
+        let started = match Robot::connect(&options.host, options.token.as_deref()) {
+            Ok(robot) => Bridge::start(robot, &mut keys),
+            Err(error) => Err(Trouble::Away(error.into())),
+        };
+        let mut bridge = match started {
+            Ok(bridge) => bridge,
+            Err(Trouble::Refused(message)) => return Err(message),
+            Err(Trouble::Away(message)) => {
                 // Once, until something else is wrong.
                 if said != message {
                     eprintln!("warning: {message}");
@@ -83,5 +89,6 @@ fn run(options: &Options) -> Result<()> {
         };
         eprintln!("warning: {said}");
         bridge.end(&said);
+        sleep(PAUSE);
     }
 }
