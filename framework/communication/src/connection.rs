@@ -3,12 +3,12 @@
 use std::future::ready;
 use std::pin::pin;
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use axum::extract::ws::{CloseCode, CloseFrame, Message, WebSocket, close_code};
 use futures_util::SinkExt;
 use tokio::sync::Notify;
-use tokio::time::{Instant, MissedTickBehavior, interval, timeout};
+use tokio::time::{MissedTickBehavior, interval, timeout};
 
 use crate::guest::Guest;
 use crate::hub::ClientId;
@@ -54,7 +54,6 @@ pub(crate) async fn talk(mut socket: WebSocket, guest: Guest, shared: Arc<Shared
             }
             // Before its silence is judged.
             received = socket.recv(), if may_ask => {
-                heard = Instant::now();
                 let message = match received {
                     Some(Ok(Message::Close(_))) | None => break,
                     Some(Ok(message)) => message,
@@ -70,9 +69,10 @@ pub(crate) async fn talk(mut socket: WebSocket, guest: Guest, shared: Arc<Shared
                     why = Some((close_code::POLICY, "too many wrong tokens"));
                     break;
                 }
+                heard = Instant::now();
             }
             _ = pings.tick() => {
-                if heard.elapsed() > shared.limits.silence {
+                if heard.max(guest.said()).elapsed() > shared.limits.silence {
                     why = Some((close_code::POLICY, "silent for too long"));
                     break;
                 }
@@ -160,7 +160,7 @@ async fn taken(
     limit: Duration,
 ) -> Option<()> {
     let mut sending = pin!(sending);
-    let begun = std::time::Instant::now();
+    let begun = Instant::now();
     loop {
         let left = limit.saturating_sub(guest.took().max(begun).elapsed());
         match timeout(left, sending.as_mut()).await {

@@ -114,6 +114,7 @@ impl Visitor {
 
     fn came(&mut self, bytes: &[u8]) {
         if self.guest.is_staying() {
+            self.guest.say();
             self.frames.follow(bytes, |_| true);
             self.guest.hold(self.frames.held());
         } else {

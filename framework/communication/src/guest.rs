@@ -18,6 +18,8 @@ struct State {
     /// Bytes of what it says that is not whole: what it announced, for which there is room already.
     held: AtomicUsize,
     refusal: Mutex<Option<&'static str>>,
+    /// When it said something last, of a message that is not whole, too.
+    said: Mutex<Instant>,
     /// When it took bytes last.
     took: Mutex<Instant>,
     room: Arc<Room>,
@@ -67,6 +69,7 @@ impl Guest {
             may_change: AtomicBool::new(false),
             held: AtomicUsize::new(0),
             refusal: Mutex::default(),
+            said: Mutex::new(Instant::now()),
             took: Mutex::new(Instant::now()),
             room,
         }))
@@ -118,40 +121,46 @@ impl Guest {
     }
 
     pub(crate) fn refuse(&self, why: &'static str) {
-        *self.0.refusal() = Some(why);
+        *locked(&self.0.refusal) = Some(why);
+    }
+
+    /// It says something now.
+    pub(crate) fn say(&self) {
+        *locked(&self.0.said) = Instant::now();
+    }
+
+    /// When it said something last.
+    pub(crate) fn said(&self) -> Instant {
+        *locked(&self.0.said)
     }
 
     /// It takes bytes now.
     pub(crate) fn take(&self) {
-        *self.0.took() = Instant::now();
+        *locked(&self.0.took) = Instant::now();
     }
 
     /// When it took bytes last.
     pub(crate) fn took(&self) -> Instant {
-        *self.0.took()
+        *locked(&self.0.took)
     }
 
     /// Why it was refused.
     pub(crate) fn refusal(&self) -> Option<&'static str> {
-        *self.0.refusal()
+        *locked(&self.0.refusal)
     }
 }
 
 impl State {
-    fn refusal(&self) -> MutexGuard<'_, Option<&'static str>> {
-        self.refusal.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    fn took(&self) -> MutexGuard<'_, Instant> {
-        self.took.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
     fn hold(&self, bytes: usize) {
         let room = &self.room;
         let before = self.held.swap(bytes, Relaxed);
         let taken = room.taken.load(Relaxed) - room.beyond(before) + room.beyond(bytes);
         room.taken.store(taken, Relaxed);
     }
+}
+
+fn locked<T>(value: &Mutex<T>) -> MutexGuard<'_, T> {
+    value.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 impl Drop for State {

@@ -7,6 +7,9 @@ use std::time::{Duration, Instant};
 use framework::launch::Listening;
 use hulkgen_communication::Limits;
 use serde_json::{Value, json};
+use tungstenite::Message;
+use tungstenite::protocol::frame::Frame;
+use tungstenite::protocol::frame::coding::{Data, OpCode};
 
 use crate::zoo::{Client, PATIENCE, Zoo, eventually, stream};
 
@@ -334,6 +337,25 @@ fn a_client_gives_signs_of_life() {
         client.ask_later(&json!({ "timings": {} }));
         client.try_receive().is_ok()
     });
+}
+
+#[test]
+fn a_client_whose_message_is_on_its_way_is_not_silent() {
+    let zoo = zoo(Limits {
+        silence: Duration::from_millis(500),
+        ..Limits::default()
+    });
+    let mut client = zoo.client();
+    let mut say = |part: &str, data, is_last| {
+        let part = Frame::message(part.to_owned(), OpCode::Data(data), is_last);
+        let sent = client.socket().send(Message::Frame(part));
+        sent.expect("the robot listens");
+        std::thread::sleep(Duration::from_millis(100));
+    };
+    say(r#"{"id":1,"ask":"#, Data::Text, false);
+    (0..15).for_each(|_| say(" ", Data::Continue, false));
+    say(r#"{"paths":{"below":""}}}"#, Data::Continue, true);
+    assert!(client.answer(Some(1)).get("ok").is_some());
 }
 
 #[test]
