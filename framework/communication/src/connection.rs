@@ -46,13 +46,11 @@ pub(crate) async fn talk(mut socket: WebSocket, guest: Guest, shared: Arc<Shared
             false => Instant::now(),
         };
         tokio::select! {
-            biased;
             _ = ending.changed() => {
                 let _ = send_some(&mut socket, client, &guest, &shared).await;
                 why = Some((close_code::AWAY, "the robot ends"));
                 break;
             }
-            // Before its silence is judged.
             received = socket.recv(), if may_ask => {
                 let message = match received {
                     Some(Ok(Message::Close(_))) | None => break,
