@@ -45,7 +45,10 @@ pub(crate) struct Outbox {
     updates: BTreeMap<u64, (u32, Content)>,
     /// Numbers of each subscription's updates, oldest first.
     of_subscription: BTreeMap<u32, VecDeque<u64>>,
+    /// Without those of the long one.
     update_bytes: usize,
+    /// The update for which there is never room, and whose it is: one at a time waits beside the others.
+    long: Option<(u64, u32)>,
     next: u64,
     /// Told with the next message.
     lost: BTreeMap<Option<u32>, u64>,
@@ -119,29 +122,36 @@ impl Outbox {
         self.answer_bytes <= limits.queued_bytes
     }
 
-    /// A value of a subscription; where there is no room, its oldest go. One for which there never is any comes alone.
+    /// A value of a subscription; where there is no room, its oldest go. Of those for which there never is any one waits, the
+    /// newest of its subscription.
     pub(crate) fn update(&mut self, subscription: u32, content: Content, limits: &Limits) {
+        let is_long = content.len() > limits.queued_bytes;
+        if is_long && self.long.is_some_and(|(_, other)| other != subscription) {
+            self.count_lost(Some(subscription), 1);
+            return;
+        }
         let waiting = |outbox: &Self| {
             let numbers = outbox.of_subscription.get(&subscription);
             numbers.map_or(0, VecDeque::len)
         };
-        if content.len() > limits.queued_bytes && self.updates.len() > waiting(self) {
-            self.count_lost(Some(subscription), 1);
-            return;
-        }
+        let bytes = if is_long { 0 } else { content.len() };
         while waiting(self) > 0
             && (waiting(self) >= limits.queued_updates
-                || self.update_bytes + content.len() > limits.queued_bytes)
+                || self.update_bytes + bytes > limits.queued_bytes
+                || (is_long && self.long.is_some()))
         {
             self.lose_oldest(subscription);
         }
         // Its own are gone: now those that wait longest.
-        while self.update_bytes + content.len() > limits.queued_bytes
+        while self.update_bytes + bytes > limits.queued_bytes
             && let Some((_, (oldest, _))) = self.updates.first_key_value()
         {
             self.lose_oldest(*oldest);
         }
-        self.update_bytes += content.len();
+        if is_long {
+            self.long = Some((self.next, subscription));
+        }
+        self.update_bytes += bytes;
         self.updates.insert(self.next, (subscription, content));
         let numbers = self.of_subscription.entry(subscription).or_default();
         numbers.push_back(self.next);
@@ -208,8 +218,8 @@ impl Outbox {
             self.log_bytes -= log.len();
             return Some(Piece::Text(log));
         }
-        let (_, (subscription, content)) = self.updates.pop_first()?;
-        self.update_bytes -= content.len();
+        let (number, (subscription, content)) = self.updates.pop_first()?;
+        self.make_room(number, &content);
         if let Some(numbers) = self.of_subscription.get_mut(&subscription) {
             numbers.pop_front();
         }
@@ -226,6 +236,15 @@ impl Outbox {
 
     fn remove(&mut self, number: u64) {
         if let Some((_, content)) = self.updates.remove(&number) {
+            self.make_room(number, &content);
+        }
+    }
+
+    /// It waits no more.
+    fn make_room(&mut self, number: u64, content: &Content) {
+        if self.long.is_some_and(|(long, _)| long == number) {
+            self.long = None;
+        } else {
             self.update_bytes -= content.len();
         }
     }
@@ -301,26 +320,34 @@ mod tests {
     }
 
     #[test]
-    fn what_is_larger_than_all_that_may_wait_drives_nothing_out() {
+    fn of_updates_that_are_larger_than_all_that_may_wait_one_waits_beside_them() {
         let mut outbox = Outbox::default();
         outbox.update(1, text(1), &limits());
-        outbox.update(2, text(2), &limits());
-        outbox.update(3, text(101), &limits());
         outbox.update(2, text(101), &limits());
+        outbox.update(3, text(101), &limits());
+        outbox.update(1, text(99), &limits());
+        assert_eq!(outbox.update_bytes, 100);
+        // The newest of its subscription.
+        outbox.update(2, text(102), &limits());
+        outbox.update(3, text(101), &limits());
+        let begin = |subscription: u32, length: usize| {
+            let x = "x".repeat(length);
+            format!(r#"{{"update":{{"subscription":{subscription},{x}"#)
+        };
         let expected = [
             r#"{"lost":{"subscription":2,"updates":1}}"#.to_owned(),
-            r#"{"lost":{"subscription":3,"updates":1}}"#.to_owned(),
-            r#"{"update":{"subscription":1,x"#.to_owned(),
-            r#"{"update":{"subscription":2,xx"#.to_owned(),
+            r#"{"lost":{"subscription":3,"updates":2}}"#.to_owned(),
+            begin(1, 1),
+            begin(1, 99),
+            begin(2, 102),
         ];
         assert_eq!(sent(&mut outbox), expected);
-        // Alone it has room.
-        for lost in [0, 1] {
-            outbox.update(3, text(101), &limits());
-            assert_eq!(outbox.lost.get(&Some(3)).copied().unwrap_or(0), lost);
-        }
-        assert_eq!(outbox.update_bytes, 101);
-        assert_eq!(sent(&mut outbox).len(), 2);
+        // Once it is sent, and once nobody wants it any more, there is a place.
+        outbox.update(3, text(101), &limits());
+        outbox.forget(3);
+        outbox.update(1, text(101), &limits());
+        assert_eq!(sent(&mut outbox), [begin(1, 101)]);
+        assert_eq!(outbox.update_bytes, 0);
     }
 
     #[test]
