@@ -1,6 +1,6 @@
 //! Values in place of outputs: the last one counts, and who leaves gives the output back to whoever replaced it before.
 //!
-//! Invariant: of values that do not count no more is kept than [`Limits::passed_over_bytes`](crate::limits::Limits).
+//! Invariant: of values that do not count no more is kept than `Limits::passed_over_bytes`.
 
 use framework::{Given, OutputKind};
 use protocol::{Failure, Good};
@@ -12,6 +12,8 @@ use crate::hub::{ClientId, Fail, Hub};
 /// What a client put in place of an output.
 pub(crate) struct Injection {
     client: ClientId,
+    /// Later ones have greater numbers.
+    number: u64,
     /// As JSON.
     value: String,
 }
@@ -21,26 +23,32 @@ impl Hub {
         let (instance, output) = self.main_output(path)?;
         self.replace(instance, output, &value)
             .map_err(|error| Failure::new(error.to_string()))?;
+        let numbers = self.injected.values().flatten();
+        let last = numbers.map(|injection| injection.number).max();
         let injections = self.injected.entry((instance, output)).or_default();
         injections.retain(|injection| injection.client != client);
-        let value = value.to_string();
-        injections.push(Injection { client, value });
-        self.forget_oldest(instance, output);
+        injections.push(Injection {
+            client,
+            number: last.map_or(0, |last| last + 1),
+            value: value.to_string(),
+        });
+        self.forget_oldest();
         Ok(Some(Good::Done {}))
     }
 
-    /// One more value of this output does not count any more: if that is too much, its oldest are forgotten.
-    fn forget_oldest(&mut self, instance: usize, output: &'static str) {
-        let passed_over = |injections: &[Injection]| -> usize {
-            let before = injections.iter().rev().skip(1);
+    /// Of values that do not count, until they are no longer too much.
+    fn forget_oldest(&mut self) {
+        let before = |all: &[Injection]| -> usize {
+            let before = all.iter().rev().skip(1);
             before.map(|injection| injection.value.len()).sum()
         };
-        let mut held: usize = self.injected.values().map(|all| passed_over(all)).sum();
-        let Some(injections) = self.injected.get_mut(&(instance, output)) else {
-            return;
-        };
-        while held > self.limits.passed_over_bytes && injections.len() > 1 {
-            held -= injections.remove(0).value.len();
+        let mut held: usize = self.injected.values().map(|all| before(all)).sum();
+        while held > self.limits.passed_over_bytes {
+            let several = self.injected.values_mut().filter(|all| all.len() > 1);
+            let Some(oldest) = several.min_by_key(|all| all.first().map(|it| it.number)) else {
+                return;
+            };
+            held -= oldest.remove(0).value.len();
         }
     }
 
