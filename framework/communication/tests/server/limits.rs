@@ -342,7 +342,7 @@ fn a_client_gives_signs_of_life() {
 #[test]
 fn a_client_whose_message_is_on_its_way_is_not_silent() {
     let zoo = zoo(Limits {
-        silence: Duration::from_millis(500),
+        silence: Duration::from_secs(2),
         ..Limits::default()
     });
     let mut client = zoo.client();
@@ -350,7 +350,7 @@ fn a_client_whose_message_is_on_its_way_is_not_silent() {
         let part = Frame::message(part.to_owned(), OpCode::Data(data), is_last);
         let sent = client.socket().send(Message::Frame(part));
         sent.expect("the robot listens");
-        std::thread::sleep(Duration::from_millis(100));
+        std::thread::sleep(Duration::from_millis(200));
     };
     say(r#"{"id":1,"ask":"#, Data::Text, false);
     (0..15).for_each(|_| say(" ", Data::Continue, false));
