@@ -10,8 +10,8 @@ use serde_json::{Value, json};
 use crate::{Options, Result};
 use client::Robot;
 
-/// Deeper than names of outputs go.
-const DEPTH: u8 = 8;
+/// Folders within each other, at most: more than an instance and the parts of an output's name make.
+const DEPTH: usize = 64;
 
 /// What stands around a value that is no object: a message is one.
 const VALUE: &str = "value";
@@ -47,28 +47,36 @@ enum Form {
 
 /// All outputs of the robot.
 pub(crate) fn describe(robot: &mut Robot) -> Result<Vec<Described>> {
-    let listed = robot.ask(Ask::Paths {
-        below: String::new(),
-        depth: Some(DEPTH),
-    })?;
-    let Good::Paths(entries) = listed else {
-        return Err("the robot does not tell its paths".to_owned());
+    let mut outputs = Vec::new();
+    let mut list = |below: String| -> Result<Vec<Entry>> {
+        let depth = Some(1);
+        match robot.ask(Ask::Paths { below, depth })? {
+            Good::Paths(entries) => Ok(entries),
+            _ => Err("the robot does not tell its paths".to_owned()),
+        }
     };
-    let mut outputs: Vec<Described> = Vec::new();
-    for entry in entries {
-        let is_part = outputs.last().is_some_and(|output| {
-            let rest = entry.path.strip_prefix(output.path.as_str());
-            rest.is_some_and(|rest| rest.starts_with('.'))
-        });
-        let is_output = matches!(
-            entry.kind,
-            EntryKind::MainOutput | EntryKind::AdditionalOutput
-        );
-        if is_output && !is_part {
-            outputs.push(Described::new(robot, entry)?);
+    add_outputs(String::new(), DEPTH, &mut list, &mut outputs)?;
+    let described = outputs.into_iter();
+    described
+        .map(|entry| Described::new(robot, entry))
+        .collect()
+}
+
+/// Adds all outputs below a folder. What is in outputs and parameters is not asked for: it may be more than a robot lists.
+fn add_outputs(
+    below: String,
+    depth: usize,
+    list: &mut impl FnMut(String) -> Result<Vec<Entry>>,
+    outputs: &mut Vec<Entry>,
+) -> Result<()> {
+    for entry in list(below)? {
+        match entry.kind {
+            EntryKind::MainOutput | EntryKind::AdditionalOutput => outputs.push(entry),
+            EntryKind::Folder if depth > 0 => add_outputs(entry.path, depth - 1, list, outputs)?,
+            _ => {}
         }
     }
-    Ok(outputs)
+    Ok(())
 }
 
 /// A channel for each of them. What was shown before goes on in its channel where it looks the same, with those who look at
@@ -249,9 +257,58 @@ fn as_object(mut schema: Value) -> (Value, bool) {
 
 #[cfg(test)]
 mod tests {
+    use protocol::{Entry, EntryKind};
     use serde_json::json;
 
-    use super::as_object;
+    use super::{DEPTH, add_outputs, as_object};
+
+    #[test]
+    fn nothing_is_asked_of_what_is_no_folder() {
+        let entry = |path: &str, kind| -> Entry {
+            serde_json::from_value(json!({ "path": path, "kind": kind, "has_children": true }))
+                .expect("an entry")
+        };
+        let mut asked = Vec::new();
+        let mut list = |below: String| {
+            let folder = |name| vec![entry(name, EntryKind::Folder)];
+            let entries = match below.as_str() {
+                "" => vec![
+                    entry("A", EntryKind::Folder),
+                    entry("parameters", EntryKind::Parameter),
+                    entry("framework", EntryKind::Folder),
+                ],
+                "A" => folder("A.additional_outputs"),
+                "A.additional_outputs" => vec![
+                    entry("A.additional_outputs.a", EntryKind::AdditionalOutput),
+                    entry("A.additional_outputs.b", EntryKind::Folder),
+                ],
+                "A.additional_outputs.b" => {
+                    vec![entry(
+                        "A.additional_outputs.b.c",
+                        EntryKind::AdditionalOutput,
+                    )]
+                }
+                _ => vec![entry("framework.x", EntryKind::Procedure)],
+            };
+            asked.push(below);
+            Ok(entries)
+        };
+        let mut outputs = Vec::new();
+        add_outputs(String::new(), DEPTH, &mut list, &mut outputs).expect("it is told");
+        let paths: Vec<_> = outputs.iter().map(|entry| entry.path.as_str()).collect();
+        assert_eq!(
+            paths,
+            ["A.additional_outputs.a", "A.additional_outputs.b.c"]
+        );
+        let folders = [
+            "",
+            "A",
+            "A.additional_outputs",
+            "A.additional_outputs.b",
+            "framework",
+        ];
+        assert_eq!(asked, folders);
+    }
 
     #[test]
     fn what_is_no_object_is_put_into_one() {
