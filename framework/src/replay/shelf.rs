@@ -14,7 +14,7 @@ use super::OtherParameters;
 use crate::error::{Error, Result};
 use crate::recorded::{Stored, channel_of};
 pub use index::Frame;
-pub(super) use index::{Index, Place};
+pub(super) use index::{Index, Logged, Place};
 
 /// So many bytes of chunks are kept. Chunks have 4 MiB: a timeline that stands still shows a cycle of each instance ten times a
 /// second, each perhaps of another chunk, and there is room for those of 16 instances.

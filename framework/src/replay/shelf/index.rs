@@ -40,12 +40,17 @@ pub(in crate::replay) struct Recorded {
     pub(in crate::replay) damaged: Option<String>,
 }
 
+/// So many bytes of what was said are kept: a jump says hundreds of messages again, each of another chunk.
+const MOST_SAID: usize = 16 << 20;
+
 /// What was said.
-#[derive(Clone, Copy, Debug)]
+#[derive(Debug)]
 pub(in crate::replay) struct Logged {
     pub(in crate::replay) time: Timestamp,
     /// Of the message as JSON.
     pub(in crate::replay) place: Place,
+    /// What lies there; `None`: there was no room.
+    pub(in crate::replay) json: Option<Box<[u8]>>,
     /// Whose cycle said it, by its place among [`Index::speakers`], and which one.
     pub(in crate::replay) cycle: Option<(usize, u64)>,
 }
@@ -63,6 +68,8 @@ pub(in crate::replay) struct Index {
     pub(in crate::replay) logs: Vec<Logged>,
     /// Instances that said something.
     pub(in crate::replay) speakers: Vec<String>,
+    /// Bytes of messages that are kept.
+    said: usize,
     /// Messages that are none.
     pub(in crate::replay) unreadable_logs: u64,
     /// Main outputs in channels of their own, by channel and cycle.
@@ -205,7 +212,15 @@ impl Index {
             });
             (speaker, cycle)
         });
-        self.logs.push(Logged { time, place, cycle });
+        let has_room = self.said + message.data.len() <= MOST_SAID;
+        let json: Option<Box<[u8]>> = has_room.then(|| message.data.into());
+        self.said += json.as_ref().map_or(0, |json| json.len());
+        self.logs.push(Logged {
+            time,
+            place,
+            json,
+            cycle,
+        });
     }
 
     /// The cycles of an instance; `None`: the recording has no such instance.

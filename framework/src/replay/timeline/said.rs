@@ -6,10 +6,9 @@ use std::collections::BTreeMap;
 use super::Moment;
 use crate::logs::{Record, say_again};
 use crate::recorded::from_log;
-use crate::replay::shelf::Place;
+use crate::replay::shelf::Logged;
 use crate::replay::{Players, Shelf};
 use crate::report::tell;
-use crate::time::Timestamp;
 
 /// So many messages are said at once: more nobody reads, and those who listen have no room for them.
 const MOST: usize = 500;
@@ -18,19 +17,17 @@ const MOST: usize = 500;
 pub(super) struct Said<'r> {
     recording: &'r Shelf,
     /// In the order in which they are said.
-    messages: Vec<Message>,
+    messages: Vec<Message<'r>>,
     /// Of a cycle, by instance and position: which of the messages.
     of_cycles: BTreeMap<(usize, usize), Vec<usize>>,
     /// Whether it was told that a message cannot be read: once says enough.
     is_told: Cell<bool>,
 }
 
-struct Message {
+struct Message<'r> {
     /// How many moments have been once it was said: one of a cycle that was recorded belongs to that cycle.
     passed: usize,
-    time: Timestamp,
-    /// Of its JSON.
-    place: Place,
+    logged: &'r Logged,
     /// Instance and position.
     cycle: Option<(usize, usize)>,
 }
@@ -56,21 +53,20 @@ impl<'r> Said<'r> {
         let numbered: BTreeMap<_, _> = numbered.collect();
         let index = recording.index();
         let messages = index.logs.iter().map(|logged| {
-            let (time, place) = (logged.time, logged.place);
             let cycle = logged.cycle;
             let cycle = cycle.map(|(speaker, cycle)| (&*index.speakers[speaker], cycle));
             match cycle.and_then(|cycle| numbered.get(&cycle)) {
                 Some((index, moment)) => Message {
                     passed: index + 1,
-                    time,
-                    place,
+                    logged,
                     cycle: Some((moment.instance, moment.position)),
                 },
                 None => Message {
                     // What was said before everything else is said with it.
-                    passed: moments.partition_point(|moment| moment.at <= time).max(1),
-                    time,
-                    place,
+                    passed: moments
+                        .partition_point(|moment| moment.at <= logged.time)
+                        .max(1),
+                    logged,
                     cycle: None,
                 },
             }
@@ -82,7 +78,7 @@ impl<'r> Said<'r> {
                 "{unreadable} log messages of the recording cannot be read"
             ));
         }
-        messages.sort_by_key(|message| (message.passed, message.time));
+        messages.sort_by_key(|message| (message.passed, message.logged.time));
         let mut of_cycles: BTreeMap<_, Vec<_>> = BTreeMap::new();
         for (index, message) in messages.iter().enumerate() {
             if let Some(cycle) = message.cycle {
@@ -123,15 +119,21 @@ impl<'r> Said<'r> {
         }
     }
 
-    fn say(&self, message: &Message) {
+    fn say(&self, message: &Message<'_>) {
         if let Some(record) = self.record(message) {
             say_again(&record);
         }
     }
 
-    fn record(&self, message: &Message) -> Option<Record> {
-        match self.recording.bytes(message.place) {
-            Ok(json) => from_log(message.time, &json),
+    fn record(&self, message: &Message<'_>) -> Option<Record> {
+        let Logged {
+            time, place, json, ..
+        } = message.logged;
+        if let Some(json) = json {
+            return from_log(*time, json);
+        }
+        match self.recording.bytes(*place) {
+            Ok(json) => from_log(*time, &json),
             Err(error) => {
                 if !self.is_told.replace(true) {
                     tell(format_args!("what was said cannot be said again: {error}"));
