@@ -74,6 +74,8 @@ struct State {
     files: Option<Files>,
     /// Neither is within the other.
     changes: Vec<(Path, Version)>,
+    /// Changes for which the files leave no place: an editor may be in the middle of a save.
+    homeless: Vec<(String, Tree)>,
     version: Version,
     /// They are those of a recording: they stay what they were.
     is_frozen: bool,
@@ -88,6 +90,7 @@ impl<P: ParameterData> LiveParameters<P> {
                 values: Box::new(Typed::new(writer, start, clock)),
                 files: None,
                 changes: Vec::new(),
+                homeless: Vec::new(),
                 version: Version::default(),
                 is_frozen: false,
             })),
@@ -187,7 +190,7 @@ impl Live {
     }
 
     /// As somebody may have edited the files: takes what they say now, and keeps changes that were not stored, which are
-    /// the last layer; one for which they leave no place is told and gone. `None` if the files are as they were.
+    /// the last layer; one for which they leave no place is told, and waits for it. `None` if the files are as they were.
     ///
     /// A mistake in the files is told once; the robot goes on with the values it has.
     pub fn poll(&self) -> Option<Result<Version>> {
@@ -287,6 +290,11 @@ impl State {
 
     /// Remembers that a path was changed, unless it is again as the layers have it.
     fn note(&mut self, path: Path, version: Version) {
+        let text = path.to_string();
+        self.homeless.retain(|(known, _)| {
+            let rest = known.strip_prefix(&text);
+            rest.is_none_or(|rest| !rest.is_empty() && !rest.starts_with('.'))
+        });
         self.changes.retain(|(known, _)| !known.starts_with(&path));
         let upper = self
             .changes
@@ -358,16 +366,25 @@ impl State {
         self.values.discard();
         let stored = self.values.load(&loaded)?;
         loaded.check_ranges(shape, self.values.draft())?;
-        for (path, value) in &kept {
-            if let Err(refusal) = self.values.write(path, &Given::of(value)) {
+        let homeless = std::mem::take(&mut self.homeless);
+        for (path, value) in kept {
+            if let Err(refusal) = self.values.write(&path, &Given::of(&value)) {
                 // What it was a part of is gone from the files; that must not hold up what else they say.
-                self.changes.retain(|(known, _)| known.to_string() != *path);
+                self.changes.retain(|(known, _)| known.to_string() != path);
+                self.homeless.push((path, value));
                 tell_warning(
                     module_path!(),
                     &format_args!(
-                        "a change that was not stored is gone, the files leave no place for it: {refusal}"
+                        "a change that was not stored waits until the files leave a place for it again: {refusal}"
                     ),
                 );
+            }
+        }
+        let mut returning = Vec::new();
+        for (path, value) in homeless.into_iter().filter(|_| with_changes) {
+            match self.values.write(&path, &Given::of(&value)) {
+                Ok(place) => returning.push(place),
+                Err(_) => self.homeless.push((path, value)),
             }
         }
         self.values.set_stored(stored);
@@ -377,6 +394,9 @@ impl State {
         let version = self.publish();
         if !with_changes {
             self.changes.clear();
+        }
+        for path in returning {
+            self.note(path, version);
         }
         self.forget_what_is_stored();
         Ok(version)

@@ -397,6 +397,37 @@ fn a_change_that_no_longer_fits_holds_up_no_file() {
     let unstored = robot.live.changed_not_stored().into_iter();
     let unstored: Vec<_> = unstored.map(|change| change.path).collect();
     assert_eq!(unstored, ["steps"]);
+    // An editor empties a file before it writes it.
+    robot.write("default.toml", DEFAULT);
+    robot.live.poll().expect("it is new").expect("it is right");
+    assert_eq!(robot.seen().rooms["hall"].width, 5.0);
+    let unstored = robot.live.changed_not_stored().into_iter();
+    let unstored: Vec<_> = unstored.map(|change| change.path).collect();
+    assert_eq!(unstored, ["rooms.hall.width", "steps"]);
+}
+
+#[test]
+fn a_change_without_a_place_ends_with_a_reload_and_where_another_one_comes() {
+    let mut robot = Robot::new(&[]);
+    let without = DEFAULT.replace("[rooms.hall]\nwidth = 4.0\n", "");
+    let mut width_after = |between: &dyn Fn(&Robot)| {
+        let change = [("rooms.hall.width", json!(5.0))];
+        robot.live.change(&change).expect("valid");
+        robot.write("default.toml", &without);
+        robot.live.poll().expect("it is new").expect("it is right");
+        between(&robot);
+        robot.write("default.toml", DEFAULT);
+        robot.live.poll().expect("it is new").expect("it is right");
+        robot.seen().rooms["hall"].width
+    };
+    assert_eq!(width_after(&|_| ()), 5.0);
+    let reload = |robot: &Robot| drop(robot.live.reload().expect("they are right"));
+    assert_eq!(width_after(&reload), 4.0);
+    let replace = |robot: &Robot| {
+        let change = [("rooms", json!({ "hall": { "width": 6.0 } }))];
+        drop(robot.live.change(&change).expect("valid"));
+    };
+    assert_eq!(width_after(&replace), 6.0);
 }
 
 #[test]
