@@ -111,11 +111,9 @@ impl CycleContext<'_> {
 
 /// Why no client may turn the head now.
 fn obstacle(command: &MotionCommand) -> Option<&'static str> {
-    match (command.head, command.body) {
-        (Wanted::WithBody, BodyMotion::Unstiff | BodyMotion::SitDown) => {
-            Some("the robot is limp, or about to be")
-        }
-        (Wanted::WithBody, BodyMotion::Penalized) => Some("the robot is penalised"),
+    match command.body {
+        BodyMotion::Unstiff | BodyMotion::SitDown => Some("the robot is limp, or about to be"),
+        BodyMotion::Penalized => Some("the robot is penalised"),
         _ => None,
     }
 }
@@ -320,12 +318,18 @@ mod tests {
             node.cycle(context).unwrap();
             pending.try_answer().unwrap()
         };
-        for (body, is_out) in [
-            (BodyMotion::SitDown, true),
-            (BodyMotion::Unstiff, true),
-            (BodyMotion::Penalized, true),
+        for (body, head, is_out) in [
+            (BodyMotion::SitDown, Wanted::WithBody, true),
+            // A client has sat it down.
+            (BodyMotion::SitDown, Wanted::LookAround, true),
+            (BodyMotion::Unstiff, Wanted::WithBody, true),
+            (BodyMotion::Penalized, Wanted::WithBody, true),
             // Who gets up goes on to look there.
-            (BodyMotion::Scripted(Script::StandUpBack), false),
+            (
+                BodyMotion::Scripted(Script::StandUpBack),
+                Wanted::WithBody,
+                false,
+            ),
         ] {
             let mut node = node();
             let mut situation = Situation::new(Wanted::LookAround);
@@ -334,6 +338,7 @@ mod tests {
                 &mut situation.motion_command,
                 MotionCommand {
                     body,
+                    head,
                     ..MotionCommand::default()
                 },
             );
