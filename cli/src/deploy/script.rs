@@ -110,7 +110,7 @@ pub(crate) fn look(folder: &str, service: Service<'_>) -> String {
     let folder = quoted(folder);
     let state = service.unit.map_or_else(String::new, |unit| {
         format!(
-            "echo \"state $({} is-active {} 2>&1)\"\n",
+            "echo \"state $({} is-active {} 2>&1 | tail -n 1)\"\n",
             service.systemctl,
             quoted(unit)
         )
@@ -135,7 +135,9 @@ fn functions(service: Service<'_>) -> String {
     };
     let (systemctl, unit) = (service.systemctl, quoted(unit));
     let seconds = WATCHED_SECONDS;
-    // Where a program is started again and again, most looks find it running; what systemd counts tells them apart.
+    // Where a program is started again and again, most looks find it running; what systemd counts tells them apart. It counts
+    // starts, too, and refuses one more after a version that ended at once: that must not keep the version before from running.
+    // What stands before the last line is sudo's.
     format!(
         r#"{point}
 count() {{ {systemctl} show --property=MainPID --property=NRestarts {unit} 2>&1; }}
@@ -143,13 +145,14 @@ goes_on() {{
   first=$(count); second=0
   while [ $second -lt {seconds} ]; do
     sleep 1; second=$((second + 1))
-    state=$({systemctl} is-active {unit} 2>&1)
+    state=$({systemctl} is-active {unit} 2>&1 | tail -n 1)
     [ "$state" = active ] || {{ echo "after $second s "{unit}" is $state" >&2; return 1; }}
     [ "$(count)" = "$first" ] || {{ echo "after $second s "{unit}" was started again" >&2; return 1; }}
   done
 }}
 start() {{
-  said=$({{ {systemctl} enable --force "$folder/current/"{unit} && {systemctl} daemon-reload && {systemctl} restart {unit}; }} 2>&1) ||
+  said=$({{ {systemctl} enable --force "$folder/current/"{unit} && {systemctl} daemon-reload &&
+    {{ {systemctl} reset-failed {unit} || :; }} && {systemctl} restart {unit}; }} 2>&1) ||
     {{ echo "$said" >&2; return 1; }}
   goes_on
 }}"#

@@ -37,11 +37,18 @@ fn main() {
 const SYSTEMCTL: &str = r#"#!/bin/sh
 here=FOLDER/disk/current/motions
 case "$1" in
-  is-active) if [ -e $here/mortal ]; then echo failed; exit 3; fi; echo active; exit 0 ;;
+  is-active)
+    echo "sudo: unable to resolve host robot" >&2
+    # It was started again as often as it may be.
+    if [ -e $here/mortal ]; then touch FOLDER/limited; echo failed; exit 3; fi; echo active; exit 0 ;;
+  reset-failed) rm -f FOLDER/limited; exit 0 ;;
   show) echo "NRestarts=$(if [ -e $here/restless ]; then date +%s%N; else echo 0; fi)"; exit 0 ;;
 esac
 echo "$* $(readlink FOLDER/disk/current)" >> FOLDER/systemctl.log
-if [ "$1" = restart ]; then [ ! -e $here/broken ]; fi
+if [ "$1" = restart ]; then
+  if [ -e FOLDER/limited ]; then echo "start request repeated too quickly" >&2; exit 1; fi
+  [ ! -e $here/broken ]
+fi
 "#;
 
 pub(crate) struct Field {
