@@ -135,7 +135,7 @@ impl Said<'_> {
                 .add(error.help("write `{name}` in its place, as in `nmcli connection up {name}`"));
         }
         if deploy.wlan.as_deref().is_some_and(quotes_the_name) {
-            let message = "`{name}` stands between quotes: it is replaced by one quoted word, and these quotes would be part of the network's name";
+            let message = "`{name}` stands in quotes of its own: it is replaced by one quoted word, and these quotes would be part of the network's name";
             let error = self.wrong("wlan", message.to_owned());
             diagnostics.add(error.help(
                 "leave the quotes out, as in `nmcli connection up {name}`; where the program wants some, end yours before it, as in `'\"'{name}'\"'`",
@@ -184,10 +184,11 @@ impl Said<'_> {
         let files = self.deploy.files.iter().map(String::as_str);
         let ways = files.chain([manifest.robot.parameters.as_str()]);
         let unit = self.deploy.unit.as_deref();
-        let unit = unit.and_then(|unit| Utf8Path::new(unit).file_name());
+        let file = unit.and_then(|unit| Utf8Path::new(unit).file_name());
         let is_sent = ways
+            .chain(unit)
             .map(first_of)
-            .chain([unit])
+            .chain([file])
             .flatten()
             .any(|it| it == name);
         if of_deploy || is_sent {
@@ -253,7 +254,7 @@ fn missing(workspace: &Workspace, file: &str, range: &Range<usize>, label: &str)
     })
 }
 
-/// Whether a shell reads `{name}` as part of what stands between quotes.
+/// Whether `{name}` stands in quotes of its own. Between others, as in `sh -c "up {name}"`, another shell may take the word apart.
 fn quotes_the_name(command: &str) -> bool {
     let mut quote = None;
     let mut is_escaped = false;
@@ -264,9 +265,14 @@ fn quotes_the_name(command: &str) -> bool {
         }
         match (one, quote) {
             ('\\', None | Some('"')) => is_escaped = true,
-            ('"' | '\'', None) => quote = Some(one),
+            ('"' | '\'', None) => {
+                let rest = command[index + 1..].strip_prefix("{name}");
+                if rest.is_some_and(|rest| rest.starts_with(one)) {
+                    return true;
+                }
+                quote = Some(one);
+            }
             (one, Some(open)) if one == open => quote = None,
-            ('{', Some(_)) if command[index..].starts_with("{name}") => return true,
             _ => {}
         }
     }

@@ -45,6 +45,10 @@ fn what_a_robot_can_be_deployed_with_is_no_mistake() {
         "{FOLDER}wlan = \"\"\"echo \\\\\" '\"'{{name}}'\"' \"it's\" {{name}}\"\"\""
     ));
     assert!(codes.is_empty(), "{text}");
+    // Another shell takes the quoted word apart again.
+    let inner = "wlan = 'sh -c \"rfkill unblock wifi && nmcli connection up {name}\"'";
+    let (codes, text) = deployed(&format!("{FOLDER}{inner}"));
+    assert!(codes.is_empty(), "{text}");
 }
 
 #[test]
@@ -136,7 +140,7 @@ fn a_program_lies_in_no_others_place_on_the_robot() {
         ("start", true),
         ("parameters", true),
         ("motions", true),
-        ("system", false),
+        ("system", true),
         ("motion", false),
     ] {
         let manifest = format!(
