@@ -24,7 +24,7 @@ pub struct Reached {
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "\
 Exit status: 0 all robots have it, and joined the network of `--wlan`; 1 some did not: these run what they ran before, unless the
-answer says that they have it and did not join; 2 wrong usage.
+answer says otherwise; 2 wrong usage.
 
 Examples:
   hulkgen deploy nao22 nao23 --location hall_3
