@@ -1,7 +1,7 @@
 //! Ctrl-C: it ends hulkgen at once, unless a program that hulkgen started has to answer first, or files are being written.
 //!
 //! A terminal sends it to both; the program's last words would otherwise come after the prompt, or never. SIGTERM ends
-//! hulkgen as ever, also but for what is being written; a program that runs [beside](Beside) hulkgen gets it first.
+//! hulkgen as ever, also but for what is being written; a program that runs beside hulkgen gets it first.
 
 use std::io;
 use std::process::{Child, Command, ExitStatus};
