@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 use std::collections::VecDeque;
+use std::iter;
 use std::sync::Arc;
 
 use framework::Clock;
@@ -9,6 +10,9 @@ use framework::logs::{self, Rates, Record, Sink};
 use protocol::{Level, Log};
 
 use crate::limits::Limits;
+
+/// Taken at once: whoever says more than this thread can take must not keep it from everything else.
+const AT_ONCE: usize = 1024;
 
 /// The messages of the run.
 pub(crate) struct Logs {
@@ -34,7 +38,7 @@ impl Logs {
     pub(crate) fn fetch(&mut self, nodes: &[&'static str], limits: &Limits) -> Vec<Log> {
         let mut new = Vec::new();
         self.number += self.sink.left_out();
-        while let Some(record) = self.sink.take() {
+        for record in iter::from_fn(|| self.sink.take()).take(AT_ONCE) {
             self.number += 1;
             if self.rates.is_allowed(&record, limits.logs_per_second) {
                 new.push(describe(record, self.number, nodes));
