@@ -9,6 +9,7 @@
 mod body;
 mod bytes;
 mod capture;
+mod condition;
 mod digests;
 mod disk;
 mod encode;

@@ -5,12 +5,12 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use hulkgen_recording::{ChannelId, Recorded, Track};
 
+use super::condition::Condition;
 use super::output::OutputRecorder;
 use super::target::Target;
 use super::{Capture, DIGEST, Digests, FINISHED, SaveError, Written};
 use crate::cycler::{Instance, Record};
 use crate::driver::Observer;
-use crate::reflect::{self, Path, binary};
 use crate::report::tell;
 use crate::time::Timestamp;
 
@@ -42,14 +42,6 @@ pub(super) enum Wanted {
     While(Arc<AtomicBool>),
 }
 
-/// A `bool` in a main output, for whoever records while it is true.
-pub(super) struct Condition {
-    output: String,
-    below: Path,
-    holds: Arc<AtomicBool>,
-    bytes: Vec<u8>,
-}
-
 impl Wanted {
     /// `None`: none at all.
     pub(super) fn new(record: Record, condition: &Arc<AtomicBool>) -> Option<Self> {
@@ -71,33 +63,6 @@ impl Wanted {
             // Relaxed: a flag, with which no other memory comes.
             Self::While(holds) => holds.load(Ordering::Relaxed),
         }
-    }
-}
-
-impl Condition {
-    /// Of the output, or of what lies below it, at this path; `None`: there is no such output.
-    pub(super) fn new(outputs: &[&str], path: &str, holds: &Arc<AtomicBool>) -> Option<Self> {
-        let output = outputs.iter().find(|output| {
-            let rest = path.strip_prefix(**output);
-            rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
-        })?;
-        let below = path[output.len()..].trim_start_matches('.');
-        Some(Self {
-            output: (*output).to_owned(),
-            below: below.parse().ok()?,
-            holds: holds.clone(),
-            bytes: Vec::with_capacity(1),
-        })
-    }
-
-    /// Looks at the last finished cycle; what is no `bool` now does not hold.
-    fn look(&mut self, instance: &dyn Instance) {
-        self.bytes.clear();
-        let value = instance.main_output(&self.output);
-        let value = value.and_then(|value| reflect::at(value, &self.below).ok());
-        let is_encoded = value.is_some_and(|value| binary::encode(value, &mut self.bytes).is_ok());
-        let holds = is_encoded && self.bytes == [1];
-        self.holds.store(holds, Ordering::Relaxed);
     }
 }
 

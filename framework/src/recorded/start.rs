@@ -4,17 +4,17 @@ use std::collections::BTreeMap;
 use std::io::{self, ErrorKind};
 use std::path::Path;
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
 
 use hulkgen_mcap::layout::{self, Layouts};
 use hulkgen_recording::{
     Attachment, Channel, ChannelId, Counts, Description, Ended, Metadata, Recorder, Settings,
 };
 
+use super::condition::Conditions;
 use super::disk;
 use super::logs::{self, LOGS, LogRecorder};
 use super::output::{self, OutputChannels};
-use super::recorder::{Condition, CycleObserver, CycleRecorder, Wanted};
+use super::recorder::{CycleObserver, CycleRecorder, Wanted};
 use super::{InstanceRecorded, Missing, PARAMETERS, RecordingReport, Types, VERSION};
 use crate::cycler::{Instance, InstanceDescription, Record};
 use crate::driver::Observer;
@@ -55,7 +55,8 @@ impl Recording {
     /// Creates the file, which must not exist, for a robot that has not run yet.
     ///
     /// # Errors
-    /// If the file cannot be created, or a `record = { while = … }` names what no instance has.
+    /// If the file cannot be created, or a `record = { while = … }` names what its instance never
+    /// writes, or what is no `bool`: then nothing is created.
     pub fn start<P>(
         path: &Path,
         robot: &Robot<P>,
@@ -89,6 +90,7 @@ impl Recording {
         let types = robot.instances.iter().map(|instance| instance.types());
         let types: Vec<_> = types.collect();
         let outputs = output::find(&about.outputs, described(robot))?;
+        let mut conditions = Conditions::of_all(robot, &descriptions)?;
         let types_file = types_file(robot, &types);
         let digests: Vec<_> = types.iter().map(Types::digest).collect();
         let mut description = describe(&descriptions, &digests, &written, about, types_file);
@@ -109,10 +111,9 @@ impl Recording {
         let values = (names.len()..).map(|index| ChannelId(index as u16));
         let sources = written.into_iter().chain([PARAMETERS]);
         let channels: Arc<[_]> = sources.zip(values).collect();
-        let mut conditions = conditions(robot, &descriptions)?;
         let mut observers: BTreeMap<_, Box<dyn Observer>> = BTreeMap::new();
         for (index, (track, one)) in tracks.into_iter().zip(&descriptions).enumerate() {
-            let asked = conditions.asked.remove(one.name).unwrap_or_default();
+            let asked = conditions.asked_of(one.name);
             let frames = Wanted::new(one.record, &conditions.of(one.name)).map(|which| {
                 let own = ChannelId(index as u16);
                 let digests = robot.instances[index].digested().len();
@@ -230,50 +231,6 @@ fn described<P>(robot: &Robot<P>) -> impl Iterator<Item = (&dyn Instance, &Subsc
         let access = robot.access.iter().find(|access| access.instance == name)?;
         Some((&**instance as &dyn Instance, &access.subscriptions))
     })
-}
-
-/// The conditions of all instances.
-struct Conditions {
-    /// By the instance whose cycles depend on it.
-    holds: BTreeMap<&'static str, Arc<AtomicBool>>,
-    /// By the instance that is asked.
-    asked: BTreeMap<&'static str, Vec<Condition>>,
-}
-
-impl Conditions {
-    fn of(&self, instance: &str) -> Arc<AtomicBool> {
-        self.holds.get(instance).cloned().unwrap_or_default()
-    }
-}
-
-fn conditions<P>(robot: &Robot<P>, all: &[InstanceDescription]) -> Result<Conditions> {
-    let mut conditions = Conditions {
-        holds: BTreeMap::new(),
-        asked: BTreeMap::new(),
-    };
-    for one in all {
-        let Record::While { instance, path } = one.record else {
-            continue;
-        };
-        let holds = Arc::<AtomicBool>::default();
-        conditions.holds.insert(one.name, holds.clone());
-        if robot.left_out.contains(&instance) {
-            continue;
-        }
-        let outputs = robot.instance(instance)?.main_outputs();
-        let condition = Condition::new(outputs, path, &holds).ok_or_else(|| {
-            Error::new(format!(
-                "`{}` is recorded while `{path}` of `{instance}` is true, which writes no such output",
-                one.name
-            ))
-        })?;
-        conditions
-            .asked
-            .entry(instance)
-            .or_default()
-            .push(condition);
-    }
-    Ok(conditions)
 }
 
 fn describe(

@@ -37,8 +37,16 @@ impl Shape {
         Ok(places.into_iter().map(Place::into_inside).collect())
     }
 
-    /// Whether values may have more at a path than the type tells.
-    pub(crate) fn may_have_more_at(&self, path: &Path) -> bool {
+    /// As [`Shape::at`]; nothing where values may have more than their type tells.
+    pub(crate) fn known_at(&self, path: &Path) -> Option<Result<Self, UnknownPath>> {
+        let found = self.at(path);
+        match &found {
+            Err(unknown) if self.may_have_more_at(&path.prefix(unknown.position)) => None,
+            _ => Some(found),
+        }
+    }
+
+    fn may_have_more_at(&self, path: &Path) -> bool {
         let places = self.places(path).unwrap_or_default();
         places
             .iter()

@@ -9,7 +9,7 @@ use super::assertion::{Assertion, Condition};
 use crate::cycler::Instance;
 use crate::parameters::{Fault, Origin, ParameterError, nearest};
 use crate::recorded::shape_of;
-use crate::reflect::{Content, Form, Path, Shape, UnknownPath, VariantContent};
+use crate::reflect::{Content, Form, Shape, UnknownPath, VariantContent};
 use crate::robot::Robot;
 
 /// An assertion, counted from 0, with a path that never leads to a value, or a word that its value never is.
@@ -81,16 +81,7 @@ fn shape_of_value<P>(
     let (shape, below) = shape_of(instance, &access.subscriptions, &assertion.value)?;
     match below {
         "" => Some(Ok(shape)),
-        below => shape_below(&shape, &below.parse().ok()?),
-    }
-}
-
-/// Nothing where values may have more than their type tells.
-fn shape_below(shape: &Shape, path: &Path) -> Option<Result<Shape, UnknownPath>> {
-    let found = shape.at(path);
-    match &found {
-        Err(unknown) if shape.may_have_more_at(&path.prefix(unknown.position)) => None,
-        _ => Some(found),
+        below => shape.known_at(&below.parse().ok()?),
     }
 }
 

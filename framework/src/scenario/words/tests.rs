@@ -129,7 +129,9 @@ enum Sum {
 fn paths_that_the_type_does_not_have_are_wrong_unless_it_may_have_more() {
     let told = |shape: &Shape, path: &str| {
         let path = path.parse().expect("is a path");
-        shape_below(shape, &path).map(|found| found.err().map(|unknown| unknown.to_string()))
+        shape
+            .known_at(&path)
+            .map(|found| found.err().map(|unknown| unknown.to_string()))
     };
     let motion = Option::<Motion>::shape();
     assert_eq!(told(&motion, "walk.side"), Some(None));

@@ -144,6 +144,28 @@ fn frames_of_reflexes(tape: &Tape) -> usize {
         .count()
 }
 
+#[test]
+fn what_no_cycle_can_ask_for_is_told_before_there_is_a_file() {
+    let tape = Tape::new();
+    let zoo = Zoo::new(Clock::stepped());
+    let told = |asked: Record| {
+        let about = About::default();
+        let recording = Recording::start_with(&tape.path, &zoo.robot, about, SMALL, |_| asked);
+        let error = recording.err().map(|error| error.to_string());
+        assert!(!tape.path.exists(), "{error:?}");
+        error.unwrap_or_default()
+    };
+    let asks = |path| Record::While {
+        instance: "Control",
+        path,
+    };
+    assert!(told(asks("passed")).contains("it writes no such output; there are joints, seen"));
+    assert!(told(asks("report.bast")).contains("no `bast`"));
+    assert!(told(asks("report.best.x")).contains("that is `f32` and no `bool`"));
+    assert!(told(asks("target")).contains("and no `bool`"));
+    assert!(told(asks("plan..x")).contains("plan..x"));
+}
+
 /// Says so in its hundredth cycle for the first time.
 const WHEN_PRESSED: Record = Record::While {
     instance: "Reflexes",
