@@ -42,6 +42,8 @@ pub struct Lockstep<'robot, P> {
     ahead: Option<Arrival>,
     /// The hardware has no more events.
     world_has_ended: bool,
+    /// That is since it was told to stop, not since it waits for other robots.
+    hardware_stopped: bool,
     stopped: bool,
     chaos: Option<Chaos>,
 }
@@ -80,6 +82,7 @@ pub struct Paused {
     tracks: Vec<Track>,
     ahead: Option<Arrival>,
     world_has_ended: bool,
+    hardware_stopped: bool,
     stopped: bool,
     chaos: Option<Chaos>,
     causes: Causes,
@@ -157,6 +160,7 @@ impl<'robot, P> Lockstep<'robot, P> {
             rearm: Rearm::default(),
             ahead: None,
             world_has_ended: false,
+            hardware_stopped: false,
             stopped: false,
             chaos: None,
         }
@@ -204,6 +208,7 @@ impl<'robot, P> Lockstep<'robot, P> {
         self.tracks = paused.tracks;
         self.ahead = paused.ahead;
         self.world_has_ended = paused.world_has_ended;
+        self.hardware_stopped = paused.hardware_stopped;
         self.stopped = paused.stopped;
         self.chaos = paused.chaos;
         self.safe_state.set_causes(paused.causes);
@@ -217,6 +222,7 @@ impl<'robot, P> Lockstep<'robot, P> {
             tracks: std::mem::take(&mut self.tracks),
             ahead: self.ahead,
             world_has_ended: self.world_has_ended,
+            hardware_stopped: self.hardware_stopped,
             stopped: self.stopped,
             chaos: self.chaos.take(),
             causes: self.safe_state.take_causes(),
@@ -226,6 +232,11 @@ impl<'robot, P> Lockstep<'robot, P> {
     /// The world that had no more events may have some now, as one that waits for other robots: it is asked again.
     pub fn world_goes_on(&mut self) {
         self.world_has_ended = false;
+    }
+
+    /// Whether a node or the hardware ended the run.
+    pub(crate) fn ended_itself(&self) -> bool {
+        self.stopped || self.hardware_stopped
     }
 
     /// Gives the nodes the actuators back before the next step.
@@ -332,7 +343,9 @@ impl<'robot, P> Lockstep<'robot, P> {
         match event.and_then(|event| event.map(|event| self.arrival(event)).transpose()) {
             Ok(Some(arrival)) => self.ahead = Some(arrival),
             Ok(None) => self.world_has_ended = true,
-            Err(error) if error.is_stopped() => self.world_has_ended = true,
+            Err(error) if error.is_stopped() => {
+                (self.world_has_ended, self.hardware_stopped) = (true, true);
+            }
             Err(error) => {
                 self.stop();
                 return Err(error);

@@ -71,8 +71,7 @@ pub(crate) fn play<H: Hardware + 'static, P: Send>(
     let mut actors = Vec::new();
     let (audience, seats) = manner.audience.unzip();
     let mut seats = seats.unwrap_or_default().into_iter();
-    let watched = audience.map(|audience| watched(&audience.file));
-    let (callers, watched) = watched.unzip();
+    let (callers, watched) = audience.map(|audience| watched(&audience.file)).unzip();
     // Servers end when the robots have lived.
     let mut served = Vec::new();
     for (number, cast) in (1..).zip(casts.iter_mut()) {
@@ -90,6 +89,7 @@ pub(crate) fn play<H: Hardware + 'static, P: Send>(
         }
         hardwares.push(hardware);
         actors.push(Mutex::new(Actor {
+            is_alone: scenario.robot_count() == 1,
             lockstep,
             hardware,
             procedures,
@@ -226,6 +226,8 @@ fn seated<P>(
 
 /// A robot on its way through the scenario.
 struct Actor<'run, P> {
+    /// No other robot lives in its world.
+    is_alone: bool,
     lockstep: Lockstep<'run, P>,
     hardware: &'run dyn Hardware,
     /// What its nodes answer, by path.
@@ -243,6 +245,7 @@ impl<P: Send> Lives for Actor<'_, P> {
             return;
         }
         let Self {
+            is_alone,
             lockstep,
             hardware,
             judge,
@@ -266,8 +269,24 @@ impl<P: Send> Lives for Actor<'_, P> {
             })?;
             undigested
         });
-        *stopped = lived.err().map(|error| error.to_string());
+        *stopped = match lived {
+            Err(error) => Some(error.to_string()),
+            // There was no more to do.
+            Ok(()) if clock.now() < until => early_end(lockstep, *is_alone),
+            Ok(()) => None,
+        };
     }
+}
+
+/// Why a robot did not come as far as it was to; none that shares its world: that goes on once all have come as far as it.
+fn early_end<P>(lockstep: &Lockstep<'_, P>, is_alone: bool) -> Option<String> {
+    let what = match (lockstep.ended_itself(), is_alone) {
+        (true, _) => "it ended by itself",
+        (false, true) => "its world ended",
+        (false, false) => return None,
+    };
+    let at = (lockstep.robot().clock.now() - Timestamp::ZERO).as_secs_f64();
+    Some(format!("{what} at {at:.3} s"))
 }
 
 fn live_through<P: Send>(

@@ -38,7 +38,12 @@ pub(crate) fn written(scenario: &str) -> (TempDir, Vec<OsString>) {
 
 /// Status and outcome of a scenario of one second, in which `Legs` has data every 10 ms and the world counts the events.
 pub(crate) fn play(scenario: &str, arguments: &[&str]) -> (u8, Value) {
-    let (_folder, mut all) = written(&format!("ends = 1.0\n{scenario}"));
+    play_until("1.0", scenario, arguments)
+}
+
+/// As [`play`], of a scenario that says when it ends; the world has events for one second.
+fn play_until(ends: &str, scenario: &str, arguments: &[&str]) -> (u8, Value) {
+    let (_folder, mut all) = written(&format!("ends = {ends}\n{scenario}"));
     all.extend(arguments.iter().map(OsString::from));
     let create =
         |hardware: &Arc<ScriptedHardware>, start: Start<Parameters>| -> Result<Robot<Parameters>> {
@@ -419,6 +424,32 @@ fn several_robots_live_in_one_world_and_one_that_crashes_leaves_the_others() {
     let one = played("1");
     assert_eq!(one.0.as_array().map(Vec::len), Some(2));
     assert_eq!(played("2"), one);
+}
+
+#[test]
+fn a_robot_or_a_world_that_ends_before_the_scenario_does_not_pass() {
+    let leaves = "[[event]]\nat = 0.3\nleave = true\n";
+    let leaves_at = "[[robot]]\nleaves_at = 300\n";
+    let second_leaves = format!("[[robot]]\n{leaves_at}");
+    for (ends, rest, expected) in [
+        ("1.0", "", None),
+        // A node is told, the hardware knows, and there are no more events.
+        ("1.0", leaves, Some("it ended by itself at 0.310 s")),
+        ("1.0", leaves_at, Some("it ended by itself at 0.290 s")),
+        ("2.0", "", Some("its world ended at 1.000 s")),
+        (
+            "1.0",
+            &second_leaves,
+            Some("robot 2: it ended by itself at 0.290 s"),
+        ),
+    ] {
+        let scenario = assertion("value = 'truth.events'\nbelow = 1000") + rest;
+        let (status, outcome) = play_until(ends, &scenario, &["--record", "off"]);
+        let run = &outcome["runs"][0];
+        assert_eq!(run["assertions"][0]["passed"], true, "{outcome:#}");
+        assert_eq!(run["stopped"].as_str(), expected, "{outcome:#}");
+        assert_eq!(status == 0, expected.is_none(), "{outcome:#}");
+    }
 }
 
 #[test]

@@ -271,6 +271,11 @@ impl Hardware for ScriptedHardware {
             crashes_at.is_none_or(|at| next < millis(at)),
             "the hardware crashes as scripted"
         );
+        let leaves_at = self.entry["leaves_at"].as_u64();
+        if leaves_at.is_some_and(|at| next >= millis(at)) {
+            self.stop.request();
+            self.stop.check()?;
+        }
         let event = events.pop_front();
         self.happened
             .fetch_add(u64::from(event.is_some()), Ordering::Relaxed);
@@ -290,6 +295,10 @@ impl Hardware for ScriptedHardware {
     fn disturb(&self, deed: &toml::Table) -> Result<()> {
         if deed.contains_key("interrupt") {
             signal_hook::low_level::raise(signal_hook::consts::SIGINT)?;
+            return Ok(());
+        }
+        if deed.contains_key("leave") {
+            self.stop.request();
             return Ok(());
         }
         let jump = deed.get("jump").and_then(toml::Value::as_integer);
