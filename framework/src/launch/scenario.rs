@@ -162,7 +162,14 @@ impl Stage<'_> {
         if played.passed || is_enough {
             return Ok((played, chosen));
         }
-        let (recorded, chosen) = self.play_once(seed, true, create)?;
+        let (recorded, chosen) = match self.play_once(seed, true, create) {
+            // What was seen is true nevertheless, and so is what came of the seeds before.
+            Err(error) if !self.stop.is_requested() => {
+                tell(format_args!("seed {seed} is not recorded: {error}"));
+                return Ok((played, chosen));
+            }
+            again => again?,
+        };
         let played = Played {
             recordings: recorded.recordings,
             // The same, or that somebody ended the recording.

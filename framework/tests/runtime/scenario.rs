@@ -453,6 +453,29 @@ fn a_robot_or_a_world_that_ends_before_the_scenario_does_not_pass() {
 }
 
 #[test]
+fn what_was_seen_is_told_where_the_disk_takes_no_recording_of_it() {
+    let scenario = assertion("value = 'truth.events'\nbelow = 50");
+    let file = tempfile::NamedTempFile::new().expect("a temporary file");
+    let below_file = file.path().join("run");
+    let below_file = below_file.to_str().expect("its name is text");
+    let place = ["--run-folder", below_file];
+    let (status, outcome) = play(&scenario, &[&place[..], &["--repeat", "2"]].concat());
+    let runs = outcome["runs"].as_array().map(Vec::as_slice);
+    assert_eq!((status, runs.map(<[_]>::len)), (1, Some(2)), "{outcome:#}");
+    for run in runs.unwrap_or_default() {
+        let verdict = &run["assertions"][0];
+        assert_eq!(
+            (&verdict["passed"], &verdict["seen"]),
+            (&false.into(), &50.into())
+        );
+        assert_eq!(run["recordings"], Value::Null, "{outcome:#}");
+    }
+    // Who asks for recordings gets them, or hears why not before anything is played.
+    let (status, outcome) = play(&scenario, &[&place[..], &["--record", "on"]].concat());
+    assert_eq!((status, outcome), (1, Value::Null));
+}
+
+#[test]
 fn what_a_robot_says_while_it_is_created_is_its_own() {
     let it = assertion("value = 'truth.events'\nabove = 0\nat_end = true");
     let (_folder, mut all) = written(&format!("ends = 0.1\n{it}[[robot]]\n[[robot]]\n"));
