@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use serde::Deserialize;
-use serde_json::Value;
+use serde_json::{Number, Value};
 
 use super::file::{first, in_order, seconds, within_run};
 use crate::error::{Error, Result};
@@ -259,10 +259,83 @@ pub(super) fn distance(one: &Value, other: &Value) -> Option<f64> {
     squares.filter(|_| one.len() == other.len()).map(f64::sqrt)
 }
 
-/// `1` and `1.0` are the same number.
-fn is_same(value: &Value, other: &Value) -> bool {
-    match (value.as_f64(), other.as_f64()) {
-        (Some(value), Some(other)) => value == other,
-        _ => value == other,
+/// Whether a value is what a file has. There `1` and `1.0` are the same number, and `0.1` is the `f32` next to it, also within
+/// lists and tables.
+fn is_same(seen: &Value, wanted: &Value) -> bool {
+    match (seen, wanted) {
+        (Value::Array(seen), Value::Array(wanted)) => {
+            let mut pairs = seen.iter().zip(wanted);
+            seen.len() == wanted.len() && pairs.all(|(seen, wanted)| is_same(seen, wanted))
+        }
+        (Value::Object(seen), Value::Object(wanted)) => {
+            let mut entries = seen.iter();
+            seen.len() == wanted.len()
+                && entries.all(|(key, seen)| wanted.get(key).is_some_and(|it| is_same(seen, it)))
+        }
+        (Value::Number(seen), Value::Number(wanted)) => is_same_number(seen, wanted),
+        _ => seen == wanted,
+    }
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::float_cmp,
+    reason = "it is asked for the very number"
+)]
+fn is_same_number(seen: &Number, wanted: &Number) -> bool {
+    // Large whole numbers are no `f64`.
+    if !seen.is_f64() && !wanted.is_f64() {
+        return seen == wanted;
+    }
+    let (Some(number), Some(wanted)) = (seen.as_f64(), wanted.as_f64()) else {
+        return false;
+    };
+    let is_next = || seen.is_f64() && number == f64::from(wanted as f32);
+    number == wanted || is_next()
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::{json, to_value};
+
+    use super::*;
+
+    fn equals(seen: &Value, wanted: Value) -> bool {
+        let is_equal = Condition::Equals(&wanted).holds(seen);
+        let is_not = Condition::IsNot(&wanted).holds(seen);
+        assert_ne!(is_equal, is_not, "{seen} and {wanted}");
+        is_equal
+    }
+
+    #[test]
+    fn numbers_are_the_same_however_they_are_written_and_wherever_they_lie() {
+        assert!(equals(&json!(1.0), json!(1)));
+        assert!(equals(&json!([0.0, 0.0]), json!([0, 0])));
+        assert!(!equals(&json!([0.0, 0.0]), json!([0, 1])));
+        assert!(!equals(&json!([0.0, 0.0]), json!([0])));
+        assert!(equals(
+            &json!({ "x": 1.0, "y": [2.0] }),
+            json!({ "x": 1, "y": [2] })
+        ));
+        assert!(!equals(&json!({ "x": 1.0 }), json!({ "y": 1 })));
+        assert!(!equals(&json!({ "x": 1.0, "y": 1.0 }), json!({ "x": 1 })));
+        assert!(!equals(&json!(0.0), json!(null)));
+    }
+
+    #[test]
+    fn decimals_are_those_that_an_f32_can_have() {
+        let seen = to_value(0.1_f32).expect("it has JSON");
+        assert!(equals(&seen, json!(0.1)));
+        assert!(!equals(&seen, json!(0.100_001)));
+        assert!(equals(&json!([seen]), json!([0.1])));
+        // An f64 has more of them.
+        assert!(!equals(&json!(0.3), json!(0.300_000_001)));
+    }
+
+    #[test]
+    fn whole_numbers_are_compared_whole() {
+        assert!(!equals(&json!(16_777_216), json!(16_777_217)));
+        assert!(!equals(&json!(u64::MAX), json!(u64::MAX - 1)));
+        assert!(equals(&json!(u64::MAX), json!(u64::MAX)));
     }
 }
