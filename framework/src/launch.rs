@@ -423,8 +423,7 @@ fn layers(target: &Target, options: &Options) -> Result<Layers> {
         location: options
             .location
             .clone()
-            .or_else(|| target.location.map(str::to_owned))
-            .filter(|location| !location.is_empty()),
+            .or_else(|| target.location.map(str::to_owned)),
         identities: Vec::new(),
         environment: Layers::environment_of(std::env::vars_os())?,
         above: Vec::new(),

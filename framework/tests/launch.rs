@@ -207,6 +207,23 @@ fn identities_of_the_hardware_choose_layers_and_settings_win() {
     );
 }
 
+#[test]
+fn an_empty_location_is_none_whatever_the_directory_chooses() {
+    let directory = workspace(TEXT);
+    fs::remove_file(directory.path().join("body.17.toml")).expect("was written");
+    let choose = |text: &str| {
+        fs::write(directory.path().join("parameters.toml"), text).expect("can be written");
+    };
+    choose("location = \"lab\"\n");
+    let gain = |arguments: &[&str]| run(&directory, arguments).gain;
+    assert_eq!(gain(&["--for", "1ms"]), Some(2.0));
+    assert_eq!(gain(&["--for", "1ms", "--location", ""]), Some(1.0));
+    let wrong = directory.path().join("lab/default.toml");
+    fs::write(wrong, "gian = 2.0").expect("can be written");
+    assert_eq!(check(&directory, ""), (0, vec![]));
+    assert_eq!(check(&directory, "lab").0, 1);
+}
+
 fn check(directory: &TempDir, location: &str) -> (u8, Vec<serde_json::Value>) {
     let arguments = [
         "--check-parameters",

@@ -26,7 +26,7 @@ const ENVIRONMENT_SEPARATOR: &str = "__";
 pub struct Layers {
     /// Holds the files.
     pub directory: PathBuf,
-    /// As on the command line or of the target; else what the directory's `parameters.toml` says.
+    /// As on the command line or of the target, where an empty one is none; else what the directory's `parameters.toml` says.
     pub location: Option<String>,
     /// (name, id) in the order of the layers; none are known before the hardware is.
     pub identities: Vec<(String, String)>,
@@ -199,17 +199,18 @@ impl Layers {
         files
     }
 
-    /// As it is given, or else as the directory says.
+    /// As it is given, or else as the directory says; an empty one is none.
     pub(super) fn location(&self) -> Result<Option<String>> {
+        let is_named = |location: &String| !location.is_empty();
         if let Some(location) = &self.location {
-            return Ok(Some(location.clone()));
+            return Ok(Some(location.clone()).filter(is_named));
         }
         let path = self.choice_file();
         let text = read(&path)?;
         let choice: Option<Choice> = text
             .map(|text| from_text(&display(&path), &text))
             .transpose()?;
-        Ok(choice.and_then(|choice| choice.location))
+        Ok(choice.and_then(|choice| choice.location).filter(is_named))
     }
 
     /// A location is a folder beside the layers; a misspelt one would change nothing and tell nobody.
