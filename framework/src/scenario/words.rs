@@ -1,5 +1,5 @@
-//! What no value of an output's type has: a path below it, or a word of `equals` and `is_not`. Of what is never there,
-//! `is_not` would hold of everything and `equals` of nothing.
+//! What is never there: an instance that the robot does not have, a path that no value of an output's type has, a word of
+//! `equals` and `is_not` likewise. Of such, `is_not` would hold of everything and `equals` of nothing.
 
 use std::fmt::Display;
 
@@ -39,6 +39,9 @@ pub(crate) fn misspelt<P>(
                 assertion.value, assertion.what
             ),
         };
+        if let Some(wrong) = no_instance(robot, assertion.instance()?) {
+            return Some(told("value", &wrong));
+        }
         let shape = match shape_of_value(robot, assertion)? {
             Ok(shape) => shape,
             Err(unknown) => return Some(told("value", &format_args!("is never there: {unknown}"))),
@@ -67,6 +70,23 @@ impl Misspelt {
             message: self.message,
         }
     }
+}
+
+/// What is told of an instance that there is not; of one that does not run here nobody knows more than that.
+fn no_instance<P>(robot: &Robot<P>, name: &str) -> Option<String> {
+    let instances = robot.instances.iter();
+    let running = instances.map(|instance| instance.description().name);
+    let mut known: Vec<_> = running.chain(robot.left_out.iter().copied()).collect();
+    known.sort_unstable();
+    (!known.contains(&name)).then(|| unknown_instance(name, &known))
+}
+
+fn unknown_instance(name: &str, known: &[&str]) -> String {
+    let hint = match nearest(name, known.iter().copied()) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => format!("there are {}", known.join(", ")),
+    };
+    format!("is of no instance: there is no `{name}`; {hint}")
 }
 
 /// What is known of the type of what is looked at; an output that there is not is told when it is looked at.

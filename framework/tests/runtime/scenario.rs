@@ -204,12 +204,6 @@ fn assertions_are_judged_over_outputs_and_truth() {
             "\"there is no `truth.nothing`\"",
         ),
         (
-            "value = 'Nobody.main_outputs.raw'\nabove = 0",
-            false,
-            None,
-            "\"nothing: no cycle ended in that time\"",
-        ),
-        (
             "value = 'Legs.main_outputs.raw'\nabove = -1",
             true,
             None,

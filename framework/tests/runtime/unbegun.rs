@@ -93,6 +93,16 @@ fn a_word_that_the_type_does_not_have_is_refused_before_anything_is_played() {
 }
 
 #[test]
+fn an_instance_that_there_is_not_is_refused_before_anything_is_played() {
+    for name in ["Nobody", "Leg"] {
+        for condition in ["above = 0", "is_not = 1", "is_there = false"] {
+            let wrong = assertion(&format!("value = '{name}.main_outputs.raw'\n{condition}"));
+            assert_eq!(play(&wrong, &[]), (1, Value::Null), "{wrong}");
+        }
+    }
+}
+
+#[test]
 fn what_is_wrong_for_a_later_robot_leaves_no_recording_of_an_earlier_one() {
     let wrong = assertion("value = 'Legs.main_outputs.phase'\nequals = 'Stnad'\nrobot = 2");
     let (folder, mut all) = written(&format!("ends = 0.1\n{wrong}[[robot]]\n[[robot]]\n"));

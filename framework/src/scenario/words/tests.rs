@@ -146,3 +146,16 @@ fn paths_that_the_type_does_not_have_are_wrong_unless_it_may_have_more() {
     let opaque = Shape::leaf::<Side>(crate::reflect::Leaf::Opaque);
     assert_eq!(told(&opaque, "side"), None);
 }
+
+#[test]
+fn an_instance_that_there_is_not_is_told_with_the_nearest() {
+    let told = |name| unknown_instance(name, &["VisionTop", "Control"]);
+    assert_eq!(
+        told("Contrl"),
+        "is of no instance: there is no `Contrl`; did you mean `Control`?"
+    );
+    assert_eq!(
+        told("Nobody"),
+        "is of no instance: there is no `Nobody`; there are VisionTop, Control"
+    );
+}
