@@ -164,6 +164,7 @@ impl<N> Guarded<N> {
     ) -> Result<O> {
         // Through a place of its own: what a closure returns would be copied piece by piece.
         let mut returned = None;
+        panics::forget_caught();
         let caught = catch_unwind(AssertUnwindSafe(|| returned = Some(self.call(cycle, call))));
         returned.unwrap_or_else(|| {
             let error = panics::of_caught(caught).in_cycle(cycle.number);

@@ -8,6 +8,7 @@ use std::any::Any;
 use std::cell::{Cell, RefCell};
 use std::panic::{PanicHookInfo, set_hook, take_hook};
 use std::sync::Once;
+use std::thread::panicking;
 
 use crate::error::Error;
 use crate::guarded::OnFailure;
@@ -15,7 +16,9 @@ use crate::report::{flush, tell};
 
 thread_local! {
     static INSIDE: Cell<Option<&'static str>> = const { Cell::new(None) };
-    /// Not caught yet.
+    /// A panic that nobody is known to have caught yet.
+    static IS_OPEN: Cell<bool> = const { Cell::new(false) };
+    /// What it said.
     static LAST: RefCell<Option<String>> = const { RefCell::new(None) };
     static OF_NODE: Cell<Option<(&'static str, OnFailure)>> = const { Cell::new(None) };
 }
@@ -27,6 +30,7 @@ pub(super) struct Inside {
 
 #[inline]
 pub(super) fn enter(name: &'static str) -> Inside {
+    forget_caught();
     Inside {
         before: INSIDE.replace(Some(name)),
     }
@@ -36,6 +40,14 @@ impl Drop for Inside {
     #[inline]
     fn drop(&mut self) {
         INSIDE.set(self.before);
+    }
+}
+
+/// Where nothing unwinds, the last panic was caught by the node that it was in: it is nobody else's, nor one of two at once.
+#[inline]
+pub(super) fn forget_caught() {
+    if IS_OPEN.get() && !panicking() {
+        IS_OPEN.set(false);
     }
 }
 
@@ -52,7 +64,9 @@ pub(super) fn install_hook() {
         set_hook(Box::new(move |panic| match INSIDE.get() {
             Some(name) => {
                 let message = describe(panic);
-                if let Some(first) = LAST.replace(Some(message.clone())) {
+                let is_second = IS_OPEN.replace(true);
+                let first = LAST.replace(Some(message.clone()));
+                if let Some(first) = first.filter(|_| is_second) {
                     tell(format_args!("{name} {first}\n{name} {message}"));
                     flush();
                 }
@@ -74,7 +88,8 @@ pub(super) fn unwind_from(node: &'static str, on_failure: OnFailure) {
 pub(super) fn of_caught(caught: std::thread::Result<()>) -> Error {
     let error = match caught {
         Err(payload) => {
-            let described = LAST.take();
+            let is_open = IS_OPEN.replace(false);
+            let described = LAST.take().filter(|_| is_open);
             Error::new(described.unwrap_or_else(|| format!("panicked: {}", text(payload.as_ref()))))
         }
         Ok(()) => Error::new("ended without a result"),

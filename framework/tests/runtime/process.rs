@@ -154,6 +154,20 @@ above = 0
             &["--for", "1s"],
             &failing(OnFailure::Skip, &[Act::Fail, Act::Panic]),
         ),
+        Ok("catching by itself") => launch(
+            &["--for", "1s"],
+            &failing(
+                OnFailure::Skip,
+                &[&[Act::Catch; 10][..], &[Act::Fail]].concat(),
+            ),
+        ),
+        Ok("catching by itself where that ends the robot") => launch(
+            &["--for", "10s"],
+            &failing(
+                OnFailure::Stop,
+                &[&[Act::Catch; 10][..], &[Act::Fail]].concat(),
+            ),
+        ),
         Ok("restarting") => launch(
             &["--for", "1s"],
             &failing(OnFailure::Restart, &[Act::Panic]),
@@ -524,6 +538,15 @@ fn a_failure_is_told_once_with_its_node_and_cycle() {
                 "Legs: node `test::worker` in cycle 1: as scripted (failure 1 of this node)",
                 "Legs: node `test::worker` in cycle 2: panicked: as scripted (failure 2 of this node)",
             ][..],
+        ),
+        // What it catches itself is nobody else's, however often.
+        (
+            "catching by itself",
+            &["Legs: node `test::worker` in cycle 11: as scripted (failure 1 of this node)"],
+        ),
+        (
+            "catching by itself where that ends the robot",
+            &["error: node `test::worker` in cycle 11: Legs failed: as scripted"],
         ),
         (
             "restarting",
