@@ -310,7 +310,7 @@ fn live_through<P: Send>(
                 break;
             }
             world = match hardwares {
-                [first, _, ..] => first.advance()?,
+                [first, _, ..] => contain("Hardware::advance", || first.advance())?,
                 _ => until.min(world + stretch),
             };
             if let ControlFlow::Break(file) = pace.wait_for(world, stop)? {
@@ -320,13 +320,22 @@ fn live_through<P: Send>(
         if ensemble.all().all(|actor| actor.stopped.is_some()) {
             return Ok(End::AsWritten);
         }
+        let at = (until - Timestamp::ZERO).as_secs_f64();
+        let with_time = |error: Error| error.context(format!("at {at:.3} s"));
         let done = match deed {
-            Deed::Event(event) => hardwares[event.robot].disturb(&event.deed),
+            Deed::Event(event) => {
+                let disturb = || Ok(hardwares[event.robot].disturb(&event.deed));
+                contain("Hardware::disturb", disturb).unwrap_or_else(|panicked| {
+                    // As where it panics in the robot's life.
+                    let why = with_time(panicked).to_string();
+                    ensemble.actor(event.robot).stopped.get_or_insert(why);
+                    Ok(())
+                })
+            }
             Deed::Call(asked) => call(&ensemble.actor(asked.robot - 1).procedures, asked),
             Deed::End => Ok(()),
         };
-        let at = (until - Timestamp::ZERO).as_secs_f64();
-        done.map_err(|error| error.context(format!("at {at:.3} s")))?;
+        done.map_err(with_time)?;
     }
     Ok(End::AsWritten)
 }

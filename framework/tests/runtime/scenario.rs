@@ -447,6 +447,19 @@ fn a_robot_or_a_world_that_ends_before_the_scenario_does_not_pass() {
 }
 
 #[test]
+fn hardware_that_panics_at_an_event_is_told_with_what_was_seen_until_then() {
+    let explodes = "[[event]]\nat = 0.5\nexplode = true\n";
+    let scenario = assertion("value = 'truth.events'\nbelow = 51") + explodes;
+    let (status, outcome) = play(&scenario, &["--record", "off"]);
+    assert_eq!((status, &outcome["passed"]), (1, &false.into()));
+    let run = &outcome["runs"][0];
+    let stopped = run["stopped"].as_str().unwrap_or_default();
+    assert!(stopped.starts_with("at 0.500 s: "), "{outcome:#}");
+    assert!(stopped.contains("explodes as scripted"), "{outcome:#}");
+    assert_eq!(run["assertions"][0]["passed"], true, "{outcome:#}");
+}
+
+#[test]
 fn what_was_seen_is_told_where_the_disk_takes_no_recording_of_it() {
     let scenario = assertion("value = 'truth.events'\nbelow = 50");
     let file = tempfile::NamedTempFile::new().expect("a temporary file");

@@ -307,6 +307,7 @@ impl Hardware for ScriptedHardware {
             self.stop.request();
             return Ok(());
         }
+        assert!(!deed.contains_key("explode"), "explodes as scripted");
         let jump = deed.get("jump").and_then(toml::Value::as_integer);
         let jump = jump.ok_or_else(|| Error::new("expected `jump = NUMBER`"))?;
         self.happened
