@@ -168,6 +168,10 @@ above = 0
                 &[&[Act::Catch; 10][..], &[Act::Fail]].concat(),
             ),
         ),
+        Ok("panicking twice at once") => launch(
+            &["--for", "1s"],
+            &failing(OnFailure::Skip, &[Act::PanicTwice]),
+        ),
         Ok("restarting") => launch(
             &["--for", "1s"],
             &failing(OnFailure::Restart, &[Act::Panic]),
@@ -565,5 +569,15 @@ fn a_failure_is_told_once_with_its_node_and_cycle() {
         ),
     ] {
         assert_eq!(told(run), expected, "{run}");
+    }
+}
+
+#[test]
+fn two_panics_at_once_end_the_process_and_are_both_told() {
+    let (status, errors) = end_of("panicking twice at once", Stdio::piped());
+    assert_eq!(status.code(), None, "{status}: {errors}");
+    for text in [": as scripted", ": in between, as scripted"] {
+        let told = |line: &str| line.starts_with("Legs panicked at ") && line.ends_with(text);
+        assert!(errors.lines().any(told), "{text}: {errors}");
     }
 }

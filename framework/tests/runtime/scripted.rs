@@ -31,6 +31,16 @@ pub(crate) enum Act {
     Say(&'static str),
     /// Catches a panic of its own, as of a decoder that is not its own, and works.
     Catch,
+    /// While it panics, a part of it panics, too.
+    PanicTwice,
+}
+
+struct PanicsAgain;
+
+impl Drop for PanicsAgain {
+    fn drop(&mut self) {
+        panic!("in between, as scripted")
+    }
 }
 
 impl Act {
@@ -52,6 +62,10 @@ impl Act {
             Self::Catch => {
                 drop(std::panic::catch_unwind(|| panic!("as scripted")));
                 Ok(())
+            }
+            Self::PanicTwice => {
+                let _part = PanicsAgain;
+                panic!("as scripted")
             }
         }
     }
