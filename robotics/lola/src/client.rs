@@ -3,11 +3,12 @@
 use std::io::{ErrorKind, Read};
 use std::os::unix::net::UnixStream;
 use std::path::PathBuf;
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
 use std::time::{Duration, Instant};
 
 use framework::timing::blocking;
 use framework::{Clock, NoEvent, Result, Stop, Timestamp};
+use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use types::leds::Leds;
 use types::motor_commands::MotorCommands;
 use types::sensor_data::SensorData;
@@ -109,6 +110,31 @@ impl Client {
         }
     }
 
+    /// Takes the states that have arrived where nobody wants them, so that they do not pile up: waits for nothing, and leaves
+    /// them to whoever reads meanwhile. They are not counted. Connects anew as reading does.
+    ///
+    /// It goes on behind a stop, for whoever lets the robot down after it.
+    pub fn discard_states(&self) {
+        let mut receiver = match self.receiver.try_lock() {
+            Ok(receiver) => receiver,
+            Err(TryLockError::Poisoned(poisoned)) => poisoned.into_inner(),
+            Err(TryLockError::WouldBlock) => return,
+        };
+        if !self.is_connected(&mut receiver) {
+            if receiver.next_attempt <= Instant::now() {
+                // Tried again with a later call.
+                let _ = self.connect_anew(&mut receiver);
+            }
+            return;
+        }
+        while receiver.stream.as_ref().is_some_and(has_something) {
+            if self.receive(&mut receiver).is_err() {
+                return;
+            }
+            receiver.received %= STATE_BYTES;
+        }
+    }
+
     /// Sends one command with a single write. Without connection it is dropped and counted, so that
     /// the next read is what notices a server that went away.
     ///
@@ -125,16 +151,25 @@ impl Client {
     }
 
     fn ensure_connected(&self, receiver: &mut Receiver) -> Result<()> {
-        if receiver.stream.is_some() && !self.sender.is_broken() {
+        if self.is_connected(receiver) {
             return Ok(());
-        }
-        if receiver.stream.is_some() {
-            self.disconnect(receiver);
         }
         let left = receiver
             .next_attempt
             .saturating_duration_since(Instant::now());
         blocking(|| self.stop.wait(left))?;
+        self.connect_anew(receiver)
+    }
+
+    /// Gives a connection up over which nothing could be sent.
+    fn is_connected(&self, receiver: &mut Receiver) -> bool {
+        if receiver.stream.is_some() && self.sender.is_broken() {
+            self.disconnect(receiver);
+        }
+        receiver.stream.is_some()
+    }
+
+    fn connect_anew(&self, receiver: &mut Receiver) -> Result<()> {
         receiver.next_attempt = Instant::now() + BACK_OFF;
         match self.open() {
             Ok(stream) => {
@@ -188,6 +223,13 @@ impl Client {
         // Nothing in here is left half-changed by a panic.
         self.receiver.lock().unwrap_or_else(PoisonError::into_inner)
     }
+}
+
+/// Whether reading would not wait.
+fn has_something(stream: &UnixStream) -> bool {
+    let mut polled = [PollFd::new(stream, PollFlags::IN)];
+    // Where a signal interrupts it, there is a later call.
+    poll(&mut polled, Some(&Timespec::default())).is_ok_and(|count| count > 0)
 }
 
 fn is_timeout(kind: ErrorKind) -> bool {

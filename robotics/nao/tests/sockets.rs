@@ -238,6 +238,44 @@ fn in_safe_state_the_hardware_lets_the_robot_down_and_reads_what_nobody_reads() 
 }
 
 #[test]
+fn behind_a_stop_the_robot_is_let_down_at_lolas_pace_and_no_state_stays_unread() {
+    let lola = OwnLola::new();
+    let stop = Stop::new();
+    let (hardware, mut stream) = lola.connect(&stop);
+    stream.set_write_timeout(Some(PATIENCE)).unwrap();
+    let motors = MotorCommands::holding(Joints::filled(0.2), 0.8);
+    hardware.write_command(&motors, &Leds::default()).unwrap();
+    let begun = Instant::now();
+    // As the driver does it: who reads is gone before the robot lies.
+    stop.request();
+    hardware.enter_safe_state();
+    hardware.stop();
+    let mut bytes = [0; lola::COMMAND_BYTES];
+    let mut stiffness_of = |stream: &mut UnixStream| {
+        stream.read_exact(&mut bytes).ok()?;
+        let mut command = Command::default();
+        lola::command::decode(&bytes, &mut command).unwrap();
+        Some(command.motors.stiffnesses)
+    };
+    // More states than a socket holds: where they stayed, this would end by the timeout.
+    let mut stiffnesses: Vec<_> = (0..300)
+        .map(|_| {
+            stream.write_all(&lola.state).unwrap();
+            stiffness_of(&mut stream).unwrap()
+        })
+        .collect();
+    drop(hardware);
+    stiffnesses.extend(std::iter::from_fn(|| stiffness_of(&mut stream)));
+    let most = begun.elapsed().as_millis() / 12 + 2;
+    assert!(
+        (stiffnesses.len() as u128) <= most,
+        "{} commands, at most {most}",
+        stiffnesses.len()
+    );
+    assert_eq!(stiffnesses.last(), Some(&Joints::filled(0.0)));
+}
+
+#[test]
 fn without_sound_there_is_silence_and_no_error() {
     let lola = OwnLola::new();
     let stop = Stop::new();

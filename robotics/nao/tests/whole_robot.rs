@@ -12,6 +12,7 @@ use nao::Hardware;
 use nao_runtime::runtime;
 use simulated_nao::Simulator;
 use simulated_nao::settings::{PhysicsChoice, Settings};
+use types::joints::Joints;
 
 /// A busy machine may take so long for anything.
 const PATIENCE: Duration = Duration::from_secs(120);
@@ -53,6 +54,14 @@ fn the_robot_stands_up_on_another_process_body() {
         stands
     });
     assert!(stands, "{:?}", simulator.ground_truth().torso_to_field);
+    drop((robot, hardware));
+    let begun = Instant::now();
+    let stiffnesses = || simulator.ground_truth().commands.stiffnesses;
+    while stiffnesses() != Joints::filled(0.0) && begun.elapsed() < PATIENCE {
+        std::thread::sleep(Duration::from_millis(50));
+    }
+    assert_eq!(stiffnesses(), Joints::filled(0.0), "it was let down");
+    assert_eq!(simulator.dropped_clients(), 0);
     let exchange = simulator.exchange();
     assert_eq!(exchange.rejected, 0, "{exchange:?}");
     assert_eq!(simulator.ground_truth().harmful_commands, 0);

@@ -225,6 +225,43 @@ fn a_server_that_comes_back_is_found_again_after_a_second() {
 }
 
 #[test]
+fn of_states_that_are_discarded_the_last_may_be_half_there() {
+    let server = Server::new();
+    let client = server.client();
+    client.discard_states();
+    let mut stream = server.accept();
+    stream
+        .write_all(&packet().repeat(3)[..STATE_BYTES * 5 / 2])
+        .unwrap();
+    client.discard_states();
+    stream.write_all(&packet()[STATE_BYTES / 2..]).unwrap();
+    assert_eq!(client.read_state().unwrap().1, sample_state());
+    assert!(client.read_state().unwrap_err().is_no_event());
+    let counts = client.counts();
+    assert_eq!((counts.states, counts.rejected), (1, 0));
+}
+
+#[test]
+fn who_discards_states_behind_a_stop_finds_a_server_again() {
+    let server = Server::new();
+    let stop = Stop::new();
+    let client = Client::connect(&server.path, Clock::wall(), stop.clone());
+    client.discard_states();
+    drop(server.accept());
+    stop.request();
+    let begun = Instant::now();
+    while client.counts().connections < 2 {
+        client.discard_states();
+        assert!(begun.elapsed() < BUSY);
+        thread::sleep(Duration::from_millis(12));
+    }
+    client
+        .write_command(&MotorCommands::default(), &Leds::default())
+        .unwrap();
+    assert_eq!(client.counts().commands, 1);
+}
+
+#[test]
 fn commands_without_a_server_are_counted_and_no_error() {
     let client = Client::connect("/nonexistent/robocup", Clock::wall(), Stop::new());
     client
