@@ -150,6 +150,8 @@ impl Device {
         while filled < self.samples.len() {
             stop.check()?;
             if clock.now() - begun > SILENCE {
+                // Opened anew it may hear again.
+                self.recording = None;
                 return Err(NoEvent(format!("microphones {}: nothing comes", self.name)).into());
             }
             let rest = &mut self.samples[filled..];
@@ -163,8 +165,10 @@ impl Device {
                 }
             }
         }
+        let unread = self.recording.as_mut().map_or(0, Recording::unread);
+        let at = before(clock.now(), unread);
         fill(block, SAMPLE_RATE, self.samples.iter().copied());
-        Ok(clock.now())
+        Ok(at)
     }
 
     /// How many samples of each channel came within [`PATIENCE`].
@@ -180,6 +184,12 @@ impl Device {
         };
         recording.read(samples, PATIENCE)
     }
+}
+
+/// When the last sample was taken in front of so many that have come since: a device gives several blocks at once.
+fn before(now: Timestamp, unread: usize) -> Timestamp {
+    let age = unread as u64 * 1_000_000_000 / u64::from(SAMPLE_RATE);
+    Timestamp::from_nanos(now.as_nanos().saturating_sub(age))
 }
 
 /// Takes interleaved samples apart.
@@ -272,18 +282,31 @@ mod tests {
             ..Settings::default()
         };
         let (clock, stop) = (Clock::wall(), Stop::new());
+        // So long ago may be what is heard first.
+        std::thread::sleep(Duration::from_millis(300));
         let (microphones, speaker) = open(&settings, &clock, &stop).unwrap();
-        let (_, block) = microphones.read().unwrap();
+        let (mut last, block) = microphones.read().unwrap();
         assert_eq!(block.sample_rate, 44_100);
         for (channel, samples) in block.channels.iter().enumerate() {
             assert_eq!(samples.len(), BLOCK_LENGTH);
             // The library's ramp: the number of the sample, and its channel as a fraction.
             assert_eq!(samples[5], 5.0 + channel as f32 / 8.0);
         }
-        // It has an overrun once, and then is unplugged once.
+        drop(block);
+        // They were given in one burst, and taken one after the other.
+        for _ in 0..4 {
+            let (at, _) = microphones.read().unwrap();
+            assert!(at - last >= Duration::from_micros(46_400), "{last} {at}");
+            last = at;
+        }
+        assert!(last <= clock.now());
+        // It has an overrun once, then is unplugged once, and falls silent once.
         microphones.read().unwrap();
         let error = microphones.read().unwrap_err();
         assert!(error.to_string().contains("No such device"), "{error}");
+        microphones.read().unwrap();
+        let error = microphones.read().unwrap_err();
+        assert!(error.to_string().contains("nothing comes"), "{error}");
         microphones.read().unwrap();
         speaker.play(Tone {
             frequency: 1000.0,

@@ -22,25 +22,41 @@ const CAPTURE: c_int = 1;
 const FLOAT: c_int = 14;
 /// SND_PCM_ACCESS_RW_INTERLEAVED.
 const INTERLEAVED: c_int = 3;
+/// SND_PCM_STATE_PREPARED.
+const PREPARED: c_int = 2;
 /// How much sound the device keeps, in µs: a second, so that nothing is lost while the machine is busy.
 const LATENCY: c_uint = 1_000_000;
+/// How often a device that records gives what it has, in µs: twice per block of 2048 samples at 44.1 kHz. Asked for a latency
+/// alone, ALSA would take a fourth of it.
+const PERIOD: c_uint = 23_220;
 
 type Open = unsafe extern "C" fn(*mut *mut c_void, *const c_char, c_int, c_int) -> c_int;
 type SetParameters =
     unsafe extern "C" fn(*mut c_void, c_int, c_int, c_uint, c_uint, c_int, c_uint) -> c_int;
+type Allocate = unsafe extern "C" fn(*mut *mut c_void) -> c_int;
+type Free = unsafe extern "C" fn(*mut c_void);
+type WithDevice = unsafe extern "C" fn(*mut c_void, *mut c_void) -> c_int;
+type ChooseKind = unsafe extern "C" fn(*mut c_void, *mut c_void, c_int) -> c_int;
+type ChooseNumber = unsafe extern "C" fn(*mut c_void, *mut c_void, c_uint) -> c_int;
+type ChooseExactly = unsafe extern "C" fn(*mut c_void, *mut c_void, c_uint, c_int) -> c_int;
+type ChooseNear = unsafe extern "C" fn(*mut c_void, *mut c_void, *mut c_uint, *mut c_int) -> c_int;
 type Read = unsafe extern "C" fn(*mut c_void, *mut c_void, c_ulong) -> c_long;
 type Write = unsafe extern "C" fn(*mut c_void, *const c_void, c_ulong) -> c_long;
 type Recover = unsafe extern "C" fn(*mut c_void, c_int, c_int) -> c_int;
 type Wait = unsafe extern "C" fn(*mut c_void, c_int) -> c_int;
 type Simple = unsafe extern "C" fn(*mut c_void) -> c_int;
+type Count = unsafe extern "C" fn(*mut c_void) -> c_long;
 type Describe = unsafe extern "C" fn(c_int) -> *const c_char;
 
 /// The library. Invariant: its functions are not called once `library` is gone, which every [`Pcm`] keeps.
 pub(super) struct Library {
     open: Open,
     set_parameters: SetParameters,
+    choices: Choices,
+    state: Simple,
     start: Simple,
     wait: Wait,
+    available: Count,
     read: Read,
     write: Write,
     recover: Recover,
@@ -49,6 +65,21 @@ pub(super) struct Library {
     describe: Describe,
     /// Keeps the functions where they are.
     _library: libloading::Library,
+}
+
+/// What chooses how a device records, one by one.
+struct Choices {
+    allocate: Allocate,
+    free: Free,
+    any: WithDevice,
+    resampling: ChooseNumber,
+    access: ChooseKind,
+    format: ChooseKind,
+    channels: ChooseNumber,
+    rate: ChooseExactly,
+    period: ChooseNear,
+    buffer: ChooseNear,
+    apply: WithDevice,
 }
 
 /// A device that is open. ALSA's handles may go from thread to thread, one at a time.
@@ -96,8 +127,23 @@ impl Library {
         Ok(Self {
             open: function!(b"snd_pcm_open\0", Open),
             set_parameters: function!(b"snd_pcm_set_params\0", SetParameters),
+            choices: Choices {
+                allocate: function!(b"snd_pcm_hw_params_malloc\0", Allocate),
+                free: function!(b"snd_pcm_hw_params_free\0", Free),
+                any: function!(b"snd_pcm_hw_params_any\0", WithDevice),
+                resampling: function!(b"snd_pcm_hw_params_set_rate_resample\0", ChooseNumber),
+                access: function!(b"snd_pcm_hw_params_set_access\0", ChooseKind),
+                format: function!(b"snd_pcm_hw_params_set_format\0", ChooseKind),
+                channels: function!(b"snd_pcm_hw_params_set_channels\0", ChooseNumber),
+                rate: function!(b"snd_pcm_hw_params_set_rate\0", ChooseExactly),
+                period: function!(b"snd_pcm_hw_params_set_period_time_near\0", ChooseNear),
+                buffer: function!(b"snd_pcm_hw_params_set_buffer_time_near\0", ChooseNear),
+                apply: function!(b"snd_pcm_hw_params\0", WithDevice),
+            },
+            state: function!(b"snd_pcm_state\0", Simple),
             start: function!(b"snd_pcm_start\0", Simple),
             wait: function!(b"snd_pcm_wait\0", Wait),
+            available: function!(b"snd_pcm_avail\0", Count),
             read: function!(b"snd_pcm_readi\0", Read),
             write: function!(b"snd_pcm_writei\0", Write),
             recover: function!(b"snd_pcm_recover\0", Recover),
@@ -118,7 +164,8 @@ impl Library {
         channels: usize,
         rate: u32,
     ) -> Result<Recording> {
-        let pcm = self.open(device, CAPTURE, channels, rate)?;
+        let pcm = self.open(device, CAPTURE, channels)?;
+        self.choose(&pcm, rate)?;
         // SAFETY: the handle is open.
         let started = unsafe { (self.start)(pcm.handle.as_ptr()) };
         self.check(c_long::from(started))?;
@@ -135,32 +182,12 @@ impl Library {
         channels: usize,
         rate: u32,
     ) -> Result<Playing> {
-        self.open(device, PLAYBACK, channels, rate).map(Playing)
-    }
-
-    fn open(
-        self: &Arc<Self>,
-        device: &str,
-        direction: c_int,
-        channels: usize,
-        rate: u32,
-    ) -> Result<Pcm> {
-        let name = CString::new(device)?;
-        let mut handle = std::ptr::null_mut();
-        // SAFETY: `handle` can be written, `name` ends with a zero; both live until after the call.
-        let opened = unsafe { (self.open)(&raw mut handle, name.as_ptr(), direction, 0) };
-        self.check(c_long::from(opened))?;
-        let handle = NonNull::new(handle).ok_or_else(|| Error::new("ALSA gave no handle"))?;
-        let pcm = Pcm {
-            handle,
-            channels,
-            library: Arc::clone(self),
-        };
+        let pcm = self.open(device, PLAYBACK, channels)?;
         let may_resample = 1;
         // SAFETY: the handle is open.
         let set = unsafe {
             (self.set_parameters)(
-                handle.as_ptr(),
+                pcm.handle.as_ptr(),
                 FLOAT,
                 INTERLEAVED,
                 channels as c_uint,
@@ -170,7 +197,77 @@ impl Library {
             )
         };
         self.check(c_long::from(set))?;
-        Ok(pcm)
+        Ok(Playing(pcm))
+    }
+
+    fn open(self: &Arc<Self>, device: &str, direction: c_int, channels: usize) -> Result<Pcm> {
+        let name = CString::new(device)?;
+        let mut handle = std::ptr::null_mut();
+        // SAFETY: `handle` can be written, `name` ends with a zero; both live until after the call.
+        let opened = unsafe { (self.open)(&raw mut handle, name.as_ptr(), direction, 0) };
+        self.check(c_long::from(opened))?;
+        let handle = NonNull::new(handle).ok_or_else(|| Error::new("ALSA gave no handle"))?;
+        Ok(Pcm {
+            handle,
+            channels,
+            library: Arc::clone(self),
+        })
+    }
+
+    /// Interleaved floats at this rate, as often as [`PERIOD`] says; which times these become is the device's.
+    fn choose(&self, pcm: &Pcm, rate: u32) -> Result<()> {
+        let mut parameters = std::ptr::null_mut();
+        // SAFETY: `parameters` can be written.
+        let allocated = unsafe { (self.choices.allocate)(&raw mut parameters) };
+        self.check(c_long::from(allocated))?;
+        let chosen = self.choose_in(parameters, pcm, rate);
+        // SAFETY: they were allocated above, and nobody uses them after this.
+        unsafe { (self.choices.free)(parameters) };
+        chosen
+    }
+
+    fn choose_in(&self, parameters: *mut c_void, pcm: &Pcm, rate: u32) -> Result<()> {
+        let Choices {
+            any,
+            resampling,
+            access,
+            format,
+            channels,
+            rate: exactly,
+            period,
+            buffer,
+            apply,
+            ..
+        } = self.choices;
+        let handle = pcm.handle.as_ptr();
+        let is_allowed = 1;
+        let (mut every, mut kept, mut direction) = (PERIOD, LATENCY, 0);
+        let check = |answer: c_int| self.check(c_long::from(answer));
+        // SAFETY: the handle is open, `parameters` are allocated, and `any` gives them their first values; what is pointed to
+        // can be written and lives until after the calls.
+        unsafe {
+            check(any(handle, parameters))?;
+            check(resampling(handle, parameters, is_allowed))?;
+            check(access(handle, parameters, INTERLEAVED))?;
+            check(format(handle, parameters, FLOAT))?;
+            check(channels(handle, parameters, pcm.channels as c_uint))?;
+            check(exactly(handle, parameters, rate, 0))?;
+            check(period(
+                handle,
+                parameters,
+                &raw mut every,
+                &raw mut direction,
+            ))?;
+            direction = 0;
+            check(buffer(
+                handle,
+                parameters,
+                &raw mut kept,
+                &raw mut direction,
+            ))?;
+            check(apply(handle, parameters))?;
+        }
+        Ok(())
     }
 
     /// A count, or what ALSA says.
@@ -209,17 +306,32 @@ impl Recording {
         // SAFETY: the handle is open.
         let waited = unsafe { (pcm.library.wait)(pcm.handle.as_ptr(), milliseconds) };
         if waited <= 0 {
-            return pcm.count(c_long::from(waited));
+            return self.count(c_long::from(waited));
         }
         let frames = (samples.len() / pcm.channels) as c_ulong;
         // SAFETY: the handle is open and was set to interleaved floats of so many channels: at most `frames` times that
         // many are written, which `samples` has.
         let read =
             unsafe { (pcm.library.read)(pcm.handle.as_ptr(), samples.as_mut_ptr().cast(), frames) };
-        let count = pcm.count(read)?;
-        if count == 0 && read < 0 {
-            // After an overrun a device that records has to be started anew.
-            // SAFETY: the handle is open.
+        self.count(read)
+    }
+
+    /// How many samples of each channel have come since those that were read last.
+    pub(super) fn unread(&mut self) -> usize {
+        let pcm = &mut self.0;
+        // SAFETY: the handle is open.
+        let available = unsafe { (pcm.library.available)(pcm.handle.as_ptr()) };
+        // Whatever is wrong with the device, the next read finds it.
+        usize::try_from(available).unwrap_or(0)
+    }
+
+    /// As [`Pcm::count`]. What ALSA has mended is ready and hears nothing before it is started; after a suspend it may run already.
+    fn count(&mut self, answer: c_long) -> Result<usize> {
+        let pcm = &mut self.0;
+        let count = pcm.count(answer)?;
+        // SAFETY: the handle is open.
+        if answer < 0 && unsafe { (pcm.library.state)(pcm.handle.as_ptr()) } == PREPARED {
+            // SAFETY: as above.
             let started = unsafe { (pcm.library.start)(pcm.handle.as_ptr()) };
             pcm.library.check(c_long::from(started))?;
         }
