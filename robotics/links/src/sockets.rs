@@ -23,7 +23,7 @@ const PATIENCE: Duration = Duration::from_millis(50);
 pub struct Ports<'a> {
     /// The parameters that say so, for messages: `hardware.nao.network`.
     pub table: &'a str,
-    /// To which of this machine's networks it listens; 0.0.0.0: all.
+    /// At which of this machine's addresses it listens; 0.0.0.0: all, and the only one that hears broadcasts.
     pub address: Ipv4Addr,
     /// Where the referee's computer speaks to it.
     pub control: u16,

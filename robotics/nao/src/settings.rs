@@ -116,7 +116,8 @@ pub enum Speaker {
 #[derive(Clone, Copy, Debug, Deserialize, Eq, PartialEq)]
 #[serde(default, deny_unknown_fields)]
 pub struct NetworkSettings {
-    /// To which of the robot's networks it listens; 0.0.0.0: all.
+    /// Where it listens; 0.0.0.0: everywhere, 127.0.0.1: on this machine alone. A socket of another address would hear nothing
+    /// that is sent to everybody, as referee and team do.
     pub address: Ipv4Addr,
     /// Where it hears the referee's computer: 3838.
     pub control_port: u16,
@@ -194,10 +195,11 @@ impl Settings {
     /// The parameters, and then the command line.
     ///
     /// # Errors
-    /// Names the key or the option that cannot be understood.
+    /// Names the key or the option that cannot be understood, or the address at which the robot would be deaf.
     pub fn of(context: &HardwareContext) -> Result<Self> {
         let mut settings: Self = context.parameters()?;
         settings.apply(&context.options)?;
+        settings.network.check()?;
         Ok(settings)
     }
 
@@ -263,6 +265,20 @@ impl NetworkSettings {
     /// Where they stand among the parameters.
     pub(crate) const TABLE: &'static str = "hardware.nao.network";
 
+    /// Linux gives broadcasts to sockets of every address alone, and says nothing about it.
+    fn check(&self) -> Result<()> {
+        let address = self.address;
+        if address.is_unspecified() || address.is_loopback() {
+            return Ok(());
+        }
+        Err(Error::new(format!(
+            "broadcasts do not reach a socket at {address} ({}.address), so that the robot would hear neither referee nor \
+             team; write \"0.0.0.0\", and choose its network by {}.broadcast",
+            Self::TABLE,
+            Self::TABLE
+        )))
+    }
+
     /// Free ports, and nobody beyond this machine.
     fn stay_here(&mut self) {
         *self = Self {
@@ -316,6 +332,31 @@ mod tests {
             "as the team's number says"
         );
         assert_eq!(settings.lola, Path::new("/tmp/robocup"));
+    }
+
+    #[test]
+    fn an_address_that_no_broadcast_reaches_is_refused() {
+        let of = |address: &str, options: &[&str]| {
+            let table = format!("network = {{ address = \"{address}\" }}");
+            Settings::of(&HardwareContext {
+                options: options.iter().map(|&option| option.to_owned()).collect(),
+                table: toml::from_str(&table).unwrap(),
+                run_folder: PathBuf::new(),
+                clock: framework::Clock::wall(),
+                stop: framework::Stop::new(),
+            })
+        };
+        for address in ["10.0.24.22", "10.0.255.255"] {
+            let message = of(address, &[]).unwrap_err().to_string();
+            assert!(message.contains(address), "{message}");
+            assert!(
+                message.contains("hardware.nao.network.address"),
+                "{message}"
+            );
+        }
+        of("0.0.0.0", &[]).unwrap();
+        of("127.0.0.1", &[]).unwrap();
+        of("10.0.24.22", &["--free-ports"]).unwrap();
     }
 
     #[test]
