@@ -1,11 +1,15 @@
 //! The command line of the tool.
 
-use std::path::PathBuf;
+use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
+use std::path::{Path, PathBuf};
 
 use framework::{Error, Result};
 use kinematics::cameras::optical_to_camera;
 use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 use types::camera::CameraPosition;
+
+use super::file;
 
 /// What is wanted.
 #[derive(Debug, PartialEq)]
@@ -22,7 +26,7 @@ pub(super) struct Arguments {
 
 impl Arguments {
     /// # Errors
-    /// Names the option that is unknown, missing or cannot be read.
+    /// Names the option that is unknown, missing or cannot be read, and images whose overlays would be one file.
     pub(super) fn read(options: &[String]) -> Result<Self> {
         let mut camera_to_ground = None;
         let mut arguments = Self {
@@ -60,8 +64,32 @@ impl Arguments {
         if arguments.images.is_empty() {
             return Err(Error::new("`vision` needs an image"));
         }
+        if let Some(folder) = &arguments.overlay {
+            check_names(&arguments.images, folder)?;
+        }
         Ok(arguments)
     }
+}
+
+/// The images with their overlays: of two with one name the later would be written over the other.
+fn check_names(images: &[PathBuf], folder: &Path) -> Result<()> {
+    let mut overlays = BTreeMap::new();
+    for image in images {
+        let overlay = file::overlay_of(folder, image);
+        match overlays.entry(overlay) {
+            Entry::Vacant(entry) => _ = entry.insert(image),
+            Entry::Occupied(entry) => {
+                return Err(Error::new(format!(
+                    "the overlays of `{}` and `{}` would both be `{}`; look at them one after the other, each with a folder \
+                     of its own behind `--overlay`",
+                    entry.get().display(),
+                    image.display(),
+                    entry.key().display()
+                )));
+            }
+        }
+    }
+    Ok(())
 }
 
 fn instance(name: &str) -> Result<(&'static str, CameraPosition)> {
@@ -128,6 +156,23 @@ mod tests {
         assert_eq!(arguments.camera, CameraPosition::Bottom);
         let whole = read("--camera-pose 0,0,0.5,0,0.3,0 a.png").unwrap();
         assert_eq!(whole.camera_to_ground, arguments.camera_to_ground);
+    }
+
+    #[test]
+    fn images_with_one_name_are_refused_where_their_overlays_would_be_one_file() {
+        let line = "--camera-pose 0.5,0.3 half1/0001.png half1/0002.png half2/0001.png";
+        read(line).unwrap();
+        let message = read(&format!("{line} --overlay seen"))
+            .unwrap_err()
+            .to_string();
+        for part in [
+            "`half1/0001.png`",
+            "`half2/0001.png`",
+            "`seen/0001.seen.png`",
+        ] {
+            assert!(message.contains(part), "{message}");
+        }
+        read("--camera-pose 0.5,0.3 half1/0001.png half1/0002.png --overlay seen").unwrap();
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use std::fs::File;
 use std::io::{BufReader, BufWriter};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use framework::{Error, Result};
 use png::{BitDepth, ColorType, Decoder, Encoder, Limits, Transformations};
@@ -81,13 +81,18 @@ fn decode(path: &Path, is_ycbcr: bool) -> Result<YuyvImage> {
     Ok(image)
 }
 
-/// Writes `<name>.seen.png` into a folder, which is made if it is not there.
+/// Where the overlay of a photograph stands.
+pub(super) fn overlay_of(folder: &Path, photograph: &Path) -> PathBuf {
+    let name = photograph.file_stem().unwrap_or_default();
+    folder.join(format!("{}.seen.png", name.to_string_lossy()))
+}
+
+/// Writes a photograph's overlay into a folder, which is made if it is not there.
 ///
 /// # Errors
 /// Where that cannot be written.
 pub(super) fn write(folder: &Path, photograph: &Path, image: &Rgb) -> Result<()> {
-    let name = photograph.file_stem().unwrap_or_default();
-    let path = folder.join(format!("{}.seen.png", name.to_string_lossy()));
+    let path = overlay_of(folder, photograph);
     let written = std::fs::create_dir_all(folder)
         .map_err(Error::from)
         .and_then(|()| {
