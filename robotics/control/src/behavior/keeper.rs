@@ -15,26 +15,31 @@ pub(super) fn guard(view: &View<'_>, ball: &Ball) -> Decision {
     if let Some(block) = block(view, ball) {
         return block;
     }
-    match is_near_goal(view, view.memory.activity.plays_ball()) {
+    let keeper = &view.parameters.keeper;
+    // Farther off it goes on where it has begun to.
+    let has_begun = view.memory.activity.plays_ball();
+    let patience = if has_begun { keeper.patience } else { 1.0 };
+    match is_near_goal(view, patience * keeper.clears) {
         true => attack(view, ball.position),
         false => hold(view, Role::Keeper),
     }
 }
 
-/// Whether the ball lies so near to the goal that the keeper plays it away; farther off it goes on where it has begun to.
-fn is_near_goal(view: &View<'_>, has_begun: bool) -> bool {
-    let (places, keeper) = (&view.parameters.places, &view.parameters.keeper);
-    let patience = if has_begun { keeper.patience } else { 1.0 };
+/// Whether the ball lies nearer to the middle of the own goal than so many m.
+fn is_near_goal(view: &View<'_>, reach: f32) -> bool {
+    let goal = view.parameters.places.own_goal();
     view.ball_on_field()
-        .is_some_and(|ball| (ball - places.own_goal()).norm() < patience * keeper.clears)
+        .is_some_and(|ball| (ball - goal).norm() < reach)
 }
 
 /// Whether a keeper plays the ball: one that stands there, and that said that it knows the ball.
+///
+/// Only where it does so whatever it did before, and also where it believes the ball to be a little farther off: a ball that
+/// both play is better than one that each leaves to the other.
 pub(super) fn leaves_it_to_keeper(view: &View<'_>) -> bool {
     let (places, keeper) = (&view.parameters.places, &view.parameters.keeper);
-    let stays_away = view.memory.activity == Activity::KeepDistance;
     let mut teammates = view.world.teammates.iter();
-    is_near_goal(view, stays_away)
+    is_near_goal(view, keeper.clears / keeper.patience)
         && teammates.any(|teammate| {
             let message = &teammate.message;
             let is_at_goal = message.ground_to_field.is_some_and(|pose| {
@@ -167,24 +172,61 @@ mod tests {
     }
 
     #[test]
-    fn of_keeper_and_striker_one_plays_the_ball_and_goes_on_a_little_further() {
+    fn the_keeper_goes_on_a_little_further_and_the_striker_leaves_it_what_is_surely_the_keepers() {
         use Activity::{GuardGoal, KeepDistance, WalkBehindBall};
         for (role, from_goal, before, activity) in [
             (Role::Keeper, 1.1, GuardGoal, WalkBehindBall),
             (Role::Keeper, 1.3, GuardGoal, GuardGoal),
             (Role::Keeper, 1.3, Activity::Dribble, WalkBehindBall),
             (Role::Keeper, 1.6, Activity::Dribble, GuardGoal),
-            (Role::Striker, 1.1, WalkBehindBall, KeepDistance),
-            (Role::Striker, 1.3, WalkBehindBall, WalkBehindBall),
-            (Role::Striker, 1.3, KeepDistance, KeepDistance),
+            (Role::Striker, 0.9, WalkBehindBall, KeepDistance),
+            (Role::Striker, 1.1, WalkBehindBall, WalkBehindBall),
+            (Role::Striker, 1.1, KeepDistance, WalkBehindBall),
         ] {
-            let mut scene = Scene::at(-2.5, 0.0, 0.0).with_ball(from_goal - 2.0, 0.0);
-            scene.world.role = Some(role);
-            scene.world.teammates = vec![keeper(true)];
-            scene.did(before);
-            let decided = scene.view(play).activity;
+            let decided = near_goal(&mut with_keeper(role), from_goal, before);
             assert_eq!(decided, activity, "{role:?} {from_goal} after {before:?}");
         }
+    }
+
+    #[test]
+    fn no_ball_is_left_by_keeper_and_striker_to_each_other() {
+        use Activity::{BackOff, Block, Catch, Dribble, GuardGoal, KeepDistance, WalkBehindBall};
+        let (mut keeper, mut striker) = (with_keeper(Role::Keeper), with_keeper(Role::Striker));
+        // They believe it up to 0.2 m apart, and have done anything before.
+        let did = [GuardGoal, Block, Catch, BackOff, Dribble]
+            .into_iter()
+            .flat_map(|keeper| [WalkBehindBall, KeepDistance].map(|striker| (keeper, striker)));
+        for (keeper_did, striker_did) in did {
+            for centimetres in 50..=200 {
+                let from_goal = 0.01 * centimetres as f32;
+                let striker_does = near_goal(&mut striker, from_goal, striker_did);
+                for apart in [0.0, 0.2] {
+                    let keeper_does = near_goal(&mut keeper, from_goal + apart, keeper_did);
+                    assert!(
+                        keeper_does.plays_ball() || striker_does.plays_ball(),
+                        "{from_goal} m: {keeper_does:?} after {keeper_did:?}, {striker_does:?} after {striker_did:?}"
+                    );
+                }
+            }
+        }
+    }
+
+    /// With a mate in the goal.
+    fn with_keeper(role: Role) -> Scene {
+        let mut scene = Scene::at(-2.5, 0.0, 0.0);
+        scene.world.role = Some(role);
+        scene.world.teammates = vec![keeper(true)];
+        scene
+    }
+
+    /// What is done about a ball that lies so far before the goal, m.
+    fn near_goal(scene: &mut Scene, from_goal: f32, before: Activity) -> Activity {
+        scene.world.ball = Some(Ball {
+            position: Point2::new(from_goal - 2.0, 0.0),
+            ..Ball::default()
+        });
+        scene.did(before);
+        scene.view(play).activity
     }
 
     #[test]

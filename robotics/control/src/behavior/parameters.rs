@@ -257,7 +257,8 @@ pub struct KeeperParameters {
     /// A ball that is nearer to the goal's middle is played away.
     #[reflect(unit = "m", range = 0.0..)]
     pub clears: f32,
-    /// Who has begun to does so up to so many times as far.
+    /// Who has begun to does so up to so many times as far; as many times nearer it has to be that a striker leaves it alone.
+    #[reflect(range = 1.0..)]
     pub patience: f32,
     /// A ball that comes faster is stepped into the way of.
     #[reflect(unit = "m/s", range = 0.0..)]
