@@ -105,7 +105,7 @@ pub struct Parameters {
     pub sonar_filter: SonarFilter,
     pub stand: Stand,
     pub support_foot_filter: SupportFootFilter,
-    /// control::team_ball_filter
+    /// control::team_ball_filter, control::team_message_filter
     pub team_ball_filter: TeamBallParameters,
     pub team_message_filter: TeamMessageFilter,
     pub team_message_sender: TeamMessageSender,

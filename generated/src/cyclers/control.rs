@@ -1409,6 +1409,7 @@ impl Nodes {
             rhythm: &frame.parameters.team_rhythm,
             markings: &frame.parameters.field_dimensions.markings,
             carpet: &frame.parameters.team_message_filter.carpet,
+            oldest_ball: &frame.parameters.team_ball_filter.oldest,
             teammates: &mut frame.own.teammates,
         };
         self.team_message_filter.call(&frame.cycle, |node| node.cycle(context))?;

@@ -2,7 +2,8 @@
 //!
 //! What this robot said itself is no message: `team_message_parser` leaves it out. Whom the referee has taken out plays no
 //! part for its team, whatever it said before or says from beside the field. Who says that it stands where there is no carpet
-//! does not know where it is, and a ball that would lie there is none.
+//! does not know where it is, and a ball that would lie there is none. Nor is one that it saw long ago, before or after it said
+//! so: where the team has to talk less a mate is remembered for longer than what it knew of the ball.
 
 use framework::{
     CycleTime, Input, MainOutput, Parameter, PerceptionInput, Result, RollBack, Timestamp, context,
@@ -43,6 +44,8 @@ pub struct CycleContext {
     /// How far the carpet reaches beside the lines.
     #[reflect(unit = "m", range = 0.0..)]
     carpet: Parameter<f32, "team_message_filter.carpet">,
+    /// In s: a ball that was seen longer ago is nobody's.
+    oldest_ball: Parameter<f32, "team_ball_filter.oldest">,
 
     /// The other robots of the own team that were heard lately and may play, by their number.
     teammates: MainOutput<Vec<Teammate>>,
@@ -84,9 +87,15 @@ impl TeamMessageFilter {
         let recent = newest.into_iter().flatten().filter(is_recent);
         let is_on_carpet =
             |place: &Point2<f32>| context.markings.is_inside(*place, *context.carpet);
-        let believed = recent.filter(may_play).map(|teammate| Teammate {
-            message: believed(teammate.message, is_on_carpet),
-            ..teammate
+        let believed = recent.filter(may_play).map(|teammate| {
+            let silent = (now - teammate.heard_at).as_secs_f32();
+            let is_recent = |ball: &TeamBall| ball.age + silent <= *context.oldest_ball;
+            let mut message = believed(teammate.message, is_on_carpet);
+            message.ball = message.ball.filter(is_recent);
+            Teammate {
+                message,
+                ..teammate
+            }
         });
         context.teammates.extend(believed);
         Ok(MainOutputs {})
@@ -169,6 +178,7 @@ mod tests {
             markings: &ParameterFile::new(include_str!("../../parameters/default.toml"))
                 .get("field_dimensions.markings"),
             carpet: &0.7,
+            oldest_ball: &10.0,
             teammates: &mut teammates,
         };
         node.cycle(context).unwrap();
@@ -261,6 +271,36 @@ mod tests {
             referee.own_penalties[1] = Penalty::None;
             let back = cycle_with(&mut node, Some(referee), 30, vec![], vec![]);
             assert_eq!(numbers(&back), [2, 5], "{penalty:?}");
+        }
+    }
+
+    #[test]
+    fn a_ball_that_a_mate_saw_long_ago_is_none_however_long_the_mate_is_remembered() {
+        // There is nothing left to say in 600 s.
+        let referee = GameControllerState {
+            seconds_remaining: 600,
+            ..GameControllerState::default()
+        };
+        for (age, now, knows_ball) in [
+            (0.0, 9_900, true),
+            (0.0, 10_100, false),
+            (4.0, 5_900, true),
+            (4.0, 6_100, false),
+            (0.0, 300_000, false),
+        ] {
+            let two = Some(TeamMessage {
+                player_number: 2,
+                ball: Some(TeamBall {
+                    position: Point2::new(0.2, 0.0),
+                    age,
+                }),
+                ..TeamMessage::default()
+            });
+            let heard = vec![(at_millis(0), &two)];
+            let there = cycle_with(&mut node(), Some(referee), now, heard, vec![]);
+            assert_eq!(numbers(&there), [2], "{now} ms");
+            let ball = there[0].message.ball;
+            assert_eq!(ball.is_some(), knows_ball, "{age} s, {now} ms");
         }
     }
 
