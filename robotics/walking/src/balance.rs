@@ -22,7 +22,7 @@ impl Balance {
                 *filtered += parameters.newest * (velocity - *filtered);
             }
         }
-        let most = parameters.greatest_speed * since_last;
+        let most = (parameters.greatest_speed * since_last).max(0.0);
         let towards = |from: f32, to: f32| from + (to - from).clamp(-most, most);
         let [about_x, about_y] = self.filtered;
         // A body that falls forward turns the toes down, which pushes it back.

@@ -10,16 +10,22 @@ use types::motion::Step;
 #[serde(deny_unknown_fields)]
 pub struct StepLimits {
     /// In m, greater than 0.
+    #[reflect(range = 0.001..)]
     pub forward: f32,
     /// In m, greater than 0.
+    #[reflect(range = 0.001..)]
     pub backward: f32,
     /// In m, to either side, greater than 0.
+    #[reflect(range = 0.001..)]
     pub sideways: f32,
     /// In rad, greater than 0.
+    #[reflect(range = 0.001..)]
     pub turn: f32,
     /// How much longer than the last one a step may be, in m.
+    #[reflect(range = 0.0..)]
     pub acceleration: f32,
     /// How much more than the last one a step may turn, in rad.
+    #[reflect(range = 0.0..)]
     pub turn_acceleration: f32,
 }
 
@@ -46,8 +52,9 @@ impl StepLimits {
         } else {
             self.forward
         };
-        let turn = wanted.turn.clamp(-self.turn, self.turn);
-        let turned = turn / self.turn;
+        let turn_limit = self.turn.max(0.0);
+        let turn = wanted.turn.clamp(-turn_limit, turn_limit);
+        let turned = turn / turn_limit;
         let free = (1.0 - turned * turned).max(0.0);
         let (x, y) = (wanted.forward / forward_limit, wanted.left / self.sideways);
         // Rounder than a diamond, flatter than a circle: legs get in each other's way on the diagonal.

@@ -182,7 +182,8 @@ impl PlaceParameters {
     /// On the goal line where it lies in the middle of a goal, before it where it lies near the posts.
     pub(super) fn out_of_goals(&self, place: Point2<f32>) -> Point2<f32> {
         let has_room = place.y.abs() < self.post - self.beside_goal;
-        let most = self.goal_line - if has_room { 0.0 } else { self.before_goal };
+        let before = if has_room { 0.0 } else { self.before_goal };
+        let most = (self.goal_line - before).max(0.0);
         match place.y.abs() < self.post + self.before_goal {
             true => Point2::new(place.x.clamp(-most, most), place.y),
             false => place,
@@ -216,7 +217,7 @@ impl PlaceParameters {
     }
 
     fn on_the_field(&self, place: Point2<f32>) -> Point2<f32> {
-        let (x, y) = (self.goal_line, self.touch_line - self.margin);
+        let (x, y) = (self.goal_line, (self.touch_line - self.margin).max(0.0));
         Point2::new(place.x.clamp(-x, x), place.y.clamp(-y, y))
     }
 
@@ -386,6 +387,21 @@ mod tests {
         ] {
             assert_eq!(place, marking);
         }
+    }
+
+    #[test]
+    fn measures_that_leave_no_room_leave_a_place() {
+        let parameters = parameters();
+        let mut places = parameters.places;
+        places.margin = places.touch_line + 0.5;
+        places.before_goal = places.goal_line + 0.5;
+        places.beside_goal = places.post + 0.5;
+        let ball = Point2::new(-3.7, 0.5);
+        for role in ROLES {
+            let pose = places.of_role(role, ball, &parameters.keeper);
+            assert!(pose.translation.y.abs() <= places.touch_line, "{role:?}");
+        }
+        assert_eq!(places.out_of_goals(ball), Point2::new(0.0, 0.5));
     }
 
     #[test]

@@ -2,12 +2,13 @@
 
 mod parameters;
 
+use framework::Reflect;
 use kinematics::limits;
 use proptest::prelude::*;
 use types::feet::{Feet, Side};
 use types::joints::{JointName, Joints};
 use types::motion::Step;
-use walking::{Engine, Senses};
+use walking::{Engine, Parameters, Senses};
 
 use parameters::parameters;
 
@@ -233,4 +234,74 @@ fn a_body_that_falls_forward_turns_its_toes_down() {
         ankles = (ankle(&mut still, 0.0), ankle(&mut falling, 1.0));
     }
     assert!((ankles.1 - ankles.0 - 0.05).abs() < 0.001, "{ankles:?}");
+}
+
+fn any_sign() -> impl Strategy<Value = f32> {
+    prop_oneof![Just(-1.0_f32), Just(0.0), Just(1.0)]
+}
+
+proptest! {
+    #[test]
+    fn no_sign_of_a_limit_stops_the_walk(
+        wish in wish(),
+        signs in prop::array::uniform8(any_sign()),
+        about_y in -5.0..5.0_f32,
+    ) {
+        let mut with_signs = parameters();
+        let Parameters { limits, course, balance, .. } = &mut with_signs;
+        let numbers = [
+            &mut limits.forward,
+            &mut limits.backward,
+            &mut limits.sideways,
+            &mut limits.turn,
+            &mut limits.acceleration,
+            &mut limits.turn_acceleration,
+            &mut course.most,
+            &mut balance.greatest_speed,
+        ];
+        for (number, sign) in numbers.into_iter().zip(signs) {
+            *number *= sign;
+        }
+        let mut engine = Engine::new();
+        for _ in 0..100 {
+            let senses = Senses {
+                since_last: CYCLE,
+                angular_velocity: [0.0, about_y],
+                heading: 0.0,
+                pressures: pressures(&engine, 0.9),
+            };
+            let positions = engine.cycle(wish, &senses, &with_signs).positions;
+            prop_assert!(positions.iter().all(|(_, angle)| angle.is_finite()));
+        }
+    }
+}
+
+#[test]
+fn a_limit_of_the_walk_that_is_negative_is_out_of_range() {
+    let shipped = serde_json::to_value(parameters()).unwrap();
+    let refused = |values| {
+        let outside = Parameters::shape().out_of_range(&values, None);
+        outside.len()
+    };
+    assert_eq!(refused(shipped.clone()), 0);
+    for (pointer, wrong) in [
+        ("/limits/forward", 0.0),
+        ("/limits/backward", -0.04),
+        ("/limits/sideways", 0.0),
+        ("/limits/turn", -0.3),
+        ("/limits/acceleration", -0.02),
+        ("/limits/turn_acceleration", -0.1),
+        ("/stride/duration", 0.0),
+        ("/stride/contact_threshold", 1.1),
+        ("/course/effect", 0.0),
+        ("/course/most", -0.4),
+        ("/balance/newest", 1.1),
+        ("/balance/greatest_speed", -4.0),
+        ("/arms/stiffness", 1.1),
+        ("/leg_stiffness", -0.1),
+    ] {
+        let mut values = shipped.clone();
+        *values.pointer_mut(pointer).unwrap() = wrong.into();
+        assert_eq!(refused(values), 1, "{pointer} = {wrong}");
+    }
 }
