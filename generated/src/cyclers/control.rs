@@ -1250,7 +1250,7 @@ impl Nodes {
         Ok(())
     }
 
-    /// primary_state, fall_state, ground_to_field, ball -> self_report, team_report
+    /// primary_state, fall_state, ground_to_field, ball, role -> self_report, team_report
     #[inline(always)]
     fn self_report<Hardware>(&mut self, frame: &mut Frame<'_, Hardware>) -> Result<()> {
         let context = self_report::CycleContext {
@@ -1258,6 +1258,7 @@ impl Nodes {
             fall_state: &frame.own.fall_state,
             ground_to_field: &frame.own.ground_to_field,
             ball: &frame.own.ball,
+            role: &frame.own.role,
             cycle_time: frame.cycle.time,
             player: &frame.parameters.player,
         };

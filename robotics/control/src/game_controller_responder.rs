@@ -123,6 +123,7 @@ mod tests {
             report: &TeamMessage {
                 player_number: player.number,
                 is_fallen: true,
+                plays_ball: false,
                 ground_to_field: None,
                 ball: Some(TeamBall {
                     position: Point2::new(1.5, -0.5),

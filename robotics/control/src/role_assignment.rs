@@ -2,8 +2,8 @@
 //!
 //! Every robot decides for itself, from the last messages of the others, by the same rule: the goalkeeper's shirt guards the
 //! goal, of the others the one that is nearest to the ball plays it, the rest take their places in the order of their numbers.
-//! Messages come every few seconds, so that robots may disagree for as long; who plays the ball already counts as nearer than
-//! it is. Where the keeper is out, taken out or far from its goal, the first of the rest stands between ball and goal. Before
+//! Messages come every few seconds, so that robots may disagree for as long; who plays the ball already, by its own word,
+//! counts as nearer than it is, for itself and for the others: else two that are about as far away would both play it. Where the keeper is out, taken out or far from its goal, the first of the rest stands between ball and goal. Before
 //! the ball is in play numbers alone count. A robot that hears nobody plays the ball itself, unless it keeps the goal and the
 //! others have a penalty kick. In a penalty shoot-out whose shot it is decides.
 //!
@@ -91,9 +91,10 @@ impl RoleAssignment {
             .map(|ball| ball.position)
             .or(*context.team_ball)
             .map(|ball| ball.coords.norm());
-        let head_start = match self.role {
-            Some(Role::Striker) => context.parameters.hysteresis,
-            _ => 0.0,
+        let plays_ball = self.role == Some(Role::Striker);
+        let head_start = |plays_ball: bool| match plays_ball {
+            true => context.parameters.hysteresis,
+            false => 0.0,
         };
         let referee = context.game_controller_state.as_ref();
         self.goalkeeper = referee
@@ -102,11 +103,12 @@ impl RoleAssignment {
         let goalkeeper = self.goalkeeper.unwrap_or(context.parameters.keeper);
         let others = context.teammates.iter().map(|teammate| Candidate {
             number: teammate.message.player_number,
-            distance: distance_to_ball(teammate),
+            distance: distance_to_ball(teammate)
+                .map(|distance| distance - head_start(teammate.message.plays_ball)),
         });
         let own = Candidate {
             number: context.player.number,
-            distance: own.map(|distance| distance - head_start),
+            distance: own.map(|distance| distance - head_start(plays_ball)),
         };
         self.is_keeper_out = self.is_keeper_out(goalkeeper, &context);
         let in_shoot_out = context.whose_ball.shot_of().and_then(role_in_shoot_out);

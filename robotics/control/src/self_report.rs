@@ -4,6 +4,7 @@ use framework::{CycleTime, Input, MainOutput, Parameter, Result, Timestamp, cont
 use nalgebra::Isometry2;
 use serde::{Deserialize, Serialize};
 use types::ball::Ball;
+use types::behavior::Role;
 use types::fall_state::FallState;
 use types::game::{Player, PrimaryState};
 use types::team::{TeamBall, TeamMessage};
@@ -21,6 +22,7 @@ pub struct CycleContext {
     fall_state: Input<FallState, "fall_state">,
     ground_to_field: Input<Option<Isometry2<f32>>, "ground_to_field">,
     ball: Input<Option<Ball>, "ball">,
+    role: Input<Option<Role>, "role">,
     cycle_time: CycleTime,
 
     /// Who this robot is in the game.
@@ -47,6 +49,7 @@ impl SelfReport {
         let report = TeamMessage {
             player_number: context.player.number,
             is_fallen: *context.fall_state != FallState::Upright,
+            plays_ball: *context.role == Some(Role::Striker),
             ground_to_field: *context.ground_to_field,
             ball: context.ball.map(|ball| as_told(&ball, now)),
         };
@@ -77,6 +80,14 @@ mod tests {
     use super::*;
 
     fn cycle(primary_state: PrimaryState, fall_state: FallState) -> MainOutputs {
+        cycle_as(Some(Role::Keeper), primary_state, fall_state)
+    }
+
+    fn cycle_as(
+        role: Option<Role>,
+        primary_state: PrimaryState,
+        fall_state: FallState,
+    ) -> MainOutputs {
         let mut node = SelfReport::new(CreationContext {}).unwrap();
         let context = CycleContext {
             primary_state: &primary_state,
@@ -87,6 +98,7 @@ mod tests {
                 velocity: Vector2::zeros(),
                 seen_at: at_millis(500),
             }),
+            role: &role,
             cycle_time: cycle_time(2000, 12),
             player: &Player {
                 number: 3,
@@ -111,6 +123,20 @@ mod tests {
             Some(Isometry2::translation(-1.0, 0.5))
         );
         assert_eq!(outputs.team_report.value, Some(report));
+    }
+
+    #[test]
+    fn the_striker_says_that_it_plays_the_ball() {
+        for (role, plays_ball) in [
+            (Some(Role::Striker), true),
+            (Some(Role::Keeper), false),
+            (Some(Role::Supporter), false),
+            (None, false),
+        ] {
+            let outputs = cycle_as(role, PrimaryState::Playing, FallState::Upright);
+            let report = outputs.team_report.value.unwrap();
+            assert_eq!(report.plays_ball, plays_ball, "{role:?}");
+        }
     }
 
     #[test]

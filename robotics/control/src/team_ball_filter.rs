@@ -185,6 +185,7 @@ mod tests {
             message: TeamMessage {
                 player_number: number,
                 is_fallen: false,
+                plays_ball: false,
                 ground_to_field: Some(Isometry2::new(place, std::f32::consts::FRAC_PI_2)),
                 ball: Some(TeamBall {
                     position: Point2::new(-distance, 0.0),

@@ -121,6 +121,7 @@ fn told() -> [Vec<u8>; 2] {
     let report = TeamMessage {
         player_number: 4,
         is_fallen: true,
+        plays_ball: false,
         ground_to_field: Some(Isometry2::new(Vector2::new(-1.5, 0.25), 0.5)),
         ball: Some(TeamBall {
             position: Point2::new(2.0, -0.125),

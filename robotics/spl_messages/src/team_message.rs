@@ -5,7 +5,7 @@
 //! | 4 | `HGtm` |
 //! | 1 | version, 1 |
 //! | 1 | number of the sender's shirt, 1 to 20 |
-//! | 1 | bit 0: lies on the ground, bit 1: knows its pose, bit 2: knows the ball; all others 0 |
+//! | 1 | bit 0: lies on the ground, bit 1: knows its pose, bit 2: knows the ball, bit 3: plays it; all others 0 |
 //! | 16 | with bit 1: x and y of the sender in the field frame in m, cosine and sine of its heading |
 //! | 12 | with bit 2: x and y of the ball in the sender's ground frame in m, its age in s |
 //!
@@ -33,6 +33,7 @@ const BALL_LENGTH: usize = 12;
 const IS_FALLEN: u8 = 1;
 const KNOWS_POSE: u8 = 2;
 const KNOWS_BALL: u8 = 4;
+const PLAYS_BALL: u8 = 8;
 
 /// How far the length of a cosine and its sine may be from 1: more than rounding, less than matters.
 const TURN_TOLERANCE: f32 = 1e-4;
@@ -76,10 +77,10 @@ pub fn decode(bytes: &[u8]) -> Result<TeamMessage, DecodeError> {
     reader.version(VERSION)?;
     let player_number = reader.shirt("player number")?;
     let found = reader.u8();
-    if found & !(IS_FALLEN | KNOWS_POSE | KNOWS_BALL) != 0 {
+    if found & !(IS_FALLEN | KNOWS_POSE | KNOWS_BALL | PLAYS_BALL) != 0 {
         return Err(DecodeError::UnknownValue {
             field: "flags",
-            expected: "0 to 7",
+            expected: "0 to 15",
             found,
         });
     }
@@ -88,6 +89,7 @@ pub fn decode(bytes: &[u8]) -> Result<TeamMessage, DecodeError> {
     Ok(TeamMessage {
         player_number,
         is_fallen: is_set(flags, IS_FALLEN),
+        plays_ball: is_set(flags, PLAYS_BALL),
         ground_to_field: ground_to_field.transpose()?,
         ball: ball.transpose()?,
     })
@@ -98,6 +100,7 @@ fn flags(message: &TeamMessage) -> u8 {
     flag(message.is_fallen, IS_FALLEN)
         | flag(message.ground_to_field.is_some(), KNOWS_POSE)
         | flag(message.ball.is_some(), KNOWS_BALL)
+        | flag(message.plays_ball, PLAYS_BALL)
 }
 
 fn is_set(flags: u8, flag: u8) -> bool {

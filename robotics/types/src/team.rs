@@ -11,6 +11,8 @@ pub struct TeamMessage {
     pub player_number: u8,
     /// Whether the sender lies on the ground.
     pub is_fallen: bool,
+    /// Whether it is the one that plays the ball, as far as the sender knows.
+    pub plays_ball: bool,
     /// From the sender's ground frame to the field frame, m and rad; `None` where it does not know.
     pub ground_to_field: Option<Isometry2<f32>>,
     /// The ball as the sender knows it.

@@ -85,6 +85,7 @@ fn teammate(number: u8, ball: f32, age: f32, is_fallen: bool) -> Teammate {
         message: TeamMessage {
             player_number: number,
             is_fallen,
+            plays_ball: false,
             ground_to_field: Some(Isometry2::translation(-4.2, 0.0)),
             ball: Some(TeamBall {
                 position: Point2::new(ball, 0.0),
@@ -122,6 +123,18 @@ fn cycle_with(
     ball: f32,
     teammates: &Vec<Teammate>,
 ) -> MainOutputs {
+    cycle_of(2, node, primary_state, referee, whose_ball, ball, teammates)
+}
+
+fn cycle_of(
+    number: u8,
+    node: &mut RoleAssignment,
+    primary_state: PrimaryState,
+    referee: &Option<GameControllerState>,
+    whose_ball: WhoseBall,
+    ball: f32,
+    teammates: &Vec<Teammate>,
+) -> MainOutputs {
     let context = CycleContext {
         primary_state: &primary_state,
         game_controller_state: referee,
@@ -132,10 +145,7 @@ fn cycle_with(
         }),
         team_ball: &None,
         teammates,
-        player: &Player {
-            number: 2,
-            team: 77,
-        },
+        player: &Player { number, team: 77 },
         markings: &FieldMarkings {
             length: 9.0,
             ..FieldMarkings::default()
@@ -162,6 +172,53 @@ fn who_plays_the_ball_goes_on_while_the_other_is_hardly_nearer() {
         Role::Striker,
         "it lies"
     );
+}
+
+/// Robots 2 and 3, who hear each other in every cycle: who of them plays the ball after each, and how often that changed.
+fn strikers_at(distances: impl Iterator<Item = [f32; 2]>) -> (Vec<usize>, usize) {
+    let mut nodes = [2, 3].map(|_| RoleAssignment::new(CreationContext {}).unwrap());
+    let mut said = [2, 3].map(|number| teammate(number, 9.0, 0.0, false));
+    let mut plays = [false; 2];
+    let (mut counts, mut changes) = (vec![], 0);
+    for distances in distances {
+        let before = plays;
+        for (index, node) in nodes.iter_mut().enumerate() {
+            let number = said[index].message.player_number;
+            let mates = vec![said[1 - index]];
+            let (state, nobodys) = (PrimaryState::Playing, WhoseBall::default());
+            let ball = distances[index];
+            let outputs = cycle_of(number, node, state, &None, nobodys, ball, &mates);
+            plays[index] = outputs.role.value == Some(Role::Striker);
+            said[index] = teammate(number, ball, 0.0, false);
+            said[index].message.plays_ball = plays[index];
+        }
+        changes += usize::from(plays != before);
+        counts.push(plays.into_iter().filter(|plays| *plays).count());
+    }
+    (counts, changes)
+}
+
+#[test]
+fn of_two_that_are_about_as_far_from_the_ball_one_plays_it() {
+    // Number 3 comes from 2 m to 0.8 m, and stays; number 2 stands at 1 m.
+    let comes = (0..300).map(|cycle| [1.0, (2.0 - 0.01 * cycle as f32).max(0.8)]);
+    let (counts, changes) = strikers_at(comes);
+    assert!(counts.iter().all(|count| *count == 1), "{counts:?}");
+    assert_eq!(changes, 1, "the first");
+    // Nearer by more than the head start, it takes the ball over; both know a cycle later.
+    let comes = (0..300).map(|cycle| [1.0, (2.0 - 0.01 * cycle as f32).max(0.3)]);
+    let (counts, changes) = strikers_at(comes);
+    assert_eq!(counts.iter().filter(|count| **count != 1).count(), 1);
+    assert_eq!((counts.last(), changes), (Some(&1), 3));
+}
+
+#[test]
+fn noise_does_not_give_the_ball_to_and_fro() {
+    let noise = |cycle: u32| 0.2 * ((cycle * 7919 % 13) as f32 / 6.0 - 1.0);
+    let distances = (0..300).map(|cycle| [1.0 + noise(cycle), 1.0 - noise(cycle + 5)]);
+    let (counts, changes) = strikers_at(distances);
+    assert!(counts.iter().all(|count| *count == 1), "{counts:?}");
+    assert_eq!(changes, 1, "the first");
 }
 
 #[test]

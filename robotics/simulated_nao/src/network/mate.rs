@@ -59,6 +59,7 @@ impl Mate {
         let message = TeamMessage {
             player_number: self.number,
             is_fallen: false,
+            plays_ball: false,
             ground_to_field,
             ball: ball.map(|(pose, ball)| TeamBall {
                 position: pose.inverse_transform_point(&ball.xy()),

@@ -12,6 +12,7 @@ fn message() -> TeamMessage {
     TeamMessage {
         player_number: 5,
         is_fallen: false,
+        plays_ball: false,
         ground_to_field: Some(Isometry2::new(Vector2::new(-1.5, 0.25), 0.0)),
         ball: Some(TeamBall {
             position: Point2::new(2.0, -0.125),
@@ -40,6 +41,11 @@ fn the_layout_is_the_documented_one() {
         ..TeamMessage::default()
     };
     assert_eq!(encoded(&least).unwrap(), *b"HGtm\x01\x14\x01");
+    let plays = TeamMessage {
+        plays_ball: true,
+        ..least
+    };
+    assert_eq!(encoded(&plays).unwrap(), *b"HGtm\x01\x14\x09");
 }
 
 #[test]
@@ -53,7 +59,7 @@ fn a_refusal_says_what_was_expected_and_what_came() {
             0,
             "`player number` is 0 instead of a shirt's number from 1 to 20",
         ),
-        (6, 0x0e, "`flags` is 14 instead of 0 to 7"),
+        (6, 0x16, "`flags` is 22 instead of 0 to 15"),
         (6, 2, "the message has 35 bytes instead of 23"),
         (
             18,

@@ -141,10 +141,12 @@ pub(crate) fn any_return_data() -> impl Strategy<Value = ReturnData> {
 
 pub(crate) fn any_team_message() -> impl Strategy<Value = TeamMessage> {
     let pose = prop::option::of(any_pose());
-    (1..=20_u8, any::<bool>(), pose, prop::option::of(any_ball())).prop_map(
-        |(player_number, is_fallen, ground_to_field, ball)| TeamMessage {
+    let says = (any::<bool>(), any::<bool>());
+    (1..=20_u8, says, pose, prop::option::of(any_ball())).prop_map(
+        |(player_number, (is_fallen, plays_ball), ground_to_field, ball)| TeamMessage {
             player_number,
             is_fallen,
+            plays_ball,
             ground_to_field,
             ball,
         },

@@ -36,6 +36,7 @@ fn who_stands_makes_room_for_a_mate_that_gets_up() {
         let message = TeamMessage {
             player_number: 3,
             is_fallen,
+            plays_ball: false,
             ground_to_field: says.map(|says| place * Isometry2::translation(0.0, says)),
             ball: None,
         };
