@@ -179,6 +179,9 @@ pub struct PlaceParameters {
     /// From the middle of the goal to a post.
     #[reflect(unit = "m", range = 0.0..)]
     pub post: f32,
+    /// From a goal line to the front of the goal area.
+    #[reflect(unit = "m", range = 0.0..)]
+    pub goal_area_length: f32,
     /// From a goal line to the front of the penalty area.
     #[reflect(unit = "m", range = 0.0..)]
     pub penalty_area_length: f32,
