@@ -9,7 +9,7 @@ use proc_macro2::Span;
 
 use super::robot::{
     Bridge, BridgeKind, Content, CreationBinding, CycleBinding, Cycler, CyclerKind, Interface,
-    Node, OnFailure, OutputBinding, Record, Robot, StateUse, Tree,
+    Node, OnFailure, Record, Robot, StateUse, Tree,
 };
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::manifest::Manifest;
@@ -100,10 +100,6 @@ fn unread_outputs(
     diagnostics: &mut Diagnostics,
 ) {
     let acts = node.cycle_bounds.iter().any(|interface| interface.acting);
-    let gives_time = node
-        .outputs
-        .iter()
-        .any(|field| matches!(field.binding, OutputBinding::CaptureTime));
     let speaks = node.cycle.iter().any(|field| {
         matches!(
             field.binding,
@@ -116,7 +112,8 @@ fn unread_outputs(
             CreationBinding::CyclerState { shared: false, .. }
         )
     });
-    if acts || gives_time || speaks || prepares {
+    // A setup node waits, and so paces its cycler, whoever reads what it writes.
+    if node.setup || acts || speaks || prepares {
         return;
     }
     let message = format!(

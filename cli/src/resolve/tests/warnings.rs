@@ -16,6 +16,18 @@ fn outputs_that_nobody_reads_are_told_in_the_manifest() {
 }
 
 #[test]
+fn a_setup_node_is_there_to_pace_its_cycler() {
+    let paced = |nodes: &[&str]| {
+        Fixture::new(&cycler("Control", "real-time", "", &["pace"], nodes))
+            .node("pace", writes("x: MainOutput<u8>,"))
+            .node("think", writes("y: MainOutput<u8>,"))
+    };
+    paced(&[]).robot();
+    let told = "nobody reads what `nodes::think` writes";
+    paced(&["think"]).expect("unread-outputs", &[told]);
+}
+
+#[test]
 fn who_acts_through_a_supertrait_is_there_for_that() {
     let asking = |definitions: &str| {
         let hardware = format!(
@@ -27,7 +39,7 @@ fn who_acts_through_a_supertrait_is_there_for_that() {
             asks: "hardware::Body",
             ..writes("x: MainOutput<u8>,")
         };
-        Fixture::new(&cycler("Control", "real-time", "", &["a"], &[]))
+        Fixture::new(&cycler("Control", "real-time", "", &[], &["a"]))
             .node("a", node)
             .file("crates/hardware/src/lib.rs", &hardware)
             .answer()
