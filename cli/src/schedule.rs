@@ -6,8 +6,11 @@
 //!
 //! Writers of one state whom no input orders keep the order of the manifest, whatever else they wait for.
 //!
+//! Nodes are created in an order of their own, by the states of their creation contexts.
+//!
 //! Invariant: every node stands in the order of its cycler exactly once.
 
+mod creation;
 mod edges;
 mod rings;
 mod writers;
@@ -32,6 +35,8 @@ pub struct Schedule {
 pub struct CyclerSchedule {
     /// Positions in [`Cycler::nodes`] in the order they run, setup nodes first.
     pub order: Vec<usize>,
+    /// The same positions in the order the nodes are created.
+    pub creation: Vec<usize>,
     /// Why a node runs after another, sorted.
     pub edges: Vec<Edge>,
 }
@@ -105,10 +110,14 @@ pub fn schedule(robot: &Robot, diagnostics: &mut Diagnostics) -> Result<Schedule
         writers::warn(cycler, &graph, diagnostics);
         edges.extend(writers::keep_order(cycler, &mut graph));
         edges.sort();
-        cyclers.push(CyclerSchedule {
-            order: order(cycler, &graph),
-            edges,
-        });
+        match creation::order(cycler, diagnostics) {
+            Ok(creation) => cyclers.push(CyclerSchedule {
+                order: order(cycler, &graph),
+                creation,
+                edges,
+            }),
+            Err(ring) => reported = Some(ring),
+        }
     }
     match reported {
         Some(reported) => Err(reported),
@@ -137,23 +146,30 @@ fn graph(cycler: &Cycler, edges: &[Edge]) -> Graph {
 fn order(cycler: &Cycler, graph: &Graph) -> Vec<usize> {
     let mut order = Vec::with_capacity(cycler.nodes.len());
     let mut placed = vec![false; cycler.nodes.len()];
-    let ready = |placed: &[bool], node: usize| {
-        graph
-            .edges_directed(NodeIndex::new(node), petgraph::Direction::Incoming)
-            .all(|edge| placed[edge.source().index()])
-    };
     for setup in [true, false] {
-        let next = |placed: &[bool]| {
-            (0..cycler.nodes.len()).find(|node| {
-                cycler.nodes[*node].setup == setup && !placed[*node] && ready(placed, *node)
-            })
-        };
-        while let Some(node) = next(&placed) {
-            placed[node] = true;
+        let is_part = |node: usize| cycler.nodes[node].setup == setup;
+        while let Some(node) = first_ready(graph, &mut placed, is_part) {
             order.push(node);
         }
     }
     order
+}
+
+/// Places the first node of the manifest that waits for none that is not placed.
+fn first_ready(
+    graph: &Graph,
+    placed: &mut [bool],
+    is_part: impl Fn(usize) -> bool,
+) -> Option<usize> {
+    let is_ready = |node: usize| {
+        graph
+            .edges_directed(NodeIndex::new(node), petgraph::Direction::Incoming)
+            .all(|edge| placed[edge.source().index()])
+    };
+    let mut nodes = 0..placed.len();
+    let next = nodes.find(|node| is_part(*node) && !placed[*node] && is_ready(*node))?;
+    placed[next] = true;
+    Some(next)
 }
 
 #[cfg(test)]

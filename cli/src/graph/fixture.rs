@@ -47,6 +47,7 @@ pub(crate) fn robot() -> Robot {
 pub(crate) fn schedule() -> Schedule {
     let cycler = |order: &[usize]| CyclerSchedule {
         order: order.to_vec(),
+        creation: (0..order.len()).collect(),
         edges: Vec::new(),
     };
     Schedule {

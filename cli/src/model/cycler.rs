@@ -75,6 +75,8 @@ pub struct CyclerModel {
     pub nodes: Vec<NodeModel>,
     pub setup: Calls,
     pub cycle: Calls,
+    /// Positions in `nodes` in the order they are created.
+    pub creation_order: Vec<usize>,
     /// What `new` of any node asks of the hardware.
     pub creation_hardware: Hardware,
     /// What `restore` of any node asks of the hardware.
@@ -288,6 +290,7 @@ pub fn describe(
         renews: frame::renews_from_frame(cycler),
         setup: calls(schedule, &nodes, true),
         cycle: calls(schedule, &nodes, false),
+        creation_order: schedule.creation.clone(),
         creation_hardware: union(cycler, created, |node| vec![&node.new_bounds]),
         restore_hardware: union(cycler, created, |node| vec![&node.restore_bounds]),
         hardware: union(cycler, touched, |node| {

@@ -64,7 +64,7 @@ pub(super) fn render_nodes(cycler: &CyclerModel) -> String {
 
 fn quote_new(cycler: &CyclerModel) -> TokenStream {
     let (parameters, argument) = creation(cycler, &cycler.creation_hardware);
-    let fields = cycler.nodes.iter().map(|node| {
+    let fields = created(cycler).map(|node| {
         let (name, create) = (ident(&node.name), ident(&format!("create_{}", node.name)));
         let (node_path, on_failure) = (&node.path, quote_on_failure(node.on_failure));
         let creation = (!node.creation.context.is_empty()).then(|| quote!(creation));
@@ -75,6 +75,12 @@ fn quote_new(cycler: &CyclerModel) -> TokenStream {
             Ok(Self { #(#fields)* })
         }
     }
+}
+
+/// The nodes in the order they are created; Rust evaluates fields as they are written.
+fn created(cycler: &CyclerModel) -> impl Iterator<Item = &NodeModel> {
+    let order = cycler.creation_order.iter();
+    order.map(|position| &cycler.nodes[*position])
 }
 
 /// The calls in the order they run.
@@ -135,7 +141,7 @@ fn quote_inject(cycler: &CyclerModel) -> TokenStream {
 
 /// Rebuilds what states do not hold, after they were loaded.
 fn quote_restore(cycler: &CyclerModel) -> TokenStream {
-    let restored: Vec<&NodeModel> = cycler.nodes.iter().filter(|node| node.restores).collect();
+    let restored: Vec<&NodeModel> = created(cycler).filter(|node| node.restores).collect();
     if restored.is_empty() {
         return quote!();
     }

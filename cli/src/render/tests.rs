@@ -241,3 +241,28 @@ fn a_value_of_the_instance_below_a_struct_that_is_read_whole_has_the_type_its_re
         assert!(all.contains(text), "{text}\n{all}");
     }
 }
+
+#[test]
+fn nodes_are_created_in_the_order_in_which_they_read_states() {
+    let files = render(&model_of(&robot(vec![
+        real_time("Control")
+            .node(
+                node("control::reader")
+                    .new_reads_state("x", "f32", "gain")
+                    .restores(),
+            )
+            .node(
+                node("control::writer")
+                    .new_state("x", "f32", "gain")
+                    .restores(),
+            ),
+    ])));
+    let nodes = &files[&Utf8PathBuf::from("generated/src/cyclers/control.rs")];
+    for (first, second) in [
+        ("Self::create_writer(", "Self::create_reader("),
+        ("self.writer.node_mut()", "self.reader.node_mut()"),
+    ] {
+        let (first, second) = (nodes.find(first), nodes.find(second));
+        assert!(first.is_some() && first < second, "{nodes}");
+    }
+}

@@ -1,6 +1,7 @@
 //! Rings of nodes that wait for each other, reported whole.
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::ops::Range;
 
 use petgraph::graph::NodeIndex;
 use petgraph::visit::EdgeRef;
@@ -63,14 +64,10 @@ fn way_back(reached_by: &BTreeMap<NodeIndex, &Edge>, start: NodeIndex) -> Vec<Ed
 
 /// The ring as a diagnostic: the whole ring in its message, the field of every edge as a place.
 pub(super) fn describe(cycler: &Cycler, ring: &[Edge]) -> Diagnostic {
-    let path = |node: usize| cycler.nodes[node].path.as_str();
-    let mut whole = format!("`{}`", path(ring[0].from));
-    for edge in ring {
-        whole.push_str(&format!(" → `{}`", path(edge.to)));
-    }
     let message = format!(
-        "nodes of cycler `{}` wait for each other: {whole}",
-        cycler.name
+        "nodes of cycler `{}` wait for each other: {}",
+        cycler.name,
+        whole(cycler, ring)
     );
     let is_input = |edge: &Edge| edge.reason != Reason::CyclerState;
     let deed = match ring.iter().any(is_input) {
@@ -84,11 +81,37 @@ pub(super) fn describe(cycler: &Cycler, ring: &[Edge]) -> Diagnostic {
         }
     };
     let mut diagnostic = Diagnostic::new(Code::DependencyCycle, message).help(deed);
-    diagnostic.spans = ring.iter().map(|edge| label(cycler, edge)).collect();
+    let range = |edge: &Edge| cycler.nodes[edge.to].cycle[edge.field].range.clone();
+    let labels = ring.iter().map(|edge| label(cycler, edge, range(edge)));
+    diagnostic.spans = labels.collect();
     diagnostic
 }
 
-fn label(cycler: &Cycler, edge: &Edge) -> Label {
+/// As [`describe`], of a ring whose edges are fields of creation contexts.
+pub(super) fn describe_creation(cycler: &Cycler, ring: &[Edge]) -> Diagnostic {
+    let message = format!(
+        "nodes of cycler `{}` wait for each other when they are created: {}",
+        cycler.name,
+        whole(cycler, ring)
+    );
+    let range = |edge: &Edge| cycler.nodes[edge.to].creation[edge.field].range.clone();
+    let labels = ring.iter().map(|edge| label(cycler, edge, range(edge)));
+    let mut diagnostic = Diagnostic::new(Code::DependencyCycle, message)
+        .help("break the ring: let one of these nodes read the state in its cycle, or compute it from parameters");
+    diagnostic.spans = labels.collect();
+    diagnostic
+}
+
+fn whole(cycler: &Cycler, ring: &[Edge]) -> String {
+    let path = |node: usize| cycler.nodes[node].path.as_str();
+    let mut whole = format!("`{}`", path(ring[0].from));
+    for edge in ring {
+        whole.push_str(&format!(" → `{}`", path(edge.to)));
+    }
+    whole
+}
+
+fn label(cycler: &Cycler, edge: &Edge, range: Range<usize>) -> Label {
     let (from, to) = (&cycler.nodes[edge.from], &cycler.nodes[edge.to]);
     let what = match edge.reason {
         Reason::Input | Reason::RequiredInput | Reason::HistoricInput => "reads",
@@ -96,7 +119,7 @@ fn label(cycler: &Cycler, edge: &Edge) -> Label {
     };
     Label {
         file: to.file.clone(),
-        range: to.cycle[edge.field].range.clone(),
+        range,
         text: format!(
             "`{}` {what} `{}` after `{}` wrote it",
             to.path, edge.path, from.path

@@ -93,6 +93,60 @@ fn edges_keep_the_field_that_caused_them() {
     assert_eq!(schedule.cyclers[0].place(1), Some(1));
 }
 
+#[test]
+fn nodes_are_created_after_those_whose_states_they_read_then() {
+    let robot = robot(vec![
+        real_time("Control")
+            .setup(node("setup").new_reads_state("x", "f32", "gain"))
+            .node(node("early").new_reads_state("x", "f32", "filter.cutoff"))
+            .node(
+                node("second")
+                    .new_reads_state("y", "f32", "gain")
+                    .new_state("x", "u8", "count"),
+            )
+            .node(
+                node("first")
+                    .new_state("x", "f32", "gain")
+                    .state("y", "f32", "filter"),
+            )
+            .node(node("third").new_state("x", "u8", "count"))
+            .node(node("late").new_state("x", "types::Filter", "filter")),
+    ]);
+    let schedule = schedule(&robot, &mut Diagnostics::new()).expect("the robot has no ring");
+    let nodes = &robot.cyclers[0].nodes;
+    let created = schedule.cyclers[0].creation.iter();
+    let created: Vec<&str> = created.map(|node| nodes[*node].path.as_str()).collect();
+    assert_eq!(
+        created,
+        ["first", "setup", "second", "third", "late", "early"]
+    );
+}
+
+#[test]
+fn a_ring_of_creations_is_told() {
+    let robot = robot(vec![
+        real_time("Control")
+            .setup(
+                node("b")
+                    .new_reads_state("y", "f32", "y")
+                    .new_state("x", "f32", "x"),
+            )
+            .node(
+                node("a")
+                    .new_reads_state("x", "f32", "x")
+                    .new_state("y", "f32", "y"),
+            ),
+    ]);
+    assert_eq!(
+        rings_of(&robot),
+        [
+            "nodes of cycler `Control` wait for each other when they are created: `b` → `a` → `b`\n\
+          a.rs: `a` reads the state `x` after `b` wrote it\n\
+          b.rs: `b` reads the state `y` after `a` wrote it"
+        ]
+    );
+}
+
 /// The messages and the places of all rings.
 fn rings_of(robot: &Robot) -> Vec<String> {
     let mut diagnostics = Diagnostics::new();

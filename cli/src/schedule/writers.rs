@@ -76,7 +76,7 @@ pub(super) fn pairs(cycler: &Cycler) -> impl Iterator<Item = Pair<'_>> {
     })
 }
 
-fn is_ordered(graph: &Graph, one: usize, other: usize) -> bool {
+pub(super) fn is_ordered(graph: &Graph, one: usize, other: usize) -> bool {
     let (one, other) = (NodeIndex::new(one), NodeIndex::new(other));
     has_path_connecting(graph, one, other, None) || has_path_connecting(graph, other, one, None)
 }

@@ -100,12 +100,20 @@ impl NodeBuilder {
         self
     }
 
-    pub(crate) fn new_state(mut self, name: &str, data: &str, path: &str) -> Self {
+    pub(crate) fn new_state(self, name: &str, data: &str, path: &str) -> Self {
+        self.state_of_creation(name, data, path, false)
+    }
+
+    pub(crate) fn new_reads_state(self, name: &str, data: &str, path: &str) -> Self {
+        self.state_of_creation(name, data, path, true)
+    }
+
+    fn state_of_creation(mut self, name: &str, data: &str, path: &str, shared: bool) -> Self {
         let (access, data) = (access(path), data_type(data));
         let binding = CreationBinding::CyclerState {
             access,
             data,
-            shared: false,
+            shared,
         };
         self.node.creation.push(field(name, binding));
         self
