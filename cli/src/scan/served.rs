@@ -3,6 +3,7 @@
 //! Invariant: a trait is called lacking only if every place was read where rustc would find the `impl`: the crate of the
 //! type and the crate of the trait, without macros, attributes or blanket `impl`s that might write it.
 
+mod arguments;
 mod attributes;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -22,12 +23,15 @@ use super::lookup::{Found, ItemId};
 use super::module::{Entry, Module, attributes, is_conditional, only_for_tests};
 use super::types::{Definition, Shape};
 
+pub use arguments::Arguments;
 pub(super) use attributes::{derives_nothing_unknown, writes_nothing};
 
 /// The hardware type of a target, and everything that was found about it.
 #[derive(Debug)]
 pub struct Hardware {
     item: ItemId,
+    /// What the target gives to the parameters of the type.
+    arguments: Arguments,
     /// A parameter that the target gives no argument, and that has no default.
     open: Option<String>,
     /// A condition decides whether it is there under the name that the target gives.
@@ -49,7 +53,7 @@ struct Implemented {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Serves {
     Surely,
-    /// Under a condition, or something hides it.
+    /// Under a condition, for other arguments, or something hides it.
     Perhaps,
     Never,
 }
@@ -80,10 +84,14 @@ impl Hardware {
 
     /// Whether rustc will find `framework::Hardware` implemented.
     pub fn serves_framework(&mut self, library: &Library<'_>) -> Serves {
-        if library.quietly(|| library.plainly_implements(&self.item, FRAMEWORK)) {
+        let none = Some(String::new());
+        if self.arguments == none
+            && library.quietly(|| library.plainly_implements(&self.item, FRAMEWORK))
+        {
             return Serves::Surely;
         }
-        match library.quietly(|| library.implements(&self.item, FRAMEWORK, is_of_framework)) {
+        let implements = || library.implements(self, (FRAMEWORK, &none), is_of_framework);
+        match library.quietly(implements) {
             Some(true) => return Serves::Surely,
             Some(false) => return Serves::Perhaps,
             None => {}
@@ -109,11 +117,17 @@ impl Hardware {
         found.as_ref()
     }
 
-    /// Whether rustc will find the trait implemented.
-    pub fn serves(&mut self, library: &Library<'_>, asked: &ItemId) -> Serves {
+    /// Whether rustc will find the trait implemented with these arguments.
+    pub fn serves(
+        &mut self,
+        library: &Library<'_>,
+        asked: &ItemId,
+        arguments: &Arguments,
+    ) -> Serves {
         let is_asked =
             |found: &Found| matches!(found, Found::Item(item) if item.path() == asked.path());
-        match library.quietly(|| library.implements(&self.item, &asked.name, is_asked)) {
+        let implements = || library.implements(self, (&asked.name, arguments), is_asked);
+        match library.quietly(implements) {
             Some(true) => return Serves::Surely,
             Some(false) => return Serves::Perhaps,
             None => {}
@@ -177,6 +191,7 @@ impl Library<'_> {
             || self.is_path_conditional(&path);
         plain.then_some(Hardware {
             item,
+            arguments: arguments::text(&arguments),
             open,
             is_conditional,
             crates: BTreeMap::new(),
@@ -199,16 +214,17 @@ impl Library<'_> {
         }
     }
 
-    /// Whether the crate of a hardware type plainly has an `impl` of a trait for it; `Some(false)`: under a condition.
+    /// Whether the crate of a hardware type plainly has an `impl` of a trait for it, by its name and with its arguments;
+    /// `Some(false)`: under a condition, or perhaps with others.
     ///
     /// The usual case, for which few files are needed: those with the trait's name, and those around them.
     fn implements(
         &self,
-        hardware: &ItemId,
-        name: &str,
+        hardware: &Hardware,
+        (name, arguments): (&str, &Arguments),
         is_asked: impl Fn(&Found) -> bool,
     ) -> Option<bool> {
-        let root = self.root(hardware.module.library());
+        let root = self.root(hardware.item.module.library());
         let mut waiting: Vec<(Rc<Module>, bool)> =
             root.into_iter().map(|root| (root, true)).collect();
         let mut found = None;
@@ -218,8 +234,10 @@ impl Library<'_> {
                 let is_always = is_always && !is_conditional(attributes(item));
                 match item {
                     _ if only_for_tests(attributes(item)) => {}
-                    Item::Impl(item) if self.is_of(&module, item, hardware, &is_asked) => {
-                        if is_always {
+                    Item::Impl(item) if self.is_of(&module, item, &hardware.item, &is_asked) => {
+                        if is_always
+                            && self.has_arguments(&module, item, arguments, &hardware.arguments)
+                        {
                             return Some(true);
                         }
                         found = Some(false);

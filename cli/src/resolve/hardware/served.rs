@@ -1,6 +1,6 @@
 //! Whether every target's hardware serves what the nodes ask, where that can be known.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use camino::Utf8Path;
 use syn::spanned::Spanned as _;
@@ -9,7 +9,7 @@ use super::running_here;
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::manifest::{Manifest, Target};
 use crate::scan::lookup::ItemId;
-use crate::scan::served::{Hardware, Serves};
+use crate::scan::served::{Arguments, Hardware, Serves};
 use crate::scan::{Library, NodeSource, Sources, range};
 use crate::workspace::MANIFEST;
 
@@ -22,6 +22,8 @@ struct Asked<'a> {
 /// A trait, and every bound that names it; each node once.
 struct Union<'a> {
     definition: ItemId,
+    /// Each that some bound gives it.
+    arguments: BTreeSet<Arguments>,
     asked: Vec<Asked<'a>>,
 }
 
@@ -51,12 +53,14 @@ pub(in crate::resolve) fn check_served(
         unknown += usize::from(hardware.is_conditional());
         unknown += usize::from(hardware.serves_framework(&sources.library) == Serves::Perhaps);
         for one in union.values() {
-            match hardware.serves(&sources.library, &one.definition) {
-                Serves::Surely => {}
-                Serves::Perhaps => unknown += 1,
-                Serves::Never => {
-                    diagnostics.add(unserved(one, &hardware, &targets, &sources.library));
-                }
+            let mut serves = |arguments: &Arguments| {
+                hardware.serves(&sources.library, &one.definition, arguments)
+            };
+            let answers: Vec<Serves> = one.arguments.iter().map(&mut serves).collect();
+            if answers.contains(&Serves::Never) {
+                diagnostics.add(unserved(one, &hardware, &targets, &sources.library));
+            } else if answers.contains(&Serves::Perhaps) {
+                unknown += 1;
             }
         }
     }
@@ -81,8 +85,11 @@ fn union_of_bounds<'a>(
             let Some(definition) = found else { continue };
             let entry = union.entry(definition.path()).or_insert_with(|| Union {
                 definition,
+                arguments: BTreeSet::new(),
                 asked: Vec::new(),
             });
+            let arguments = sources.library.trait_arguments(&node.module, bound);
+            entry.arguments.insert(arguments);
             if entry.asked.iter().all(|asked| asked.node.path != node.path) {
                 entry.asked.push(Asked { node, bound });
             }

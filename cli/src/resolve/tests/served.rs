@@ -132,6 +132,52 @@ fn what_cannot_be_known_is_left_to_rustc() {
     }
 }
 
+#[test]
+fn an_impl_for_other_arguments_is_left_to_rustc() {
+    let left = |asks: &str, library: &str| {
+        let traits =
+            "pub trait Get<T> { fn get(&self) -> Result<T>; } pub struct Local; pub struct Other;";
+        let node = Node { asks, ..ACTS };
+        let target = "[[target]]\nname = \"bench\"\nhardware = \"hardware::Robot\"\n";
+        let control = cycler("Control", "real-time", "", &[], &["a"]);
+        let library = format!(
+            "{traits} pub struct Real<T>(T); impl framework::Hardware for Robot {{}} {library}"
+        );
+        let answer = Fixture::new(&format!("{control}{target}"))
+            .node("a", node)
+            .file(
+                "crates/hardware/Cargo.toml",
+                "[package]\nname = \"hardware\"\n[dependencies]\nframework = \"1\"\n",
+            )
+            .file("crates/hardware/src/lib.rs", &library)
+            .answer();
+        let robot = answer.robot.unwrap_or_else(|| panic!("{}", answer.text));
+        robot.besides_edges
+    };
+    let get = "hardware::Get<hardware::Local>";
+    let plain = |served: &str| format!("pub struct Robot; {served}");
+    let served = plain("use Local as L; impl Get<L> for Robot {}");
+    let known = left(get, &served);
+    let both = plain("impl Get<f32> for Robot {} impl Get<Local> for Robot {}");
+    assert_eq!(left(get, &both), known);
+    let twice = format!("{get} + hardware::Get<f32>");
+    assert_eq!(left(&twice, &both), known);
+    assert_eq!(left(&twice, &served), known + 1);
+    for other in [
+        "impl Get<f32> for Robot {}",
+        "impl Get<Other> for Robot {}",
+        "impl<T> Get<T> for Robot where T: Into<u8> {}",
+        "impl Get<elsewhere!()> for Robot {}",
+    ] {
+        assert_eq!(left(get, &plain(other)), known + 1, "{other}");
+    }
+    let real = |argument: &str| {
+        format!("pub type Robot = Real<u8>; impl Get<Local> for Real<{argument}> {{}}")
+    };
+    assert_eq!(left(get, &real("u8")), known);
+    assert_eq!(left(get, &real("f32")), known + 1);
+}
+
 /// A robot whose target has this hardware, and this code in its crate.
 fn with_hardware(path: &str, library: &str) -> Fixture {
     let target = format!("[[target]]\nname = \"bench\"\nhardware = \"{path}\"\n");
