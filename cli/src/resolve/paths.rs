@@ -219,7 +219,10 @@ fn may_hide(data: &Resolved) -> bool {
     match &data.shape {
         Shape::Unknown => true,
         Shape::Named { definition, .. } => {
-            matches!(definition, Definition::Foreign(_) | Definition::Standard(_))
+            matches!(
+                definition,
+                Definition::Foreign { .. } | Definition::Standard(_)
+            )
         }
         _ => false,
     }

@@ -93,12 +93,13 @@ pub fn compare(a: &Resolved, b: &Resolved) -> Comparison {
         ) => match compare_definitions(a, b) {
             Same if of_a.len() != of_b.len() => Unknown,
             Same => compare_all(of_a, of_b),
+            Different if may_be_its_argument(a, of_a) || may_be_its_argument(b, of_b) => Unknown,
             answer => answer,
         },
         // A foreign name may be an alias of a tuple or an array.
         (
             Shape::Named {
-                definition: Definition::Foreign(path),
+                definition: Definition::Foreign { path, .. },
                 ..
             },
             _,
@@ -106,7 +107,7 @@ pub fn compare(a: &Resolved, b: &Resolved) -> Comparison {
         | (
             _,
             Shape::Named {
-                definition: Definition::Foreign(path),
+                definition: Definition::Foreign { path, .. },
                 ..
             },
         ) if !is_of_nalgebra(path) => Unknown,
@@ -161,25 +162,52 @@ fn compare_definitions(a: &Definition, b: &Definition) -> Comparison {
                 Different
             }
         }
-        (Definition::Foreign(a), Definition::Foreign(b)) if a == b => Same,
-        (Definition::Foreign(a), Definition::Foreign(b)) => {
+        (Definition::Foreign { path: a, .. }, Definition::Foreign { path: b, .. }) if a == b => {
+            Same
+        }
+        (Definition::Foreign { path: a, .. }, Definition::Foreign { path: b, .. }) => {
             if is_distinct_in_nalgebra(a) && is_distinct_in_nalgebra(b) {
                 Different
             } else {
                 Unknown
             }
         }
-        // No crate outside of the workspace knows the workspace's types.
-        (Definition::Foreign(_), Definition::Workspace(_))
-        | (Definition::Workspace(_), Definition::Foreign(_)) => Different,
+        // It may be one that the crate has from there.
+        (Definition::Foreign { knows_members, .. }, Definition::Workspace(_))
+        | (Definition::Workspace(_), Definition::Foreign { knows_members, .. }) => {
+            match knows_members {
+                true => Unknown,
+                false => Different,
+            }
+        }
         // It may be an alias of a primitive or of a type of std.
-        (Definition::Foreign(path), _) | (_, Definition::Foreign(path))
+        (Definition::Foreign { path, .. }, _) | (_, Definition::Foreign { path, .. })
             if !is_of_nalgebra(path) =>
         {
             Unknown
         }
         _ => Different,
     }
+}
+
+/// Whether a foreign name with arguments may be an alias of one of them: `pub type Id<T> = T`.
+fn may_be_its_argument(definition: &Definition, arguments: &[Resolved]) -> bool {
+    let Definition::Foreign { path, .. } = definition else {
+        return false;
+    };
+    let is_known = is_of_nalgebra(path) || path.starts_with("framework::");
+    !is_known && arguments.iter().any(is_of_workspace)
+}
+
+fn is_of_workspace(data: &Resolved) -> bool {
+    matches!(
+        data.shape,
+        Shape::Unknown
+            | Shape::Named {
+                definition: Definition::Workspace(_),
+                ..
+            }
+    )
 }
 
 fn is_distinct_in_nalgebra(path: &str) -> bool {

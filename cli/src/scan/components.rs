@@ -48,7 +48,7 @@ pub fn component(data: &Resolved, name: &str) -> Component {
             arguments,
         } => of_standard(path, arguments),
         Shape::Named {
-            definition: Definition::Foreign(_),
+            definition: Definition::Foreign { .. },
             ..
         } => Geometry::of(data).and_then(|geometry| geometry.fields()),
         // A path has no names for their parts.

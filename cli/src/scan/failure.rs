@@ -49,10 +49,12 @@ impl Library<'_> {
             Shape::Unknown => return Meaning::Hidden,
             _ => return Meaning::Other,
         };
-        let is_foreign = matches!(definition, Definition::Foreign(_));
+        let is_foreign = matches!(definition, Definition::Foreign { .. });
         let is_result = match &definition {
             Definition::Prelude(name) => name == "Result",
-            Definition::Standard(path) | Definition::Foreign(path) => path.ends_with("Result"),
+            Definition::Standard(path) | Definition::Foreign { path, .. } => {
+                path.ends_with("Result")
+            }
             Definition::Workspace(_) => false,
         };
         match arguments.first().map(|first| syn::parse_str(&first.text)) {
@@ -80,8 +82,8 @@ impl Library<'_> {
             // The framework's, brought in by a glob, or one of std's own.
             (Definition::Prelude(name), None) if name == "Result" => Failure::Converts,
             (Definition::Standard(_), None) => Failure::Converts,
-            (Definition::Foreign(path), None) if is_converting(&path) => Failure::Converts,
-            (Definition::Foreign(path), Some(error)) if path == "framework::Result" => {
+            (Definition::Foreign { path, .. }, None) if is_converting(&path) => Failure::Converts,
+            (Definition::Foreign { path, .. }, Some(error)) if path == "framework::Result" => {
                 self.judge(error)
             }
             _ => Failure::Unknown,
@@ -117,7 +119,7 @@ impl Library<'_> {
                 Failure::Converts
             }
             Definition::Standard(path) if path == "convert::Infallible" => Failure::Converts,
-            Definition::Foreign(path) if is_converting(path) && is_named_error(path) => {
+            Definition::Foreign { path, .. } if is_converting(path) && is_named_error(path) => {
                 Failure::Converts
             }
             Definition::Workspace(item)

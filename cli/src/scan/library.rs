@@ -101,6 +101,12 @@ impl<'workspace> Library<'workspace> {
         self.workspace.members().by_library(path)
     }
 
+    /// Whether a path outside of the workspace is of a crate that may depend on members.
+    pub(super) fn may_know_members(&self, path: &str) -> bool {
+        let library = path.split("::").next().unwrap_or_default();
+        self.workspace.members().lies_beside(library)
+    }
+
     /// Adds what could not be read or parsed since the last call.
     pub fn report_problems(&self, diagnostics: &mut Diagnostics) {
         for problem in self.problems.take() {

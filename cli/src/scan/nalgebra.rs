@@ -53,7 +53,7 @@ impl Geometry {
     /// `None` for every type about which nothing is known.
     pub fn of(data: &Resolved) -> Option<Self> {
         let Shape::Named {
-            definition: Definition::Foreign(path),
+            definition: Definition::Foreign { path, .. },
             arguments,
         } = &data.shape
         else {
@@ -194,7 +194,10 @@ fn typed(name: &str, element: &Resolved) -> Resolved {
     let path = format!("nalgebra::{name}");
     named(
         path.clone(),
-        Definition::Foreign(path),
+        Definition::Foreign {
+            path,
+            knows_members: false,
+        },
         vec![element.clone()],
     )
 }

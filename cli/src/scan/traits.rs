@@ -295,7 +295,7 @@ impl Library<'_> {
             } => {
                 let is_result = match definition {
                     Definition::Prelude(name) => name == "Result",
-                    Definition::Standard(path) | Definition::Foreign(path) => {
+                    Definition::Standard(path) | Definition::Foreign { path, .. } => {
                         path.ends_with("::Result")
                     }
                     Definition::Workspace(_) => false,

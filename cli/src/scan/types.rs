@@ -58,7 +58,11 @@ pub enum Definition {
     /// A struct, enum or union of the workspace.
     Workspace(ItemId),
     /// Below a crate outside of the workspace, as written there: perhaps a re-export or an alias.
-    Foreign(String),
+    Foreign {
+        path: String,
+        /// The crate may depend on crates of the workspace, so it may be a type of theirs.
+        knows_members: bool,
+    },
 }
 
 /// Names of generic parameters and what they stand for.
@@ -203,7 +207,7 @@ impl Definition {
         match self {
             Self::Prelude(_) | Self::Standard(_) => None,
             Self::Workspace(item) => Some(item.module.library()),
-            Self::Foreign(path) => path.split("::").next(),
+            Self::Foreign { path, .. } => path.split("::").next(),
         }
     }
 }
@@ -317,7 +321,12 @@ impl Library<'_> {
             }
             Some(Found::Foreign(path)) => {
                 let path = path.join("::");
-                named(path.clone(), Definition::Foreign(path), arguments)
+                let knows_members = self.may_know_members(&path);
+                let definition = Definition::Foreign {
+                    path: path.clone(),
+                    knows_members,
+                };
+                named(path, definition, arguments)
             }
             Some(Found::Module(_)) | None => self.absolute_path(module, path, generics),
         }

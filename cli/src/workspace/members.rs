@@ -2,7 +2,7 @@
 
 mod dependencies;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 use camino::{Utf8Path, Utf8PathBuf};
@@ -19,6 +19,8 @@ pub struct Members {
     libraries: BTreeMap<String, Member>,
     /// `[workspace.dependencies]` of the root.
     shared: Dependencies,
+    /// Packages outside of the workspace that lie in a folder, by the names that they have here.
+    beside: BTreeSet<String>,
     /// The robot's root, relative to that of cargo's workspace.
     pub(super) own: Utf8PathBuf,
     /// Folders of all packages, also of those without a library, relative to the robot's root; `.` for a package there.

@@ -74,7 +74,7 @@ impl Form {
                 arguments,
             } => of_standard(path, arguments),
             Shape::Named {
-                definition: Definition::Foreign(_),
+                definition: Definition::Foreign { .. },
                 ..
             } => {
                 Geometry::of(data).map_or(Self::Unknown, |geometry| of_geometry(geometry, sources))

@@ -337,6 +337,34 @@ fn what_cannot_be_seen_is_counted_and_left_to_rustc() {
 }
 
 #[test]
+fn a_crate_beside_the_workspace_may_show_a_type_of_its_members() {
+    let manifest = "[package]\nname = \"nodes\"\n[dependencies]\nserde = \"1\"\nheapless = \"0.8\"\n\
+         framework = { path = \"../../elsewhere\" }\ntypes = { path = \"../types\" }\n\
+         extras = { path = \"../../vendor/extras\" }\n";
+    let root = "[workspace]\nmembers = [\"crates/*\"]\nexclude = [\"vendor\"]\n";
+    let answer = |data: &str| {
+        let fixture = Fixture::control(&["a", "b"])
+            .node("a", writes("x: MainOutput<types::Ball>,"))
+            .file("crates/nodes/Cargo.toml", manifest)
+            .file("Cargo.toml", root);
+        with_field(fixture, "b", &format!("y: Input<{data}, \"x\">")).answer()
+    };
+    for unknown in ["extras::Ball", "heapless::Id<types::Ball>"] {
+        let answer = answer(unknown);
+        let robot = answer.robot.unwrap_or_else(|| panic!("{}", answer.text));
+        assert_eq!(robot.left_to_rustc, 1, "{unknown}");
+    }
+    for other in [
+        "heapless::Ball",
+        "heapless::Id<u8>",
+        "framework::Timeline<types::Ball>",
+    ] {
+        let answer = answer(other);
+        assert!(answer.codes.contains(&"type-mismatch"), "{}", answer.text);
+    }
+}
+
+#[test]
 fn a_crate_is_the_same_by_whatever_name_its_users_know_it() {
     let renamed = "forms = { package = \"types\", path = \"../types\" }";
     let shared = "forms = { package = \"types\", path = \"crates/types\" }";

@@ -61,7 +61,7 @@ fn is_changing(definition: &Definition) -> bool {
         Definition::Standard(path) => {
             path.starts_with("sync::atomic::") || CHANGING.contains(&path.as_str())
         }
-        Definition::Foreign(path) => CHANGING_ELSEWHERE.contains(&path.as_str()),
+        Definition::Foreign { path, .. } => CHANGING_ELSEWHERE.contains(&path.as_str()),
         Definition::Prelude(_) | Definition::Workspace(_) => false,
     }
 }

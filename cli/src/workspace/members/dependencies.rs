@@ -81,6 +81,26 @@ impl Members {
         }
     }
 
+    /// Whether a package outside of the workspace, by its name here, lies in a folder, from where a path may lead back to
+    /// members; crates of a registry know none, and those of generated code none of a robot.
+    pub fn lies_beside(&self, name: &str) -> bool {
+        self.beside.contains(name)
+    }
+
+    fn all_beside(&self) -> BTreeSet<String> {
+        let own = self.libraries.values();
+        let own = own.flat_map(|member| member.dependencies.values());
+        let in_folders = self.shared.values().chain(own);
+        let in_folders = in_folders.filter(|entry| entry.path.is_some());
+        let names = in_folders.filter_map(|entry| match &entry.origin {
+            Some(Known::Outside(name)) if !OF_GENERATED.contains(&name.as_str()) => {
+                Some(name.clone())
+            }
+            _ => None,
+        });
+        names.collect()
+    }
+
     /// The line for `[dependencies]` of a package in `from` that makes a crate known as `library`: key and right side.
     ///
     /// The root's `[workspace.dependencies]` come first, then the path of a member, then what one of the packages
@@ -149,6 +169,7 @@ impl Members {
             }
         }
         self.shared = by_name(raw);
+        self.beside = self.all_beside();
     }
 
     /// The member that an entry of a package in `base` means.
