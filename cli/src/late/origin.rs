@@ -184,15 +184,16 @@ impl Home<'_> {
             .as_deref()
             .is_some_and(|function| function == "restore" || function.starts_with("create_"));
         surroundings.names.iter().find_map(|name| {
-            let plain = name.strip_suffix("_input").unwrap_or(name);
-            let plain = plain.strip_prefix("r#").unwrap_or(plain);
-            let is_it = |origin: &&Origin<'a>| {
-                let is_named = [origin.name, origin.output]
-                    .iter()
-                    .any(|other| *other == plain || *other == name);
-                is_named && (origin.in_creation == creates || surroundings.function.is_none())
-            };
-            fields.iter().find(is_it).cloned()
+            let plain = name.strip_prefix("r#").unwrap_or(name);
+            // A variable that another of the function would hide is called so behind its field's name, once or more often.
+            let field = plain.trim_end_matches("_input");
+            [name, plain, field].into_iter().find_map(|name| {
+                let is_it = |origin: &&Origin<'a>| {
+                    let is_named = origin.name == name || origin.output == name;
+                    is_named && (origin.in_creation == creates || surroundings.function.is_none())
+                };
+                fields.iter().find(is_it).cloned()
+            })
         })
     }
 

@@ -206,13 +206,14 @@ impl Surroundings<'_> {
             .cycle
             .iter()
             .map(|field| {
-                let value = match self.required(&field.name, &field.binding) {
+                let variable = variable(node, &field.name);
+                let value = match self.required(&variable, &field.binding) {
                     Some(needed) => {
                         let value = Value::Variable(needed.variable.clone());
                         required.push(needed);
                         value
                     }
-                    None => self.cycle_value(&field.name, &field.binding),
+                    None => self.cycle_value(&field.name, variable, &field.binding),
                 };
                 ContextField {
                     name: field.name.clone(),
@@ -277,7 +278,7 @@ impl Surroundings<'_> {
         }
     }
 
-    fn required(&self, field: &str, binding: &CycleBinding) -> Option<Required> {
+    fn required(&self, variable: &str, binding: &CycleBinding) -> Option<Required> {
         let source = match binding {
             CycleBinding::RequiredOwnOutput { access, .. } => {
                 RequiredSource::Option(self.own_output("frame", access))
@@ -299,12 +300,12 @@ impl Surroundings<'_> {
             _ => return None,
         };
         Some(Required {
-            variable: variable(field),
+            variable: variable.to_owned(),
             source,
         })
     }
 
-    fn cycle_value(&self, field: &str, binding: &CycleBinding) -> Value {
+    fn cycle_value(&self, field: &str, variable: String, binding: &CycleBinding) -> Value {
         let in_outputs = |access: &Access| Accessor::below(&["outputs"], &access.segments);
         match binding {
             CycleBinding::OwnOutput { access, .. }
@@ -331,7 +332,7 @@ impl Surroundings<'_> {
                 ))
             }
             CycleBinding::Historic { access, .. } => Value::Historic {
-                variable: variable(field),
+                variable,
                 output: access.segments[0].name.clone(),
                 path: Accessor::in_variable(&access.segments),
                 current: self.own_output("frame", access),
@@ -341,7 +342,7 @@ impl Surroundings<'_> {
                 interleaved,
                 access,
                 ..
-            } => self.perception(field, instances, *interleaved, in_outputs(access)),
+            } => self.perception(variable, instances, *interleaved, in_outputs(access)),
             CycleBinding::Parameter { access, .. } => self.parameter("frame", access),
             CycleBinding::CyclerState { access, shared, .. } => state("frame", access, *shared),
             CycleBinding::CycleTime => Value::CycleTime,
@@ -357,12 +358,11 @@ impl Surroundings<'_> {
 
     fn perception(
         &self,
-        field: &str,
+        variable: String,
         instances: &[InstanceId],
         interleaved: bool,
         path: Accessor,
     ) -> Value {
-        let variable = variable(field);
         let lanes: Vec<String> = instances.iter().map(|id| self.instance(*id)).collect();
         match lanes.as_slice() {
             [lane] => Value::Perception {
@@ -430,13 +430,16 @@ impl Surroundings<'_> {
     }
 }
 
-/// The variable that a field of a context is bound to before the context is made.
-fn variable(field: &str) -> String {
+/// The variable that a field of the cycle context is bound to before the context is made; no other field has its name.
+fn variable(node: &Node, field: &str) -> String {
+    let mut variable = field.to_owned();
     if VARIABLES.contains(&field) {
-        format!("{field}_input")
-    } else {
-        field.to_owned()
+        let is_field = |name: &str| node.cycle.iter().any(|other| other.name == name);
+        while variable == field || is_field(&variable) {
+            variable.push_str("_input");
+        }
     }
+    variable
 }
 
 fn state(base: &str, access: &Access, shared: bool) -> Value {

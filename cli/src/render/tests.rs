@@ -266,3 +266,29 @@ fn nodes_are_created_in_the_order_in_which_they_read_states() {
         assert!(first.is_some() && first < second, "{nodes}");
     }
 }
+
+#[test]
+fn inputs_that_are_called_alike_are_variables_of_their_own() {
+    let files = render(&model_of(&robot(vec![
+        real_time("Control")
+            .node(
+                node("control::a")
+                    .output("x", "Option<u8>")
+                    .output("y", "Option<u8>"),
+            )
+            .node(
+                node("control::b")
+                    .required("frame", "Option<u8>", "x?")
+                    .required("frame_input", "Option<u8>", "y?")
+                    .historic("frame_input_input", "Option<u8>", "x"),
+            ),
+    ])));
+    let nodes = &files[&Utf8PathBuf::from("generated/src/cyclers/control.rs")];
+    for text in [
+        "let Some(frame_input_input_input) = frame.own.x.as_ref()",
+        "let Some(frame_input) = frame.own.y.as_ref()",
+        "frame: frame_input_input_input,",
+    ] {
+        assert!(nodes.contains(text), "{text} is not in {nodes}");
+    }
+}
