@@ -99,7 +99,7 @@ impl<'a, U> Structs<'a, U> {
                     FieldType::Data(data.text.clone())
                 }
                 Content::Inner(tree) => {
-                    let types = format!("{}{}", place.types, upper_camel_case(&branch.name));
+                    let types = self.types(place, &branch.name);
                     let name = self.names.give(&format!("{}{types}", self.prefix));
                     let place = Place {
                         types,
@@ -140,6 +140,16 @@ impl<'a, U> Structs<'a, U> {
         }];
         structs.append(&mut below);
         structs
+    }
+
+    /// What the structs below a place are called; a name begins with a letter also where that of the place does not.
+    fn types(&self, place: &Place, name: &str) -> String {
+        let types = format!("{}{}", place.types, upper_camel_case(name));
+        let is_name = !self.prefix.is_empty() || types.starts_with(char::is_alphabetic);
+        match is_name {
+            true => types,
+            false => format!("Group{types}"),
+        }
     }
 
     /// The struct of one instance: the one of the instance before if both look alike.

@@ -292,3 +292,24 @@ fn inputs_that_are_called_alike_are_variables_of_their_own() {
         assert!(nodes.contains(text), "{text} is not in {nodes}");
     }
 }
+
+#[test]
+fn names_of_parameters_that_begin_with_no_letter_are_names_like_others() {
+    let files = render(&model_of(&robot(vec![
+        real_time("Control").node(
+            node("control::a")
+                .parameter("x", "f32", "_1.x")
+                .parameter("y", "f32", "__.y")
+                .parameter("z", "f32", "__._2.z"),
+        ),
+    ])));
+    let parameters = &files[&Utf8PathBuf::from("generated/src/parameters.rs")];
+    for text in [
+        "pub _1: Group1,",
+        "pub struct Group1 {",
+        "pub __: Group,",
+        "pub _2: Group2,",
+    ] {
+        assert!(parameters.contains(text), "{text} is not in {parameters}");
+    }
+}
