@@ -292,7 +292,13 @@ impl Inputs<'_, '_> {
             );
         }
         if let Some(node) = scene.sources.unlisted_writer(wanted) {
-            return format!("`{node}` writes it; add it to the nodes of `{name}` in hulk.toml");
+            let is_read_before = self.node.entry.setup && cycler == self.cycler;
+            let list = match node.is_setup || is_read_before {
+                true => "`setup_nodes`",
+                false => "nodes",
+            };
+            let node = node.path;
+            return format!("`{node}` writes it; add it to the {list} of `{name}` in hulk.toml");
         }
         match nearest(wanted, outputs.keys().map(String::as_str)) {
             Some(near) => format!("did you mean `{near}`?"),

@@ -6,13 +6,23 @@ use std::rc::Rc;
 use grammar::{AnyContext, CycleField, OutputField};
 use syn::Item;
 
-use super::Sources;
 use super::module::Module;
+use super::traits::Bound;
+use super::{Sources, node};
+use crate::diagnostics::Diagnostics;
+
+/// A node that stands in no cycler.
+#[derive(Debug)]
+pub struct Unlisted {
+    /// As the manifest would name it.
+    pub path: String,
+    /// It gives the capture time or reads from the hardware in its cycle, as setup nodes do.
+    pub is_setup: bool,
+}
 
 impl Sources<'_> {
-    /// Path of a node that writes this main output and stands in no cycler; searched in the crates of the robot's
-    /// nodes.
-    pub fn unlisted_writer(&self, output: &str) -> Option<String> {
+    /// A node that writes this main output and stands in no cycler; searched in the crates of the robot's nodes.
+    pub fn unlisted_writer(&self, output: &str) -> Option<Unlisted> {
         let libraries: BTreeSet<&str> = self
             .nodes
             .values()
@@ -24,7 +34,10 @@ impl Sources<'_> {
             .collect();
         while let Some(module) = waiting.pop() {
             if !self.nodes.contains_key(&module.path) && writes(&module, output) {
-                return Some(module.path.clone());
+                return Some(Unlisted {
+                    path: module.path.clone(),
+                    is_setup: self.is_setup(&module),
+                });
             }
             let names = module
                 .module_names()
@@ -32,6 +45,29 @@ impl Sources<'_> {
             waiting.extend(names);
         }
         None
+    }
+
+    fn is_setup(&self, module: &Rc<Module>) -> bool {
+        let library = &self.library;
+        let scan = || {
+            node::scan(
+                library,
+                &module.path,
+                module.clone(),
+                &mut Diagnostics::new(),
+            )
+        };
+        let Some(source) = library.quietly(scan) else {
+            return false;
+        };
+        let mut outputs = source.outputs.fields.iter();
+        let mut bounds = source.signatures.cycle.bounds.iter();
+        let is_reading = |bound| match library.hardware_trait(module, bound) {
+            Bound::Trait(found) => found.interface.reading == Some(true),
+            _ => false,
+        };
+        outputs.any(|field| matches!(field.kind, OutputField::CaptureTime))
+            || library.quietly(|| bounds.any(is_reading))
     }
 }
 

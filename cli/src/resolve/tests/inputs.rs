@@ -185,6 +185,26 @@ fn an_unknown_output_is_told_with_the_deed() {
             "unknown-output",
             &["`nodes::unlisted` writes it; add it to the nodes of `Control`"],
         );
+    let setup = "`nodes::unlisted` writes it; add it to the `setup_nodes` of `Control`";
+    let reading = Node {
+        cycle: "hardware: HardwareInterface,",
+        asks: "hardware::Camera",
+        ..writes("hidden: MainOutput<u8>,")
+    };
+    for unlisted in [
+        writes("hidden: MainOutput<u8>, time: CaptureTime,"),
+        reading,
+    ] {
+        with_field(control(), "b", "x: Input<u8, \"hidden\">")
+            .node("unlisted", unlisted)
+            .answer()
+            .expect_error("unknown-output", &[setup]);
+    }
+    let manifest = cycler("Control", "real-time", "", &["a"], &[]);
+    with_field(Fixture::new(&manifest), "a", "x: Input<u8, \"hidden\">")
+        .node("unlisted", writes("hidden: MainOutput<u8>,"))
+        .answer()
+        .expect_error("unknown-output", &[setup]);
     let additional = Node {
         cycle: "extra: AdditionalOutput<u8, \"extra\">,",
         ..writes("ball: MainOutput<u8>,")
