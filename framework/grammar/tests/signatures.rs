@@ -336,7 +336,7 @@ fn what_generated_code_cannot_ask_of_the_hardware_is_refused() {
         (
             "cycle(&mut self, c: CycleContext<impl for<'a> A<'a>>) -> Result<MainOutputs>",
             "'a",
-            "`cycle` asks for a trait with `'a`, which only its signature knows",
+            "`cycle` asks for a trait with every `'a`, which generated code cannot do: declare it at methods of the trait",
         ),
         (
             "cycle<'b>(&mut self, c: CycleContext<impl A<&'b u8>>) -> Result<MainOutputs>",
@@ -346,7 +346,7 @@ fn what_generated_code_cannot_ask_of_the_hardware_is_refused() {
         (
             "cycle<H>(&mut self, c: CycleContext<H>) -> Result<MainOutputs> where for<'a> H: A<'a>",
             "'a",
-            "`cycle` asks for a trait with `'a`, which only its signature knows",
+            "`cycle` asks for a trait with every `'a`, which generated code cannot do: declare it at methods of the trait",
         ),
         (
             "cycle<H: A<H::Speed>>(&mut self, c: CycleContext<H>) -> Result<MainOutputs>",

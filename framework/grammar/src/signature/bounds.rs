@@ -4,8 +4,8 @@ use syn::punctuated::Punctuated;
 use syn::spanned::Spanned;
 use syn::visit::{self, Visit};
 use syn::{
-    GenericArgument, GenericParam, Ident, ImplItemFn, Lifetime, LifetimeParam, Path, PathArguments,
-    PathSegment, Token, Type, TypeParamBound, WherePredicate,
+    BoundLifetimes, GenericArgument, GenericParam, Ident, ImplItemFn, Lifetime, LifetimeParam,
+    Path, PathArguments, PathSegment, Token, Type, TypeParamBound, WherePredicate,
 };
 
 use super::check::{Expected, last_segment};
@@ -41,7 +41,8 @@ pub(super) fn read_bounds(
         }
     }
     let strangers = bounds.traits.iter();
-    mistakes.extend(strangers.filter_map(|bound| stranger_in_bound(expected, bound, parameter)));
+    let mistake = |bound| stranger_in_bound(expected, bound, parameter, &bounds.of_for);
+    mistakes.extend(strangers.filter_map(mistake));
     bounds
 }
 
@@ -49,6 +50,8 @@ pub(super) fn read_bounds(
 #[derive(Default)]
 pub(super) struct Bounds {
     pub(super) traits: Vec<Path>,
+    /// Lifetimes that a `for<…>` before a trait introduces.
+    of_for: Vec<Lifetime>,
     pub(super) is_static: bool,
 }
 
@@ -59,6 +62,7 @@ impl Bounds {
             match bound {
                 TypeParamBound::Lifetime(lifetime) => self.is_static |= lifetime.ident == "static",
                 TypeParamBound::Trait(bound) => {
+                    self.note(bound.lifetimes.as_ref());
                     let plain = matches!(bound.modifier, syn::TraitBoundModifier::None);
                     if plain && !self.traits.contains(&bound.path) {
                         self.traits.push(bound.path.clone());
@@ -67,6 +71,15 @@ impl Bounds {
                 _ => {}
             }
         }
+    }
+
+    fn note(&mut self, lifetimes: Option<&BoundLifetimes>) {
+        let names = Names::in_tree(|names| {
+            lifetimes
+                .into_iter()
+                .for_each(|one| names.visit_bound_lifetimes(one));
+        });
+        self.of_for.extend(names.introduced);
     }
 
     fn extend_from_generics(&mut self, method: &ImplItemFn, parameter: &Ident) {
@@ -80,6 +93,7 @@ impl Bounds {
             if let WherePredicate::Type(predicate) = predicate
                 && is_parameter(&predicate.bounded_ty, parameter)
             {
+                self.note(predicate.lifetimes.as_ref());
                 self.extend(&predicate.bounds);
             }
         }
@@ -91,8 +105,18 @@ fn stranger_in_bound(
     expected: &Expected<'_>,
     bound: &Path,
     parameter: Option<&Ident>,
+    of_for: &[Lifetime],
 ) -> Option<Mistake> {
     let names = Names::in_tree(|names| names.visit_path(bound));
+    if let Some(lifetime) = names.stranger()
+        && of_for.contains(lifetime)
+    {
+        let message = format!(
+            "`{}` asks for a trait with every `{lifetime}`, which generated code cannot do: declare it at methods of the trait",
+            expected.function
+        );
+        return Some(expected.mistake(lifetime.span(), message));
+    }
     let (what, span) = match (names.stranger(), parameter) {
         (Some(lifetime), _) => (lifetime.to_string(), lifetime.span()),
         (None, Some(parameter)) if names.identifiers.contains(parameter) => {
