@@ -167,6 +167,8 @@ catalogue! {
         "A target's profile is none that cargo knows.";
     UnorderedStateWriters, "unordered-state-writers", Warning,
         "Two writers of a cycler state are ordered by the manifest alone.";
+    UnpacedCycler, "unpaced-cycler", Warning,
+        "Nothing in a cycler waits, so that it never rests.";
     UnreadOutputs, "unread-outputs", Warning,
         "Nobody reads what a node writes.";
     UnsendableState, "unsendable-state", Error,

@@ -12,7 +12,7 @@ use super::robot::{
     Node, OnFailure, Record, Robot, StateUse, Tree,
 };
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
-use crate::manifest::Manifest;
+use crate::manifest::{self, Manifest};
 use crate::scan::{NodeSource, Sources, range};
 use crate::workspace::MANIFEST;
 
@@ -26,6 +26,9 @@ pub(super) fn warn(
     let read = read_nodes(robot);
     for (index, cycler) in robot.cyclers.iter().enumerate() {
         lonely_states(cycler, &cycler.states, &mut Vec::new(), diagnostics);
+        if !robot.targets.is_empty() && !cycler.left_out && !cycler.remote {
+            unpaced(cycler, &manifest.cyclers[index], diagnostics);
+        }
         for (position, node) in cycler.nodes.iter().enumerate() {
             let Some(source) = sources.nodes.get(&node.path) else {
                 continue;
@@ -91,6 +94,23 @@ fn producer(robot: &Robot, bridge: &Bridge) -> Option<(usize, usize)> {
     let mut outputs = robot.cyclers[index].outputs.iter();
     let output = outputs.find(|one| one.name == output)?;
     Some((index, output.producer))
+}
+
+/// A cycler in which nothing can wait: there is no setup node, and no node touches the hardware.
+fn unpaced(cycler: &Cycler, declared: &manifest::Cycler, diagnostics: &mut Diagnostics) {
+    let touches = |node: &Node| {
+        let mut fields = node.cycle.iter();
+        fields.any(|field| matches!(field.binding, CycleBinding::HardwareInterface))
+    };
+    if cycler.nodes.iter().any(|node| node.setup || touches(node)) {
+        return;
+    }
+    let message = format!("nothing paces cycler `{}`", cycler.name);
+    let place = declared.name_range.clone();
+    let warning = Diagnostic::new(Code::UnpacedCycler, message)
+        .at(Utf8Path::new(MANIFEST), place, "its cycles follow each other without a rest")
+        .help("add a node to its `setup_nodes` that waits for the data of a cycle, or for the next period");
+    diagnostics.add(warning);
 }
 
 fn unread_outputs(

@@ -28,6 +28,33 @@ fn a_setup_node_is_there_to_pace_its_cycler() {
 }
 
 #[test]
+fn a_cycler_that_nothing_paces_is_told() {
+    let target = "[[target]]\nname = \"bench\"\nhardware = \"hardware::Hardware\"\n";
+    let robot = |setup: &[&str], nodes: &[&str], more: &str, target: &str| {
+        let control = cycler("Control", "real-time", "", &[], &["a"]);
+        let lonely = cycler("Lonely", "perception", more, setup, nodes);
+        let reads = Node {
+            cycle: "hardware: HardwareInterface, x: LatestInput<u8, \"Lonely\", \"x\">,",
+            ..ACTS
+        };
+        Fixture::new(&format!("{control}{lonely}{target}"))
+            .node("a", reads)
+            .node("b", writes("x: MainOutput<u8>,"))
+    };
+    robot(&[], &["b"], "", target).expect(
+        "unpaced-cycler",
+        &[
+            "nothing paces cycler `Lonely`",
+            "hulk.toml:",
+            "its `setup_nodes`",
+        ],
+    );
+    robot(&["b"], &[], "", target).robot();
+    robot(&[], &["b"], "remote = true", target).robot();
+    robot(&[], &["b"], "", "").robot();
+}
+
+#[test]
 fn who_acts_through_a_supertrait_is_there_for_that() {
     let asking = |definitions: &str| {
         let hardware = format!(
