@@ -1,5 +1,6 @@
 //! Errors of rustc whose place in the generated crate names no node.
 
+use camino::Utf8Path;
 use serde_json::{Value, json};
 
 use super::rustc::Message;
@@ -18,22 +19,33 @@ fn told(children: &Value) -> Value {
         asks: "hardware::Motors",
         ..Node::default()
     };
-    let files = Fixture::control(&["a"]).node("a", node).files();
-    let workspace = Workspace::in_memory(files);
+    let robot = Fixture::control(&["a"]).node("a", node);
+    told_at(&robot, "generated/src/runtime/control.rs", "", children)
+}
+
+/// What is told of an error where a generated file first has this text.
+fn told_at(robot: &Fixture, file: &str, text: &str, children: &Value) -> Value {
+    let workspace = Workspace::in_memory(robot.files());
     let mut found = Diagnostics::new();
     let manifest = manifest::load(&workspace, &mut found).expect("it has no errors");
     let understood = pipeline::understand(&workspace, &mut found).expect("it has no errors");
     let model = model::describe(&understood.robot, &understood.schedule);
+    let files = render::render(&model);
+    let mut lines = files[Utf8Path::new(file)].lines().enumerate();
+    let place = lines.find_map(|(line, words)| Some((line + 1, words.find(text)? + 1)));
+    let (line, column) = place.expect("it is generated");
+    let mut primary = span(file, line, true);
+    primary["column_start"] = column.into();
     let home = Home {
         workspace: &workspace,
         manifest: &manifest,
         robot: &understood.robot,
         model: &model,
-        files: &render::render(&model),
+        files: &files,
     };
     let message: Message = serde_json::from_value(json!({
         "message": "`Rc<u8>` cannot be sent between threads safely", "level": "error", "rendered": "all",
-        "spans": [span("generated/src/runtime/control.rs", 1, true)], "children": children,
+        "spans": [primary], "children": children,
     }))
     .expect("it is a message");
     let answer = to_json(&diagnose(&[message], &home), &workspace);
@@ -90,4 +102,28 @@ fn what_names_no_node_stands_at_the_cycler_with_a_deed() {
             .is_some_and(|help| help.contains("rustc names below")),
         "{one:#}"
     );
+}
+
+#[test]
+fn a_variable_that_is_not_called_as_its_field_leads_to_it() {
+    let writer = Node {
+        outputs: "x: MainOutput<Option<u8>>, y: MainOutput<Option<u8>>,",
+        ..Node::default()
+    };
+    let reader = Node {
+        cycle: "node: RequiredInput<Option<u8>, \"x?\">,\nnode_input: RequiredInput<Option<u8>, \"y?\">,",
+        ..Node::default()
+    };
+    let robot = Fixture::control(&["w", "a"])
+        .node("w", writer)
+        .node("a", reader);
+    for (variable, field) in [("node_input_input", "node"), ("node_input", "node_input")] {
+        let (file, text) = (
+            "generated/src/cyclers/control.rs",
+            format!("Some({variable})"),
+        );
+        let one = told_at(&robot, file, &text, &json!([]));
+        let label = format!("what is generated from `{field}` does not compile");
+        assert_eq!(one["spans"][0]["label"], label, "{one:#}");
+    }
 }
