@@ -5,7 +5,7 @@ import { createServer } from "node:net";
 import { join } from "node:path";
 
 /** A busy machine may take so long for anything. */
-export const PATIENCE = 40_000;
+export const PATIENCE = 100_000;
 
 export function step(text) {
   console.log(text);
