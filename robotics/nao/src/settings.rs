@@ -265,17 +265,16 @@ impl NetworkSettings {
     /// Where they stand among the parameters.
     pub(crate) const TABLE: &'static str = "hardware.nao.network";
 
-    /// Linux gives broadcasts to sockets of every address alone, and says nothing about it.
+    /// Linux gives broadcasts to sockets of every address and of the one they go to, and says nothing about it.
     fn check(&self) -> Result<()> {
         let address = self.address;
-        if address.is_unspecified() || address.is_loopback() {
+        if address.is_unspecified() || address.is_loopback() || address == self.broadcast {
             return Ok(());
         }
+        let (table, broadcast) = (Self::TABLE, self.broadcast);
         Err(Error::new(format!(
-            "broadcasts do not reach a socket at {address} ({}.address), so that the robot would hear neither referee nor \
-             team; write \"0.0.0.0\", and choose its network by {}.broadcast",
-            Self::TABLE,
-            Self::TABLE
+            "a socket at {address} ({table}.address) hears nothing that is sent to {broadcast} ({table}.broadcast), neither referee \
+             nor team; write \"0.0.0.0\", and choose its network by {table}.broadcast"
         )))
     }
 
@@ -337,7 +336,9 @@ mod tests {
     #[test]
     fn an_address_that_no_broadcast_reaches_is_refused() {
         let of = |address: &str, options: &[&str]| {
-            let table = format!("network = {{ address = \"{address}\" }}");
+            let broadcast = "10.0.255.255";
+            let table =
+                format!("network = {{ address = \"{address}\", broadcast = \"{broadcast}\" }}");
             Settings::of(&HardwareContext {
                 options: options.iter().map(|&option| option.to_owned()).collect(),
                 table: toml::from_str(&table).unwrap(),
@@ -346,7 +347,7 @@ mod tests {
                 stop: framework::Stop::new(),
             })
         };
-        for address in ["10.0.24.22", "10.0.255.255"] {
+        for address in ["10.0.24.22", "10.1.255.255"] {
             let message = of(address, &[]).unwrap_err().to_string();
             assert!(message.contains(address), "{message}");
             assert!(
@@ -356,6 +357,7 @@ mod tests {
         }
         of("0.0.0.0", &[]).unwrap();
         of("127.0.0.1", &[]).unwrap();
+        of("10.0.255.255", &[]).unwrap();
         of("10.0.24.22", &["--free-ports"]).unwrap();
     }
 
