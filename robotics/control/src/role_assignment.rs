@@ -92,9 +92,13 @@ impl RoleAssignment {
             .or(*context.team_ball)
             .map(|ball| ball.coords.norm());
         let plays_ball = self.role == Some(Role::Striker);
-        let head_start = |plays_ball: bool| match plays_ball {
-            true => context.parameters.hysteresis,
-            false => 0.0,
+        let hysteresis = context.parameters.hysteresis;
+        // A mate that does not play yet is left the ball only where it is nearer by twice the hysteresis: it hears seldom how far the ball
+        // went from here, and waits as long. Rather both than nobody.
+        let handicap = |mate_plays: bool| match (mate_plays, plays_ball) {
+            (true, _) => -hysteresis,
+            (false, true) => hysteresis,
+            (false, false) => 0.0,
         };
         let referee = context.game_controller_state.as_ref();
         self.goalkeeper = referee
@@ -104,11 +108,14 @@ impl RoleAssignment {
         let others = context.teammates.iter().map(|teammate| Candidate {
             number: teammate.message.player_number,
             distance: distance_to_ball(teammate)
-                .map(|distance| distance - head_start(teammate.message.plays_ball)),
+                .map(|distance| distance + handicap(teammate.message.plays_ball)),
         });
         let own = Candidate {
             number: context.player.number,
-            distance: own.map(|distance| distance - head_start(plays_ball)),
+            distance: match plays_ball {
+                true => own.map(|distance| distance - hysteresis),
+                false => own,
+            },
         };
         self.is_keeper_out = self.is_keeper_out(goalkeeper, &context);
         let in_shoot_out = context.whose_ball.shot_of().and_then(role_in_shoot_out);

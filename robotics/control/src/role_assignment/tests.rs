@@ -165,7 +165,9 @@ fn who_plays_the_ball_goes_on_while_the_other_is_hardly_nearer() {
     let mut node = RoleAssignment::new(CreationContext {}).unwrap();
     let mut role = |ball, other| cycle(&mut node, ball, vec![other]).role.value.unwrap();
     assert_eq!(role(1.0, teammate(3, 0.8, 0.0, false)), Role::Striker);
-    assert_eq!(role(1.0, teammate(3, 0.4, 0.0, false)), Role::Sweeper);
+    // It does not play the ball yet, perhaps because it has not heard how far that is by now.
+    assert_eq!(role(1.3, teammate(3, 0.4, 0.0, false)), Role::Striker);
+    assert_eq!(role(1.5, teammate(3, 0.4, 0.0, false)), Role::Sweeper);
     assert_eq!(role(1.0, teammate(3, 0.8, 0.0, false)), Role::Sweeper);
     assert_eq!(
         role(1.0, teammate(3, 0.4, 0.0, true)),
@@ -210,6 +212,20 @@ fn of_two_that_are_about_as_far_from_the_ball_one_plays_it() {
     let (counts, changes) = strikers_at(comes);
     assert_eq!(counts.iter().filter(|count| **count != 1).count(), 1);
     assert_eq!((counts.last(), changes), (Some(&1), 3));
+}
+
+#[test]
+fn a_ball_that_rolls_away_behind_a_message_is_left_by_nobody() {
+    // Number 2 said 1 m, and hears that number 3 is at 0.7 m; number 3 hears no more for seven seconds.
+    let mut striker = RoleAssignment::new(CreationContext {}).unwrap();
+    let mate = teammate(3, 0.7, 0.0, false);
+    let roles = [1.0, 1.1, 1.3, 1.4].map(|ball| cycle(&mut striker, ball, vec![mate]).role.value);
+    assert_eq!(roles, [Some(Role::Striker); 4]);
+    // As soon as number 3 says that it plays it, it is left the ball.
+    let mut mate = mate;
+    mate.message.plays_ball = true;
+    let role = cycle(&mut striker, 1.4, vec![mate]).role.value;
+    assert_eq!(role, Some(Role::Sweeper));
 }
 
 #[test]
