@@ -141,6 +141,12 @@ impl View<'_> {
         self.world.role.unwrap_or_default()
     }
 
+    /// Where the robot is, in the field frame; the centre mark where it does not know.
+    pub(super) fn place(&self) -> Point2<f32> {
+        let pose = self.world.ground_to_field;
+        pose.map_or_else(Point2::origin, |pose| pose.translation.vector.into())
+    }
+
     /// Since the kick-off, s; `None` where the game goes on for another reason.
     pub(super) fn since_kick_off(&self) -> Option<f32> {
         let kick_off_at = self.memory.kick_off_at?;

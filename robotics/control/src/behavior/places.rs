@@ -47,11 +47,12 @@ impl PlaceParameters {
         }
     }
 
-    /// In Playing: where a robot that does not play the ball stands, with its face to the ball.
+    /// In Playing: where a robot that does not play the ball and is at `own` stands, with its face to the ball.
     pub(super) fn of_role(
         &self,
         role: Role,
         ball: Point2<f32>,
+        own: Point2<f32>,
         keeper: &KeeperParameters,
     ) -> Isometry2<f32> {
         let goal = self.own_goal();
@@ -73,7 +74,12 @@ impl PlaceParameters {
                 ball + away * distance
             }
             Role::Supporter => {
-                let side = if ball.y > 0.0 { -1.0 } else { 1.0 };
+                // Of a ball in the middle it stays on its side: seen to the left and right in turns it would send it to and fro.
+                let is_in_the_middle = ball.y.abs() < 0.5 * self.supporter_aside;
+                let side = match is_in_the_middle {
+                    true => 1.0_f32.copysign(own.y),
+                    false => -1.0_f32.copysign(ball.y),
+                };
                 let place =
                     ball + Vector2::new(-self.supporter_behind, side * self.supporter_aside);
                 self.before_own_goal_area(place, side)

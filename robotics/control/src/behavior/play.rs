@@ -61,7 +61,7 @@ fn restricted(view: &View<'_>) -> Option<Decision> {
     }
     let on_field = view.ball_on_field()?;
     let stay_away = |activity| {
-        let of_role = places.of_role(view.role(), on_field, &view.parameters.keeper);
+        let of_role = places.of_role(view.role(), on_field, view.place(), &view.parameters.keeper);
         let pose = match activity {
             Activity::LeavePenaltyArea if world.kicking_team == KickingTeam::Own => {
                 places.outside_other_penalty_area(&of_role)
@@ -113,7 +113,7 @@ fn without_ball(view: &View<'_>) -> Decision {
     }
     let (places, keeper) = (&view.parameters.places, &view.parameters.keeper);
     let is_keeper = view.role() == Role::Keeper;
-    let place = places.of_role(view.role(), Point2::origin(), keeper);
+    let place = places.of_role(view.role(), Point2::origin(), view.place(), keeper);
     let round = search.with_head + search.turning + search.walking;
     let phase = phase(view.memory.ball_known_at, round);
     let with_body = search.with_head..search.with_head + search.turning;
@@ -151,7 +151,7 @@ fn towards(view: &View<'_>, ball: Point2<f32>) -> Decision {
 pub(super) fn hold(view: &View<'_>, role: Role) -> Decision {
     let ball = view.ball_on_field().unwrap_or_else(Point2::origin);
     let places = &view.parameters.places;
-    let pose = places.of_role(role, ball, &view.parameters.keeper);
+    let pose = places.of_role(role, ball, view.place(), &view.parameters.keeper);
     match role {
         Role::Keeper | Role::Sweeper => {
             view.go_to_facing_ball(&pose, Activity::GuardGoal, Activity::GuardGoal)

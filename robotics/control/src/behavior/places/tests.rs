@@ -58,7 +58,9 @@ fn roles_stand_between_ball_and_goal_and_look_at_the_ball() {
     for ball in [[0.0, 0.0], [-3.0, 1.5], [4.0, -2.5], [-4.4, 0.1]] {
         let ball = Point2::from(ball);
         for role in ROLES {
-            let pose = parameters.places.of_role(role, ball, &parameters.keeper);
+            let pose = parameters
+                .places
+                .of_role(role, ball, Point2::origin(), &parameters.keeper);
             let place = Point2::from(pose.translation.vector);
             assert!(
                 place.x.abs() <= 4.5 && place.y.abs() <= 3.0,
@@ -89,7 +91,9 @@ fn however_near_the_ball_is_three_at_most_stand_in_the_own_goal_area_and_nobody_
     for [x, y] in grid {
         let ball = Point2::new(0.1 * x as f32 - 4.5, 0.1 * y as f32);
         let place = |role| {
-            let pose = parameters.places.of_role(role, ball, &parameters.keeper);
+            let pose = parameters
+                .places
+                .of_role(role, ball, Point2::origin(), &parameters.keeper);
             Point2::from(pose.translation.vector)
         };
         let others = [Role::Supporter, Role::DefenderLeft, Role::DefenderRight].map(place);
@@ -117,13 +121,33 @@ fn however_near_the_ball_is_three_at_most_stand_in_the_own_goal_area_and_nobody_
             Role::Striker,
         ]
         .map(|role| {
-            let pose = parameters.places.of_role(role, ball, &parameters.keeper);
+            let pose = parameters
+                .places
+                .of_role(role, ball, Point2::origin(), &parameters.keeper);
             let pose = parameters.places.at_a_distance(&pose, ball);
             Point2::from(pose.translation.vector)
         });
         let all = given.iter().chain([&may_be_inside[0]]);
         let inside = all.filter(|place| is_inside(place)).count();
         assert!(inside <= 3, "{inside} at {ball}: {given:?}");
+    }
+}
+
+#[test]
+fn the_supporter_stays_on_its_side_of_a_ball_in_the_middle() {
+    let parameters = parameters();
+    for (ball, own, side) in [
+        (0.05, 1.0, 1.0),
+        (-0.05, 1.0, 1.0),
+        (0.05, -1.0, -1.0),
+        // Of another ball it comes to the side on which more of the field is.
+        (0.5, 1.0, -1.0),
+        (-0.5, 1.0, 1.0),
+    ] {
+        let (ball, own) = (Point2::new(-3.6, ball), Point2::new(-3.5, own));
+        let places = &parameters.places;
+        let pose = places.of_role(Role::Supporter, ball, own, &parameters.keeper);
+        assert!(pose.translation.y * side > 1.0, "{ball} from {own}: {pose}");
     }
 }
 
@@ -215,7 +239,7 @@ fn measures_that_leave_no_room_leave_a_place() {
     places.beside_goal = places.post + 0.5;
     let ball = Point2::new(-3.7, 0.5);
     for role in ROLES {
-        let pose = places.of_role(role, ball, &parameters.keeper);
+        let pose = places.of_role(role, ball, Point2::origin(), &parameters.keeper);
         assert!(pose.translation.y.abs() <= places.touch_line, "{role:?}");
     }
     assert_eq!(places.out_of_goals(ball), Point2::new(0.0, 0.5));

@@ -70,10 +70,12 @@ fn who_stands_makes_room_for_a_mate_that_gets_up() {
 /// A supporter in its place, a mate so far to its left that lies, m.
 fn beside_fallen_mate(aside: f32) -> WorldState {
     let parameters = parameters();
-    let place =
-        parameters
-            .places
-            .of_role(Role::Supporter, Point2::new(2.0, 0.0), &parameters.keeper);
+    let place = parameters.places.of_role(
+        Role::Supporter,
+        Point2::new(2.0, 0.0),
+        Point2::origin(),
+        &parameters.keeper,
+    );
     let beside = Point2::new(0.0, aside);
     let message = TeamMessage {
         is_fallen: true,
